@@ -149,6 +149,8 @@ RecorderSettings recorder_settings(const Config& c) {
     r.trend_bytes = static_cast<std::size_t>(c.recorder_trend_mb) << 20;
     r.stretch_bytes = static_cast<std::size_t>(c.recorder_stretch_mb) << 20;
     r.inputs_bytes = static_cast<std::size_t>(c.recorder_inputs_mb) << 20;
+    r.trends = c.data_dir + "/trends";
+    r.trend_disk_bytes = static_cast<std::uint64_t>(c.recorder_trend_disk_mb) << 20;
     r.captures = c.data_dir + "/captures";
     r.captures_bytes = static_cast<std::uint64_t>(c.recorder_captures_mb) << 20;
     r.disk_bytes = static_cast<std::uint64_t>(c.recorder_disk_mb) << 20;
@@ -174,6 +176,7 @@ void WarmRecorder::Tap::take_site(std::shared_ptr<const SiteInput> input, Instan
 WarmRecorder::~WarmRecorder() {
     if (trends_) threads_.hot.engine().set_tap(nullptr);  // its thread has ended, or was never begun
     events_.unlisten(this);
+    if (trend_disk_) trend_disk_->end(*trends_, *sites_.site(), monotonic_now(), unix_ns_of(at_ns(0)));
     end_disk();
 }
 
@@ -183,6 +186,16 @@ void WarmRecorder::begin(RecorderSettings settings) {
     stretch_ = std::make_unique<FlightLog>(settings_.stretch_bytes, true);
     inputs_ = std::make_unique<FlightLog>(settings_.inputs_bytes, false);
     shelf_.open(settings_.directory, info_of);
+    if (settings_.trend_disk_bytes > 0) {
+        trend_disk_ = std::make_unique<TrendDisk>(disk_, settings_.trends, settings_.trend_disk_bytes);
+        if (auto fault = trend_disk_->open(unix_now_ns(), unix_ns_of(at_ns(0)), settings_.trend_length); !fault.empty()) {
+            Event e;
+            e.kind = "recording";
+            e.severity = Severity::warning;
+            e.text = std::move(fault);
+            events_.note(std::move(e));
+        }
+    }
     threads_.hot.engine().set_tap(&tap_);
     events_.listen(this);
     timer_ = std::make_unique<boost::asio::steady_timer>(threads_.warm);
@@ -213,6 +226,7 @@ void WarmRecorder::empty() {
     });
     if (tap_.ring.lost() > 0 && !inputs_->overflowed()) inputs_->give_up();
     if (listener_) listener_->on_time(monotonic_now());
+    if (trend_disk_) trend_disk_->keep(*trends_, *sites_.site(), monotonic_now(), unix_ns_of(at_ns(0)));
 }
 
 void WarmRecorder::keep(const FlightRecord& r) {
@@ -223,6 +237,7 @@ void WarmRecorder::keep(const FlightRecord& r) {
     }
     if (r.kind != FlightKind::picture) return;
     if (const auto p = unpack<PictureRecord>(r.payload)) {
+        if (trend_disk_) trend_disk_->bring_back(AxisId{r.index}, *trends_, *sites_.site());
         trends_->add(AxisId{r.index}, *p, r.at);
         if (listener_) listener_->on_picture(AxisId{r.index}, *p, r.at);
     }

@@ -13,6 +13,7 @@
 #include "gateway/runtime/config.hpp"
 #include "gateway/runtime/file_shelf.hpp"
 #include "gateway/runtime/record_ring.hpp"
+#include "gateway/runtime/trend_disk.hpp"
 #include "gateway/runtime/warm_threads.hpp"
 #include "gateway/services/ports/events.hpp"
 #include "gateway/services/ports/recorder.hpp"
@@ -24,6 +25,8 @@ namespace axisgate {
 struct RecorderSettings {
     std::string directory;  ///< of the recordings
     std::string captures;   ///< folder of the captures
+    std::string trends;     ///< folder of the trends
+    std::uint64_t trend_disk_bytes = 0;  ///< 0: they are in memory alone
     Duration trend_length = std::chrono::minutes(10);
     std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
     std::uint64_t disk_bytes = 512u << 20, captures_bytes = 64u << 20;
@@ -106,6 +109,7 @@ private:
     std::unique_ptr<Trends> trends_;
     std::unique_ptr<FlightLog> stretch_, inputs_;
     RecordListener* listener_ = nullptr;
+    std::unique_ptr<TrendDisk> trend_disk_;
     bool found_ = false;  ///< records came with the last look
     Instant frozen_at_{};
     std::unique_ptr<boost::asio::steady_timer> timer_, alarm_timer_;

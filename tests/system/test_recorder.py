@@ -3,6 +3,7 @@
 In: the real program with simulated drives. Out: judgements.
 """
 import datetime
+import pathlib
 
 import harness
 from harness import until
@@ -141,3 +142,12 @@ def test_captures_by_command_and_state_are_given_up_and_cancelled(folder):
         assert sorted(c["name"] for c in g.get("/recorder/captures")["captures"]) == ["never", "start"]
         g.send("DELETE", "/recorder/captures/start", None, 204)
         assert [c["name"] for c in g.get("/recorder/captures")["captures"]] == ["never"]
+
+
+def test_the_kept_recordings_do_the_same_again():
+    kept = sorted((pathlib.Path(__file__).resolve().parents[1] / "recordings").glob("*.axr"))
+    assert len(kept) >= 3, kept
+    for file in kept:
+        assert file.stat().st_size < 200_000, (file, file.stat().st_size)
+        code, told = replay(file)
+        assert code == 0 and " 0 differences" in told, f"{file.name}: {told}\nIf this is as it should be: tests/recordings/make.py build/release/axisgate"

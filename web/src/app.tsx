@@ -12,6 +12,7 @@ import { RecorderPage } from './pages/recorder';
 import { RecipePage, RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
+import { ReportPage } from './pages/report';
 import { SitePage } from './pages/site';
 import { SignInPage } from './pages/sign-in';
 import { UsersPage } from './pages/users';
@@ -26,6 +27,7 @@ const titles = {
   events: 'Events',
   recorder: 'Recorder',
   gateway: 'Gateway',
+  report: 'Commissioning report',
   fleet: 'Fleet',
   users: 'Users',
   'sign-in': 'Sign in',
@@ -85,6 +87,7 @@ function Page() {
     case 'recorder': return <RecorderPage tab={r.tab} axis={r.axis} at_ms={r.at_ms} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
+    case 'report': return <ReportPage />;
     case 'fleet': return <FleetPage />;
     case 'mappings': return <MappingsPage />;
     case 'parameters': return <ParametersPage key={r.name} name={r.name} />;

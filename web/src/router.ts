@@ -12,6 +12,7 @@ export type Route =
   | { page: 'events' }
   | { page: 'recorder'; tab: RecorderTab; axis?: string; at_ms?: number }
   | { page: 'gateway' }
+  | { page: 'report' }
   | { page: 'fleet' }
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
@@ -30,7 +31,7 @@ export const recorderTabs = ['trends', 'captures', 'recordings'] as const;
 export type RecorderTab = (typeof recorderTabs)[number];
 
 /** Pages without a name. */
-const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'fleet', 'users', 'sign-in'] as const;
+const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'report', 'fleet', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {

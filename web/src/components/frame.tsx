@@ -22,7 +22,7 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/recipes', text: 'Recipes', icon: 'play', pages: ['recipes', 'recipe'] },
   { path: '/recorder', text: 'Recorder', icon: 'clock', pages: ['recorder'] },
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
-  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
+  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway', 'report'] },
 ];
 /** Where the gateway is in a domain with others. */
 const fleet: (typeof places)[number] = { path: '/fleet', text: 'Fleet', icon: 'site', pages: ['fleet'] };

@@ -159,7 +159,7 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   );
 }
 
-function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
+export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
   const view = useRef<PlotView>(null as unknown as PlotView);
   view.current ??= new PlotView();
   const v = view.current;

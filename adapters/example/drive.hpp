@@ -102,7 +102,7 @@ private:
     drive::Exchange<Ask> exchange_;
     drive::LateMarks<Telegram, 8> late_;  ///< by address, axis and item: what an answer can be told by
     drive::Pace pace_;
-    drive::Polls polls_;                  ///< items are channels
+    drive::Polls polls_;  ///< items are channels
     drive::SetPoints set_points_;
     bool streamed_last_ = false;
     std::array<Move, channels + 1> followed_;  ///< by channel: whose ramps and speed the drive was told last by a stream

@@ -1,6 +1,7 @@
 // Roster: the drives of one line: who stays, who goes and who is new when the site changes; and whose an axis is.
 // In: the line's setup. Out: drives by slot and by axis. Never touches a drive that is the same in both setups.
-// `Drive` has `const DriveSetup& setup() const`, `void look(const DriveSetup&)` (how closely its axes are looked at, told each time) and `static constexpr int channels` (axes with a channel above are on no drive).
+// `Drive` has `const DriveSetup& setup() const`, `void look(const DriveSetup&)` (how closely its axes are looked at, told each time) and
+// `static constexpr int channels` (axes with a channel above are on no drive).
 #pragma once
 
 #include <algorithm>

@@ -197,7 +197,7 @@ struct Engine::Axis {
     AxisAuthority authority;
     LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
     std::optional<AtLoss> lost_line;   ///< its drive went silent while this axis was commanded, and has not spoken since
-    Duration look_period{};  ///< zero: asked in the line's rhythm
+    Duration look_period{};            ///< zero: asked in the line's rhythm
     Instant look_until{};
     bool stale = true;
     bool was_fault = false;

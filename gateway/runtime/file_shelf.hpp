@@ -4,11 +4,11 @@
 // Bounded: `most` files; how many bytes they may take is for who writes.
 #pragma once
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <filesystem>
-#include <fmt/format.h>
 #include <functional>
 #include <map>
 #include <memory>
@@ -90,7 +90,8 @@ public:
         });
     }
     void load(const std::string& name, std::function<void(std::optional<std::string>)> then) {
-        read<std::string>(name, [](std::string&& bytes) { return std::move(bytes); }, std::move(then));
+        read<std::string>(
+            name, [](std::string&& bytes) { return std::move(bytes); }, std::move(then));
     }
     /// What `make` makes of its bytes, on the disk's thread; nothing: there is none.
     template <class T, class Make>
@@ -109,14 +110,14 @@ public:
         if (kept_.contains(to)) return then(exists(to));
         move(name, to);
         change(kept_[to]);
-        boost::asio::post(disk_, [this, from = path_of(name), into = path_of(to), directory = directory_, name, to,
-                                  then = std::move(then)]() mutable {
-            threads_.answer([this, name, to, fault = rename_on_disk(from, into, directory), then = std::move(then)] {
-                if (fault.empty()) return then({});
-                if (kept_.contains(to)) move(to, name);
-                then({RecordingFault::Kind::no_room, fault});
+        boost::asio::post(
+            disk_, [this, from = path_of(name), into = path_of(to), directory = directory_, name, to, then = std::move(then)]() mutable {
+                threads_.answer([this, name, to, fault = rename_on_disk(from, into, directory), then = std::move(then)] {
+                    if (fault.empty()) return then({});
+                    if (kept_.contains(to)) move(to, name);
+                    then({RecordingFault::Kind::no_room, fault});
+                });
             });
-        });
     }
     void remove(const std::string& name, Then then) {
         if (kept_.erase(name) == 0) return then({RecordingFault::Kind::no_such, ""});

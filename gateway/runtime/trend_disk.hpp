@@ -1,6 +1,6 @@
 // Trend disk: trends that survive a restart: once a minute what is new goes into a file of its own; at the start the files are read.
-// In: trends of the service thread, names of axes by the site. Out: files, written on the disk's thread; rows of before, given to an axis when
-// it is heard first. Bounded: the oldest files go where they take more than `bound`. A file that is damaged is passed over and said.
+// In: trends of the service thread, names of axes by the site. Out: files, written on the disk's thread; rows of before, given to an axis
+// when it is heard first. Bounded: the oldest files go where they take more than `bound`. A file that is damaged is passed over and said.
 #pragma once
 
 #include <boost/asio/thread_pool.hpp>

@@ -95,14 +95,15 @@ void WarmCaptures::arm(CaptureOrder order, std::function<void(RecordingFault, Ca
         if (r->capture.over()) continue;
         ++busy;
         if (r->order.line == order.line)
-            return then({RecordingFault::Kind::busy, fmt::format("the capture {} runs on line {}: wait for its end, or delete it", r->order.name, order.line)},
+            return then({RecordingFault::Kind::busy,
+                         fmt::format("the capture {} runs on line {}: wait for its end, or delete it", r->order.name, order.line)},
                         {});
     }
     if (busy >= most_running)
         return then({RecordingFault::Kind::busy, fmt::format("{} captures run already: wait for the end of one, or delete it", busy)}, {});
     if (shelf_.full(bound_))
-        return then({RecordingFault::Kind::no_room, fmt::format("{} captures take {} kB of {} kB: delete some", shelf_.kept().size(), shelf_.bytes() >> 10,
-                                                bound_ >> 10)},
+        return then({RecordingFault::Kind::no_room,
+                     fmt::format("{} captures take {} kB of {} kB: delete some", shelf_.kept().size(), shelf_.bytes() >> 10, bound_ >> 10)},
                     {});
     const Instant now = monotonic_now();
     const CaptureWish wish = order.wish;
@@ -170,7 +171,7 @@ void WarmCaptures::keep(const std::shared_ptr<Running>& r) {
             e.kind = "capture";
             e.severity = fault.kind == RecordingFault::Kind::none ? Severity::info : Severity::warning;
             e.text = fault.kind == RecordingFault::Kind::none ? fmt::format("capture {} is done, {} rows", kept.name, r->capture.rows())
-                                              : fmt::format("capture {}: {}", kept.name, fault.text);
+                                                              : fmt::format("capture {}: {}", kept.name, fault.text);
             e.who = r->order.who;
             events_.note(std::move(e));
         });
@@ -195,13 +196,15 @@ void WarmCaptures::load_capture(const std::string& name, std::function<void(Reco
 void WarmCaptures::rename_capture(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) {
     if (running(name)) return then({RecordingFault::Kind::busy, "it is not over: rename it when it is done"});
     if (running(to)) return then(shelf_.exists(to));
-    shelf_.rename(name, to, [&](CaptureInfo& i) { i.summary["name"] = to; }, std::move(then));
+    shelf_.rename(
+        name, to, [&](CaptureInfo& i) { i.summary["name"] = to; }, std::move(then));
 }
 
 void WarmCaptures::remove_capture(const std::string& name, std::function<void(RecordingFault)> then) {
     const auto r = running(name);
     if (!r) return shelf_.remove(name, std::move(then));
-    if (r->written && r->capture.state() == Capture::State::done) return then({RecordingFault::Kind::busy, "it is being written: try again"});
+    if (r->written && r->capture.state() == Capture::State::done)
+        return then({RecordingFault::Kind::busy, "it is being written: try again"});
     r->capture.cancel("cancelled");
     if (!r->ended) end(*r);
     std::erase(running_, r);

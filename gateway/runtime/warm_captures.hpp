@@ -17,7 +17,7 @@ namespace axisgate {
 
 class WarmCaptures final : public CapturePort, RecordListener {
 public:
-    static constexpr std::size_t most_given_up = 8;                       ///< shown until their names are used again; then the oldest goes
+    static constexpr std::size_t most_given_up = 8;  ///< shown until their names are used again; then the oldest goes
     static constexpr Duration records_late = std::chrono::milliseconds(600);  ///< how far records may be behind the time
 
     WarmCaptures(const WarmThreads& threads, WarmRecorder& recorder, EventPort& events)
@@ -41,7 +41,7 @@ private:
     struct Running {
         CaptureOrder order;
         Capture capture;
-        bool ended = false;  ///< the line was told that it is enough
+        bool ended = false;    ///< the line was told that it is enough
         bool written = false;  ///< on its way to the disk
     };
     void on_picture(AxisId axis, const PictureRecord& picture, Instant at) override;

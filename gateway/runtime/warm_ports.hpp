@@ -45,8 +45,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,   backup,     captures, clock,    descriptions, documents, drives, events,    fleet, lines,
-                modbus, parameters, recorder, registers,    rehearsal, site,   snapshots, stage, status};
+        return {axes,   backup,     captures, clock,     descriptions, documents, drives,    events, fleet, lines,
+                modbus, parameters, recorder, registers, rehearsal,    site,      snapshots, stage,  status};
     }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }

@@ -310,13 +310,13 @@ void WarmRecorder::freeze_this(std::string name, std::string why, std::string wh
         f->info.to_unix_ns = ns_of(f->stretch.back()->last) + f->unix_offset_ns;
     }
     f->info.not_replayable = not_replayable();
-    shelf_.write(f->info, [f] { return packed(*f); }, std::move(then));
+    shelf_.write(
+        f->info, [f] { return packed(*f); }, std::move(then));
 }
 
 /// The oldest that nobody asked for make room; what somebody has asked for stays.
 void WarmRecorder::make_room_for_automatic() {
-    while (shelf_.full(settings_.disk_bytes) ||
-           shelf_.bytes() + settings_.stretch_bytes + settings_.inputs_bytes > settings_.disk_bytes) {
+    while (shelf_.full(settings_.disk_bytes) || shelf_.bytes() + settings_.stretch_bytes + settings_.inputs_bytes > settings_.disk_bytes) {
         const RecordingInfo* oldest = nullptr;
         for (const auto& [name, info] : shelf_.kept()) {
             if (info.automatic && (!oldest || info.at_unix_ns < oldest->at_unix_ns)) oldest = &info;

@@ -23,9 +23,9 @@ namespace axisgate {
 
 /// What the recorder may use, and when it freezes by itself ([recorder] of the configuration).
 struct RecorderSettings {
-    std::string directory;  ///< of the recordings
-    std::string captures;   ///< folder of the captures
-    std::string trends;     ///< folder of the trends
+    std::string directory;               ///< of the recordings
+    std::string captures;                ///< folder of the captures
+    std::string trends;                  ///< folder of the trends
     std::uint64_t trend_disk_bytes = 0;  ///< 0: they are in memory alone
     Duration trend_length = std::chrono::minutes(10);
     std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
@@ -68,7 +68,8 @@ public:
     }
     void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override;
     void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
-        shelf_.rename(name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // who names it wants to keep it
+        shelf_.rename(
+            name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // who names it wants to keep it
     }
     void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override {
         shelf_.remove(name, std::move(then));

@@ -27,7 +27,8 @@
 namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
-using Ports = PortSet<AxisPort, BackupPort, CapturePort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort, ModbusPort,
-                      ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+using Ports =
+    PortSet<AxisPort, BackupPort, CapturePort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort,
+            ModbusPort, ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

@@ -54,7 +54,8 @@ TEST_P(Looked, ItIsAskedMoreOftenAndNobodyLessOften) {
         w.run_for(d);
         std::map<AxisId, double> rate;
         for (const AxisId a : state->axis_ids)
-            rate[a] = static_cast<double>(tape.told[a] - (before.contains(a) ? before.at(a) : 0)) / std::chrono::duration<double>(d).count();
+            rate[a] =
+                static_cast<double>(tape.told[a] - (before.contains(a) ? before.at(a) : 0)) / std::chrono::duration<double>(d).count();
         return rate;
     };
     auto plain = count(8s);

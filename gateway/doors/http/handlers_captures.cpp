@@ -103,7 +103,8 @@ void read_axes(const json::value* v, CaptureOrder& order, DocumentFields& f, con
         const auto drive = index_of_name(site.site.drives, spec.drive);
         const std::string line = drive ? site.site.drives[*drive].line : std::string();
         if (order.line.empty()) order.line = line;
-        if (line != order.line) f.fault(at, fmt::format("{} is on line {}, not on {}", spec.name, line, order.line), "capture axes of one line");
+        if (line != order.line)
+            f.fault(at, fmt::format("{} is on line {}, not on {}", spec.name, line, order.line), "capture axes of one line");
         if (index_of_name(order.axes, spec.name)) f.fault(at, fmt::format("{} stands there twice", spec.name), "name it once");
         order.axes.push_back({spec.name, spec.unit, spec.increments_per_unit});
         order.wish.axes.push_back(site.axis_ids[*i]);

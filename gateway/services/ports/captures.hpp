@@ -1,6 +1,6 @@
 // Capture port: fast captures of axes: armed, watched, kept as files, handed out.
-// In: wishes. Out: documents, at once or by callbacks on the service thread. Bounded: one capture of a line at a time, `most_running` in all;
-// what is kept, by number and bytes of disk.
+// In: wishes. Out: documents, at once or by callbacks on the service thread. Bounded: one capture of a line at a time, `most_running` in
+// all; what is kept, by number and bytes of disk.
 #pragma once
 
 #include <boost/json/object.hpp>

@@ -17,6 +17,7 @@
 #include "gateway/core/text.hpp"
 #include "gateway/engine/flight_record.hpp"
 #include "gateway/registers/register_map.hpp"
+#include "gateway/services/axis_place.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/services/frame_decoder.hpp"
 #include "gateway/services/recorder/axr.hpp"
@@ -96,7 +97,8 @@ AxisPicture picture_of(const PictureRecord& r, Instant at, const AxisSpec& spec)
 /// Everything up to an instant.
 class Reel {
 public:
-    Reel(const RecordingHead& head, const PlaybackWish& wish) : head_(head), wish_(wish), curves_(curve_memory, std::chrono::hours(24 * 365)) {}
+    Reel(const RecordingHead& head, const PlaybackWish& wish)
+        : head_(head), wish_(wish), curves_(curve_memory, std::chrono::hours(24 * 365)) {}
 
     void read(std::span<const char> records) {
         FlightReader reader(records);
@@ -110,9 +112,16 @@ public:
         }
     }
     [[nodiscard]] json::object document(const Families& families) {
-        const Instant at = wish_.at_unix_ns ? std::clamp(at_ns(*wish_.at_unix_ns - head_.unix_offset_ns), first_.value_or(Instant{}), last_) : last_;
-        return {{"from", time(first_.value_or(Instant{}))}, {"to", time(last_)},      {"at", time(at)},          {"axes", axes(families)},
-                {"registers", registers()},               {"frames", frames(families)}, {"happened", happened()}, {"curves", curves()}};
+        const Instant at =
+            wish_.at_unix_ns ? std::clamp(at_ns(*wish_.at_unix_ns - head_.unix_offset_ns), first_.value_or(Instant{}), last_) : last_;
+        return {{"from", time(first_.value_or(Instant{}))},
+                {"to", time(last_)},
+                {"at", time(at)},
+                {"axes", axes(families)},
+                {"registers", registers()},
+                {"frames", frames(families)},
+                {"happened", happened()},
+                {"curves", curves()}};
     }
 
 private:

@@ -1,5 +1,6 @@
 // Playback: what a recording shows of one instant: every axis, its registers, the last frames with their reading, what had happened lately.
-// In: the file of a recording, an instant. Out: one document. Never trusts a file: what is cut off or altered is said, and nothing of it shown.
+// In: the file of a recording, an instant. Out: one document. Never trusts a file: what is cut off or altered is said, and nothing of it
+// shown.
 #pragma once
 
 #include <boost/json/object.hpp>

@@ -22,7 +22,8 @@ struct TrendAxis {
 };
 
 /// `unix_offset_ns`: what makes an instant a time since 1970. `points`: some of trend_points.
-[[nodiscard]] boost::json::object trend_document(const TrendAxis& axis, const std::vector<std::string>& points, std::int64_t unix_offset_ns);
+[[nodiscard]] boost::json::object trend_document(const TrendAxis& axis, const std::vector<std::string>& points,
+                                                 std::int64_t unix_offset_ns);
 [[nodiscard]] std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points,
                                     std::int64_t unix_offset_ns);
 

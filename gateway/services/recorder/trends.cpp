@@ -99,7 +99,8 @@ std::optional<std::vector<TrendRow>> unpack_rows(std::span<const char> in) {
         std::int64_t v = 0;
         if (mask > 63 || !take_checked(in, v)) return std::nullopt;
         r.at = at_ns(plus(ns_of(r.at), v));
-        for (const auto& [bit, member] : {std::pair{position_bit, &TrendRow::position}, {demand_bit, &TrendRow::demand}, {velocity_bit, &TrendRow::velocity}}) {
+        for (const auto& [bit, member] :
+             {std::pair{position_bit, &TrendRow::position}, {demand_bit, &TrendRow::demand}, {velocity_bit, &TrendRow::velocity}}) {
             if (!(mask & bit)) continue;
             if (!take_checked(in, v)) return std::nullopt;
             r.*member = plus(r.*member, v);

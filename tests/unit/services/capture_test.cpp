@@ -61,7 +61,8 @@ TEST(Capture, ALevelTriggersAtTheInstantBetweenTwoRows) {
 }
 
 TEST(Capture, TheDirectionCounts) {
-    Capture rising(wish(level(CapturePoint::position, 100, true)), Instant(1s)), falling(wish(level(CapturePoint::position, 100, false)), Instant(1s));
+    Capture rising(wish(level(CapturePoint::position, 100, true)), Instant(1s)),
+        falling(wish(level(CapturePoint::position, 100, false)), Instant(1s));
     for (auto* c : {&rising, &falling}) {
         c->on_picture(one, told(200), Instant(1s));  // already above it: no crossing
         c->on_picture(one, told(50), Instant(1s + 1ms));
@@ -167,7 +168,9 @@ TEST(Capture, ItsDocumentIsInUnitsFromItsTrigger) {
     EXPECT_EQ(feeder.at("seconds").as_array().at(0).as_double(), -0.002);
     EXPECT_EQ(feeder.at("position").as_array().at(2).as_double(), 50);
     const std::string csv = capture_csv(columns);
-    EXPECT_TRUE(csv.starts_with("seconds,axis,unit,position,velocity,demand,following_error,statusword\r\n-0.002,feeder,mm,49.8,0,49.8,0,0\r\n")) << csv;
+    EXPECT_TRUE(
+        csv.starts_with("seconds,axis,unit,position,velocity,demand,following_error,statusword\r\n-0.002,feeder,mm,49.8,0,49.8,0,0\r\n"))
+        << csv;
     EXPECT_NE(csv.find(",\"slide, 2\",mm,"), std::string::npos);
     boost::json::array damaged = columns;
     damaged.at(0).as_object().at("position").as_array().pop_back();

@@ -109,9 +109,11 @@ void Node::boot(Instant now, Out& out) {
     heartbeat_.set_period(std::chrono::milliseconds(d_.integer({0x1017, 0}).value_or(0)), now);
     guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
+    read_sync();
     read_pdos(now);
 }
 
+void Node::read_sync() { sync_id_ = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu; }
 void Node::read_pdos(Instant now) {
     for (std::uint16_t n = 1; n <= pdos; ++n)
         for (const auto direction : {PdoDirection::receive, PdoDirection::transmit})
@@ -126,6 +128,8 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
     p = {};
     p.valid = valid;
     if (read) p.pdo = *read;
+    for (const auto& m : p.pdo.mapping)
+        p.entries.push_back(d_.find(m.address));
     if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
         p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
 }
@@ -160,6 +164,7 @@ void Node::take_writes(Instant now, Out& out) {
     for (const Address a : std::exchange(writes_, {})) {
         device_->written(a, now);
         if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
+        if (a.index == 0x1005) read_sync();
         if (a.index == 0x100C || a.index == 0x100D)
             guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                        static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
@@ -213,8 +218,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     if (const auto command = canopen::nmt_for(f, node_)) return nmt(*command, now, out);
     if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
     if (state_ == NmtState::stopped) return;
-    const auto sync = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu;
-    if (canopen::is_data(f, sync)) return on_sync(now, out);
+    if (canopen::is_data(f, sync_id_)) return on_sync(now, out);
     std::vector<Frame> answers;
     if (server_.on_frame(f, now, answers)) {
         for (const Frame& a : answers)
@@ -277,10 +281,8 @@ void Node::on_sync(Instant now, Out& out) {
 std::vector<std::uint8_t> Node::packed(const Pdo& p, Instant at) {
     show(at);
     std::vector<std::uint64_t> values;
-    for (const auto& m : p.pdo.mapping) {
-        const canopen::Entry* e = d_.find(m.address);
+    for (const canopen::Entry* e : p.entries)
         values.push_back(e ? canopen::low_first(e->bytes) : 0);
-    }
     return canopen::pack(p.pdo.mapping, values).value_or(std::vector<std::uint8_t>{});
 }
 void Node::transmit(Pdo& p, Instant at, Out& out) {

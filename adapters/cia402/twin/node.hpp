@@ -45,6 +45,7 @@ private:
         canopen::Pdo pdo;
         bool valid = false;
         int syncs = 0;
+        std::vector<const canopen::Entry*> entries;  ///< of what is mapped, in d_; null: a filler, or not there
         std::vector<std::uint8_t> sent, waiting;
         Instant event = never;
     };
@@ -55,6 +56,7 @@ private:
     void save();
     [[nodiscard]] canopen::Abort on_write(canopen::Address address, std::span<const std::uint8_t> bytes);
     void take_writes(Instant now, Out& out);
+    void read_sync();
     void read_pdos(Instant now);
     void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
     void show(Instant now);  ///< what is measured stands in the dictionary
@@ -70,6 +72,7 @@ private:
     Device* device_ = nullptr;
     canopen::SdoServer server_;
     canopen::NmtState state_ = canopen::NmtState::boot_up;
+    std::uint32_t sync_id_ = 0x80;
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
     std::array<Pdo, pdos> receive_, transmit_;

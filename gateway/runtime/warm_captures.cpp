@@ -194,8 +194,13 @@ void WarmCaptures::load_capture(const std::string& name, std::function<void(Reco
 }
 
 void WarmCaptures::rename_capture(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) {
-    if (running(name)) return then({RecordingFault::Kind::busy, "it is not over: rename it when it is done"});
-    if (running(to)) return then(shelf_.exists(to));
+    const auto r = running(name);
+    if (name != to && (running(to) || shelf_.kept().contains(to))) return then(shelf_.exists(to));
+    if (r && r->written) return then({RecordingFault::Kind::busy, "it is being written: try again"});
+    if (r) {
+        r->order.name = to;
+        return then({});
+    }
     shelf_.rename(
         name, to, [&](CaptureInfo& i) { i.summary["name"] = to; }, std::move(then));
 }

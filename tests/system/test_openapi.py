@@ -298,6 +298,9 @@ def test_every_write_answers_as_described(gateway):
         ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403),
         ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200), ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
         ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404),
+        ("armCapture", {}, {"name": "wave", "axes": ["feeder"], "trigger": {"kind": "state", "state": "warning"}}, 201), ("armCapture", {}, {"name": "wave", "axes": ["feeder"]}, 409), ("armCapture", {}, {"name": "x"}, 422),
+        ("armCapture", {}, {"name": "two", "axes": ["feeder"]}, 503), ("renameCapture", {"capture": "wave"}, {"name": "other"}, 200), ("renameCapture", {"capture": "wave"}, {"name": "x"}, 404),
+        ("removeCapture", {"capture": "other"}, None, 204), ("removeCapture", {"capture": "other"}, None, 404),
         ("makeRecording", {}, {"name": "crash", "why": "test"}, 201), ("makeRecording", {}, {"name": "crash"}, 409), ("makeRecording", {}, {"name": "../x"}, 422), ("renameRecording", {"recording": "crash"}, {"name": "other"}, 200),
         ("renameRecording", {"recording": "crash"}, {"name": "other"}, 404), ("removeRecording", {"recording": "other"}, None, 204), ("removeRecording", {"recording": "other"}, None, 404)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]

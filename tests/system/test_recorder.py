@@ -4,6 +4,7 @@ In: the real program with simulated drives. Out: judgements.
 """
 import datetime
 import pathlib
+import time
 
 import harness
 from harness import until
@@ -151,3 +152,22 @@ def test_the_kept_recordings_do_the_same_again():
         assert file.stat().st_size < 200_000, (file, file.stat().st_size)
         code, told = replay(file)
         assert code == 0 and " 0 differences" in told, f"{file.name}: {told}\nIf this is as it should be: tests/recordings/make.py build/release/axisgate"
+
+
+def test_trends_on_the_disk_outlive_the_gateway(folder):
+    settings = ("--set", "recorder.trend_disk_mb=8")
+    with harness.Gateway(folder, harness.DEMO, *settings) as g:
+        move_a_little(g)
+        until(lambda: g.get("/recorder/trends?axes=slide&points=position")["axes"][0]["at"], 10, "rows")
+        time.sleep(1)  # what was told a moment ago is on its way
+    files = list((folder / "data" / "trends").glob("*.axt"))
+    assert files, "nothing was written at the end"
+    with harness.Gateway(folder, None, *settings) as g:
+        axis = until(lambda: next((a for a in g.get("/recorder/trends?axes=slide&points=position,state&columns=5000")["axes"] if len(a["at"]) > 5), None), 15, "what was before")
+        position = axis["points"]["position"]
+        values = [v for v in (position.get("values") or position["high"]) if v is not None]
+        assert max(values) - min(values) > 4 and "operation_enabled" in axis["points"]["state"]["values"], axis
+    (folder / "data" / "trends" / files[0].name).write_bytes(files[0].read_bytes()[:-50])
+    with harness.Gateway(folder, None, *settings) as g:
+        until(lambda: any("damaged" in e["text"] for e in g.get("/events?kind=recording&limit=100")), 10, "a word of it")
+        move_a_little(g)

@@ -5,7 +5,8 @@ import { narrowest_s, panned, readAt, within, zoomed } from '../src/state/plot';
 import { captureParts, joined, trendPart } from '../src/state/recorder';
 import { routeOf, recorderPath } from '../src/router';
 import { bytesWords, freeName, instantText, nameFault, registerWords, sinceText, triggerWords } from '../src/text/recorder';
-import type { CaptureWithRows, Trends } from '../src/api/types';
+import { comparedSentence, parameterReport } from '../src/text/report';
+import type { AxisParameter, CaptureWithRows, Trends } from '../src/api/types';
 
 describe('the part of time that is seen', () => {
   const whole = [0, 100] as const;
@@ -87,5 +88,17 @@ describe('addresses', () => {
     expect(routeOf(recorderPath('trends', 'feeder', 1_700_000_000_123.4))).toEqual({ page: 'recorder', tab: 'trends', axis: 'feeder', at_ms: 1_700_000_000_123 });
     expect(routeOf('/recorder/moon').page).toBe('unknown');
     expect(routeOf('/recorder/trends/a/x').page).toBe('unknown');
+  });
+});
+
+describe('the commissioning report', () => {
+  const p = (id: string, value: number | null, fallback: number | null, more = {}) => ({ id, name: id, unit: 'mm', access: 'RW', value, stored: null, default: fallback, count: null, ...more }) as unknown as AxisParameter;
+  const snapshot = { n: 3, name: 'first', at: '2026-01-02T00:00:00Z', who: 'anna', parameters: [{ parameter: 'AC', value: 5 }, { parameter: 'DC', value: 7 }] };
+  it('shows what differs from default or snapshot, and counts what nobody has read', () => {
+    const r = parameterReport([p('AC', 5, 5), p('DC', 8, 8), p('SP', 3, 1), p('XX', null, 1), p('PO', 9, 1, { access: 'R' }), p('GO', null, null, { access: 'W' })], snapshot);
+    expect(r.rows.map((x) => [x.id, x.now, x.otherwise, x.snapshot])).toEqual([['DC', 8, 8, 7], ['SP', 3, 1, undefined]]);
+    expect([r.known, r.unknown, r.againstSnapshot]).toEqual([4, 1, 2]);
+    expect(comparedSentence(r, snapshot)).toBe('4 values known, 1 not read and not compared; 2 beside snapshot 3, first. 2 differ:');
+    expect(comparedSentence(parameterReport([], null), null)).toBe('0 values known, all of them read; no snapshot was taken. Nothing differs.');
   });
 });

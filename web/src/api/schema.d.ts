@@ -3298,6 +3298,7 @@ export interface components {
         RecordingChange: {
             name: components["schemas"]["RecordingName"];
         };
+        /** @description null - at once */
         CaptureTrigger: {
             /**
              * @description level - the point crosses it; state - the flag comes (rising) or goes; command - one that moves is given to the axis
@@ -3320,7 +3321,7 @@ export interface components {
              * @enum {string}
              */
             edge?: "rising" | "falling";
-        };
+        } | null;
         CaptureWish: {
             name: components["schemas"]["RecordingName"];
             /** @description of one line */
@@ -3353,7 +3354,7 @@ export interface components {
             who: string | null;
             armed_at: string | null;
             triggered_at: string | null;
-            trigger: components["schemas"]["CaptureTrigger"] | null;
+            trigger: components["schemas"]["CaptureTrigger"];
             wanted_hz: number | null;
             before_ms: number | null;
             after_ms: number | null;

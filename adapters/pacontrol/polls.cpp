@@ -33,7 +33,7 @@ void Polls::plan_cycle(Instant now) {
             add(a.status_code(), a);
             if (lag) add(code::following_error, a);
             add(code::position, a);
-        } else if (a.moves() || a.looked_at || !a.position_known) {
+        } else if (a.moves() || !a.position_known) {
             // Ends are seen soon, however many move.
             if (++moving % axes_per_running == 0) waiting_.push_back({code::running_axes});
             // Following error and speed share a place, so that the cycle takes no longer for it; the position it belongs to comes next.
@@ -41,6 +41,10 @@ void Polls::plan_cycle(Instant now) {
             if (a.demand.lag_turn) add(code::following_error, a);
             add(code::position, a);
             if (!a.demand.lag_turn) add(code::speed, a);
+        } else if (a.looked_at) {
+            if (lag) add(code::following_error, a);
+            add(code::position, a);
+            add(a.status_code(), a);
         } else if (a.demand.lag_due && lag) {
             add(code::following_error, a);
         }

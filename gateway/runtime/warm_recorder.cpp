@@ -176,7 +176,7 @@ void WarmRecorder::Tap::take_site(std::shared_ptr<const SiteInput> input, Instan
 WarmRecorder::~WarmRecorder() {
     if (trends_) threads_.hot.engine().set_tap(nullptr);  // its thread has ended, or was never begun
     events_.unlisten(this);
-    if (trend_disk_) trend_disk_->end(*trends_, *sites_.site(), monotonic_now(), unix_ns_of(at_ns(0)));
+    if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->end(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));
     end_disk();
 }
 
@@ -226,7 +226,7 @@ void WarmRecorder::empty() {
     });
     if (tap_.ring.lost() > 0 && !inputs_->overflowed()) inputs_->give_up();
     if (listener_) listener_->on_time(monotonic_now());
-    if (trend_disk_) trend_disk_->keep(*trends_, *sites_.site(), monotonic_now(), unix_ns_of(at_ns(0)));
+    if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->keep(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));
 }
 
 void WarmRecorder::keep(const FlightRecord& r) {
@@ -237,7 +237,7 @@ void WarmRecorder::keep(const FlightRecord& r) {
     }
     if (r.kind != FlightKind::picture) return;
     if (const auto p = unpack<PictureRecord>(r.payload)) {
-        if (trend_disk_) trend_disk_->bring_back(AxisId{r.index}, *trends_, *sites_.site());
+        if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->bring_back(AxisId{r.index}, *trends_, *site);
         trends_->add(AxisId{r.index}, *p, r.at);
         if (listener_) listener_->on_picture(AxisId{r.index}, *p, r.at);
     }

@@ -1,23 +1,19 @@
 // Closer looks: of every family on each of its wires: an axis is asked more often for a while, its neighbours no less often than before,
 // and all of it ends by itself and is replayed. In: worlds with two or more drives. Out: how often each was told. Never sleeps.
-#include "gateway/engine/replay.hpp"
-
-#include "tests/world/world.hpp"
+#include "tests/world/tape.hpp"
 
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
 /// How often each axis was told, by what is said of its age.
-struct Tellings final : FlightTap {
+struct Tellings final : Tape {
     std::map<AxisId, std::uint64_t> told;
     std::map<AxisId, Instant> last;
-    FlightLog inputs{64u << 20, false}, window{64u << 20, true};
 
 private:
     void take(const FlightRecord& r) override {
-        window.add(r);
-        if (is_input(r.kind)) inputs.add(r);
+        Tape::take(r);
         if (r.kind != FlightKind::picture) return;
         const auto p = unpack<PictureRecord>(r.payload);
         const AxisId axis{r.index};
@@ -25,17 +21,7 @@ private:
         last[axis] = r.at - p->age;
         ++told[axis];
     }
-    void take_site(std::shared_ptr<const SiteInput> input, Instant now) override {
-        const std::string packed = pack_site(*input);
-        take({FlightKind::site, 0xFFFF, now, packed});
-    }
 };
-std::string joined(const FlightLog& log) {
-    std::string all;
-    for (const auto& c : log.chunks())
-        all += c->bytes;
-    return all;
-}
 
 class Looked : public testing::TestWithParam<Subject> {};
 INSTANTIATE_TEST_SUITE_P(Families, Looked, testing::ValuesIn(subjects()), name_of_subject);
@@ -71,8 +57,7 @@ TEST_P(Looked, ItIsAskedMoreOftenAndNobodyLessOften) {
     w.run_for(3s);  // nobody has said that it is enough
     auto after = count(8s);
     EXPECT_LE(after[axis], 1.1 * plain[axis] + 0.3);
-    const std::string in = joined(tape.inputs), out = joined(tape.window);
-    const auto report = replay(families(), {in, out, 0});
+    const auto report = tape.play();
     EXPECT_EQ(report.fault, "");
     EXPECT_EQ(report.differences, 0u);
 }

@@ -162,6 +162,7 @@ int Service::open_store() {
                                std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
     ports->recorder.begin(recorder_settings(options.config));
+    ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();
     outlets.changed = [this] {
         boost::asio::post(warm, [this] {

@@ -21,8 +21,9 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/mappings', text: 'Mappings', icon: 'table', pages: ['mappings'] },
   { path: '/site', text: 'Site', icon: 'site', pages: ['site'] },
   { path: '/recipes', text: 'Recipes', icon: 'play', pages: ['recipes', 'recipe'] },
+  { path: '/recorder', text: 'Recorder', icon: 'clock', pages: ['recorder'] },
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
-  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
+  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway', 'report'] },
 ];
 /** Where the gateway is in a domain with others. */
 const fleet: (typeof places)[number] = { path: '/fleet', text: 'Fleet', icon: 'site', pages: ['fleet'] };
@@ -41,7 +42,7 @@ function AlarmBadge() {
 
 export function Navigation() {
   const page = route.value.page;
-  const inFleet = useGateway().store.about.value?.doors.some((d) => d.name === 'dds') ?? false;
+  const inFleet = useGateway().store.about.value?.doors?.some((d) => d.name === 'dds') ?? false;
   return (
     <nav class={`nav${inFleet ? ' with-fleet' : ''}`} aria-label="Pages">
       {(inFleet ? [...places, fleet] : places).map((p) => (

@@ -29,6 +29,13 @@ export function GatewayPage() {
               ))}
             </dl>
           </Section>
+          <Section title="Commissioning report">
+            <p class="card form">
+              <span>
+                Site, wiring, parameters, registers, curves and the rehearsal of loss of command in one document to print and sign: <a href="/report">Commissioning report</a>
+              </span>
+            </p>
+          </Section>
           <Section title="Users and tokens">
             <p class="card form">
               <span>

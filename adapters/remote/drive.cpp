@@ -66,7 +66,7 @@ void Drive::ask(Turn& t) {
     mirror::Order state;
     state.verb = "state";
     poll_.begin(send(state, Priority::poll, t), t.now, line_.timing.reply_timeout, 0);
-    timer_.asked(t.now, line_.timing.poll_period * (axis_.moving ? 1 : 5));
+    timer_.asked(t.now, pace_.period(line_.timing.poll_period, axis_.moving));
 }
 
 void Drive::go(Turn& t) {
@@ -222,7 +222,7 @@ void Drive::learn(const mirror::State& s, Turn& t) {
     if (!s.moving || s.fault) {
         if (renewal_ && renewal_->number != 0) renewal_.reset();
     }
-    timer_.soon(std::min(timer_.deadline(), t.now + line_.timing.poll_period * (fb.moving ? 1 : 5)));
+    timer_.soon(std::min(timer_.deadline(), t.now + pace_.period(line_.timing.poll_period, fb.moving)));
     emit(t);
 }
 

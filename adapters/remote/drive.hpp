@@ -46,6 +46,9 @@ public:
     [[nodiscard]] Instant deadline() const noexcept;
     void on_deadline(Turn& t);
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) timer_.hurry();
+    }
 
 private:
     struct Stop {
@@ -88,6 +91,7 @@ private:
     drive::StopLane<Stop, 8> stops_;
     drive::Exchange<std::uint64_t> poll_;
     drive::PollTimer timer_;
+    drive::Pace pace_;
     std::optional<Running> running_;
     std::optional<Renewal> renewal_;
     AxisFeedback axis_;

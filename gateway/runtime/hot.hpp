@@ -16,6 +16,7 @@
 #include "gateway/core/histogram.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
+#include "gateway/lines/pair_line.hpp"
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"

@@ -3374,7 +3374,7 @@ export interface components {
             name: components["schemas"]["RecordingName"];
             /** @enum {string} */
             state: "armed" | "triggered" | "done" | "cancelled";
-            /** @description why it was cancelled */
+            /** @description why it was cancelled, or ended early */
             why: string | null;
             who: string | null;
             armed_at: string | null;

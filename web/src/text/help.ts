@@ -12,6 +12,8 @@ const chapters: Record<Route['page'], string> = {
   events: 'alarms-and-recipes',
   gateway: 'operate',
   fleet: 'fleet',
+  recorder: 'recorder',
+  report: 'commission',
   mappings: 'map',
   parameters: 'parameters',
   site: 'changing-a-site',

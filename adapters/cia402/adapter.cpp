@@ -54,6 +54,7 @@ void LineAdapter::on_set_point(const SetPoint& p, Instant now, Out& out) {
     Drive* d = drives_.of(p.axis);
     if (!d) return;
     d->follow(p);
+    plan_sync(now);
     drive::settle(line_.turns, *d, now);
     drive::serve(line_.turns, drives_, t);
     plan_sync(now);
@@ -121,15 +122,19 @@ void LineAdapter::plan_heartbeat(Instant now) {
 
 Duration LineAdapter::cycle() const {
     std::int64_t ready = 0;
-    bool quick = false;
+    bool quick = false, streams = false;
+    Duration period = line_.timing.poll_period;
     drives_.each([&](const Drive& d) {
         ready += d.listeners();
-        quick = quick || d.quick();
+        quick = quick || d.quick() || d.pace().close();
+        streams = streams || d.streams();
+        period = std::min(period, d.pace().period(period));
     });
+    if (streams) period = line_.timing.poll_period;  // by which the drive that follows was told to reckon
     if (ready == 0) return Duration::zero();
     // Two PDOs of each at a SYNC, and one to those that are led: 0.4 ms of a bus at 1 Mbit/s, half of which is for others.
     const Duration least = ready * 3 * 2 * wire_time(140, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);
-    const Duration whole = std::max(line_.timing.poll_period, least) + std::chrono::microseconds(999);
+    const Duration whole = std::max(period, least) + std::chrono::microseconds(999);
     const Duration ms = std::max<Duration>(std::chrono::milliseconds(1), std::chrono::milliseconds(milliseconds_of(whole)));
     return quick ? ms : 4 * ms;
 }

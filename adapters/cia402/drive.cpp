@@ -87,6 +87,10 @@ bool Drive::quick() const noexcept {
     return std::ranges::any_of(axes_, [](const auto& a) { return a->quick(); });
 }
 
+bool Drive::streams() const noexcept {
+    return std::ranges::any_of(axes_, [](const auto& a) { return a->streams(); });
+}
+
 void Drive::forget(Reason reason, std::string_view why, Turn& t) {
     for (const auto& a : axes_)
         a->forget();

@@ -10,6 +10,7 @@
 #include "adapters/cia402/drive_double.hpp"
 #include "adapters/cia402/parameters.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/polls.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/sdo_client.hpp"
@@ -29,6 +30,7 @@ public:
     void line_down(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
+    void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
     void on_frame(const Frame& frame, Turn& t);
     void before_sync(Duration cycle, Turn& t);  ///< the next targets go out
     void after_sync() noexcept;
@@ -53,6 +55,8 @@ public:
     void watch_anew() {
         if (node_.presence.is(Presence::Phase::ready) && !axes_.empty()) start();
     }
+    [[nodiscard]] bool streams() const noexcept;
+    [[nodiscard]] const drive::Pace& pace() const noexcept { return pace_; }
 
 private:
     [[nodiscard]] Axis* of(AxisId id) noexcept;
@@ -85,6 +89,7 @@ private:
     std::size_t slot_;
     std::vector<std::unique_ptr<Axis>> axes_;
     std::size_t turn_ = 0;  ///< whose turn it is among them
+    drive::Pace pace_;
     Duration heartbeat_period_ = std::chrono::milliseconds(500);
     drive::LateMarks<Address, 8> late_;
     canopen::SdoClient sdo_;

@@ -66,6 +66,8 @@ struct AxisFeedback {
     /// The state of a drive that has CiA 402's state machine itself, as the bits 0..6 of a status word (0x27: operation enabled); absent:
     /// it knows on and off alone. Other bits are not looked at: they are members of their own here.
     std::optional<std::uint16_t> statusword{};
+    /// What answers for it is simulated by somebody else than this gateway: an axis of another gateway that is served by a twin there.
+    bool simulated = false;
     Instant at{};
 };
 

@@ -108,6 +108,10 @@ public:
     [[nodiscard]] std::string start_scan(LineId line, ScanWish wish, Instant now);
     void cancel_scan(LineId line, Instant now);
     [[nodiscard]] ScanReport scan_report(LineId line) const;
+    /// Axes of one line are asked every `period` for a while, as far as the line has room besides what its other drives are owed; zero: no
+    /// more. It ends by itself at `until`, `longest_look` from now at most. Empty: so it is; else why not.
+    static constexpr Duration longest_look = std::chrono::minutes(10), shortest_look_period = std::chrono::milliseconds(1);
+    [[nodiscard]] std::string look_closely(const std::vector<AxisId>& axes, Duration period, Instant until, Instant now);
     [[nodiscard]] LineReport line_report(LineId line, Instant now) const;
     [[nodiscard]] DriveStatus drive_status(DriveId drive) const;
     /// Outlives the line for those who still read it.
@@ -222,6 +226,7 @@ private:
     void begin_handback(Drive& drive, Instant now);
     bool handback_result(const Result& result, Instant now);
     void housekeeping(Instant now);
+    void end_looks(Instant now);
     void save_twin_memory(Drive& drive);
     void drop_axis(Axis& axis, std::string_view why, Instant now);
     void new_source(Axis& axis);

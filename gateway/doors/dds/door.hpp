@@ -8,6 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/json/object.hpp>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <set>
@@ -18,6 +19,7 @@
 #include "gateway/doors/dds/commanders.hpp"
 #include "gateway/doors/dds/commands_seen.hpp"
 #include "gateway/doors/dds/fleet.hpp"
+#include "gateway/doors/dds/mirror_end.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/door.hpp"
 #include "gateway/services/ports.hpp"
@@ -58,6 +60,9 @@ public:
     /// To an axis of this gateway it goes the way of every command here, under the origin that it has; else over the bus.
     void command(FleetOrder order, std::function<void(const Result&)> then) override;
 
+    /// The other end of a mirror line: a connected stream, which is this door's from here on. More than one can be open.
+    void take_mirror(int fd);
+
     struct Counters {
         std::uint64_t commands = 0, repeated = 0, refused = 0, set_points = 0, set_points_wrong = 0, unsent = 0;
     };
@@ -77,7 +82,7 @@ private:
     void on_turn();
     void tell_gateway(Instant now);
     void tell_axes(Instant now);
-    void fill(axisgate_AxisState& s, const AxisPlace& place) const;
+    void fill(axisgate_AxisState& s, const AxisPlace& place);
     void read();
     void on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen);
     void on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen);
@@ -89,6 +94,8 @@ private:
     void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
     [[nodiscard]] bool to_be_done(const Asked& asked);
     void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
+    void tell_again(const std::string& axis);
+    void tell_mirrors(std::string_view gateway, std::string_view axis);
     void refuse(const Asked& asked, Reason reason, std::string text);
     void answer(const Asked& asked, const Result& result, bool repeated);
     [[nodiscard]] static Origin origin_of(const std::string& source);
@@ -109,6 +116,8 @@ private:
     std::map<std::string, std::string> set_points_;  // who streams, by axis
     std::vector<Bus::Writer> gone_before_;           // that wrote and were gone before that was read: their command is let through first
     Counters counters_;
+    std::list<MirrorEnd> mirrors_;
+    std::uint64_t sequence_ = 0;  // of the state that was told last
     bool open_ = false;
     Bus bus_;  // last: its threads end first
 };

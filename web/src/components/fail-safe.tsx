@@ -43,7 +43,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
     }
   };
   return (
-    <Section title="When who commands is lost" class="fail-safe" id="fail-safe">
+    <Section title="When who commands is lost" class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
         What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without
         supply, need the drive's own watchdog and the safety circuit.

@@ -292,6 +292,9 @@ TEST_F(DdsDoorTest, ACommanderThatAnotherHasReplacedIsNotMissedNorOneThatWrotePa
 }
 
 TEST_F(DdsDoorTest, WhoWritesAndIsGoneBeforeItIsReadIsLostAfterItsCommand) {
+    // Behind many others, so that its end is known before its command is taken.
+    for (int i = 0; i < 500; ++i)
+        ASSERT_TRUE(peer.write(command(("n" + std::to_string(i)).c_str(), ("nobody " + std::to_string(i)).c_str(), "enable")));
     ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
     peer.close();
     ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));

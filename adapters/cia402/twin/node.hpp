@@ -32,12 +32,13 @@ public:
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
     [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
+    [[nodiscard]] const canopen::Dictionary& dictionary() const noexcept { return d_; }
     void set_silent(bool silent) noexcept { silent_ = silent; }
     [[nodiscard]] bool silent() const noexcept { return silent_; }
     [[nodiscard]] bool powered() const noexcept { return powered_; }
     void after_hand(Instant now, Out& out) {
         shown_.reset();
-        events(now, out);
+        take_writes(now, out);  // also what a controller's own program has written
     }
 
 private:

@@ -46,6 +46,15 @@ public:
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
     [[nodiscard]] bool quick() const noexcept;
+    /// It watches the gateway's heartbeat, and answers.
+    [[nodiscard]] bool watches() const noexcept {
+        return node_.presence.online() && node_.presence.watchdog().state == DriveWatchdog::State::armed;
+    }
+    [[nodiscard]] Duration watch_time() const noexcept { return node_.watch.time; }
+    /// The gateway has another number on the line: it is set up anew, and goes on meanwhile.
+    void watch_anew() {
+        if (node_.presence.is(Presence::Phase::ready) && !axes_.empty()) start();
+    }
     [[nodiscard]] bool streams() const noexcept;
     [[nodiscard]] const drive::Pace& pace() const noexcept { return pace_; }
 
@@ -69,6 +78,8 @@ private:
     void started(const canopen::SdoEnd& end, Turn& t);
     void next_start(Turn& t);
     void set_up();
+    void set_up_watch();
+    void watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t);
     // feedback.cpp
     void on_emergency(const canopen::Emergency& e, Turn& t);
     void on_heartbeat(const Frame& frame, Turn& t);
@@ -99,6 +110,7 @@ private:
     ExpectedIdentity expected_;  ///< of the description, if the site names one
     Identity told_;
     DoubleBeat double_beat_;
+    std::uint32_t watched_ = 0;  ///< 1016h:01 as it was found
 };
 
 }  // namespace axisgate::cia402_drive

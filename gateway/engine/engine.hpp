@@ -88,7 +88,7 @@ public:
     /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
     void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
     /// A client is gone: what it commanded last is treated as the axes' site entries say. With set_points_silent, the connection by which
-    /// it streamed: only what it streams is.
+    /// it streamed: only what it streams is, and a DDS client's set-points have then missed their deadline (dds_deadline).
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// How often axes were stopped since the start because of this cause.
     /// From a command's being taken to its first frame having left on a real line; any thread. One command per line at a time is measured.
@@ -202,6 +202,10 @@ private:
     // loss of command (engine_fail_safe.cpp)
     void fail_safe(Axis& axis, LossCause cause, Instant now);
     [[nodiscard]] static AtLoss at_loss(const Axis& axis);
+    /// What the silence of a client that streams set-points is called.
+    [[nodiscard]] static LossCause silence_of(const AuthorityClient& who) noexcept {
+        return who.door == Door::dds ? LossCause::dds_deadline : LossCause::set_points_silent;
+    }
     void check_watchdog(Axis& axis, Instant now);
 
     // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)

@@ -180,9 +180,9 @@ Handled get_trace(Call&, const LinePort&, const SitePort&);
 Handled list_events(Call&, EventPort&);
 
 // --- handlers_fail_safe.cpp -------------------------------------------------------------------------------------------
-Handled get_fail_safe(Call&, const AxisPort&, const RehearsalPort&, const SitePort&);
-Handled get_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&);
-Handled put_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&, const StagePort&);
+Handled get_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
+Handled get_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
+Handled put_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&, const StagePort&);
 Handled get_rehearsal(Call&);
 Handled start_rehearsal(Call&);
 // --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------

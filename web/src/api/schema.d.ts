@@ -2461,7 +2461,7 @@ export interface components {
         };
         LineFields: {
             name?: components["schemas"]["Name"];
-            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, twin */
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, dds (axes of other gateways), twin */
             uri?: string;
             /** @description of the drives that name none; may be left out on a CAN line */
             family?: string;
@@ -2666,6 +2666,7 @@ export interface components {
             enip_idle?: components["schemas"]["FailSafeAction"];
             line_lost?: components["schemas"]["FailSafeAction"];
             gateway_ends?: components["schemas"]["FailSafeAction"];
+            dds_deadline?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
@@ -2687,6 +2688,7 @@ export interface components {
             enip_idle?: components["schemas"]["FailSafeWish"];
             line_lost?: components["schemas"]["FailSafeWish"];
             gateway_ends?: components["schemas"]["FailSafeWish"];
+            dds_deadline?: components["schemas"]["FailSafeWish"];
             watchdog_ms?: number | null;
         };
         FailSafeRow: {
@@ -2696,11 +2698,31 @@ export interface components {
             watchdog_ms_in_force: number;
             /** @description why the gateway stopped the axis without a command, until the next command to it */
             last_cause: string | null;
+            drive_watchdog: components["schemas"]["DriveWatchdog"];
+        };
+        /** @description what the drive of the axis does by itself when it does not hear the gateway any more */
+        DriveWatchdog: {
+            /** @description drives of its family have one */
+            available: boolean;
+            /**
+             * @description armed: programmed, and acknowledged by the drive; off: by the site; refused: this drive does not take it; null: it has none, or has not been set up yet
+             * @enum {string|null}
+             */
+            state: "armed" | "off" | "refused" | null;
+            /** @description of silence, after which it acts; null: it is not armed */
+            time_ms: number | null;
+            /**
+             * @description null: it is not armed
+             * @enum {string|null}
+             */
+            action: "quick_stop" | "disable" | "fault" | null;
+            /** @description by what, or why there is none */
+            description: string;
         };
         FailSafeMatrix: {
             causes: {
                 /** @enum {string} */
-                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline";
                 /** @description as register 22 of the axis has it */
                 number: number;
                 description: string;
@@ -2712,8 +2734,11 @@ export interface components {
         /** @description times in ms from the loss; for silence, a lease and a lost drive from the last that was heard */
         FailSafeCell: {
             axis: string;
-            /** @enum {string} */
-            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+            /**
+             * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything
+             * @enum {string}
+             */
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "gateway_gone";
             /** @description what the site names; null: the default */
             chosen: string | null;
             taken: components["schemas"]["FailSafeAction"];
@@ -2818,7 +2843,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
@@ -3349,7 +3374,7 @@ export interface components {
             name: components["schemas"]["RecordingName"];
             /** @enum {string} */
             state: "armed" | "triggered" | "done" | "cancelled";
-            /** @description why it was cancelled */
+            /** @description why it was cancelled, or ended early */
             why: string | null;
             who: string | null;
             armed_at: string | null;

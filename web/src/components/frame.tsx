@@ -7,6 +7,7 @@ import { route, type Route } from '../router';
 import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
 import { dark, nextTheme } from '../state/theme';
+import { helpOfPage } from '../text/help';
 import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
@@ -77,6 +78,15 @@ function ThemeButton() {
   );
 }
 
+/** To the chapter about this page, in a tab of its own: what is typed or commanded here goes on. */
+function HelpLink() {
+  return (
+    <a class="help-link" href={helpOfPage(route.value.page)} target="axisgate-help" data-field="help">
+      Help
+    </a>
+  );
+}
+
 export function Head() {
   return (
     <header class="head">
@@ -126,6 +136,7 @@ export function Strip() {
       <div class="strip" data-field="strip">
         <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
         <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
+        <HelpLink />
       </div>
     );
   }
@@ -153,6 +164,7 @@ export function Strip() {
             Try now
           </button>
         )}
+        <HelpLink />
       </div>
     );
   }
@@ -168,6 +180,7 @@ export function Strip() {
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
       <Trial />
+      <HelpLink />
     </div>
   );
 }

@@ -101,7 +101,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
           <Section title="Actions of the family">
             <Actions key={name} axis={name} family={axis.family} />
           </Section>
-          <Section title="Native console">
+          <Section title="Native console" help="reference#families">
             <Gate need="engineer">
               <Console drive={axis.drive} />
             </Gate>

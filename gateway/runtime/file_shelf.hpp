@@ -74,8 +74,9 @@ public:
     /// `content` is called on the disk's thread. One at a time.
     void write(Info info, std::function<std::string()> content, std::function<void(RecordingFault, Info)> then) {
         writing_ = true;
-        boost::asio::post(disk_, [this, info = std::move(info), path = path_of(info.name), directory = directory_,
-                                  content = std::move(content), then = std::move(then)]() mutable {
+        const std::string path = path_of(info.name);
+        boost::asio::post(disk_, [this, info = std::move(info), path, directory = directory_, content = std::move(content),
+                                  then = std::move(then)]() mutable {
             const std::string bytes = content();
             info.bytes = bytes.size();
             auto fault = put_on_disk(path, directory, bytes);

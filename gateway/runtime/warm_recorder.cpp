@@ -11,6 +11,7 @@
 #include <boost/json/serialize.hpp>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "gateway/runtime/clock.hpp"
 #include "gateway/services/recorder/axr.hpp"
@@ -29,6 +30,7 @@ struct Frozen {
     std::uint64_t outcomes_before = 0, lost = 0, gone = 0;
     std::int64_t unix_offset_ns = 0;
     std::shared_ptr<const SiteState> site;
+    std::map<std::string, std::shared_ptr<const Description>> descriptions{};  ///< that its drives name
 };
 
 json::object meta_of(const Frozen& f) {
@@ -87,6 +89,11 @@ std::string packed(const Frozen& f) {
     w.add(json::serialize(meta_of(f)));
     w.begin(axr_site);
     w.add(json::serialize(to_json(f.site->site)));
+    w.begin(axr_descriptions);
+    json::array descriptions;
+    for (const auto& [name, d] : f.descriptions)
+        descriptions.push_back(json::object{{"name", name}, {"text", d->text}});
+    w.add(json::serialize(descriptions));
     const auto add = [&w](std::string_view name, const FlightLog::Chunks& chunks) {
         w.begin(name);
         for (const auto& c : chunks)
@@ -299,6 +306,10 @@ void WarmRecorder::freeze_this(std::string name, std::string why, std::string wh
     f->lost = tap_.ring.lost();
     f->unix_offset_ns = unix_ns_of(at_ns(0));
     f->site = sites_.site();
+    for (const auto& d : f->site->site.drives) {
+        const auto& shelf = sites_.families().descriptions;
+        if (const auto text = d.description.empty() || !shelf ? nullptr : shelf->find(d.description)) f->descriptions[d.description] = text;
+    }
     f->info.name = std::move(name);
     f->info.why = std::move(why);
     f->info.who = std::move(who);

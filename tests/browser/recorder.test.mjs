@@ -32,7 +32,7 @@ test('trends: two axes in one plot, zoom by a drag, cursors with their differenc
   const plot = () => page.locator('.scope .u-over');
   await plot().waitFor();
   const axes = page.getByRole('group', { name: /^Axes/ });
-  for (const name of ['feeder', 'slide']) if ((await axes.getByRole('button', { name, exact: true }).getAttribute('aria-pressed')) !== 'true') await axes.getByRole('button', { name, exact: true }).click();
+  for (const name of ['feeder', 'slide.x']) if ((await axes.getByRole('button', { name, exact: true }).getAttribute('aria-pressed')) !== 'true') await axes.getByRole('button', { name, exact: true }).click();
   await becomes('both are drawn', () => page.getByRole('list', { name: 'Curves' }).locator('li').count(), 4);
   await until('the rate is told', async () => /feeder told/.test(await page.locator('[data-field=trend-rate]').innerText()) || (await page.locator('[data-field=trend-rate]').innerText()));
   await page.reload();
@@ -44,9 +44,17 @@ test('trends: two axes in one plot, zoom by a drag, cursors with their differenc
     await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'B', exact: true }).click();
     await page.mouse.click(box.x + box.width * b, box.y + 30);
   };
+  // What was known first, from the left on, and the end: before and after the move.
+  await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'B', exact: true }).click();
+  await page.locator('.scope-plot').focus();
+  await page.keyboard.press('End');
+  await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'A', exact: true }).click();
+  await page.locator('.scope-plot').focus();
+  await page.keyboard.press('Home');
+  for (let i = 0; i < 110 && (await differences(page))[1] === '–'; i += 1) await page.keyboard.press('ArrowRight');
+  await until('the move is still there', async () => Math.abs(number((await differences(page))[1]) - 20) < 0.5 || (await differences(page)));
   await page.getByRole('group', { name: 'Part of time' }).getByRole('button', { name: 'Closer' }).click(); // it stands still
   await reads(0.2, 0.98);
-  await until('the move is still there', async () => Math.abs(number((await differences(page))[1]) - 20) < 0.5 || (await differences(page)));
   const wide = Math.abs(number((await differences(page))[0]));
   const box = await plot().boundingBox();
   await page.mouse.move(box.x + box.width * 0.4, box.y + 60);

@@ -2,7 +2,6 @@
 
 In: the real program with simulated drives. Out: judgements.
 """
-import datetime
 import pathlib
 import time
 
@@ -45,7 +44,7 @@ def test_a_recording_is_played_again_without_a_difference(gateway, folder):
     assert abs(slide["position"] - gateway.axis("slide")["position"]) < 0.01 and slide["state"] == "switch_on_disabled", slide
     assert end["frames"] and any(f["decoded"] for f in end["frames"]) and any("disable" in h["text"] for h in end["happened"]), end["frames"][-1]
     high = max(v for a in end["curves"] if a["axis"] == "slide" for v in (a["points"]["position"].get("high") or a["points"]["position"]["values"]))
-    begin = int(datetime.datetime.fromisoformat(end["from"]).timestamp() * 1000) + 1000
+    begin = int(next(a for a in end["curves"] if a["axis"] == "slide")["at"][0]) + 5
     early = gateway.get(f"/recorder/recordings/crash/playback?at={begin}&frames=0")
     before = next(a for a in early["axes"] if a["name"] == "slide")["position"]
     assert high - before > 4 and early["frames"] == [], (high, before)
@@ -160,6 +159,7 @@ def test_trends_on_the_disk_outlive_the_gateway(folder):
         move_a_little(g)
         until(lambda: g.get("/recorder/trends?axes=slide&points=position")["axes"][0]["at"], 10, "rows")
         time.sleep(1)  # what was told a moment ago is on its way
+        assert g.stop() == 0
     files = list((folder / "data" / "trends").glob("*.axt"))
     assert files, "nothing was written at the end"
     with harness.Gateway(folder, None, *settings) as g:

@@ -22,6 +22,7 @@
 #include "gateway/services/frame_decoder.hpp"
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/trend_document.hpp"
+#include "gateway/site/descriptions.hpp"
 
 namespace axisgate {
 namespace {
@@ -64,6 +65,16 @@ std::optional<RecordingHead> heading_of(const Axr& axr, const Families& families
     out.unix_offset_ns = offset && offset->is_int64() ? offset->get_int64() : 0;
     out.lines = names_at(*o, "lines");
     out.axes = names_at(*o, "axes");
+    const json::value texts = axr.has(axr_descriptions) ? parsed(axr_descriptions) : json::value();
+    for (const auto& v : texts.is_array() ? texts.get_array() : json::array()) {
+        const auto* d = v.if_object();
+        const auto *name = d ? d->if_contains("name") : nullptr, *text = d ? d->if_contains("text") : nullptr;
+        if (!name || !text || !name->is_string() || !text->is_string() || !families.descriptions) continue;
+        Description kept;
+        kept.name = std::string(name->get_string());
+        kept.text = std::string(text->get_string());
+        (void)families.descriptions->put(std::move(kept));
+    }
     std::vector<SiteFault> faults;
     auto site = parse_site(parsed(axr_site), families, faults);
     if (!site) {

@@ -35,6 +35,7 @@ public:
     /// Ends everything; the drive is about to be destroyed.
     void remove(Turn& t, std::string_view why);
     void submit(const Command& command, Turn& t);
+    void look(const DriveSetup& setup) noexcept { polls.look(setup); }
     void on_message(const Message& m, Turn& t);
     void on_deadline(Turn& t);
     /// Of what it waits for: an answer, a stop's acknowledgement, the end of a supervised ramp or search.

@@ -34,7 +34,7 @@ void Polls::go(Turn& t) {
     command_last_ = false;
     const Message m = drive_.get(cw::MS, speed_next_ ? 1 : 0);
     const bool moves = drive_.feedback.fb().moving || drive_.homing.under_way() || !drive_.jobs.idle();
-    if (!speed_next_) timer_.asked(t.now, (moves ? 1 : 4) * drive_.bus.timing.poll_period);
+    if (!speed_next_) timer_.asked(t.now, pace_.period(drive_.bus.timing.poll_period, moves));
     speed_next_ = !speed_next_;
     if (!drive_.exchanges.makes_way(m, 0, Priority::poll, t)) drive_.exchanges.send({m, Purpose::poll}, 0, Priority::poll, t);
 }

@@ -16,6 +16,10 @@ public:
     void stop() noexcept;
     /// MS[0] as soon as possible.
     void soon(Instant now) noexcept { timer_.soon(now), speed_next_ = false; }
+    /// Who looks closely wants other periods.
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) timer_.hurry();
+    }
     void speed_next() noexcept { speed_next_ = true; }
     void command_began() noexcept { command_last_ = true; }
     /// A whole period late, and a command has begun since the last one.
@@ -26,6 +30,7 @@ public:
 
 private:
     drive::PollTimer timer_;
+    drive::Pace pace_;
     bool speed_next_ = false;    ///< next is MS[1]
     bool command_last_ = false;  ///< a command has begun since the last poll
     bool list_turn_ = false;     ///< next is a value of the list, though a poll is due

@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+import classes
+
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # arpa/inet.h is none: it makes addresses of texts, and opens nothing.
 SYSTEM_EDGES = ("boost/asio", "boost/beast", "sys/", "linux/", "netinet/", "termios", "unistd", "fcntl", "pthread", "thread", "mutex",
@@ -128,6 +130,7 @@ RULES = {
     "head": "a file opens with what it is, what comes in, what goes out, what it never does",
     "once": "a header has #pragma once",
     "length": "a file is one thing",
+    "classes": f"a class has at most {classes.LIMIT} functions",
     "families": "a family is a folder and a page of data",
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
@@ -196,6 +199,11 @@ def main():
             missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
             if missing:
                 faults.append(("errata", f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md"))
+    headers = [p for p in sources if p.suffix == ".hpp" and p.relative_to(TOP).parts[0] in ("gateway", "adapters")]
+    counted = [(str(p.relative_to(TOP)), *c) for p in headers for c in classes.functions_of(p.read_text(encoding="utf-8"))]
+    faults += [("classes", what) for what in classes.faults_of(counted)]
+    if not classes.holds():
+        faults.append(("classes", "the rule no longer finds what it is for"))
     faults += [("format", what) for what in misformatted(sources)]
     with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=TOP / "tests/tidy") as probe:
         probe.write("int  x ;\n")

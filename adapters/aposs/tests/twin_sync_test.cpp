@@ -15,14 +15,14 @@ SyncParameters quick() {
     return p;
 }
 /// A slave without lag and a master at a constant speed; index pulses where they are asked for.
-struct Run {
+struct Coupled {
     SyncParameters p = quick();
     Synchronisation s;
     std::int64_t master = 0, speed = 10;
     double slave = 0;
     std::int64_t marks_m = 0;  ///< distance of master markers, 0: none
     double marks_s = 0, first_s = 0;
-    Run() = default;
+    Coupled() = default;
     void begin(SyncMode mode) {
         SyncInput in;
         in.master = master;
@@ -48,7 +48,7 @@ struct Run {
 };
 
 TEST(ApossSync, NoQuadCountOfTheGearIsLost) {
-    Run r;
+    Coupled r;
     r.p.fact_m = 3;
     r.p.fact_s = 2;
     r.speed = 1;
@@ -65,7 +65,7 @@ TEST(ApossSync, NoQuadCountOfTheGearIsLost) {
 
 TEST(ApossSync, TheWayIsMadeGoodWithinVelocityAndAccelerationAndWithVelocityGearItIsNot) {
     for (const auto mode : {SyncMode::position, SyncMode::velocity}) {
-        Run r;
+        Coupled r;
         r.p.velocity = 20;
         r.p.acceleration = r.p.deceleration = 0.5;
         r.begin(mode);
@@ -89,7 +89,7 @@ TEST(ApossSync, TheWayIsMadeGoodWithinVelocityAndAccelerationAndWithVelocityGear
 }
 
 TEST(ApossSync, SyncvelrelBoundsHowMuchFasterAndSlowerItMayBe) {
-    Run r;
+    Coupled r;
     r.p.velocity_relation = 50;
     r.begin(SyncMode::position);
     r.pass(10);
@@ -115,7 +115,7 @@ TEST(ApossSync, AnOffsetIsWorkedOffInStepsOfTheMarkerDistanceByTheTime) {  // [L
     EXPECT_EQ(offset_step(500, 100), 5);
     EXPECT_EQ(offset_step(500, 300), 1) << "integer part";
     EXPECT_EQ(offset_step(500, 0), 0) << "at once (E-57)";
-    Run r;
+    Coupled r;
     r.speed = 0;
     r.p.offset = 500;
     r.p.offset_time = 100;
@@ -137,7 +137,7 @@ TEST(ApossSync, AnOffsetIsWorkedOffInStepsOfTheMarkerDistanceByTheTime) {  // [L
 }
 
 TEST(ApossSync, WhatTheMasterGoesBackIsBufferedAndConsumed) {  // SYNCTYPE bit 2, SYSVAR 4315 [L4036-4050]
-    Run r;
+    Coupled r;
     r.p.type = 4;
     r.begin(SyncMode::position);
     r.pass(10);
@@ -164,7 +164,7 @@ TEST(ApossSync, TheVelocityFilterHasItsTableAndItsSign) {  // [L4668-4730]
     EXPECT_EQ(velocity_filter_us(-100'000, 500), 100'000);
     EXPECT_EQ(velocity_filter_us(0, 4000), 2000) << "another resolution by the formula behind the table (E-36)";
     // Positive: SYNCV alone. Cmdvel = Old + (Act - Old) * 1 ms / tau.
-    Run v;
+    Coupled v;
     v.p.velocity_time = 10'000;
     v.speed = 0;
     v.begin(SyncMode::velocity);
@@ -172,7 +172,7 @@ TEST(ApossSync, TheVelocityFilterHasItsTableAndItsSign) {  // [L4668-4730]
     v.speed = 10;
     EXPECT_NEAR(v.pass(1), 1, 1e-9);
     EXPECT_NEAR(v.pass(1), 1 + 1.9, 1e-9);
-    Run p;
+    Coupled p;
     p.p.velocity_time = 10'000;
     p.begin(SyncMode::position);
     EXPECT_NEAR(p.pass(1), 10, 1e-9) << "not SYNCP";
@@ -214,7 +214,7 @@ TEST(ApossSync, MarkersBringTheSlaveOntoTheMaster) {
     // The slave's markers come 200 qc of its way after the master's: leading goes forward, subsequent back.
     for (const Row& row : {Row{0, 0, 500}, Row{1, -500, 0}, Row{3, 0, 500}, Row{4, -500, 0}, Row{5, -250, 250}, Row{6, -500, 500}}) {
         SCOPED_TRACE(row.start);
-        Run r;
+        Coupled r;
         r.p.start = row.start;
         r.marks_m = 500;
         r.marks_s = 500;
@@ -235,12 +235,13 @@ TEST(ApossSync, MarkersBringTheSlaveOntoTheMaster) {
 }
 
 TEST(ApossSync, AnOffsetOfSyncmWaitsForTheFirstEvaluation) {  // [L4136]
-    Run r;
+    Coupled r;
     r.p.offset = 100;
     r.begin(SyncMode::marker);
     r.pass(100);
     EXPECT_EQ(r.slave, 1000) << "no marker yet";
-    r.marks_m = r.marks_s = 500;
+    r.marks_m = 500;
+    r.marks_s = 500;
     r.pass(300);
     const double phase = std::remainder(r.slave - static_cast<double>(r.master), 500);
     EXPECT_NEAR(phase, 100, 20);
@@ -364,7 +365,7 @@ TEST(ApossSync, TheMarkerFilterHasTheFormulasOfTheManual) {  // [L2490-2602]
 }
 
 TEST(ApossSync, OnlyEachThirdSlaveMarkerIsTaken) {  // SYNCMARKM : SYNCMARKS (E-43)
-    Run r;
+    Coupled r;
     r.p.mark_s = 3;
     r.p.pulse_m = 1500;
     r.marks_m = 1500;
@@ -379,7 +380,7 @@ TEST(ApossSync, OnlyEachThirdSlaveMarkerIsTaken) {  // SYNCMARKM : SYNCMARKS (E-
 }
 
 TEST(ApossSync, FeedForwardAddsPerMilleOfTheVelocity) {  // SYNCFFVEL [L5926]
-    Run r;
+    Coupled r;
     r.p.feed_forward = 1000;
     r.begin(SyncMode::position);
     r.pass(5);
@@ -387,7 +388,7 @@ TEST(ApossSync, FeedForwardAddsPerMilleOfTheVelocity) {  // SYNCFFVEL [L5926]
 }
 
 TEST(ApossSync, WithoutReverseTheSlaveWaits) {  // REVERS, backlog (E-59)
-    Run r;
+    Coupled r;
     r.p.reverse = 2;
     r.begin(SyncMode::position);
     r.pass(10);

@@ -14,7 +14,7 @@ Answer refused(Reason reason, std::string why) { return {Outcome::refused, reaso
 
 void Axis::advance(Instant now) {
     if (held_until_ > now) return;
-    shaft_.stop(ramps_.down, held_until_);
+    shaft_.stop(ramps_, held_until_);
     held_until_ = never;
 }
 
@@ -60,7 +60,7 @@ Answer Axis::order(const mirror::Order& o, Instant now) {
     if (o.verb == "disable") return rest(now), taken();
     if (o.verb == "halt" || o.verb == "quick_stop") {
         const bool quick = o.verb == "quick_stop";
-        if (on_ && shaft_.moves(now)) shaft_.stop(quick ? quick_stop : ramps_.down, now);
+        if (on_ && shaft_.moves(now)) shaft_.stop(quick ? cia402_drive::twin::Ramps{0, quick_stop, quick_stop} : ramps_, now);
         held_until_ = never;
         to_target_ = false;
         quick_ = quick_ || (quick && on_);

@@ -190,6 +190,7 @@ struct FakeDrive {
     DriveSetup setup_;
     std::size_t slot;
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
+    void look(const DriveSetup&) noexcept {}
 };
 
 TEST(DriveRoster, WhoIsTheSameStaysAndAddressesAreFreeForNewOnes) {

@@ -1,7 +1,7 @@
 // Adapter, part joint orders: StartTogether, the action start_group, and the action global_stop.
 // In: the command, each node's news of its own part. Out: one BG or ST to a group or to all, and one result for the whole.
 // Never starts an axis that was not named: the receivers of a group or of the global ID are counted first, and named if they are too many.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,15 +9,6 @@
 #include "adapters/uim342/adapter.hpp"
 
 namespace axisgate::uim342 {
-namespace {
-std::string names_of(const std::vector<std::string>& names) {
-    std::string s;
-    for (const auto& n : names)
-        s += (s.empty() ? "" : ", ") + n;
-    return s;
-}
-}  // namespace
-
 void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
     std::vector<Drive*> members;
     for (const AxisId axis : what.axes) {
@@ -75,8 +66,8 @@ void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Dr
     joint_.open = members;
     joint_.members = std::move(members);
     for (Drive* n : joint_.members) {
-        if (!n->join())
-            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Drive::queue_limit), 0,
+        if (!n->together.join())
+            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Jobs::queue_limit), 0,
                              t);
     }
     for (Drive* n : joint_.members)
@@ -84,8 +75,8 @@ void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Dr
 }
 
 /// Every member has come to its place in its queue.
-void LineAdapter::part_ready(Drive& node, Turn& t) {
-    std::erase(joint_.open, &node);
+void LineAdapter::share_ready(Drive& drive, Turn& t) {
+    std::erase(joint_.open, &drive);
     if (joint_.kind != Joint::Kind::none && joint_.stage == Joint::Stage::gathering && joint_.open.empty()) begin_joint(t);
 }
 
@@ -104,7 +95,7 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
             id = *group;
             return {};
         }
-        why = fmt::format("a BG to group {} would also start {}", *group, names_of(others));
+        why = fmt::format("a BG to group {} would also start {}", *group, fmt::join(others, ", "));
     } else {
         why = "they do not share a group ID (PP[8])";
     }
@@ -116,14 +107,15 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
         id = global_id;
         return {};
     }
-    return fmt::format("one BG cannot start just these axes: {}; a BG to all would also start {}", why, names_of(others));
+    return fmt::format("one BG cannot start just these axes: {}; a BG to all would also start {}", why, fmt::join(others, ", "));
 }
 
 void LineAdapter::begin_joint(Turn& t) {
     std::uint8_t id = joint_.group;
     for (const Drive* n : joint_.members) {
-        std::string why = n->not_startable();
-        if (why.empty() && joint_.kind == Joint::Kind::start && !n->prepared()) why = fmt::format("{} has no prepared motion", n->name());
+        std::string why = n->together.not_startable();
+        if (why.empty() && joint_.kind == Joint::Kind::start && !n->together.prepared())
+            why = fmt::format("{} has no prepared motion", n->name());
         if (!why.empty()) return end_joint(Outcome::refused, Reason::wrong_state, std::move(why), 0, t);
     }
     if (joint_.kind == Joint::Kind::start) {
@@ -134,7 +126,7 @@ void LineAdapter::begin_joint(Turn& t) {
     transmit(message(id, cw::BG), Priority::command, t);  // without acknowledgement: who would answer is not written (erratum E-44)
     const auto members = joint_.members;
     for (Drive* n : members) {
-        n->begun_by_group(joint_.command.until_done, t);
+        n->together.begun(joint_.command.until_done, t);
         drive::settle(turns, *n, t.now);
     }
 }
@@ -158,18 +150,18 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
     joint_.command = command;
     joint_.open = joint_.members = members;
     for (Drive* n : members) {
-        n->stopped_by_all(t);
+        n->stops.add_shared(t);
         drive::settle(turns, *n, t.now);
     }
 }
 
-void LineAdapter::part_done(Drive& node, Part part, Turn& t) {
-    if (joint_.kind == Joint::Kind::none || std::ranges::find(joint_.members, &node) == joint_.members.end()) return;
-    const bool was_open = std::erase(joint_.open, &node) > 0;
-    if (!part.good && !joint_.bad) {
+void LineAdapter::share_done(Drive& drive, Share share, Turn& t) {
+    if (joint_.kind == Joint::Kind::none || std::ranges::find(joint_.members, &drive) == joint_.members.end()) return;
+    const bool was_open = std::erase(joint_.open, &drive) > 0;
+    if (!share.good && !joint_.bad) {
         joint_.bad = true;
-        joint_.worst = std::move(part);
-        joint_.worst.text = fmt::format("{}: {}", node.name(), joint_.worst.text);
+        joint_.worst = std::move(share);
+        joint_.worst.text = fmt::format("{}: {}", drive.name(), joint_.worst.text);
     }
     // A joint start that one member has left is over; a joint stop is heard of to the last.
     if (joint_.bad && joint_.kind != Joint::Kind::stop) {
@@ -186,7 +178,7 @@ void LineAdapter::end_joint(Outcome outcome, Reason reason, std::string text, st
     joint_ = Joint{};
     if (was.kind != Joint::Kind::stop) {
         for (Drive* n : was.members) {
-            n->leave(t);
+            n->together.leave(t);
             drive::settle(turns, *n, t.now);
         }
     }

@@ -9,6 +9,7 @@
 #include <charconv>
 
 #include "gateway/core/wire_time.hpp"
+#include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::uim342 {
 namespace {
@@ -27,7 +28,7 @@ std::string check_address(std::string_view address) {
 
 LineAdapter::LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_family, on) {}
 
-void LineAdapter::take_timing(const LineSetup& setup) {
+void LineAdapter::take_options(const LineSetup& setup, Turn& t) {
     const bool can = kind == LineKind::can;
     using std::chrono::milliseconds;
     timing = drive::timing_of(setup.timing, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
@@ -36,12 +37,10 @@ void LineAdapter::take_timing(const LineSetup& setup) {
 
     // On a slow line fewer exchanges fit into the time that each may take: no more are begun than half of it holds.
     const Duration exchange = can ? wire_time(2 * 160, bit_rate) : wire_time(32u * setup.bits_per_byte, bit_rate);
-    const std::string wanted = option(setup.options, "in_flight", "");
-    std::size_t n = 0;
-    std::from_chars(wanted.data(), wanted.data() + wanted.size(), n);
+    drive::OptionReader read(setup.options);
     drive::TurnRules rules;
-    rules.window =
-        n == 0 ? drive::fitting(timing.reply_timeout / 2, exchange, 1, can ? 16 : 4) : std::min<std::size_t>(n, drive::slot_limit);
+    rules.window = static_cast<std::size_t>(read.whole(
+        "in_flight", 1, drive::slot_limit, static_cast<std::int64_t>(drive::fitting(timing.reply_timeout / 2, exchange, 1, can ? 16 : 4))));
     if (timing.pause > Duration::zero() && !can) rules.window = 1;  // silence between an answer and the next request: one at a time
     rules.probe_window = std::max<std::size_t>(1, rules.window / 4);
     rules.pause = timing.pause;
@@ -49,28 +48,19 @@ void LineAdapter::take_timing(const LineSetup& setup) {
     rules.overtaken_grace = milliseconds(2) + 2 * exchange;  // a drive's own time to answer, and two exchanges
     turns.set(rules);
 
-    const CrcMode crc = crc_mode_named(option(setup.options, "crc", "12")).value_or(CrcMode::twelve);
+    const CrcMode crc = crc_mode_named(read.word("crc", {"12", "13", "auto", "none"})).value_or(CrcMode::twelve);
     if (crc != crc_ || !configured_) {
         crc_ = crc;
         framer_ = UiFramer(crc);
         other_crc_told_ = false;
     }
+    for (auto& fault : read.take_faults())
+        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0, std::move(fault), t.now});
 }
 
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     Turn t{now, out};
-    take_timing(setup);
-    if (const auto crc = setup.options.find("crc"); crc != setup.options.end() && !crc_mode_named(crc->second)) {
-        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
-                               fmt::format("option crc = {}: write 12, 13, auto or none; 12 is used", crc->second), now});
-    }
-    if (const auto n = setup.options.find("in_flight");
-        n != setup.options.end() && std::to_string(turns.rules().window) != n->second && timing.pause <= Duration::zero()) {
-        out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0,
-                               fmt::format("option in_flight = {}: write a whole number 1..{}; {} is used", n->second, drive::slot_limit,
-                                           turns.rules().window),
-                               now});
-    }
+    take_options(setup, t);
     configured_ = true;
     const auto fresh = roster_.fit(
         setup,

@@ -36,11 +36,11 @@ public:
 private:
     // Bus
     void transmit(const Message& m, Priority priority, Turn& t) override;
-    void part_ready(Drive& node, Turn& t) override;
-    void part_done(Drive& node, Part part, Turn& t) override;
+    void share_ready(Drive& drive, Turn& t) override;
+    void share_done(Drive& drive, Share share, Turn& t) override;
     [[nodiscard]] std::string user_of(std::uint8_t id, const Drive& but) const override;
 
-    void take_timing(const LineSetup& setup);
+    void take_options(const LineSetup& setup, Turn& t);
     void deliver(const Message& m, Turn& t);
     void tell_other_crc(Turn& t);
     void settle_all(Turn& t);
@@ -56,7 +56,7 @@ private:
         std::uint8_t group = 0;
         std::vector<Drive*> open;  ///< still to be heard of in this stage
         std::vector<Drive*> members;
-        Part worst;  ///< first part that did not end well
+        Share worst;  ///< first part that did not end well
         bool bad = false;
     };
     void start_together(const Command& command, const StartTogether& what, Turn& t);

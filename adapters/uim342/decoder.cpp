@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "adapters/uim342/native.hpp"
 #include "adapters/uim342/wire_instructions.hpp"
 
@@ -16,12 +14,7 @@ constexpr std::size_t junk_limit = 64;
 
 std::string id_text(std::uint8_t id) { return id == global_id ? "all" : id == host_id ? "host" : fmt::format("{}", id); }
 
-std::string bytes_text(std::span<const std::uint8_t> data) {
-    std::string s;
-    for (const auto b : data)
-        fmt::format_to(std::back_inserter(s), "{}{:02X}", s.empty() ? "" : " ", b);
-    return s;
-}
+std::string bytes_text(std::span<const std::uint8_t> data) { return fmt::format("{:02X}", fmt::join(data, " ")); }
 
 /// Classes of linux/can/error.h.
 std::string controller_text(std::uint32_t classes) {

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <charconv>
-#include <iterator>
 #include <optional>
 
 #include "adapters/uim342/wire_instructions.hpp"
@@ -158,20 +157,10 @@ std::string value_text(const Instruction& i, std::uint8_t index, std::int64_t v)
         case cw::MO:
             return fmt::format("{} (driver {})", v, v ? "on" : "off");
         case cw::DV:
-            switch (index) {
-                case 0:
-                    return fmt::format("{} ({})", v, v == 0 ? "JOG" : v == 1 ? "PTP" : "mode unknown");
-                case 1:
-                    return fmt::format("{} (desired current {}.{} A)", v, v / 10, v % 10);
-                case 2:
-                    return fmt::format("{} (desired speed)", v);
-                case 3:
-                    return fmt::format("{} (desired relative position)", v);
-                case 4:
-                    return fmt::format("{} (desired absolute position)", v);
-                default:
-                    return fmt::format("{}", v);
-            }
+            if (index == 0) return fmt::format("{} ({})", v, v == 0 ? "JOG" : v == 1 ? "PTP" : "mode unknown");
+            if (index == 1) return fmt::format("{} (desired current {}.{} A)", v, v / 10, v % 10);
+            if (index > 4) return fmt::format("{}", v);
+            return fmt::format("{} (desired {})", v, index == 2 ? "speed" : index == 3 ? "relative position" : "absolute position");
         case cw::IL:
             if (index == 3) return fmt::format("{} (after a stall: {})", v, v ? "driver off" : "stop and hold");
             return fmt::format("0x{:04X} (falling: {}; rising: {})", v, edge_text(static_cast<std::uint8_t>(v)),
@@ -239,10 +228,7 @@ std::string name_of_request(std::uint8_t cw, std::uint8_t index) {
 }
 
 std::string hex_of(const Message& m) {
-    std::string s = fmt::format("{:02X} {:02X}", m.cw, m.dl);
-    for (const auto b : m.data())
-        fmt::format_to(std::back_inserter(s), " {:02X}", b);
-    return s;
+    return fmt::format("{:02X} {:02X}{}{:02X}", m.cw, m.dl, m.dl == 0 ? "" : " ", fmt::join(m.data(), " "));
 }
 
 std::string describe_error(std::uint8_t code) { return fmt::format("0x{:02X} ({})", code, error_text(code)); }
@@ -269,24 +255,9 @@ std::string describe_request(const Message& m) {
             } else if (i->data != Data::none) {
                 Message whole = m;  // short data words are zero-extended (erratum E-10)
                 whole.dl = 8;
-                std::uint8_t* p = whole.d.data() + (i->indexed ? 1 : 0);
                 for (std::uint8_t k = m.dl; k < 8; ++k)
                     whole.d[k] = 0;
-                std::int64_t v = 0;
-                switch (i->data) {
-                    case Data::u8:
-                        v = *p;
-                        break;
-                    case Data::u16:
-                        v = get_u16(p);
-                        break;
-                    case Data::u32:
-                        v = get_u32(p);
-                        break;
-                    default:
-                        v = get_i32(p);
-                        break;
-                }
+                const std::int64_t v = value_of(m, whole).value_or(0);
                 s += i->cw == cw::IL || i->cw == cw::TG ? "=" + value_text(*i, m.d[0], v) : fmt::format("={}", v);
                 if (m.dl < i->set_dl) s += fmt::format(" ({} data bytes, zero-extended)", m.dl);
             }

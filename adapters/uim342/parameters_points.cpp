@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <iterator>
 #include <string>
 
 namespace axisgate::uim342 {
@@ -26,13 +25,6 @@ std::optional<std::int64_t> key(const boost::json::object& o, std::string_view n
 std::uint8_t small(const boost::json::object& o, std::string_view name, std::uint8_t otherwise) {
     const auto v = key(o, name);
     return v && *v >= 0 && *v <= 255 ? static_cast<std::uint8_t>(*v) : otherwise;
-}
-
-std::string hex_text(std::span<const std::uint8_t> data) {
-    std::string s;
-    for (const auto b : data)
-        fmt::format_to(std::back_inserter(s), "{}{:02X}", s.empty() ? "" : " ", b);
-    return s;
 }
 
 bool is_signed(ValueType t) {
@@ -88,10 +80,8 @@ std::optional<Value> Points::value(const Binding& b, const Message& answer) {
     }
     if (width == 0 || at + width > answer.dl) return std::nullopt;
     const std::uint8_t* p = answer.d.data() + at;
-    if (b.type == ValueType::text || b.type == ValueType::bytes) return Value{hex_text({p, width})};
-    std::uint64_t raw = 0;
-    for (std::uint8_t k = 0; k < width; ++k)
-        raw |= std::uint64_t{p[k]} << (8 * k);
+    if (b.type == ValueType::text || b.type == ValueType::bytes) return Value{fmt::format("{:02X}", fmt::join(p, p + width, " "))};
+    std::uint64_t raw = get_uint(p, width);
     unsigned bits = width * 8u;
     if (b.bits != 0) {
         raw >>= b.bit;

@@ -1,6 +1,8 @@
-// Drive, part start-up: is it there, what is it, what does it hold; and what follows when it falls silent or restarts.
-// In: answers to ML and to the reads of the list below. Out: DriveLink, samples of everything read, the node made ready.
-// Never writes to the drive but MF=0, which changes no value: a group left selected by somebody else would falsify the reads.
+// Start: the list that is read, and what each answer leads to.
+// In: answers of the drive. Out: the next read; presence, identity, what a restart has lost.
+// Never asks for ever: what two tries do not get stays unknown.
+#include "adapters/uim342/start.hpp"
+
 #include <fmt/core.h>
 
 #include "adapters/uim342/drive.hpp"
@@ -27,134 +29,118 @@ constexpr Duration boot_time = std::chrono::milliseconds(300);  // not in the ma
 constexpr Read read_at(std::size_t n) { return n < core.size() ? core[n] : rest[n - core.size()]; }
 }  // namespace
 
-void Drive::begin_probing(Turn& t) {
-    presence_.begin(t.now);
-    stop_polls();
+void Start::begin(Turn& t) {
+    drive_.presence.begin(t.now);
+    drive_.polls.stop();
 }
 
-void Drive::stop_polls() noexcept {
-    poll_.stop();
-    poll_speed_ = false;
-    read_error_ = false;
+void Start::probe(Turn& t) {
+    drive_.presence.probe_sent();
+    drive_.exchanges.send({drive_.get(cw::ML), Purpose::probe}, 0, Priority::poll, t);
 }
 
-/// Its presence has been lost just now.
-void Drive::went_absent(Turn& t, std::string why) {
-    before_ = {status_known_ && position_known_, status_.on, fb_.referenced, fb_.position, cause_ == Cause::own};
-    stop_polls();
-    fail_all(Reason::no_answer, why, t);
-    presence_.report(std::move(why), t.out);
+void Start::lost(Turn& t, std::string why) {
+    const Feedback& feedback = drive_.feedback;
+    before_ = {feedback.status_known() && feedback.position_known(), feedback.status().on, feedback.fb().referenced, feedback.fb().position,
+               drive_.errors.ours()};
+    drive_.polls.stop();
+    drive_.fail_all(Reason::no_answer, why, t);
+    drive_.presence.report(std::move(why), t.out);
 }
 
-void Drive::probe_answered(const Message& m, Turn& t) {
+/// Whoever refuses ML is no UIM342 as the manual has it, or not ready: what waits is answered now, and it is asked again.
+void Start::probe_refused(Turn& t) {
+    drive_.presence.lose(t.now, drive_.bus.timing.pause_max);
+    lost(t, fmt::format("ID {} refuses to tell its model", drive_.address()));
+}
+
+void Start::probe_answered(const Message& m, Turn& t) {
     const Model model = model_of(m);
     if (model.gateway) {
-        presence_.lose(t.now, bus_.timing.pause_max);
-        return went_absent(t,
-                           fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", address_, model.name));
+        drive_.presence.lose(t.now, drive_.bus.timing.pause_max);
+        return lost(
+            t, fmt::format("at ID {} answers a gateway ({}), not a UIM342: correct the drive's address", drive_.address(), model.name));
     }
     const unsigned firmware = m.dl >= 6 ? get_u16(&m.d[4]) : 0u;
+    identity_ = fmt::format("{}, firmware {}", model.name, firmware);
     if (model.name.empty()) {
         identity_ = fmt::format("unknown model ({}), firmware {}", hex_of(m), firmware);
-        notice(Severity::warning, "model", 0,
-               fmt::format("ID {} answers ML with {}: not a model of the UIM342 manual; it is treated as one", address_, hex_of(m)), t);
-    } else {
-        identity_ = fmt::format("{}, firmware {}", model.name, firmware);
+        drive_.notice(
+            Severity::warning, "model", 0,
+            fmt::format("ID {} answers ML with {}: not a model of the UIM342 manual; it is treated as one", drive_.address(), hex_of(m)),
+            t);
     }
-    presence_.found();
-    presence_.report(identity_, t.out);
-    bus_.points.each(m, 0, [&](const Binding& b, Value v) {
-        t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
-    });
-    status_known_ = position_known_ = rest_unread_ = false;
-    // A refusal of before the silence is no fault after it; a restart clears the flag, and then it says nothing.
-    cause_ = before_.known && before_.own_error ? Cause::own : Cause::none;
-    alarm_ = 0;
-    motion_ = {};
-    forget_demand();
-    prepared_ = false;
-    stop_ramp_ = false;
-    fb_.target_reached = false;
-    fb_.homing_error = false;
-    begin_reading(t, true);
+    drive_.presence.found();
+    drive_.presence.report(identity_, t.out);
+    drive_.publish(m, 0, t);
+    drive_.errors.found(before_.known && before_.own_error);
+    drive_.feedback.found();
+    drive_.stops.ramp_over();
+    drive_.demand.forget();
+    drive_.together.unprepare();
+    read_all();
 }
 
-/// `from_nothing`: nothing of before is trusted. Else the drive goes on being used, but its RAM may have changed.
-void Drive::begin_reading(Turn& t, bool from_nothing) {
-    (void)t;
+void Start::read_again() {
+    if (reading_.pending()) return;
     reading_.begin(core.size(), all);
-    mf_unknown_ = true;
-    ac_.reset();
-    dc_.reset();
-    ss_.reset();
-    sd_.reset();
-    time_ramps_.reset();
-    for (auto& v : il_)
-        v.reset();
-    for (auto& v : tg_)
-        v.reset();
-    if (!from_nothing) return;
-    auto_on_.reset();
-    absolute_encoder_.reset();
-    battery_ok_.reset();
-    notifies_.reset();
-    closed_loop_.reset();
-    ptp_speed_.reset();
+    drive_.exchanges.mf_unknown = true;
+    drive_.known.ram = {};
 }
 
-void Drive::startup_next(Turn& t) {
+void Start::read_all() {
+    reading_.begin(core.size(), all);
+    drive_.exchanges.mf_unknown = true;
+    drive_.known.forget();
+}
+
+void Start::read_next(Turn& t) {
     const Read r = read_at(reading_.at());
-    const Message m = msg_get(r.cw, r.index);
-    if (late_.has(mark_of(m))) return go_barrier(t);
-    if (mf_unknown_ && instruction(r.cw)->takes_mf)
-        return send_exchange(msg_set(cw::MF, 0), Purpose::clear_mf, 0, bus_.timing.retries, Priority::poll, t);
-    if (reading_.given_up()) {
-        // Everything else is answered but not this one: leave it unknown rather than ask for ever.
-        notice(Severity::warning, "protocol", 0, fmt::format("{} is not answered; its value stays unknown", describe_request(m)), t);
-        startup_step_done(t);
-        if (!reading_.pending() || exchange_.active() || !presence_.is(Phase::starting)) return;
-        return startup_next(t);
-    }
-    send_exchange(m, Purpose::startup, 0, bus_.timing.retries, Priority::poll, t);
+    const Message m = drive_.get(r.cw, r.index);
+    if (drive_.exchanges.makes_way(m, 0, Priority::poll, t)) return;
+    if (!reading_.given_up()) return drive_.exchanges.send({m, Purpose::startup}, drive_.bus.timing.retries, Priority::poll, t);
+    // Everything else is answered but not this one: leave it unknown rather than ask for ever.
+    drive_.notice(Severity::warning, "protocol", 0, fmt::format("{} is not answered; its value stays unknown", describe_request(m)), t);
+    step_done(t);
+    if (reading_.pending() && drive_.presence.is(drive::Presence::Phase::starting)) read_next(t);
 }
 
-void Drive::startup_step_done(Turn& t) {
+void Start::step_done(Turn& t) {
     if (reading_.done()) core_known(t);
 }
 
 /// Everything is known that commands rest on.
-void Drive::core_known(Turn& t) {
-    const bool first = presence_.is(Phase::starting);
-    presence_.made_ready();
+void Start::core_known(Turn& t) {
+    const bool first = drive_.presence.is(drive::Presence::Phase::starting);
+    const Known& known = drive_.known;
+    Feedback& feedback = drive_.feedback;
+    drive_.presence.made_ready();
     if (first) {
         // A restart loses the zero of an incremental encoder. A drive that is still on (and does not switch itself on), or still
         // stands where it stood (a restart begins at 0), was only out of reach.
-        const bool stayed_on = before_.on && status_.on && auto_on_ == false;
-        const bool stayed_there = before_.position != 0 && fb_.position == before_.position && absolute_encoder_ == false;
-        const bool same = before_.known && position_known_ && (stayed_on || stayed_there);
-        fb_.referenced = same && before_.referenced;
-        if (!fb_.referenced) fb_.homing_attained = false;
+        const bool stayed_on = before_.on && feedback.status().on && known.auto_on == false;
+        const bool stayed_there = before_.position != 0 && feedback.fb().position == before_.position && known.absolute_encoder == false;
+        const bool same = before_.known && feedback.position_known() && (stayed_on || stayed_there);
+        same&& before_.referenced ? feedback.zero_known() : feedback.zero_lost();
         if (before_.known && !same) {
-            notice(Severity::info, "presence", 0, "the drive was away and may have been restarted: values kept in RAM alone are lost", t);
+            drive_.notice(Severity::info, "presence", 0,
+                          "the drive was away and may have been restarted: values kept in RAM alone are lost", t);
         }
         before_ = {};
-        power_expected_ = status_.on;
-        poll_.begin(t.now, bus_.timing.poll_period, slot_);
+        feedback.power_as_found();
+        drive_.polls.begin(t.now);
     }
-    if (options_.absolute_known && absolute_encoder_ == true && battery_ok_ != false) fb_.referenced = true;
-    derive(t);
-    emit(t);
+    if (drive_.options.absolute_known && known.absolute_encoder == true && known.battery_ok != false) feedback.zero_known();
+    feedback.update(t);
 }
 
-/// SY[1] has been sent; nothing acknowledges it [L1216].
-void Drive::reboot_begun(Turn& t) {
+void Start::reboot_begun(Turn& t) {
     before_ = {};
-    fb_.referenced = false;
-    fb_.homing_attained = false;
-    fail_all(Reason::interrupted, "the drive is restarted", t);
-    restore_ = {};
-    presence_.restart(t.now, boot_time);
-    stop_polls();
+    drive_.feedback.zero_lost();
+    drive_.fail_all(Reason::interrupted, "the drive is restarted", t);
+    drive_.homing.nothing_to_put_back();
+    drive_.presence.restart(t.now, boot_time);
+    drive_.polls.stop();
 }
 
 }  // namespace axisgate::uim342

@@ -16,23 +16,21 @@ Message message(std::uint8_t id, std::uint8_t cw, std::span<const std::uint8_t> 
     return m;
 }
 
-std::uint16_t get_u16(const std::uint8_t* p) noexcept { return static_cast<std::uint16_t>(p[0] | p[1] << 8); }
-std::uint32_t get_u32(const std::uint8_t* p) noexcept {
-    return p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16 | std::uint32_t{p[3]} << 24;
+std::uint64_t get_uint(const std::uint8_t* p, unsigned width) noexcept {
+    std::uint64_t v = 0;
+    for (unsigned i = 0; i < width; ++i)
+        v |= std::uint64_t{p[i]} << (8 * i);
+    return v;
 }
+std::uint16_t get_u16(const std::uint8_t* p) noexcept { return static_cast<std::uint16_t>(get_uint(p, 2)); }
+std::uint32_t get_u32(const std::uint8_t* p) noexcept { return static_cast<std::uint32_t>(get_uint(p, 4)); }
 std::int32_t get_i32(const std::uint8_t* p) noexcept { return static_cast<std::int32_t>(get_u32(p)); }
-std::int32_t get_i24(const std::uint8_t* p) noexcept {
-    const std::uint32_t v = p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16;
-    return static_cast<std::int32_t>(v & 0x80'0000u ? v | 0xFF00'0000u : v);
+std::int32_t get_i24(const std::uint8_t* p) noexcept { return static_cast<std::int32_t>(get_uint(p, 3) << 8) >> 8; }
+void put_uint(std::uint8_t* p, unsigned width, std::uint64_t v) noexcept {
+    for (unsigned i = 0; i < width; ++i)
+        p[i] = static_cast<std::uint8_t>(v >> (8 * i));
 }
-void put_u16(std::uint8_t* p, std::uint16_t v) noexcept {
-    p[0] = static_cast<std::uint8_t>(v);
-    p[1] = static_cast<std::uint8_t>(v >> 8);
-}
-void put_u32(std::uint8_t* p, std::uint32_t v) noexcept {
-    put_u16(p, static_cast<std::uint16_t>(v));
-    put_u16(p + 2, static_cast<std::uint16_t>(v >> 16));
-}
+void put_u16(std::uint8_t* p, std::uint16_t v) noexcept { put_uint(p, 2, v); }
 
 Frame to_can(const Message& m, std::uint8_t producer) noexcept { return Frame::can_extended(can_id(producer, m.id, m.cw), m.data()); }
 
@@ -85,84 +83,54 @@ Notification notification_of(const Message& rt) noexcept {
     return n;
 }
 
-bool error_known(std::uint8_t code) noexcept {
-    return code == 0x32 || code == 0x33 || code == 0x34 || (code >= 0x3C && code <= 0x3F) || code == 0x41;
+namespace {
+struct Word {
+    std::uint8_t code;
+    std::string_view text;
+};
+constexpr std::array error_words{
+    Word{0x00, "no error"},
+    Word{0x32, "syntax error"},
+    Word{0x33, "data error"},
+    Word{0x34, "sub-index error"},
+    Word{0x3C, "SD is less than DC"},
+    Word{0x3D, "not allowed while the motor runs"},
+    Word{0x3E, "BG is not allowed while the driver is off"},
+    Word{0x3F, "BG is not allowed during an emergency stop"},
+    Word{0x41, "OG is not allowed while the motor runs"},
+};
+constexpr std::array alarm_words{
+    Word{0x0A, "emergency stop and lock"},       Word{0x19, "speed over its limit"}, Word{0x1A, "below the lower working limit"},
+    Word{0x1B, "above the upper working limit"}, Word{0x1D, "motor stall"},          Word{0x1E, "encoder error"},
+    Word{0x1F, "encoder battery low"},
+};
+std::string_view text_in(std::span<const Word> words, std::uint8_t code, std::string_view otherwise) noexcept {
+    const auto w = std::ranges::find(words, code, &Word::code);
+    return w == words.end() ? otherwise : w->text;
 }
 
-std::string_view error_text(std::uint8_t code) noexcept {
-    switch (code) {
-        case 0x00:
-            return "no error";
-        case 0x32:
-            return "syntax error";
-        case 0x33:
-            return "data error";
-        case 0x34:
-            return "sub-index error";
-        case 0x3C:
-            return "SD is less than DC";
-        case 0x3D:
-            return "not allowed while the motor runs";
-        case 0x3E:
-            return "BG is not allowed while the driver is off";
-        case 0x3F:
-            return "BG is not allowed during an emergency stop";
-        case 0x41:
-            return "OG is not allowed while the motor runs";
-        default:
-            return "an error that the manual does not name";
-    }
-}
+/// -1: whatever it is. Gateways by the second byte, as public programs list them.
+struct ModelRow {
+    int a, b, c;
+    Model model;
+};
+constexpr std::array models{
+    ModelRow{0x20, 0x0A, 0x11, {"UIM342XS"}},    ModelRow{0x21, 0x0A, 0x11, {"UIM342S"}},     ModelRow{0x22, 0x14, 0x13, {"UIM342C02"}},
+    ModelRow{0x22, 0x28, 0x13, {"UIM342C04"}},   ModelRow{0x22, 0x50, 0x13, {"UIM342C08"}},   ModelRow{0x22, 0x50, 0x19, {"UIM342H08"}},
+    ModelRow{0x19, 0x0D, -1, {"UIM2513", true}}, ModelRow{0x19, 0x16, -1, {"UIM2522", true}}, ModelRow{0x19, 0x17, -1, {"UIM2523", true}},
+    ModelRow{0x19, 0x21, -1, {"UIM2533", true}}, ModelRow{0x5A, -1, -1, {"MMC90x", true}},
+};
+}  // namespace
 
-std::string_view alarm_text(std::uint8_t code) noexcept {
-    switch (code) {
-        case 0x0A:
-            return "emergency stop and lock";
-        case 0x19:
-            return "speed over its limit";
-        case 0x1A:
-            return "below the lower working limit";
-        case 0x1B:
-            return "above the upper working limit";
-        case 0x1D:
-            return "motor stall";
-        case 0x1E:
-            return "encoder error";
-        case 0x1F:
-            return "encoder battery low";
-        default:
-            return {};
-    }
-}
+std::string_view error_text(std::uint8_t code) noexcept { return text_in(error_words, code, "an error that the manual does not name"); }
+std::string_view alarm_text(std::uint8_t code) noexcept { return text_in(alarm_words, code, {}); }
 
 Model model_of(const Message& ml) noexcept {
     if (ml.dl < 3) return {};
-    const std::uint8_t a = ml.d[0], b = ml.d[1], c = ml.d[2];
-    if (a == 0x20 && b == 0x0A && c == 0x11) return {"UIM342XS"};
-    if (a == 0x21 && b == 0x0A && c == 0x11) return {"UIM342S"};
-    if (a == 0x22 && c == 0x13) {
-        if (b == 0x14) return {"UIM342C02"};
-        if (b == 0x28) return {"UIM342C04"};
-        if (b == 0x50) return {"UIM342C08"};
-    }
-    if (a == 0x22 && b == 0x50 && c == 0x19) return {"UIM342H08"};
-    // Gateways by the second byte, as public programs list them.
-    if (a == 0x19) {
-        switch (b) {
-            case 0x0D:
-                return {"UIM2513", true};
-            case 0x16:
-                return {"UIM2522", true};
-            case 0x17:
-                return {"UIM2523", true};
-            case 0x21:
-                return {"UIM2533", true};
-            default:
-                break;
-        }
-    }
-    if (a == 0x5A) return {"MMC90x", true};
-    return {};
+    const auto is = [](int wanted, std::uint8_t byte) { return wanted < 0 || wanted == byte; };
+    const auto row =
+        std::ranges::find_if(models, [&](const ModelRow& r) { return is(r.a, ml.d[0]) && is(r.b, ml.d[1]) && is(r.c, ml.d[2]); });
+    return row == models.end() ? Model{} : row->model;
 }
 
 }  // namespace axisgate::uim342

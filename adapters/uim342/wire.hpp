@@ -44,12 +44,14 @@ struct Message {
 
 // --- numbers in data bytes: least significant byte first [L532] ---------------------------------------------------------
 
+/// `width` 0..8 bytes, without a sign.
+[[nodiscard]] std::uint64_t get_uint(const std::uint8_t* p, unsigned width) noexcept;
 [[nodiscard]] std::uint16_t get_u16(const std::uint8_t* p) noexcept;
 [[nodiscard]] std::int32_t get_i24(const std::uint8_t* p) noexcept;
 [[nodiscard]] std::uint32_t get_u32(const std::uint8_t* p) noexcept;
 [[nodiscard]] std::int32_t get_i32(const std::uint8_t* p) noexcept;
+void put_uint(std::uint8_t* p, unsigned width, std::uint64_t v) noexcept;
 void put_u16(std::uint8_t* p, std::uint16_t v) noexcept;
-void put_u32(std::uint8_t* p, std::uint32_t v) noexcept;
 
 // --- CAN identifier [L623-690] ------------------------------------------------------------------------------------------
 
@@ -111,9 +113,8 @@ struct Notification {
 
 // --- words ----------------------------------------------------------------------------------------------------------------
 
-/// "data error" for 0x33 ...; "error that this manual does not name" for codes it leaves free [L560-567].
+/// "data error" for 0x33 ...; "an error that the manual does not name" for codes it leaves free [L560-567].
 [[nodiscard]] std::string_view error_text(std::uint8_t code) noexcept;
-[[nodiscard]] bool error_known(std::uint8_t code) noexcept;
 /// "motor stall" for 0x1D ... [L593-606]; empty if unknown.
 [[nodiscard]] std::string_view alarm_text(std::uint8_t code) noexcept;
 

@@ -23,16 +23,7 @@ constexpr std::array<std::uint8_t, 2> sy_indices{1, 2};
 
 constexpr Instruction row(std::uint8_t cw, std::string_view name, std::string_view title, bool indexed, int get_dl, int set_dl, Data data,
                           SetAnswer answer, Storage storage, std::span<const std::uint8_t> indices = {}) {
-    Instruction i;
-    i.cw = cw;
-    i.name = name;
-    i.title = title;
-    i.indexed = indexed;
-    i.get_dl = static_cast<std::int8_t>(get_dl);
-    i.set_dl = static_cast<std::int8_t>(set_dl);
-    i.data = data;
-    i.answer = answer;
-    i.storage = storage;
+    Instruction i{cw, name, title, indexed, static_cast<std::int8_t>(get_dl), static_cast<std::int8_t>(set_dl), data, answer, storage};
     i.repeatable = cw != cw::BG && cw != cw::SY;
     i.grouped = cw == cw::AC || cw == cw::DC || cw == cw::SP || cw == cw::PR || cw == cw::PA;
     i.takes_mf = i.grouped || cw == cw::SS || cw == cw::SD || cw == cw::JV || cw == cw::BL;
@@ -102,40 +93,11 @@ const Instruction* instruction_named(std::string_view name) noexcept {
     return nullptr;
 }
 
-bool has_index(const Instruction& i, std::uint8_t index) noexcept { return std::ranges::find(i.indices, index) != i.indices.end(); }
-
-std::uint8_t width_of(Data data) noexcept {
-    switch (data) {
-        case none:
-            return 0;
-        case u8:
-            return 1;
-        case u16:
-            return 2;
-        case u32:
-        case i32:
-            return 4;
-        case raw:
-            return 0;
-    }
-    return 0;
-}
+std::uint8_t width_of(Data data) noexcept { return data == u8 ? 1 : data == u16 ? 2 : data == u32 || data == i32 ? 4 : 0; }
 
 Range range_of(Data data) noexcept {
-    switch (data) {
-        case u8:
-            return {0, 0xFF};
-        case u16:
-            return {0, 0xFFFF};
-        case u32:
-            return {0, 0xFFFF'FFFFLL};
-        case i32:
-            return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
-        case none:
-        case raw:
-            break;
-    }
-    return {};
+    if (data == i32) return {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()};
+    return {0, (std::int64_t{1} << 8 * width_of(data)) - 1};
 }
 
 Form form_of(const Message& m) noexcept {
@@ -169,19 +131,7 @@ Message make_set(std::uint8_t node, const Instruction& i, std::uint8_t index, st
         m.d[1] = 1;  // d1 = 1: the output is to be written [L1677]
         return m;
     }
-    switch (width_of(i.data)) {
-        case 1:
-            *p = static_cast<std::uint8_t>(value);
-            break;
-        case 2:
-            put_u16(p, static_cast<std::uint16_t>(value));
-            break;
-        case 4:
-            put_u32(p, static_cast<std::uint32_t>(value));
-            break;
-        default:
-            break;
-    }
+    put_uint(p, width_of(i.data), static_cast<std::uint64_t>(value));
     return m;
 }
 
@@ -193,26 +143,11 @@ Message act(std::uint8_t node, std::uint8_t cw) noexcept { return make_set(node,
 
 std::optional<std::int64_t> value_of(const Message& request, const Message& answer) noexcept {
     const Instruction* i = instruction(request.cw);
-    if (!i || answer.function() == cw::ER) return std::nullopt;
-    const bool indexed = answer.function() == cw::DV || i->indexed;
-    const std::uint8_t at = indexed ? 1 : 0;
-    if (answer.dl < at + width_of(i->data)) return std::nullopt;
+    if (!i || answer.function() == cw::ER || i->cw == cw::MS) return std::nullopt;
+    const unsigned at = answer.function() == cw::DV || i->indexed ? 1 : 0, width = width_of(i->data);
+    if (width == 0 || answer.dl < at + width) return std::nullopt;
     const std::uint8_t* p = answer.d.data() + at;
-    if (i->cw == cw::MS) return std::nullopt;
-    switch (i->data) {
-        case u8:
-            return *p;
-        case u16:
-            return get_u16(p);
-        case u32:
-            return get_u32(p);
-        case i32:
-            return get_i32(p);
-        case none:
-        case raw:
-            break;
-    }
-    return std::nullopt;
+    return i->data == i32 ? get_i32(p) : static_cast<std::int64_t>(get_uint(p, width));
 }
 
 std::optional<ErrorReport> error_report_of(const Message& m) noexcept {
@@ -251,26 +186,10 @@ Match match(const Message& request, const Message& arrived) noexcept {
         if (arrived.dl == 0) return Match::torn;
         if (arrived.d[0] != request.d[0]) return Match::no;
     }
-    std::uint8_t need = 0;
-    switch (i->cw) {
-        case cw::ML:
-            need = 3;
-            break;
-        case cw::SN:
-            need = 4;
-            break;
-        case cw::MS:
-            need = 8;
-            break;
-        case cw::BG:
-        case cw::ST:
-        case cw::OG:
-            need = 0;
-            break;
-        default:
-            need = static_cast<std::uint8_t>((i->indexed ? 1 : 0) + width_of(i->data));
-            break;
-    }
+    std::size_t need = (i->indexed ? 1u : 0u) + width_of(i->data);
+    if (i->cw == cw::ML) need = 3;
+    if (i->cw == cw::SN) need = 4;
+    if (i->cw == cw::MS) need = 8;
     return arrived.dl >= need ? Match::answer : Match::torn;
 }
 

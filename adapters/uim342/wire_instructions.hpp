@@ -59,7 +59,6 @@ struct Instruction {
 [[nodiscard]] const Instruction* instruction(std::uint8_t cw) noexcept;
 /// By mnemonic, any case; nullptr if there is none.
 [[nodiscard]] const Instruction* instruction_named(std::string_view name) noexcept;
-[[nodiscard]] bool has_index(const Instruction& i, std::uint8_t index) noexcept;
 
 enum class Form : std::uint8_t { unknown, get, set };
 /// What an instruction's DL makes of it; short data words of the non-indexed 32-bit instructions are SETs (erratum E-10).

@@ -19,6 +19,7 @@ constexpr std::array<std::uint16_t, 256> make_table() noexcept {
 }
 constexpr auto crc_table = make_table();
 constexpr std::uint8_t with_crc = 0xAA, without_crc = 0xAD, end_byte = 0xCC;
+constexpr std::array<std::string_view, 4> crc_names{"12", "13", "auto", "none"};  // as CrcMode counts
 }  // namespace
 
 std::uint16_t crc16(std::span<const std::uint8_t> data) noexcept {
@@ -28,25 +29,12 @@ std::uint16_t crc16(std::span<const std::uint8_t> data) noexcept {
     return crc;
 }
 
-std::optional<CrcMode> crc_mode_named(std::string_view text) noexcept {
-    for (const auto m : {CrcMode::twelve, CrcMode::thirteen, CrcMode::automatic, CrcMode::none}) {
-        if (text == name_of(m)) return m;
-    }
-    return std::nullopt;
-}
+std::string_view name_of(CrcMode mode) noexcept { return crc_names[static_cast<std::size_t>(mode)]; }
 
-std::string_view name_of(CrcMode mode) noexcept {
-    switch (mode) {
-        case CrcMode::twelve:
-            return "12";
-        case CrcMode::thirteen:
-            return "13";
-        case CrcMode::automatic:
-            return "auto";
-        case CrcMode::none:
-            return "none";
-    }
-    return "12";
+std::optional<CrcMode> crc_mode_named(std::string_view text) noexcept {
+    const auto n = std::ranges::find(crc_names, text);
+    if (n == crc_names.end()) return std::nullopt;
+    return static_cast<CrcMode>(n - crc_names.begin());
 }
 
 UiBytes to_uimessage(const Message& m, CrcMode mode) noexcept {

@@ -317,12 +317,15 @@ int main(int argc, char** argv) {
     const auto runs = [&](const char* name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); };
     bool kept = true;
     for (const auto& e : test::families().entries) {
-        // A serial line of one control carries some ten questions a second: the figure is for buses.
-        if (runs("thousand") && e.family->uses_can) kept &= bench::run_thousand(e);
+        // A serial line of one control carries some ten questions a second: the figure is for buses whose drives are asked. CANopen's tell
+        // by SYNC, and forty of them fill a bus at a third of that rate; their heartbeat wakes them when nobody asks. bench_cia402 has
+        // their figures.
+        const bool asked = e.family->name != "cia402" && e.family->name != "aposs";
+        if (runs("thousand") && e.family->uses_can && asked) kept &= bench::run_thousand(e);
         // A control that is alone on its line cannot be sixteen there.
         if (runs("world") && bench::addresses_for(e, 16).size() == 16) kept &= bench::run_world(e, world);
         // A hundred drives are not set in motion over one slow serial line in the time that this takes.
-        if (runs("unobserved") && e.family->uses_can) kept &= bench::run_unobserved(e);
+        if (runs("unobserved") && e.family->uses_can && asked) kept &= bench::run_unobserved(e);
     }
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
     return kept || report_only ? 0 : 1;

@@ -105,6 +105,9 @@ protected:
             p.seen.push_back(twin->mechanics(1, now));
         }
         pass(last + 9s);
+        // One that watches its master has stopped meanwhile: a cause of its own, which needs one call, however late.
+        if (twin->deadline() <= now) twin->on_deadline(now, out);
+        take();
         p.seen.push_back(twin->mechanics(1, now));
         Frame again = heard.back();  // the last question once more
         again.at = now;

@@ -12,6 +12,8 @@ import subprocess
 import sys
 import tempfile
 
+import classes
+
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # arpa/inet.h is none: it makes addresses of texts, and opens nothing.
 SYSTEM_EDGES = ("boost/asio", "boost/beast", "sys/", "linux/", "netinet/", "termios", "unistd", "fcntl", "pthread", "thread", "mutex",
@@ -25,18 +27,19 @@ ROOMS = {
     "axis": ("core", "site"),
     "protocols/canopen": ("core",),
     "protocols/cip": ("core",),
+    "protocols/mirror": ("core",),
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
     "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
-    "doors/modbus": ("core", "site", "axis", "registers", "engine"),
-    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
-    "doors/dds": ("core", "site", "axis", "services"),
+    "doors/modbus": ("core", "site", "axis", "registers", "engine", "lines/poller.hpp"),
+    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip", "lines/poller.hpp"),
+    "doors/dds": ("core", "site", "axis", "services", "protocols/mirror"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
-PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")
+PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "protocols/mirror", "drive", "engine", "registers", "services", "adapter", "twin")
 
 
 # What a family's files are called, so that who knows one family knows all: see CONTRIBUTING. A role that a family does not need is absent.
@@ -54,7 +57,7 @@ def role_faults(family, names):
 
 
 # A family whose drives are another family's with more to them stands on that one: it may include its adapter's and its twin's files.
-STANDS_ON = {"aposs": "cia402"}
+STANDS_ON = {"aposs": "cia402", "remote": "cia402"}
 
 
 def room(path):
@@ -127,6 +130,7 @@ RULES = {
     "head": "a file opens with what it is, what comes in, what goes out, what it never does",
     "once": "a header has #pragma once",
     "length": "a file is one thing",
+    "classes": f"a class has at most {classes.LIMIT} functions",
     "families": "a family is a folder and a page of data",
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
@@ -195,6 +199,11 @@ def main():
             missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
             if missing:
                 faults.append(("errata", f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md"))
+    headers = [p for p in sources if p.suffix == ".hpp" and p.relative_to(TOP).parts[0] in ("gateway", "adapters")]
+    counted = [(str(p.relative_to(TOP)), *c) for p in headers for c in classes.functions_of(p.read_text(encoding="utf-8"))]
+    faults += [("classes", what) for what in classes.faults_of(counted)]
+    if not classes.holds():
+        faults.append(("classes", "the rule no longer finds what it is for"))
     faults += [("format", what) for what in misformatted(sources)]
     with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=TOP / "tests/tidy") as probe:
         probe.write("int  x ;\n")

@@ -9,21 +9,14 @@
 #include <string>
 #include <string_view>
 
-#include "adapters/aposs/twin/objects.hpp"
-#include "adapters/cia402/twin/servo.hpp"
+#include "adapters/aposs/twin/coupling.hpp"
 
 namespace axisgate::aposs {
 using cia402_drive::twin::Device;
-using cia402_drive::twin::Servo;
 
 class Macs final : public Device {
 public:
-    /// Errors with a number of the manual's go out as EMCY FF00h + number: the manual prints no EMCY codes.
-    static constexpr std::uint16_t error_base = 0xFF00;
-    static constexpr std::uint16_t homing_wanted = error_base + 6, guarding_failed = error_base + 88, limit_violated = error_base + 98,
-                                   i2t_limit = error_base + 99;
-
-    Macs(const Objects& objects, canopen::Dictionary& dictionary);
+    Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel);
 
     void power_on(Instant now) override;
     void power_off(Instant now) override;
@@ -40,49 +33,51 @@ public:
     void save(NonVolatile& memory) override;
     void load(const NonVolatile& memory) override;
 
-    [[nodiscard]] Servo& axis(int channel) { return servos_[static_cast<std::size_t>(channel - 1)]; }
-    [[nodiscard]] const Servo& axis(int channel) const { return servos_[static_cast<std::size_t>(channel - 1)]; }
+    /// From 1.
+    [[nodiscard]] MacsAxis& axis(int channel) { return axes_[static_cast<std::size_t>(channel - 1)]; }
+    [[nodiscard]] const MacsAxis& axis(int channel) const { return axes_[static_cast<std::size_t>(channel - 1)]; }
+    [[nodiscard]] Coupling& coupling() noexcept { return coupling_; }
+    [[nodiscard]] const Coupling& coupling() const noexcept { return coupling_; }
+    [[nodiscard]] const Objects& objects() const noexcept { return objects_; }
+    [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
+
+    void set_inputs(std::uint32_t mask, Instant now);
+    [[nodiscard]] const Terminals& terminals() const noexcept { return terminals_; }
+    [[nodiscard]] Terminals& terminals() noexcept { return terminals_; }
+    /// Outputs as they are now: those with a function (O_AXMOVE, O_ERROR) follow it.
+    [[nodiscard]] std::uint32_t outputs(Instant now) const;
+    /// Devices on the controller's own bus answer no guarding: error 88 as long as a coded type has one guarded [L1569-1581].
+    void set_bus_silent(bool silent, Instant now);
+    [[nodiscard]] bool bus_silent() const noexcept { return bus_silent_; }
 
     // the programs' side
-    void start_program();     ///< user values are in force again before it begins [L18]
-    void end_program();       ///< program values die [L71-75]
-    void reset_parameters();  ///< Controller > Reset: init values [L10]
+    void start_program();      ///< user values are in force again before it begins [L18]
+    void end_program();        ///< program values die [L71-75]
+    void escape(Instant now);  ///< Esc, I_BREAK: it ends as ESCCOND says
+    void reset_parameters();   ///< Controller > Reset: init values [L10]
     [[nodiscard]] bool program_runs() const noexcept { return program_; }
     [[nodiscard]] std::int64_t eprom_writes() const noexcept { return eprom_writes_; }
-
-    /// Electronic gear of the second axis to the first (SYNCV, SYNCP) or none; started by a program of the user, as no object for it is
-    /// printed. Empty, or why not.
-    enum class Gear : std::uint8_t { none, velocity, position };
-    [[nodiscard]] std::string set_gear(Gear gear, Instant now);
-    [[nodiscard]] Gear gear() const noexcept { return gear_; }
-
-    [[nodiscard]] std::int64_t value(std::string_view id, int axis = 0) const;
+    /// After anything that was done beside `written`: whether each millisecond is to be looked at from now on.
+    void begin_ticks(Instant now);
 
 private:
     void changed(const Key& key, Instant now);
-    void settle_axis(int axis, bool defaults);
-    void raise(int axis, std::uint16_t code, Instant now);
-    void follow(Instant at);
-    void use(const Row& row, std::int64_t value) { (void)d_.set(row.address, Value{value}); }
-    [[nodiscard]] bool homing_due(int axis) const;
+    void save_user();
+    [[nodiscard]] bool guards() const;
+    [[nodiscard]] bool ticks() const;
+    void check_position_errors(Instant now);
 
     const Objects& objects_;
     canopen::Dictionary& d_;
-    struct Shown {
-        const Row *place, *command, *old_command, *master, *home_force;
-    };
-    std::array<Shown, axes> shown_{};  ///< rows that are measured
-    std::deque<Servo> servos_;
+    Terminals terminals_;
+    std::deque<MacsAxis> axes_;
+    Coupling coupling_;
     std::map<Key, std::int64_t> user_;  ///< EPROM; what is not here is as the firmware has it
-    std::array<bool, axes> homed_{};    ///< since power-on, and since a change of a stored parameter (E-72)
-    std::vector<Told> told_;
     std::int64_t eprom_writes_ = 0;
-    bool program_ = false;
-    Gear gear_ = Gear::none;
-    double gear_master_ = 0, gear_slave_ = 0;  ///< where both were when it began
-    Instant ticked_{};
-    std::array<double, axes> simulated_master_{};       ///< SYSVAR 4105 as it is read: qc
-    std::array<std::int64_t, axes> simulated_speed_{};  ///< as it is written: qc per ms
+    bool program_ = false, bus_silent_ = false;
+    Instant ticked_{}, silent_since_{};
+    bool ticking_ = false;
+    std::array<bool, axes> in_position_error_{};
 };
 
 }  // namespace axisgate::aposs

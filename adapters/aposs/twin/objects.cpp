@@ -30,6 +30,13 @@ canopen::Entry entry_of(const Parameter& p) {
 }  // namespace
 
 Objects::Objects(const Catalogue& catalogue, std::uint8_t node) : factory_(cia402_drive::twin::factory_dictionary(node)) {
+    // HOME of the manual, as HOME_TYPE says, is a method of the maker's own beside those of CiA 402 (E-76).
+    const auto methods = factory_.integer({0x60E3, 0}).value_or(0);
+    canopen::Entry own = *factory_.find({0x60E3, 1});
+    own.name = "HOME by HOME_TYPE";
+    factory_.add({0x60E3, static_cast<std::uint8_t>(methods + 1)}, own);
+    (void)factory_.set({0x60E3, static_cast<std::uint8_t>(methods + 1)}, Value{std::int64_t{-1}});
+    (void)factory_.set({0x60E3, 0}, Value{methods + 1});
     // The second axis' objects of the profile, and the motions that this controller has: POSA and POSR, CVEL, HOME.
     const auto first = factory_.entries();
     for (const auto& [address, entry] : first) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "adapters/aposs/twin/macs.hpp"
+#include "adapters/aposs/twin/direct.hpp"
 #include "adapters/cia402/twin/node.hpp"
 
 namespace axisgate::aposs {
@@ -14,12 +14,18 @@ namespace {
 class MacsTwin final : public Twin {
 public:
     MacsTwin(const Catalogue& catalogue, const TwinSetup& setup)
-        : objects_(catalogue, number(setup)), node_(number(setup), objects_.factory()), macs_(objects_, node_.dictionary()) {
+        : objects_(catalogue, number(setup)),
+          node_(number(setup), objects_.factory()),
+          macs_(objects_, node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str())) {
         node_.attach(macs_);
     }
 
-    void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
+    void on_frame(const Frame& f, Instant now, Out& out) override {
+        at_ = now;
+        node_.on_frame(f, now, out);
+    }
     void on_deadline(Instant now, Out& out) override {
+        at_ = now;
         if (node_.powered()) node_.advance(now, out);
     }
     [[nodiscard]] Instant deadline() const override { return node_.deadline(); }
@@ -29,22 +35,30 @@ public:
     [[nodiscard]] bool fit_axes(int wanted, Instant) override { return wanted <= axes; }
 
     [[nodiscard]] std::vector<HandItem> hand() const override {
-        static constexpr const char* gears[] = {"none", "velocity", "position"};
+        static constexpr const char* gears[] = {"none", "velocity", "position", "marker"};
         std::vector<HandItem> items{
             {"power", Value{node_.powered()}, true, "supply of the controller"},
             {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
-            {"inputs", Value{static_cast<std::int64_t>(macs_.axis(1).inputs >> 16)}, true,
-             "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
+            {"inputs", Value{static_cast<std::int64_t>(macs_.terminals().inputs)}, true,
+             "digital inputs, bit mask: bit 0 is input 1; also those that parameters give a function or a marker; bits 16 to 31 of 60FDh"},
+            {"outputs", Value{static_cast<std::int64_t>(macs_.outputs(at_))}, false, "digital outputs, bit mask: bit 0 is output 1"},
             {"program", Value{macs_.program_runs()}, true,
              "a program runs; when it begins user values are in force again, when it ends program values die"},
-            {"gear", Value{std::string(gears[static_cast<std::size_t>(macs_.gear())])}, true,
-             "the second axis follows the first: none, velocity (SYNCV) or position (SYNCP), as a program of the user would start it"},
+            {"direct", Value{reply_}, true, "a statement of the direct mode, such as SYNCM x(2); it is shown with its answer"},
+            {"gear", Value{std::string(gears[static_cast<std::size_t>(macs_.coupling().of(1).mode())])}, true,
+             "the second axis follows the first: none, velocity (SYNCV), position (SYNCP) or marker (SYNCM), as a program would start it"},
+            {"bus_silent", Value{macs_.bus_silent()}, true, "devices on the controller's own bus answer no guarding (error 88)"},
             {"reset_parameters", Value{false}, true, "Controller > Reset: all parameters as the firmware has them"},
             {"eprom_writes", Value{macs_.eprom_writes()}, false, "how often SAVEPROM has written; an EPROM lasts for about 10000"}};
         for (int n = 1; n <= axes; ++n) {
-            const Servo& s = macs_.axis(n);
+            const MacsAxis& a = macs_.axis(n);
+            const Servo& s = a.servo();
             const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
-            items.push_back({p + "stall", Value{stalled_[static_cast<std::size_t>(n - 1)]}, true, "the shaft is held"});
+            items.push_back({p + "stall", Value{s.shaft().held()}, true, "the shaft is held"});
+            items.push_back({p + "load", Value{a.load}, true, "part of AMPMAXCUR that the motor takes, 0 to 1"});
+            items.push_back({p + "encoder", Value{macs_.coupling().by_hand[static_cast<std::size_t>(n - 1)]}, true,
+                             "master encoder turned by hand, qc"});
+            items.push_back({p + "index", Value{a.index_pulses}, true, "the encoder gives index pulses"});
             items.push_back({p + "limit_positive", Value{s.limit_positive}, true, "the positive limit switch"});
             items.push_back({p + "limit_negative", Value{s.limit_negative}, true, "the negative limit switch"});
             items.push_back({p + "home_switch", Value{s.home_switch}, true, "the reference switch"});
@@ -56,12 +70,16 @@ public:
 
     [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
         if (node_.powered()) node_.advance(now, out);
+        at_ = now;
         std::string fault = set(name, value, now, out);
         if (node_.powered()) node_.after_hand(now, out);
         return fault;
     }
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override {
-        return macs_.axis(std::clamp(channel, 1, axes)).mechanics(now);
+        const MacsAxis& a = macs_.axis(std::clamp(channel, 1, axes));
+        TwinMechanics m = a.servo().mechanics(now);
+        m.powered = m.powered || (node_.powered() && a.holds_in_error());  // under control, though in error
+        return m;
     }
 
 private:
@@ -70,23 +88,37 @@ private:
     }
 
     std::string set(const std::string& name, const Value& value, Instant now, Out& out) {
-        if (name == "gear") {
+        if (name == "gear" || name == "direct") {
+            if (!node_.powered()) return name + ": the controller is off";
             const std::string text = to_text(value);
-            const auto gear = text == "velocity"   ? std::optional(Macs::Gear::velocity)
-                              : text == "position" ? std::optional(Macs::Gear::position)
-                              : text == "none"     ? std::optional(Macs::Gear::none)
+            if (name == "direct") {
+                DirectAnswer answer = direct(macs_, text, now);
+                if (answer.fault.empty()) reply_ = answer.text.empty() ? text : text + ": " + answer.text;
+                return answer.fault.empty() ? "" : "direct: " + answer.fault;
+            }
+            const auto mode = text == "velocity"   ? std::optional(SyncMode::velocity)
+                              : text == "position" ? std::optional(SyncMode::position)
+                              : text == "marker"   ? std::optional(SyncMode::marker)
+                              : text == "none"     ? std::optional(SyncMode::none)
                                                    : std::nullopt;
-            if (!gear) return "gear: write none, velocity or position";
-            return node_.powered() ? macs_.set_gear(*gear, now) : "gear: the controller is off";
+            if (!mode) return "gear: write none, velocity, position or marker";
+            std::string fault = macs_.coupling().synchronise(1, *mode, now);
+            macs_.begin_ticks(now);
+            return fault;
+        }
+        if (name == "load" || name.ends_with(".load")) {
+            const auto load = as_number(value);
+            const int k = name == "load" ? 1 : name == "axis2.load" ? 2 : 0;
+            if (k == 0) return "there is no '" + name + "' here";
+            if (!load || *load < 0 || *load > 1) return name + ": write 0 to 1";
+            macs_.axis(k).load = *load;
+            return {};
         }
         const auto n = as_integer(value);
         if (!n) return name + ": write true, false or a whole number";
         if (name == "inputs") {
             if (*n < 0 || *n > 0xFFFF) return "inputs: write a bit mask, 0 to 65535";
-            for (int k = 1; k <= axes; ++k) {
-                macs_.axis(k).inputs = static_cast<std::uint32_t>(*n) << 16;
-                macs_.axis(k).inputs_changed(now);
-            }
+            macs_.set_inputs(static_cast<std::uint32_t>(*n), now);
             return {};
         }
         if (const auto dot = name.find('.'); dot != std::string::npos) {
@@ -95,7 +127,8 @@ private:
             return set_axis(k, name.substr(dot + 1), *n, now);
         }
         const bool on = *n != 0;
-        if (name != "power" && name != "silent" && name != "program" && name != "reset_parameters") return set_axis(1, name, *n, now);
+        if (name != "power" && name != "silent" && name != "program" && name != "reset_parameters" && name != "bus_silent")
+            return set_axis(1, name, *n, now);
         if (*n < 0 || *n > 1) return name + ": write true or false";
         if (name == "power") {
             if (!on && node_.powered()) node_.power_off(now);
@@ -105,6 +138,8 @@ private:
         } else if (name == "program") {
             if (on && !macs_.program_runs()) macs_.start_program();
             if (!on && macs_.program_runs()) macs_.end_program();
+        } else if (name == "bus_silent") {
+            macs_.set_bus_silent(on, now);
         } else if (on) {
             macs_.reset_parameters();
         }
@@ -112,24 +147,32 @@ private:
     }
 
     std::string set_axis(int k, const std::string& name, std::int64_t n, Instant now) {
-        Servo& s = macs_.axis(k);
+        MacsAxis& a = macs_.axis(k);
+        Servo& s = a.servo();
         const bool on = n != 0;
+        if (name == "encoder") {
+            if (n < INT32_MIN || n > INT32_MAX) return "encoder: write quad counts of 32 bits";
+            macs_.coupling().by_hand[static_cast<std::size_t>(k - 1)] = n;
+            return {};
+        }
         if (name == "inject_error") {
             static constexpr std::int64_t numbers[] = {0, 6, 88, 89, 98, 99};
             if (std::ranges::find(numbers, n) == std::end(numbers)) return "inject_error: write 6, 88, 89, 98 or 99, or 0";
             if (!node_.powered()) return "inject_error: the controller is off";
-            const auto code = static_cast<std::uint16_t>(n == 0 ? 0 : Macs::error_base + n);
+            const auto code = static_cast<std::uint16_t>(n == 0 ? 0 : error_base + n);
             s.set_cause(code);
-            if (on) s.fail(code, now);
+            if (on) a.raise(code, now);
             return {};
         }
         if (n < 0 || n > 1) return name + ": write true or false";
         if (name == "stall") {
-            stalled_[static_cast<std::size_t>(k - 1)] = on;
             s.hold(on, now);
+        } else if (name == "index") {
+            a.index_pulses = on;
         } else if (name == "limit_positive" || name == "limit_negative" || name == "home_switch") {
             (name == "limit_positive" ? s.limit_positive : name == "limit_negative" ? s.limit_negative : s.home_switch) = on;
-            s.inputs_changed(now);
+            a.inputs_changed(now);
+            macs_.begin_ticks(now);
         } else {
             return name + " is nothing that a hand can do here";
         }
@@ -139,7 +182,8 @@ private:
     Objects objects_;
     cia402_drive::twin::Node node_;
     Macs macs_;
-    std::array<bool, axes> stalled_{};
+    std::string reply_;  ///< of the direct mode
+    Instant at_{};
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ inline int run(const char* family, const std::uint8_t* data, std::size_t size) {
     FuzzedDataProvider in(data, size);
     const FamilyEntry entry = axisgate::fuzz::families().find(family);
     const axisgate::fuzz::FamilyFrames frames{plausible, wrong_frame};
-    axisgate::fuzz::AdapterRun(entry, frames, in, {"5", "6", "127"}).run();
+    axisgate::fuzz::run_adapter(entry, frames, in, {"5", "6", "127"});
     return 0;
 }
 

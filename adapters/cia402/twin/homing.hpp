@@ -2,7 +2,10 @@
 // In: a method, the place of the shaft, the travel. Out: the places it goes to, one after the other. Never moves anything.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace axisgate::cia402_drive::twin {
@@ -17,6 +20,43 @@ struct HomingWay {
     std::vector<double> search;  ///< at the speed of 6099h:01, to switches
     double zero = 0;             ///< at the speed of 6099h:02
     bool moves = true;           ///< false: the zero is where it stands
+};
+
+/// How far a homing is: the places that are left, and how it ended.
+class HomingSearch {
+public:
+    void forget() { phase_ = Phase::none; }
+    void interrupt() {
+        if (active()) forget();
+    }
+    void take(HomingWay way) {
+        way_ = std::move(way);
+        phase_ = way_.possible ? Phase::to_switch : Phase::error;
+    }
+    /// Methods below 0 are led by who has them.
+    void lead() { phase_ = Phase::led; }
+    void end(bool attained) { phase_ = attained ? Phase::attained : Phase::error; }
+    /// The next switch; nothing: from there to the zero.
+    [[nodiscard]] std::optional<double> next() {
+        if (way_.search.empty()) {
+            phase_ = Phase::to_zero;
+            return std::nullopt;
+        }
+        const double place = way_.search.front();
+        way_.search.erase(way_.search.begin());
+        return place;
+    }
+    [[nodiscard]] const HomingWay& way() const noexcept { return way_; }
+    [[nodiscard]] bool to_switch() const noexcept { return phase_ == Phase::to_switch; }
+    [[nodiscard]] bool to_zero() const noexcept { return phase_ == Phase::to_zero; }
+    [[nodiscard]] bool led() const noexcept { return phase_ == Phase::led; }
+    [[nodiscard]] bool active() const noexcept { return to_switch() || to_zero() || led(); }
+    [[nodiscard]] bool attained() const noexcept { return phase_ == Phase::attained; }
+    [[nodiscard]] bool failed() const noexcept { return phase_ == Phase::error; }
+
+private:
+    enum class Phase : std::uint8_t { none, to_switch, to_zero, led, attained, error } phase_ = Phase::none;
+    HomingWay way_;
 };
 
 /// All that 60E3h offers, ascending.

@@ -1,5 +1,5 @@
-// Mechanics of the simulated servo: the plans.
-// In: orders. Out: pieces of constant acceleration. Never keeps more than one plan: at most five pieces.
+// Mechanics of the simulated servo: orders as profiles that begin at an instant.
+// In: orders. Out: pieces. Never keeps more than one plan: at most 17 pieces.
 #include "adapters/cia402/twin/mechanics.hpp"
 
 #include <algorithm>
@@ -12,84 +12,102 @@ Motion Mechanics::demand(Instant now) const {
     const Piece* p = &pieces_.front();
     for (const Piece& x : pieces_)
         if (x.begin <= t) p = &x;
-    const double d = std::max(0.0, t - p->begin);
     // Between two steps of a cyclic mode a shaft does not stand: the next one may come a little late.
-    if (step_velocity_ != 0 && t >= end_ && t < 1.25 * end_) return {p->position, step_velocity_};
-    return {p->position + d * (p->velocity + d * p->acceleration / 2), p->velocity + d * p->acceleration};
+    if (step_velocity_ != 0 && t >= end_ && t < 1.25 * end_) return {p->from.position, step_velocity_, 0};
+    return along(p->from, p->how, std::max(0.0, t - p->begin));
 }
-Motion Mechanics::shaft(Instant now) const { return held_ ? Motion{held_at_, 0} : demand(now); }
+Motion Mechanics::shaft(Instant now) const {
+    if (held_) return {held_at_, 0, 0};
+    Motion m = demand(now);
+    m.position -= lag_ * m.velocity;
+    m.velocity -= lag_ * m.acceleration;
+    return m;
+}
 
 void Mechanics::begin(Instant now) {
     at_ = demand(now);
     since_ = now;
-    end_ = step_velocity_ = 0;
+    end_ = step_velocity_ = push_from_ = push_to_ = push_slope_ = 0;
     pieces_.clear();
 }
-void Mechanics::add(double s, double a) {
-    pieces_.push_back({end_, at_.position, at_.velocity, a});
-    at_ = {at_.position + s * (at_.velocity + s * a / 2), at_.velocity + s * a};
-    end_ += s;
+void Mechanics::add(const Segment& s) {
+    pieces_.push_back({end_, at_, s});
+    at_ = along(at_, s, s.seconds);
+    end_ += s.seconds;
+}
+void Mechanics::take(const Profile& profile) {
+    for (const Segment& s : profile.segments)
+        add(s);
+    at_ = profile.end;
+    rest();
 }
 
 void Mechanics::move(double target, const Ramps& r, Instant now) {
     begin(now);
-    double way = target - at_.position;
-    if (at_.velocity != 0 && (way - at_.velocity * std::fabs(at_.velocity) / (2 * r.down)) * at_.velocity < 0) {  // it cannot stop in time
-        add(std::fabs(at_.velocity) / r.down, -std::copysign(r.down, at_.velocity));
-        at_.velocity = 0;
-        way = target - at_.position;
-    }
-    const double side = std::copysign(1.0, way), v = std::fabs(at_.velocity);
-    const double peak = std::min(r.velocity, std::sqrt((2 * r.up * r.down * std::fabs(way) + r.down * v * v) / (r.up + r.down)));
-    if (peak > 0) {
-        add(std::fabs(peak - v) / (peak > v ? r.up : r.down), side * (peak > v ? r.up : -r.down));
-        at_.velocity = side * peak;
-        add(std::max(0.0, (side * (target - at_.position) - peak * peak / (2 * r.down)) / peak), 0);
-        add(peak / r.down, -side * r.down);
-        at_.position = target;
-    }
-    at_.velocity = 0;
-    rest();
+    take(profile_to_place(at_, target, r));
 }
 void Mechanics::run(double velocity, const Ramps& r, Instant now) {
     begin(now);
-    const auto change = [&](double to, double rate) {
-        if (to == at_.velocity) return;
-        add(std::fabs(to - at_.velocity) / rate, std::copysign(rate, to - at_.velocity));
-        at_.velocity = to;
-    };
-    if (velocity * at_.velocity < 0) change(0, r.down);
-    change(velocity, std::fabs(velocity) > std::fabs(at_.velocity) ? r.up : r.down);
-    rest();
+    take(profile_to_speed(at_, velocity, r));
 }
 void Mechanics::step_to(double target, double s, Instant now) {
     begin(now);
     const bool there = std::fabs(target - at_.position) < 1e-6 || s <= 0;
     at_.velocity = there ? 0 : (target - at_.position) / s;
-    if (!there) add(s, 0);
+    at_.acceleration = 0;
+    if (!there) add({s});
     step_velocity_ = at_.velocity;
-    at_ = {target, 0};
+    at_ = {target, 0, 0};
     rest();
 }
-void Mechanics::push(double acceleration, double most, Instant now) {
+
+void Mechanics::push(double acceleration, double slope, double most, Instant now) {
+    const double had = pushed(now);
     begin(now);
-    const double to = std::copysign(most, acceleration);
-    if (acceleration != 0 && at_.velocity != to && (to - at_.velocity) * acceleration > 0) {
-        add((to - at_.velocity) / acceleration, acceleration);
-        at_.velocity = to;
+    push_from_ = slope > 0 ? had : acceleration;
+    push_to_ = acceleration;
+    push_slope_ = slope;
+    const double change = push_to_ - push_from_;
+    const Segment slopes[] = {{slope > 0 ? std::fabs(change) / slope : 0, push_from_, std::copysign(slope, change)}, {1e9, acceleration}};
+    for (Segment s : slopes) {
+        // The top speed ends it: where the speed crosses it within this segment, the rest of it does not happen.
+        const auto passes = [&](double t) { return std::fabs(along(at_, s, t).velocity) > most; };
+        const bool away = std::fabs(at_.velocity) >= most && at_.velocity * (s.acceleration + s.jerk * s.seconds / 2) >= 0;
+        if (away || (s.acceleration == 0 && s.jerk == 0)) continue;
+        if (passes(s.seconds)) {
+            double low = 0, high = s.seconds;
+            if (s.jerk == 0) {
+                low = (std::copysign(most, s.acceleration) - at_.velocity) / s.acceleration;
+            } else {
+                for (int i = 0; i < 60; ++i)
+                    (passes((low + high) / 2) ? high : low) = (low + high) / 2;
+            }
+            s.seconds = low;
+            add(s);
+            at_.velocity = std::copysign(most, at_.velocity);
+        } else if (s.seconds > 0) {
+            add(s);
+        }
     }
+    at_.acceleration = 0;
     rest();
 }
+double Mechanics::pushed(Instant now) const {
+    if (push_slope_ <= 0) return push_to_;
+    const double change = push_to_ - push_from_, done = push_slope_ * seconds(now - since_);
+    return done >= std::fabs(change) ? push_to_ : push_from_ + std::copysign(done, change);
+}
+
 void Mechanics::rest_at(double position, Instant now) {
     begin(now);
-    at_ = {position, 0};
+    at_ = {position, 0, 0};
     rest();
 }
 void Mechanics::hold(bool held, Instant now) {
-    if (held && !held_) held_at_ = demand(now).position;
+    if (held && !held_) held_at_ = shaft(now).position;
     held_ = held;
 }
 Instant Mechanics::end() const { return since_ + Duration{std::llround(std::ceil(end_ * 1e9))}; }
-bool Mechanics::moves(Instant now) const { return now < end() || pieces_.back().velocity != 0; }
+bool Mechanics::moves(Instant now) const { return now < end() || pieces_.back().from.velocity != 0; }
 
 }  // namespace axisgate::cia402_drive::twin

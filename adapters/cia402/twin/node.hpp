@@ -32,12 +32,13 @@ public:
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
     [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
+    [[nodiscard]] const canopen::Dictionary& dictionary() const noexcept { return d_; }
     void set_silent(bool silent) noexcept { silent_ = silent; }
     [[nodiscard]] bool silent() const noexcept { return silent_; }
     [[nodiscard]] bool powered() const noexcept { return powered_; }
     void after_hand(Instant now, Out& out) {
         shown_.reset();
-        events(now, out);
+        take_writes(now, out);  // also what a controller's own program has written
     }
 
 private:
@@ -45,6 +46,7 @@ private:
         canopen::Pdo pdo;
         bool valid = false;
         int syncs = 0;
+        std::vector<const canopen::Entry*> entries;  ///< of what is mapped, in d_; null: a filler, or not there
         std::vector<std::uint8_t> sent, waiting;
         Instant event = never;
     };
@@ -55,6 +57,7 @@ private:
     void save();
     [[nodiscard]] canopen::Abort on_write(canopen::Address address, std::span<const std::uint8_t> bytes);
     void take_writes(Instant now, Out& out);
+    void read_sync();
     void read_pdos(Instant now);
     void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
     void show(Instant now);  ///< what is measured stands in the dictionary
@@ -63,6 +66,8 @@ private:
     void transmit(Pdo& p, Instant at, Out& out);
     [[nodiscard]] std::vector<std::uint8_t> packed(const Pdo& p, Instant at);
     void on_sync(Instant now, Out& out);
+    void watch_as_written();
+    void connection_lost(Instant at, Out& out);
     void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
 
     std::uint8_t node_;
@@ -70,8 +75,10 @@ private:
     Device* device_ = nullptr;
     canopen::SdoServer server_;
     canopen::NmtState state_ = canopen::NmtState::boot_up;
+    std::uint32_t sync_id_ = 0x80;
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
+    canopen::HeartbeatWatch watch_{0};  ///< of the node that 1016h:01 names
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};

@@ -50,7 +50,7 @@ public:
             {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
             {"stall", Value{stalled_}, true, "the shaft is held"},
             {"inputs", Value{static_cast<std::int64_t>(s.inputs >> 16)}, true, "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
-            {"outputs", Value{static_cast<std::int64_t>(s.outputs())}, false, "60FEh:01 as the mask of 60FEh:02 lets it through"},
+            {"outputs", Value{outputs()}, false, "60FEh:01 as the mask of 60FEh:02 lets it through"},
             {"limit_positive", Value{s.limit_positive}, true, "the upper limit switch"},
             {"limit_negative", Value{s.limit_negative}, true, "the lower limit switch"},
             {"home_switch", Value{s.home_switch}, true, "the home switch"},
@@ -65,7 +65,7 @@ public:
         Servo& s = servo_;
         const bool on = *n != 0, flag = *n == 0 || *n == 1;
         if (name == "inject_error") {
-            const auto& codes = Servo::error_codes();
+            const auto& codes = error_codes();
             if (on && std::ranges::find(codes, *n) == codes.end())
                 return "inject_error: write one of the error codes of the catalogue, or 0";
             if (!node_.powered()) return "inject_error: the drive is off";
@@ -97,6 +97,11 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return servo_.mechanics(now); }
 
 private:
+    /// 60FEh: what the mask lets through.
+    [[nodiscard]] std::int64_t outputs() const {
+        const auto of = [&](std::uint8_t sub) { return node_.dictionary().integer({0x60FE, sub}).value_or(0); };
+        return of(1) & of(2);
+    }
     static std::uint8_t number(const TwinSetup& setup) {
         return static_cast<std::uint8_t>(std::clamp(std::atoi(setup.address.c_str()), 1, 127));
     }

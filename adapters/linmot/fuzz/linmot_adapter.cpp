@@ -41,6 +41,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider in(data, size);
     static const FamilyEntry entry = fuzz::families().find("linmot");
     static const fuzz::FamilyFrames frames{plausible, wrong_frame};
-    fuzz::AdapterRun(entry, frames, in, {"17", "18", "0"}).run();
+    fuzz::run_adapter(entry, frames, in, {"17", "18", "0"});
     return 0;
 }

@@ -51,6 +51,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider in(data, size);
     static const FamilyEntry entry = fuzz::families().find("mcode");
     static const fuzz::FamilyFrames frames{plausible, wrong_frame};
-    fuzz::AdapterRun(entry, frames, in, {"a", "b", "Z"}).run();
+    fuzz::run_adapter(entry, frames, in, {"a", "b", "Z"});
     return 0;
 }

@@ -51,6 +51,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider in(data, size);
     static const FamilyEntry entry = fuzz::families().find("pacontrol");
     static const fuzz::FamilyFrames frames{plausible, wrong_frame};
-    fuzz::AdapterRun(entry, frames, in, {"com1"}).run();
+    fuzz::run_adapter(entry, frames, in, {"com1"});
     return 0;
 }

@@ -37,6 +37,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider in(data, size);
     static const FamilyEntry entry = fuzz::families().find("uim342");
     static const fuzz::FamilyFrames frames{plausible, wrong_frame};
-    fuzz::AdapterRun(entry, frames, in, {"5", "6", "126"}).run();
+    fuzz::run_adapter(entry, frames, in, {"5", "6", "126"});
     return 0;
 }

@@ -1,0 +1,115 @@
+// MacsAxis: one axis of the controller: what its parameters make of the CiA 402 servo, homing, limits, errors, its current.
+// In: parameters, control words before the servo has them, inputs, milliseconds. Out: limits and ramps of the servo, errors. Never starts
+// a motion that homing, a limit or REVERS forbids.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "adapters/aposs/twin/coded.hpp"
+#include "adapters/aposs/twin/filters.hpp"
+#include "adapters/aposs/twin/homing.hpp"
+#include "adapters/aposs/twin/objects.hpp"
+#include "adapters/aposs/twin/synchronisation.hpp"
+#include "adapters/cia402/twin/servo.hpp"
+
+namespace axisgate::aposs {
+using cia402_drive::twin::Servo;
+
+/// Errors with a number of the manual's go out as EMCY FF00h + number: the manual prints no EMCY codes (E-73). The others have CiA 402's.
+inline constexpr std::uint16_t error_base = 0xFF00;
+inline constexpr std::uint16_t homing_wanted = error_base + 6, guarding_failed = error_base + 88, limit_violated = error_base + 98,
+                               i2t_limit = error_base + 99;
+inline constexpr std::uint16_t index_missed = 0x7305, position_error = 0x8611, end_limit = 0x8612;
+
+/// The controller's terminals: inputs 1 to 16, outputs 1 to 8.
+struct Terminals {
+    std::uint32_t inputs = 0, outputs = 0;
+    /// Parameters name an input with a sign: below 0 it is active when it is low; 0 is none.
+    [[nodiscard]] bool active(std::int64_t number) const {
+        const auto n = number < 0 ? -number : number;
+        return n >= 1 && n <= 32 && ((inputs >> (n - 1) & 1u) != 0) == (number > 0);
+    }
+    void set(std::int64_t number, bool active) {
+        const auto n = number < 0 ? -number : number;
+        if (n < 1 || n > 32) return;
+        const std::uint32_t bit = 1u << (n - 1);
+        outputs = active == (number > 0) ? outputs | bit : outputs & ~bit;
+    }
+};
+
+class MacsAxis {
+public:
+    MacsAxis(const Objects& objects, canopen::Dictionary& dictionary, Terminals& terminals, int axis, double travel);
+    MacsAxis(const MacsAxis&) = delete;
+    MacsAxis& operator=(const MacsAxis&) = delete;
+
+    void power_on(Instant now);
+    [[nodiscard]] Servo& servo() noexcept { return servo_; }
+    [[nodiscard]] const Servo& servo() const noexcept { return servo_; }
+    [[nodiscard]] std::int64_t value(std::string_view id) const;
+    void set(std::string_view id, std::int64_t v);
+
+    /// The profile's objects by the parameters; by `defaults` velocity and acceleration, too, which a client may have changed.
+    void settle(bool defaults);
+    [[nodiscard]] SyncParameters sync_parameters() const;
+    /// A write of the profile's objects, before the servo has it and to it. True: it was a stop or another motion.
+    bool written(canopen::Address address, Instant now);
+    /// Inputs or switches are others now.
+    void inputs_changed(Instant now);
+
+    /// What has to be looked at each millisecond.
+    [[nodiscard]] bool ticks(bool led) const;
+    void tick(bool led, Instant at);
+    /// What an event of the servo's may have done: brake, homing.
+    void after(Instant now);
+    void raise(std::uint16_t code, Instant now);
+    [[nodiscard]] std::vector<cia402_drive::twin::Device::Told> take_told() { return std::exchange(told_, {}); }
+
+    [[nodiscard]] bool homing_due() const { return value("HOME_FORCE") != 0 && !homed_; }
+    void revoke_homing() { homed_ = false; }
+    /// Why a motion in this direction (1, -1; 0: none) must not begin; 0: it may.
+    [[nodiscard]] std::uint16_t forbids(double direction, Instant now) const;
+    void define_origin(Instant now);
+    [[nodiscard]] bool may_clear_error() const;
+    void clear_error(Instant now);  ///< as I_ERRCLR and ERRCLR: the reset of the control word
+    [[nodiscard]] bool moves(Instant now) const;
+    /// ERRCOND 2 and 3: after the stop it stands under control.
+    [[nodiscard]] bool holds_in_error() const;
+
+    [[nodiscard]] double place(Instant now) const { return servo_.shaft().shaft(now).position; }
+    [[nodiscard]] std::int64_t track_error(Instant now) const;  ///< SYSVAR 4124, percent
+    [[nodiscard]] const CurrentWatch& current() const noexcept { return current_; }
+    double load = 0;           ///< of AMPMAXCUR that the motor takes under power, 0 to 1
+    bool index_pulses = true;  ///< the encoder gives them
+    [[nodiscard]] std::int64_t of(std::uint16_t index, std::uint8_t sub = 0) const {
+        return d_.integer({static_cast<std::uint16_t>(index + base_), sub}).value_or(0);
+    }
+    void put(std::uint16_t index, std::uint8_t sub, double v);
+
+private:
+    [[nodiscard]] HomingInput homing_input(Instant now) const;
+    void homing_order(const HomingRun::Order& order, Instant now);
+    [[nodiscard]] double limit_place(bool positive) const;
+    [[nodiscard]] bool outside(bool positive, double place) const;
+    void start_positioning(unsigned cw, Instant now);
+    [[nodiscard]] std::uint16_t speed_refused(Instant now);
+
+    const Objects& objects_;
+    canopen::Dictionary& d_;
+    Terminals& terminals_;
+    int axis_;
+    std::uint16_t base_;
+    double travel_;
+    Servo servo_;
+    HomingRun homing_;
+    CurrentWatch current_;
+    bool homed_ = false;   ///< since power-on, and since a change of a stored parameter (E-72)
+    bool braked_ = false;  ///< the brake's output was set because of this error
+    bool hot_ = false;     ///< error 99 has been told
+    int violated_ = 0;     ///< a limit whose error came: -1, 1, until the axis is back inside
+    std::array<bool, 2> at_switch_{};
+    std::vector<cia402_drive::twin::Device::Told> told_;
+};
+
+}  // namespace axisgate::aposs

@@ -1,0 +1,133 @@
+// Orders: the modes.
+// In: targets of the dictionary. Out: plans. Never beyond a limit of position (607Dh), a speed or a torque that the objects allow.
+#include "adapters/cia402/twin/orders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axisgate::cia402_drive::twin {
+
+void Orders::reset(int mode) {
+    mode_ = mode;
+    halted_ = reached_ = acknowledged_ = limited_ = false;
+    forget();
+}
+void Orders::forget() {
+    target_.reset();
+    buffered_.reset();
+}
+void Orders::enabled(unsigned cw) {
+    halted_ = (cw & 0x100u) != 0;
+    acknowledged_ = (cw & 0x10u) != 0;
+    reached_ = false;
+}
+void Orders::taken_off() {
+    forget();
+    halted_ = false;
+}
+bool Orders::set_mode(int mode) {
+    if (mode == mode_ || mode == 0) return false;
+    mode_ = mode;
+    forget();
+    reached_ = acknowledged_ = false;
+    return true;
+}
+
+void Orders::act(Instant now) {
+    if (halted_) return;
+    limited_ = false;
+    if (mode_ == 3 || mode_ == 9) {
+        const auto [low, high] = u_.limits();
+        const double most = u_.fastest(), v = std::clamp(u_.velocity_of(0x60FF), -most, most);
+        Ramps r = u_.ramps();
+        if (mode_ == 9) {
+            r.up = r.down = 1e7;
+            r.shape = Shape::linear;
+        }
+        r.velocity = std::fabs(v);
+        if (low < high && v != 0) {  // towards a limit of position it is a way to that limit
+            const double end = v > 0 ? high : low;
+            if ((end - m_.demand(now).position) * v <= 0) {
+                limited_ = true;
+                r.velocity = 0;
+                return m_.stop(r, now);
+            }
+            return m_.move(end, r, now);
+        }
+        m_.run(v, r, now);
+    }
+    if (mode_ == 4 || mode_ == 10) {
+        const auto most = std::min<std::int64_t>(o_.get(0x6072), 5000);
+        // Mode 4 has the torque rise and fall by its slope (6087h); mode 10 takes what comes.
+        m_.push(static_cast<double>(std::clamp<std::int64_t>(o_.get(0x6071), -most, most)) * per_mille,
+                mode_ == 4 ? o_.rate(0x6087) * per_mille : 0, std::min(u_.speed_of(0x6080), 100'000.0), now);
+    }
+}
+
+void Orders::sync(unsigned cw, Instant now) {
+    if ((mode_ != 8 && mode_ != 7) || halted_) return;
+    if (mode_ == 7 && (cw & 0x10u) == 0) return;
+    const auto [low, high] = u_.limits();
+    double to = mode_ == 8 ? u_.place_of(0x607A) : u_.place_of(0x60C1, 1);
+    limited_ = low < high && (to < low || to > high);
+    if (low < high) to = std::clamp(to, low, high);
+    m_.step_to(to, static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2))), now);
+}
+
+void Orders::set_point(bool relative, bool at_once, Instant now) {
+    double to = u_.place_of(0x607A);
+    if (relative) to += buffered_.value_or(target_.value_or(m_.demand(now).position)) - u_.zero();
+    const auto [low, high] = u_.limits();
+    limited_ = low < high && (to < low || to > high);
+    if (low < high) to = std::clamp(to, low, high);
+    acknowledged_ = true;
+    reached_ = false;
+    if (!at_once && target_ && m_.moves(now)) {
+        buffered_ = to;
+        return;
+    }
+    target_ = to;
+    go(now);
+}
+void Orders::go(Instant now) {
+    const Ramps r = u_.ramps();
+    if (target_ && r.velocity > 0 && !halted_) m_.move(*target_, r, now);
+}
+
+void Orders::halt(bool on, Instant now) {
+    halted_ = on;
+    if (on) {
+        if (m_.moves(now)) m_.stop(u_.braking(o_.get(0x605D)), now);
+        return;
+    }
+    if (mode_ == 1 && target_ && !reached_) go(now);
+    act(now);
+}
+
+std::optional<Instant> Orders::arrival() const {
+    // A halted positioning waits for its halt to be taken back, and for nothing of its own.
+    if (!target_ || reached_ || halted_ || !settles()) return std::nullopt;
+    return m_.end() + (buffered_ ? Duration{} : window_time());
+}
+void Orders::arrive(unsigned cw, Instant at) {
+    if (halted_) return;
+    if (target_ && !reached_ && settles() && m_.demand(at).position == *target_) {
+        if (buffered_) {
+            target_ = std::exchange(buffered_, std::nullopt);
+            acknowledged_ = (cw & 0x10u) != 0;
+            return go(at);
+        }
+        reached_ = at >= m_.end() + window_time();
+    } else if (target_ && !reached_ && !m_.held() && settles()) {
+        target_.reset();  // stopped before it: halted, or the speed is 0
+    }
+}
+
+/// At the end of its way the shaft stands within the position window (6067h; FFFFFFFFh: there is none).
+bool Orders::settles() const {
+    const auto window = o_.get(0x6067);
+    if ((!m_.held() && !m_.lags()) || window == 0xFFFFFFFF) return true;
+    return std::fabs(m_.shaft(m_.end()).position - m_.demand(m_.end()).position) <= u_.way_of(0x6067);
+}
+
+}  // namespace axisgate::cia402_drive::twin

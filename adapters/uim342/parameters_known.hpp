@@ -1,0 +1,36 @@
+// Known: values of the drive that commands rest on, as it told them last.
+// In: answers to reads and writes. Out: members; a notice where what is stored does not fit the site.
+// Never a value that the drive has not told: what could not be read is absent.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "adapters/uim342/drive_part.hpp"
+
+namespace axisgate::uim342 {
+
+class Known : public Part {
+public:
+    using Part::Part;
+
+    /// Of group 0.
+    void learn(const Message& request, std::int64_t value, Turn& t);
+    void forget() noexcept;
+
+    struct Ram {  ///< may be lost by a restart that nobody has seen
+        std::optional<std::uint32_t> ac, dc, ss, sd;
+        std::optional<bool> time_ramps;  ///< IC[4] = 1: AC and DC are ms
+        std::array<std::optional<std::uint16_t>, 3> il, tg;
+    } ram;
+    std::optional<bool> auto_on, absolute_encoder, battery_ok, notifies;
+    std::optional<bool> closed_loop;  ///< IC[6]
+    std::optional<std::uint32_t> ptp_speed;
+    std::optional<std::uint8_t> group;  ///< in force
+
+private:
+    void stored(std::uint8_t index, std::int64_t value, Turn& t);
+    void misfit(std::string text, Turn& t);
+};
+
+}  // namespace axisgate::uim342

@@ -287,7 +287,7 @@ function(axisgate_test_suites)
   axisgate_test_program(test_store tests/unit/store LINKS axisgate::store axisgate_assets)
   axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)
   axisgate_test_program(test_registers tests/unit/registers LINKS axisgate::door_modbus axisgate_assets)  # asked as a client of the Modbus door asks
-  axisgate_test_program(test_enip tests/unit/enip LINKS axisgate::door_enip)
+  axisgate_test_program(test_enip tests/unit/enip LINKS axisgate::door_enip axisgate_assets)
   axisgate_test_program(test_dds tests/unit/dds LINKS axisgate::door_dds)
   if(TARGET test_dds)
     target_sources(test_dds PRIVATE tests/unit/http/fake_gateway.cpp)  # the ports' doubles
@@ -308,7 +308,7 @@ function(axisgate_test_suites)
     axisgate_test_program(test_${f} adapters/${f}/tests NOT twin*.cpp LINKS axisgate_${f} axisgate_${f}_twin axisgate::wire)
     axisgate_test_program(test_${f}_twin adapters/${f}/tests ONLY twin*.cpp LINKS axisgate_${f}_twin axisgate::wire)
   endforeach()
-  axisgate_test_program(test_conformance tests/conformance LINKS axisgate::families_tested axisgate::engine axisgate::registers axisgate::services axisgate_assets_tested)
+  axisgate_test_program(test_conformance tests/conformance LINKS axisgate::families_tested axisgate::engine axisgate::registers axisgate::door_enip axisgate::services axisgate_assets_tested)
   axisgate_test_program(test_world tests/world LINKS axisgate::families_tested axisgate::engine axisgate::services axisgate_assets_tested)
 endfunction()
 

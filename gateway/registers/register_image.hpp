@@ -44,6 +44,7 @@ public:
     [[nodiscard]] bool is_standard(std::uint8_t id) const noexcept { return maps_[id] == &standard_; }
     [[nodiscard]] StandardMap& standard() noexcept { return standard_; }
     [[nodiscard]] WordOrder word_order() const noexcept { return settings_.word_order; }
+    [[nodiscard]] const Languages& languages() const noexcept { return settings_.languages; }
 
     /// For a reader that is no door of its own. 1..2000 bits or 1..125 registers from `address` on, which end at 65535 at the latest.
     [[nodiscard]] RegisterRead read(std::uint8_t unit, Table table, std::uint16_t address, std::uint16_t count);

@@ -29,6 +29,9 @@ public:
     /// Registers 20 and 21: the reason of the axis' last refused write, and how many there were.
     void note_refusal(AxisId axis, Reason reason);
 
+    [[nodiscard]] WordOrder word_order() const noexcept { return order_; }
+    [[nodiscard]] AxisId axis_numbered(std::uint16_t number) const noexcept { return axis_at(number - 1u); }
+
     /// How many times a block was rendered anew (for tests: unchanged axes cost nothing).
     [[nodiscard]] std::uint64_t renders() const noexcept { return renders_; }
 

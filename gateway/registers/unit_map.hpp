@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +89,17 @@ struct WritePlan {
     std::vector<PlannedCommand> commands;             // kept from request to request, so that nothing is allocated for it
 };
 
+/// One value of a range, as whoever carries it in another form than registers needs to know it.
+struct MapValue {
+    std::uint16_t address = 0, registers = 1;
+    bool text = false;  ///< the first character in the high byte of the first register; else a number
+    MapWordOrder order = MapWordOrder::high_first;
+    AxisId axis = no_axis;           ///< whose it is; no_axis: of the unit
+    std::optional<AxisPoint> point;  ///< of an axis; absent: a parameter, or a register of a language
+    /// False: it changes while nothing happens.
+    [[nodiscard]] bool steady() const noexcept { return point != AxisPoint::age_ms && point != AxisPoint::heartbeat; }
+};
+
 /// Addresses are 0-based; address + count <= 65536 and count >= 1 hold for every call.
 class UnitMap {
 public:
@@ -108,6 +121,24 @@ public:
     /// The result of a command planned with `own`. If none comes in time, it is one with Reason::no_answer.
     virtual void on_own_result(std::uint32_t note, const Result& result) = 0;
     virtual ~UnitMap() = default;
+
+    // --- for clients that carry a range as an image and renew it in cycles: they are not answered, value by value or at all
+    /// The values that lie whole in the range, by address: those that can be written, or those that can be read.
+    [[nodiscard]] virtual std::vector<MapValue> values(Table /*table*/, std::uint16_t /*address*/, std::uint16_t /*count*/,
+                                                       bool /*written*/) {
+        return {};
+    }
+    /// As read_registers, but a value that cannot be said spoils itself alone: it shows its mark, or 0.
+    virtual void show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out);
+    /// What changes in one image is one order of the language behind, and its first image is what stood there before: see adopt().
+    [[nodiscard]] virtual bool takes_images() const noexcept { return false; }
+    /// The first image of a client, or the first after it was idle: a base. Nothing is started by what is set in it.
+    virtual void adopt(Table /*table*/, std::uint16_t /*address*/, std::uint16_t /*count*/, const std::uint8_t* /*data*/,
+                       WritePlan& /*plan*/) {}
+    /// Plans a write of these values of the range alone. `data` begins at `address`. A value that is refused spoils itself alone: it is
+    /// added to `refused`.
+    virtual void renew(Table table, std::uint16_t address, std::span<const MapValue> changed, const std::uint8_t* data, WritePlan& plan,
+                       std::vector<Refused>& refused);
 
     /// What was refused since it was last asked; Reason::none: nothing. A write may be good and refuse: a parameter channel shows it.
     [[nodiscard]] Refused take_refused() noexcept { return std::exchange(refused_, {}); }

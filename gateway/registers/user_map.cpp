@@ -224,6 +224,32 @@ Verdict UserMap::read_registers(Table table, std::uint16_t address, std::uint16_
     });
 }
 
+std::vector<MapValue> UserMap::values(Table table, std::uint16_t address, std::uint16_t count, bool written) {
+    std::vector<MapValue> list;
+    const std::uint32_t end = std::uint32_t{address} + count;
+    for (auto it = first_at(places(table), address); it != places(table).end() && it->at.mapping.address < end; ++it) {
+        const Mapping& m = it->at.mapping;
+        if (m.address < address || m.end() > end || m.access == (written ? MapAccess::read : MapAccess::write)) continue;
+        const auto* point = std::get_if<AxisPoint>(&m.what);
+        list.push_back(
+            {m.address, m.size(), m.type == MapType::string, m.word_order, it->at.axis, point ? std::optional(*point) : std::nullopt});
+    }
+    return list;
+}
+
+void UserMap::show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
+    std::memset(out, 0, 2 * std::size_t{count});
+    const std::uint32_t end = std::uint32_t{address} + count;
+    for (auto it = first_at(places(table), address); it != places(table).end() && it->at.mapping.address < end; ++it) {
+        const Mapping& m = it->at.mapping;
+        if (m.address < address || m.end() > end || m.access == MapAccess::write) continue;
+        Value value;
+        if (value_of(*it, now, value) != Verdict::good) value = {};
+        (void)encode(m, value, out + 2 * std::size_t(m.address - address));
+    }
+    refused_ = {};
+}
+
 Verdict UserMap::read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) {
     std::memset(out, 0, (count + 7u) / 8u);
     const Instant now = port_.now();

@@ -42,6 +42,8 @@ public:
     Verdict check_write(Table table, std::uint16_t address, std::uint16_t count) override;
     Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
     void on_own_result(std::uint32_t note, const Result& result) override;
+    std::vector<MapValue> values(Table table, std::uint16_t address, std::uint16_t count, bool written) override;
+    void show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
     /// A value that a drive reported, whoever had asked: a write of another door is seen here at once.
     void on_sample(const Sample& sample);
     /// Asks for every parameter that has not been read yet, so that the first client finds values.

@@ -28,18 +28,23 @@ RegisterWriter::Begun RegisterWriter::write(const Client& client, std::uint8_t s
     if (tickets_.free() == 0) return {Verdict::busy, 0};
     plan_.commands.clear();
     if (const auto e = map.write(table, address, count, data, plan_); e != Verdict::good) return {e, 0};
-    if (plan_.commands.size() > tickets_.free()) {
+    return give(client, slot, map, plan_, note, now);
+}
+
+RegisterWriter::Begun RegisterWriter::give(const Client& client, std::uint8_t slot, UnitMap& map, WritePlan& plan, const RequestNote& note,
+                                           Instant now) {
+    if (plan.commands.size() > tickets_.free()) {
         Result refused;
         refused.outcome = Outcome::refused;
         refused.reason = Reason::busy;
-        for (const auto& c : plan_.commands) {
+        for (const auto& c : plan.commands) {
             if (c.own || c.told) map.on_own_result(c.note, refused);
         }
         return {Verdict::busy, 0};
     }
     Begun begun;
     const Instant deadline = now + settings_.result_timeout;
-    for (auto& c : plan_.commands) {
+    for (auto& c : plan.commands) {
         TicketTable::Waiting waiting;
         waiting.axis = c.axis;
         if (c.own || c.told) {
@@ -59,7 +64,7 @@ RegisterWriter::Begun RegisterWriter::write(const Client& client, std::uint8_t s
         command.until_done = c.until_done;
         command.axis = c.axis;
         command.body = std::move(c.body);
-        command.origin = {settings_.door, client.who};
+        command.origin = {settings_.door, client.who, client.client};
         counters_.commands.add();
         port_.submit(std::move(command));
     }

@@ -32,7 +32,8 @@ public:
     /// Who writes; lives until forget().
     struct Client {
         WriteOwner* owner = nullptr;
-        std::shared_ptr<const std::string> who;  ///< for the audit: "192.0.2.7:51123"
+        std::shared_ptr<const std::string> who;       ///< for the audit: "192.0.2.7:51123"
+        std::shared_ptr<const std::string> client{};  ///< by which it holds an axis; absent: `who` without its port
     };
 
     RegisterWriter(DoorPort& port, RegisterImage& image, Settings settings);
@@ -49,6 +50,9 @@ public:
     /// `data` as UnitMap::write has it. Never tells the owner from inside this call.
     [[nodiscard]] Begun write(const Client& client, std::uint8_t slot, UnitMap& map, Table table, std::uint16_t address,
                               std::uint16_t count, const std::uint8_t* data, const RequestNote& note, Instant now);
+
+    /// Gives what a map has planned; `plan` is used up. busy: there is no room, and the map has been told.
+    [[nodiscard]] Begun give(const Client& client, std::uint8_t slot, UnitMap& map, WritePlan& plan, const RequestNote& note, Instant now);
 
     /// One of the door's tickets has ended.
     void on_result(const Result& result);

@@ -282,7 +282,7 @@ static std::string data_sheet(const SiteState& state, const Families& families, 
         kept.push_back(catalogue_of(state.site, *drive, families));
         axes.push_back({static_cast<std::uint16_t>(a.number), state.axis_ids[i], a.name, kept.back().get()});
     }
-    return enip::eds_of(enip::Layout(std::move(axes), mapping_revision(state.site), facts));
+    return enip::eds_of(enip::Layout(std::move(axes), mapping_revision(state.site), facts, enip::windows_of(state)));
 }
 
 int Service::open_doors() {

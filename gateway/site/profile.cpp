@@ -83,6 +83,14 @@ void read_profiles(const boost::json::value* list, Site& site, std::vector<SiteF
                     f.fault(fmt::format("axes/{}/axis", k), fmt::format("axis {} is there twice", p.axes.back().axis), "name each once");
             }
         }
+        for (const auto& [key, place] : {std::pair{"input_assembly", &p.input_assembly}, std::pair{"output_assembly", &p.output_assembly},
+                                         std::pair{"object_instance", &p.object_instance}}) {
+            const bool object = place == &p.object_instance;
+            if (const auto n = f.integer(key, 1, object ? 255 : 65535)) *place = static_cast<std::uint16_t>(*n);
+        }
+        if (p.object_instance && p.language != ProfileLanguage::lexium)
+            f.fault("object_instance", fmt::format("{} has no objects of its own on EtherNet/IP", language),
+                    "leave it out; input_assembly and output_assembly carry its image");
         f.unknown_keys();
         site.profiles.push_back(std::move(p));
     }
@@ -110,6 +118,9 @@ boost::json::object to_json(const ProfileSpec& p) {
         axes.push_back(std::move(x));
     }
     o["axes"] = std::move(axes);
+    if (p.input_assembly) o["input_assembly"] = std::int64_t{*p.input_assembly};
+    if (p.output_assembly) o["output_assembly"] = std::int64_t{*p.output_assembly};
+    if (p.object_instance) o["object_instance"] = std::int64_t{*p.object_instance};
     return o;
 }
 

@@ -42,6 +42,8 @@ struct ProfileSpec {
     ProfileLanguage language = ProfileLanguage::cia402;
     std::optional<MapWordOrder> word_order;  ///< of 32-bit values; absent: the language's own
     std::vector<ProfileAxis> axes;           ///< in the order in which the language numbers them
+    /// On EtherNet/IP: assembly instances of the language's image, and the instance of its objects (lexium). Absent: it has none there.
+    std::optional<std::uint16_t> input_assembly, output_assembly, object_instance;
     bool operator==(const ProfileSpec&) const = default;
 };
 

@@ -185,6 +185,10 @@ json::object to_json(const Site& site) {
     for (const auto& p : site.profiles)
         profiles.push_back(to_json(p));
     if (!profiles.empty()) o["profiles"] = std::move(profiles);
+    json::array assemblies;
+    for (const auto& a : site.assemblies)
+        assemblies.push_back(to_json(a));
+    if (!assemblies.empty()) o["assemblies"] = std::move(assemblies);
     return o;
 }
 
@@ -285,6 +289,15 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
                    after = y == to.profiles.end() ? "not set" : json::serialize(to_json(*y));
         if (before != after) out.push_back(fmt::format("profile of unit {}: {} -> {}", unit, before, after));
     }
+    std::map<std::uint16_t, std::pair<std::string, std::string>> instances;
+    for (const auto& a : from.assemblies)
+        instances[a.instance].first = json::serialize(to_json(a));
+    for (const auto& a : to.assemblies)
+        instances[a.instance].second = json::serialize(to_json(a));
+    for (const auto& [instance, x] : instances) {
+        const auto text = [](const std::string& s) { return s.empty() ? std::string("not set") : s; };
+        if (x.first != x.second) out.push_back(fmt::format("assembly {}: {} -> {}", instance, text(x.first), text(x.second)));
+    }
     if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
     return out;
 }
@@ -317,6 +330,8 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
         mix(fmt::format("{} {}", unit, name_of(gaps)));
     for (const auto& p : site.profiles)
         mix(json::serialize(to_json(p)));
+    for (const auto& a : site.assemblies)
+        mix(json::serialize(to_json(a)));
     return h;
 }
 

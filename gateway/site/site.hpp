@@ -17,6 +17,7 @@
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/family.hpp"
 #include "gateway/core/setup.hpp"
+#include "gateway/site/assembly.hpp"
 #include "gateway/site/authority_mode.hpp"
 #include "gateway/site/descriptions.hpp"
 #include "gateway/site/fail_safe.hpp"
@@ -89,6 +90,7 @@ struct Site {
     std::shared_ptr<const std::vector<Mapping>> parsed_mappings;
     [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
     std::vector<ProfileSpec> profiles;     ///< units that speak another device's language
+    std::vector<AssemblySpec> assemblies;  ///< EtherNet/IP instances of its own, beside those of axes and profiles
     std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
 
     /// By drive, where it is not its family's page: made by parse_site, a function of the document and the descriptions that it names.

@@ -343,9 +343,10 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     }
     const auto& o = document.get_object();
     for (const auto& [k, v] : o) {
-        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units" && k != "profiles") {
+        if (k != "lines" && k != "drives" && k != "axes" && k != "mappings" && k != "modbus_units" && k != "profiles" &&
+            k != "assemblies") {
             faults.push_back({"/" + std::string(k), fmt::format("{} is not known here", std::string_view(k)),
-                              "a site has lines, drives, axes, mappings, modbus_units and profiles"});
+                              "a site has lines, drives, axes, mappings, modbus_units, profiles and assemblies"});
         }
     }
     Site site;
@@ -457,6 +458,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     }
     read_units(o.if_contains("modbus_units"), site, faults);
     read_profiles(o.if_contains("profiles"), site, faults);
+    read_assemblies(o.if_contains("assemblies"), site, faults);
     check_relations(site, families, faults);
     // In their full form from here on: ids that were given, defaults that were chosen.
     if (auto mappings = parse_mappings(site.mappings, site, families, faults)) {
@@ -466,6 +468,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     }
     check_profile_units(site, faults);
+    // Where the mappings have faults, what lies in a range is not known.
+    if (faults.size() == before) check_assemblies(site, faults);
     if (faults.size() != before) return std::nullopt;
     return site;
 }

@@ -107,8 +107,10 @@ std::string key_of(const json::object& entry) {
     for (const char* k : {"name", "id"}) {
         if (const auto* v = entry.if_contains(k); v && v->is_string()) return std::string(v->get_string());
     }
-    const auto* unit = entry.if_contains("unit");
-    return unit && unit->is_int64() ? std::to_string(unit->get_int64()) : std::string();
+    for (const char* k : {"instance", "unit"}) {
+        if (const auto* v = entry.if_contains(k); v && v->is_int64()) return std::to_string(v->get_int64());
+    }
+    return {};
 }
 const json::object* find_in(const json::array& list, std::string_view key) {
     for (const auto& v : list) {
@@ -121,7 +123,7 @@ const json::object* find_in(const json::array& list, std::string_view key) {
 json::array site_diff(const Site& from, const Site& to) {
     json::array out;
     const json::object a = to_json(from), b = to_json(to);
-    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units", "profiles"}) {
+    for (const char* list : {"lines", "drives", "axes", "mappings", "modbus_units", "profiles", "assemblies"}) {
         const auto* before = a.if_contains(list);
         const auto* after = b.if_contains(list);
         const json::array none;

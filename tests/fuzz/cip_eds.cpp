@@ -33,7 +33,7 @@ struct AnyDevice final : cip::Description {
     std::optional<AssemblyInfo> assembly(std::uint32_t i) const override {
         using Role = AssemblyInfo::Role;
         if (i == 101) return AssemblyInfo{Role::input, 32};
-        if (i == 151) return AssemblyInfo{Role::output, 32};
+        if (i == 151) return AssemblyInfo{Role::output, 32, 101};
         return AssemblyInfo{i == 197 ? Role::listen_only : i == 198 ? Role::input_only : Role::configuration, 0};
     }
     const std::vector<std::uint32_t>& assemblies() const override { return list_; }

@@ -53,6 +53,21 @@ struct Device1 final : Values, Output {
         asked_.push_back(t);
         return General::success;
     }
+    bool has_own_class(std::uint32_t c) const override { return c == 0x66; }
+    std::optional<OwnAttribute> own_attribute(std::uint32_t c, std::uint32_t i, std::uint32_t a) const override {
+        return c == 0x66 && i == 1 && a <= 2 ? std::optional(OwnAttribute{DataType::dint, a != 2, true}) : std::nullopt;
+    }
+    General get_own(const OwnPlace& place, Instant, Bytes& to) override {
+        require(place.class_id == 0x66 && place.instance == 1 && place.attribute == 1, "only what can be read is read");
+        put32(to, 7);
+        return General::success;
+    }
+    General set_own(const OwnPlace& place, View v, Token t, const Peer&, Instant, bool& later) override {
+        require(place.attribute >= 1 && place.attribute <= 2 && v.size() == 4 && t != 0, "a value has its size and its place");
+        later = place.attribute == 2;
+        if (later) asked_.push_back(t);
+        return General::success;
+    }
     void implicit(Endpoint, View d, std::uint8_t) override { require(read_implicit(d).has_value(), "what is sent can be read"); }
     void stream(SessionKey, View d) override {
         require(d.size() >= header_size && read_header(d).length == d.size() - header_size, "a packet has its length");

@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "instance": ["300"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -173,6 +173,7 @@ def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
     gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     gateway.send("PUT", "/profiles/40", {"language": "lexium", "axes": [{"axis": "feeder"}]})
+    gateway.send("PUT", "/assemblies/300", {"direction": "input", "unit": 40, "address": 0, "registers": 169})
     until(lambda: gateway.get("/recipes/warm-up/runs/1")["state"] == "done", 20, "the run's end")
     for axis in NAMES["axis"]:
         gateway.send("POST", f"/axes/{axis}/snapshots", {"name": "first", "from": "stored"}, 201)
@@ -271,7 +272,7 @@ def test_every_write_answers_as_described(gateway):
         ("replaceMapping", {"mapping": "new"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC", "type": "f64", "scale": 0.5}, 200),
         ("replaceMapping", {"mapping": "nobody"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC"}, 404), ("removeMapping", {"mapping": "new"}, None, 204),
         ("changeMappingUnit", {"unit": "2"}, {"gaps": "refuse"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "zero"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "perhaps"}, 422),
-        ("putProfile", {"unit": "40"}, {"language": "lexium", "axes": [{"axis": "feeder"}]}, 200), ("putProfile", {"unit": "40"}, {"language": "klingon", "axes": []}, 422), ("removeProfile", {"unit": "40"}, None, 204), ("removeProfile", {"unit": "40"}, None, 404),
+        ("putProfile", {"unit": "40"}, {"language": "lexium", "axes": [{"axis": "feeder"}]}, 200), ("putProfile", {"unit": "40"}, {"language": "klingon", "axes": []}, 422), ("putAssembly", {"instance": "300"}, {"direction": "input", "unit": 40, "registers": 20}, 200), ("putAssembly", {"instance": "101"}, {"direction": "input", "unit": 40, "registers": 20}, 409), ("putAssembly", {"instance": "300"}, {"direction": "sideways"}, 422), ("removeAssembly", {"instance": "300"}, None, 204), ("removeAssembly", {"instance": "300"}, None, 404), ("removeProfile", {"unit": "40"}, None, 204), ("removeProfile", {"unit": "40"}, None, 404),
         ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n3,2,slide,position\n", 200), ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n", 422),
         ("replaceMappings", {}, "unit;address;axis;point\r\n3;0;feeder;velocity\r\n", 200),
         ("startScan", {"line": "can0"}, {"from": 5, "to": 9, "limit_s": 30}, 202), ("startScan", {"line": "can0"}, {"from": 1}, 409), ("startScan", {"line": "can0"}, {"x": 1}, 422), ("startScan", {"line": "nobody"}, {}, 404),

@@ -16,6 +16,8 @@ using cip::Bytes;
 using cip::General;
 
 constexpr std::uint16_t input_registers = bytes_per_axis / 2;
+/// Beyond those of the register writer, whose tickets are the door's as well: place and generation, below 2^48.
+constexpr std::uint64_t own_tickets = std::uint64_t{1} << 48;
 
 /// A word that stops or switches off is taken though much waits for the drives.
 bool only_stops(const CommandBody& body) {
@@ -74,7 +76,10 @@ General general_of(Reason reason) noexcept {
 }
 
 AxisValues::AxisValues(DoorPort& port, registers::RegisterImage& image, std::int64_t lease_s)
-    : port_(port), image_(image), refusals_(port, image, {.door = Door::ethernet_ip}), lease_s_(lease_s) {}
+    : port_(port),
+      image_(image),
+      writer_(port, image, {.door = Door::ethernet_ip, .answer = [](registers::Verdict) { return std::string(); }}),
+      lease_s_(lease_s) {}
 
 void AxisValues::use(Layout layout, bool anew) {
     layout_ = std::move(layout);
@@ -83,6 +88,11 @@ void AxisValues::use(Layout layout, bool anew) {
 
 template <class Each>
 void AxisValues::each_axis(std::uint32_t instance, Each&& each) const {
+    if (const auto* w = layout_.window(instance)) {
+        for (std::uint16_t i = 0; i < w->axes.size(); ++i)
+            each(i, w->axes[i]);
+        return;
+    }
     const Layout::Range r = layout_.range_of(instance);
     for (std::uint16_t i = 0; i < r.count; ++i) {
         const LayoutAxis* const a = layout_.axis(static_cast<std::uint16_t>(r.first + i));
@@ -93,6 +103,7 @@ void AxisValues::each_axis(std::uint32_t instance, Each&& each) const {
 void AxisValues::read(std::uint32_t instance, Instant now, Bytes& to) {
     const auto info = layout_.assembly(instance);
     if (!info) return;
+    if (const auto* w = layout_.window(instance)) return show_window(image_, w->spec, now, to);
     const std::size_t begin = to.size();
     const bool input = info->role == cip::AssemblyInfo::Role::input;
     const std::uint16_t from = input ? std::uint16_t{0} : reg::controlword;
@@ -120,6 +131,7 @@ void AxisValues::read(std::uint32_t instance, Instant now, Bytes& to) {
 }
 
 std::uint64_t AxisValues::revision(std::uint32_t instance) const {
+    if (const auto* w = layout_.window(instance)) return window_revision(image_, w->spec, port_.now());
     std::uint64_t sum = 0;
     each_axis(instance, [&](std::uint16_t, AxisId id) {
         if (id != no_axis) sum += port_.image().cell(id).revision();
@@ -138,7 +150,9 @@ Origin AxisValues::origin_of(std::uint32_t output, const cip::Peer& who) const {
 
 Origin AxisValues::origin_for(AxisId axis, const cip::Peer& who) const {
     for (const auto& [output, owner] : owners_) {
-        if (owner.lanes.contains(axis) && owner.origin.client->starts_with(address_text(who.from.address) + " ")) return owner.origin;
+        if (std::ranges::find(owner.axes, axis) != owner.axes.end() &&
+            owner.origin.client->starts_with(address_text(who.from.address) + " "))
+            return owner.origin;
     }
     Origin o;
     o.door = Door::ethernet_ip;
@@ -149,7 +163,7 @@ Origin AxisValues::origin_for(AxisId axis, const cip::Peer& who) const {
 bool AxisValues::submit(AxisId axis, CommandBody body, Asked asked, Instant now) {
     if (asked_.size() >= 2 * most_asked && !only_stops(body)) return false;
     Command c;
-    c.ticket = make_ticket(number_, ++tickets_);
+    c.ticket = make_ticket(number_, own_tickets + ++tickets_);
     c.axis = axis;
     c.body = std::move(body);
     c.origin = asked.origin;
@@ -161,6 +175,10 @@ bool AxisValues::submit(AxisId axis, CommandBody body, Asked asked, Instant now)
 }
 
 General AxisValues::write(std::uint32_t instance, cip::View data, const cip::Peer& who, Instant now) {
+    if (const auto* w = layout_.window(instance)) {
+        const Origin origin = origin_for(w->axes.empty() ? no_axis : w->axes.front(), who);
+        return general_of(write_window(image_, writer_, w->spec, origin, data, now));
+    }
     bool taken = true;
     each_axis(instance, [&](std::uint16_t i, AxisId id) {
         if (id == no_axis) return;
@@ -175,8 +193,16 @@ General AxisValues::write(std::uint32_t instance, cip::View data, const cip::Pee
 }
 
 bool AxisValues::overlap(std::uint32_t a, std::uint32_t b) const {
+    if (a == b) return true;
+    if (layout_.window(a) || layout_.window(b)) {
+        std::vector<AxisId> of_a;
+        each_axis(a, [&](std::uint16_t, AxisId id) { of_a.push_back(id); });
+        bool both = false;
+        each_axis(b, [&](std::uint16_t, AxisId id) { both = both || (id != no_axis && std::ranges::find(of_a, id) != of_a.end()); });
+        return both;
+    }
     const Layout::Range x = layout_.range_of(a), y = layout_.range_of(b);
-    return a == b || (x.first < y.first + y.count && y.first < x.first + x.count);
+    return x.first < y.first + y.count && y.first < x.first + x.count;
 }
 
 bool AxisValues::held_by_another(std::uint32_t output, const cip::Peer& who, Instant now) const {
@@ -197,8 +223,16 @@ void AxisValues::opened(std::uint32_t output, const cip::Peer& who, Duration tim
     owner.origin = origin_of(output, who);
     owner.good_for = std::clamp(time_out, SetPoint::good_for_min, SetPoint::good_for_max);
     each_axis(output, [&](std::uint16_t, AxisId id) {
-        if (id != no_axis) owner.lanes.emplace(id, OutputLane{});
+        if (id != no_axis) owner.axes.push_back(id);
     });
+    if (const auto* w = layout_.window(output)) {
+        owner.window = std::make_unique<WindowOutput>(port_, image_, writer_, counters_.commands, w->spec, owner.origin);
+        for (const auto& [axis, members] : owner.window->members())
+            owner.lanes.emplace(axis, OutputLane(members));
+    } else {
+        for (const AxisId axis : owner.axes)
+            owner.lanes.emplace(axis, OutputLane{});
+    }
     Event e;
     e.kind = "ethernet_ip";
     e.door = std::string(name_of(Door::ethernet_ip));
@@ -210,6 +244,12 @@ void AxisValues::opened(std::uint32_t output, const cip::Peer& who, Duration tim
 void AxisValues::consumed(std::uint32_t output, cip::View data, const cip::Peer&, Instant now) {
     const auto it = owners_.find(output);
     if (it == owners_.end()) return;
+    if (WindowOutput* const window = it->second.window.get()) {
+        window->take(data, now);
+        for (auto& [axis, lane] : it->second.lanes)
+            carry_out(output, it->second, axis, lane.take(window->wanted(axis), port_.image().picture(axis)), now);
+        return;
+    }
     each_axis(output, [&](std::uint16_t i, AxisId id) {
         const auto lane = it->second.lanes.find(id);
         if (lane == it->second.lanes.end()) return;
@@ -241,6 +281,7 @@ void AxisValues::lose(std::uint32_t output, LossCause cause) {
     if (it == owners_.end()) return;
     for (auto& [axis, lane] : it->second.lanes)
         lane.reset();
+    if (it->second.window) it->second.window->reset();
     port_.client_lost(AuthorityClient::of(it->second.origin), cause);
 }
 
@@ -301,18 +342,18 @@ void AxisValues::refused(const Asked& asked, const Result& result, Instant now) 
     note.address = reg::controlword;
     note.count = 1;
     note.values[0] = asked.data.controlword.value_or(0);
-    refusals_.refused(*asked.origin.who,
-                      {asked.axis,
-                       result.reason == Reason::none ? Reason::internal : result.reason,
-                       result.text.empty() ? std::string("the output was refused") : result.text,
-                       {},
-                       {}},
-                      note, {}, now);
+    writer_.refused(*asked.origin.who,
+                    {asked.axis,
+                     result.reason == Reason::none ? Reason::internal : result.reason,
+                     result.text.empty() ? std::string("the output was refused") : result.text,
+                     {},
+                     {}},
+                    note, {}, now);
 }
 
 void AxisValues::on_result(const Result& result) {
     const auto it = asked_.find(result.ticket);
-    if (it == asked_.end()) return;
+    if (it == asked_.end()) return writer_.on_result(result);
     const Asked asked = std::move(it->second);
     asked_.erase(it);
     const Instant now = port_.now();
@@ -333,7 +374,7 @@ void AxisValues::on_result(const Result& result) {
 }
 
 void AxisValues::sweep(Instant now) {
-    refusals_.sweep(now);
+    writer_.sweep(now);
     std::vector<Ticket> late;
     for (const auto& [ticket, asked] : asked_) {
         if (asked.until <= now) late.push_back(ticket);
@@ -351,11 +392,11 @@ void AxisValues::sweep(Instant now) {
     // Who holds an axis and goes on renewing its outputs has not let it go, though nothing changes in them.
     for (auto& [output, owner] : owners_) {
         const auto me = AuthorityClient::of(owner.origin);
-        for (const auto& [axis, lane] : owner.lanes) {
+        for (const AxisId axis : owner.axes) {
             const AxisPicture& p = port_.image().picture(axis);
             if (p.authority_until <= now || p.authority != Door::ethernet_ip || me.name != p.authority_holder.data()) continue;
             Command c;
-            c.ticket = make_ticket(number_, ++tickets_);
+            c.ticket = make_ticket(number_, own_tickets + ++tickets_);
             c.axis = axis;
             c.body = HoldAxis{HoldAxis::Kind::take, lease_s_, false, {}};
             c.origin = owner.origin;

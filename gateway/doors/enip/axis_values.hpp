@@ -5,11 +5,14 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "gateway/core/counter.hpp"
 #include "gateway/doors/enip/layout.hpp"
 #include "gateway/doors/enip/output_lane.hpp"
+#include "gateway/doors/enip/window.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/registers/register_image.hpp"
 #include "gateway/registers/writer.hpp"
@@ -27,11 +30,15 @@ public:
 
     /// `told`: where values of parameters go; not called from inside ask() or set().
     AxisValues(DoorPort& port, registers::RegisterImage& image, std::int64_t lease_s);
-    void use_number(DoorNumber number) noexcept { number_ = number; }
+    void use_number(DoorNumber number) noexcept {
+        number_ = number;
+        writer_.use_number(number);
+    }
     void use(Told told) { told_ = std::move(told); }
     /// The layout of the site in force. `anew`: it is another one; its connections have been closed.
     void use(Layout layout, bool anew);
     [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
+    [[nodiscard]] const registers::Languages& languages() const noexcept { return image_.languages(); }
 
     void on_result(const Result& result);
     /// Now and then: what the drives have not answered, leases of who goes on commanding.
@@ -55,6 +62,13 @@ public:
     [[nodiscard]] cip::General ask(std::uint32_t instance, cip::Token token, const cip::Peer& who, Instant now) override;
     [[nodiscard]] cip::General set(std::uint32_t instance, cip::View value, cip::Token token, const cip::Peer& who, Instant now) override;
 
+    [[nodiscard]] bool has_own_class(std::uint32_t class_id) const override;
+    [[nodiscard]] std::optional<OwnAttribute> own_attribute(std::uint32_t class_id, std::uint32_t instance,
+                                                            std::uint32_t attribute) const override;
+    [[nodiscard]] cip::General get_own(const OwnPlace& place, Instant now, cip::Bytes& to) override;
+    [[nodiscard]] cip::General set_own(const OwnPlace& place, cip::View value, cip::Token token, const cip::Peer& who, Instant now,
+                                       bool& later) override;
+
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
 
 private:
@@ -62,6 +76,17 @@ private:
         Origin origin;
         Duration good_for{};
         std::map<AxisId, OutputLane> lanes;
+        std::vector<AxisId> axes;              ///< all that it commands
+        std::unique_ptr<WindowOutput> window;  ///< of an assembly of the site's own
+    };
+    /// A write of an attribute, until all that it ordered has been answered.
+    struct OwnWrite final : registers::WriteOwner {
+        OwnWrite(AxisValues& of, cip::Token t) : values(of), token(t) {}
+        void on_written(std::uint8_t slot, AxisId axis, registers::Verdict verdict) override;
+        AxisValues& values;
+        cip::Token token;
+        std::uint16_t left = 0;
+        registers::Verdict verdict = registers::Verdict::good;
     };
     struct Asked {
         cip::Token token = 0;  ///< 0: a command of an output
@@ -85,13 +110,14 @@ private:
 
     DoorPort& port_;
     registers::RegisterImage& image_;
-    registers::RegisterWriter refusals_;  // its log and registers 20 and 21
+    registers::RegisterWriter writer_;  // of windows and attributes; its log of refusals and registers 20 and 21 are everybody's
     std::int64_t lease_s_;
     DoorNumber number_ = 0;
     Told told_;
     Layout layout_;
     std::map<std::uint32_t, Owner> owners_;  // by output assembly
     std::map<Ticket, Asked> asked_;
+    std::map<cip::Token, OwnWrite> own_writes_;  // at most most_asked
     std::size_t questions_ = 0;
     std::uint64_t tickets_ = 0;
     Instant renewed_{};

@@ -162,8 +162,36 @@ Layout::List Layout::list_of(const Catalogue& catalogue) {
     return list;
 }
 
-Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, const HostFacts& host)
-    : axes_(std::move(axes)), mapping_revision_(mapping_revision) {
+std::vector<LayoutWindow> windows_of(const SiteState& state) {
+    std::vector<LayoutWindow> list;
+    for (auto& a : assemblies_of(state.site)) {
+        LayoutWindow w{a.spec, {}, std::move(a.name), a.partner};
+        for (const auto& name : a.axes) {
+            const auto it = std::ranges::find(state.site.axes, name, &AxisSpec::name);
+            const auto i = static_cast<std::size_t>(it - state.site.axes.begin());
+            if (i < state.axis_ids.size()) w.axes.push_back(state.axis_ids[i]);
+        }
+        list.push_back(std::move(w));
+    }
+    return list;
+}
+
+std::vector<LayoutObjects> objects_of(const SiteState& state, const registers::Languages& pages) {
+    std::vector<LayoutObjects> list;
+    for (const auto& p : state.site.profiles) {
+        const auto& page = pages[static_cast<std::size_t>(p.language)];
+        if (!p.object_instance || !page || p.axes.empty()) continue;
+        const auto it = std::ranges::find(state.site.axes, p.axes.front().axis, &AxisSpec::name);
+        const auto i = static_cast<std::size_t>(it - state.site.axes.begin());
+        if (i < state.axis_ids.size()) list.push_back({*p.object_instance, p.unit, p.language, state.axis_ids[i], page});
+    }
+    return list;
+}
+
+Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, const HostFacts& host, std::vector<LayoutWindow> windows,
+               std::vector<LayoutObjects> objects)
+    : axes_(std::move(axes)), windows_(std::move(windows)), objects_(std::move(objects)), mapping_revision_(mapping_revision) {
+    std::ranges::sort(windows_, {}, [](const LayoutWindow& w) { return w.spec.instance; });
     std::erase_if(axes_, [](const LayoutAxis& a) { return a.number == 0; });
     std::ranges::sort(axes_, {}, &LayoutAxis::number);
     device_.vendor = 0xFFFF;  // no number of an association is claimed
@@ -194,12 +222,28 @@ Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, con
         if (!list) list = std::make_shared<const List>(list_of(*a.catalogue));
         parameters_ = static_cast<std::uint32_t>(std::min<std::size_t>(parameters_ + list->size(), 0xFFFF));
     }
+    for (const LayoutWindow& w : windows_)
+        assemblies_.push_back(w.spec.instance);
     std::ranges::sort(assemblies_);
 }
 
 const LayoutAxis* Layout::axis(std::uint16_t number) const {
     const auto it = std::ranges::lower_bound(axes_, number, {}, &LayoutAxis::number);
     return it != axes_.end() && it->number == number ? &*it : nullptr;
+}
+
+const LayoutWindow* Layout::window(std::uint32_t instance) const {
+    const auto it = std::ranges::lower_bound(windows_, instance, {}, [](const LayoutWindow& w) { return std::uint32_t{w.spec.instance}; });
+    return it != windows_.end() && it->spec.instance == instance ? &*it : nullptr;
+}
+
+Layout::ObjectRow Layout::object_row(std::uint32_t class_id, std::uint32_t instance, std::uint32_t attribute) const {
+    const auto it = std::ranges::find(objects_, instance, [](const LayoutObjects& o) { return std::uint32_t{o.instance}; });
+    if (it == objects_.end()) return {};
+    const auto row = std::ranges::find_if(it->page->rows, [&](const registers::LanguageRow& r) {
+        return r.holding && r.object && r.object->class_id == class_id && (attribute == 0 || r.object->attribute == attribute);
+    });
+    return row == it->page->rows.end() ? ObjectRow{} : ObjectRow{&*it, &*row};
 }
 
 Layout::Range Layout::range_of(std::uint32_t instance) const {
@@ -224,10 +268,15 @@ std::optional<cip::AssemblyInfo> Layout::assembly(std::uint32_t instance) const 
         default:
             break;
     }
+    if (const auto* w = window(instance))
+        return AssemblyInfo{w->spec.direction == AssemblyDirection::output ? Role::output : Role::input, w->spec.bytes(), w->partner};
     const Range r = range_of(instance);
     if (r.count == 0 && instance != all_inputs && instance != all_outputs) return std::nullopt;
     const bool output = (instance >= all_outputs && instance <= all_outputs + last_near_axis) || instance > far_outputs + last_near_axis;
-    return AssemblyInfo{output ? Role::output : Role::input, static_cast<std::uint16_t>(r.count * bytes_per_axis)};
+    const std::uint32_t partner = !output                  ? 0
+                                  : instance > far_outputs ? instance - far_outputs + far_inputs
+                                                           : instance - all_outputs + all_inputs;
+    return AssemblyInfo{output ? Role::output : Role::input, static_cast<std::uint16_t>(r.count * bytes_per_axis), partner};
 }
 
 std::string Layout::name_of(std::uint32_t instance) const {
@@ -237,6 +286,7 @@ std::string Layout::name_of(std::uint32_t instance) const {
     if (info->role == Role::configuration) return "configuration (empty)";
     if (info->role == Role::input_only) return "heartbeat, input only";
     if (info->role == Role::listen_only) return "heartbeat, listen only";
+    if (const auto* w = window(instance)) return w->name;
     const bool one = instance != all_inputs && instance != all_outputs;
     const std::string what = one ? "axis " + axis(range_of(instance).first)->name : std::string("all axes");
     return what + (info->role == Role::input ? " to the originator" : " from the originator");

@@ -10,6 +10,9 @@
 
 #include "gateway/core/catalogue.hpp"
 #include "gateway/protocols/cip/values.hpp"
+#include "gateway/registers/profiles/language.hpp"
+#include "gateway/site/assembly.hpp"
+#include "gateway/site/site_state.hpp"
 
 namespace axisgate::enip {
 
@@ -25,6 +28,23 @@ struct LayoutAxis {
     std::string name;
     const Catalogue* catalogue = nullptr;  ///< outlives the layout; nullptr: no parameters
 };
+/// An assembly that shows or takes a range of a unit's registers.
+struct LayoutWindow {
+    AssemblySpec spec;
+    std::vector<AxisId> axes;
+    std::string name;           ///< for people
+    std::uint16_t partner = 0;  ///< of an output
+};
+[[nodiscard]] std::vector<LayoutWindow> windows_of(const SiteState& site);
+/// Classes of another maker's device: an instance of them is a profile.
+struct LayoutObjects {
+    std::uint16_t instance = 1;
+    std::uint8_t unit = 2;
+    ProfileLanguage language{};
+    AxisId axis = no_axis;
+    std::shared_ptr<const registers::Language> page;
+};
+[[nodiscard]] std::vector<LayoutObjects> objects_of(const SiteState& site, const registers::Languages& pages);
 struct HostFacts {
     std::string host_name;
     std::uint32_t address = 0, mask = 0, router = 0;  ///< as numbers of the host
@@ -36,7 +56,8 @@ struct HostFacts {
 class Layout final : public cip::Description {
 public:
     Layout() = default;
-    Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, const HostFacts& host);
+    Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, const HostFacts& host, std::vector<LayoutWindow> windows = {},
+           std::vector<LayoutObjects> objects = {});
 
     [[nodiscard]] const cip::Device& device() const override { return device_; }
     [[nodiscard]] std::optional<cip::AssemblyInfo> assembly(std::uint32_t instance) const override;
@@ -57,6 +78,15 @@ public:
     /// nullptr: no axis has this number.
     [[nodiscard]] const LayoutAxis* axis(std::uint16_t number) const;
     [[nodiscard]] const std::vector<LayoutAxis>& axes() const noexcept { return axes_; }
+    /// nullptr: this assembly is none of the site's own.
+    [[nodiscard]] const LayoutWindow* window(std::uint32_t instance) const;
+    [[nodiscard]] const std::vector<LayoutObjects>& objects() const noexcept { return objects_; }
+    struct ObjectRow {
+        const LayoutObjects* object = nullptr;
+        const registers::LanguageRow* row = nullptr;
+    };
+    /// Attribute 0: whether there is the instance, with any row of the class.
+    [[nodiscard]] ObjectRow object_row(std::uint32_t class_id, std::uint32_t instance, std::uint32_t attribute) const;
     [[nodiscard]] std::uint32_t mapping_revision() const noexcept { return mapping_revision_; }
     /// For people: "axis feeder to the originator".
     [[nodiscard]] std::string name_of(std::uint32_t instance) const;
@@ -69,7 +99,9 @@ private:
     using List = std::vector<Entry>;
     [[nodiscard]] static List list_of(const Catalogue& catalogue);
 
-    std::vector<LayoutAxis> axes_;  // by number
+    std::vector<LayoutAxis> axes_;       // by number
+    std::vector<LayoutWindow> windows_;  // by instance
+    std::vector<LayoutObjects> objects_;
     std::uint32_t mapping_revision_ = 0;
     cip::Device device_;
     std::vector<std::uint32_t> assemblies_;

@@ -41,6 +41,40 @@ ProcessData all_of(const Wanted& w) noexcept {
     return d;
 }
 
+std::uint8_t member_of(AxisPoint point) noexcept {
+    switch (point) {
+        case AxisPoint::controlword:
+            return has_controlword;
+        case AxisPoint::mode:
+            return has_mode;
+        case AxisPoint::target_position:
+            return has_target_position;
+        case AxisPoint::profile_velocity:
+            return has_profile_velocity;
+        case AxisPoint::profile_acceleration:
+            return has_profile_acceleration;
+        case AxisPoint::profile_deceleration:
+            return has_profile_deceleration;
+        case AxisPoint::target_velocity:
+            return has_target_velocity;
+        case AxisPoint::homing_method:
+            return has_homing_method;
+        default:
+            return 0;
+    }
+}
+
+void overlay(Wanted& w, const ProcessData& d) noexcept {
+    w.controlword = d.controlword.value_or(w.controlword);
+    w.mode = d.mode.value_or(w.mode);
+    w.target_position = d.target_position.value_or(w.target_position);
+    w.profile_velocity = d.profile_velocity.value_or(w.profile_velocity);
+    w.profile_acceleration = d.profile_acceleration.value_or(w.profile_acceleration);
+    w.profile_deceleration = d.profile_deceleration.value_or(w.profile_deceleration);
+    w.target_velocity = d.target_velocity.value_or(w.target_velocity);
+    w.homing_method = d.homing_method.value_or(w.homing_method);
+}
+
 /// What the first image wanted counts when it wants something else, or when the originator itself enables the axis or ends its halt.
 void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
     constexpr std::uint16_t halt = cia402::cw_halt;
@@ -51,7 +85,7 @@ void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
         any_ = true;
     }
     held_ &= image.controlword;
-    const bool another_mode = image.mode != base_.mode;
+    const bool another_mode = has(has_mode) && image.mode != base_.mode;
     const bool enables = (image.controlword & ~newest_.controlword & cia402::cw_enable_operation) != 0;
     const bool releases = (newest_.controlword & ~image.controlword & halt) != 0;
     if (!speed_counts_ && (another_mode || image.target_velocity != base_.target_velocity || enables || releases)) {
@@ -67,16 +101,19 @@ void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
     newest_ = image;
 }
 
-OutputLane::Step OutputLane::take(const Wanted& wanted, const AxisPicture& axis) {
+OutputLane::Step OutputLane::take(const Wanted& given, const AxisPicture& axis) {
+    Wanted wanted = given;
+    if (!has(has_mode)) wanted.mode = axis.mode;
     compare(wanted, axis);
     wanted_ = wanted;
     wanted_.controlword = static_cast<std::uint16_t>((wanted.controlword & ~held_) | (halt_held_ ? cia402::cw_halt : 0));
     Step step = next();
-    const bool follows =
-        streams(wanted_) && stream_counts_ && (wanted_.controlword & enabled) == enabled && !(wanted_.controlword & cia402::cw_halt);
+    const bool position = wanted_.mode == streamed_position;
+    const std::uint16_t word = has(has_controlword) ? wanted_.controlword : axis.controlword;
+    const bool follows = streams(wanted_) && stream_counts_ && has(position ? has_target_position : has_target_velocity) &&
+                         (word & enabled) == enabled && !(word & cia402::cw_halt);
     if (follows && is_enabled(axis)) {
         SetPoint p;
-        const bool position = wanted_.mode == streamed_position;
         p.mode = position ? SetPoint::Mode::position : SetPoint::Mode::velocity;
         p.value = position ? wanted_.target_position : wanted_.target_velocity;
         if (position && wanted_.profile_velocity != 0) p.velocity = wanted_.profile_velocity;
@@ -93,21 +130,23 @@ OutputLane::Step OutputLane::done() {
 }
 
 OutputLane::Step OutputLane::next() {
-    const bool word = wanted_.controlword != sent_.controlword;
+    const bool word = has(has_controlword) && wanted_.controlword != sent_.controlword;
     const bool streamed = streams(wanted_);
-    const bool mode = wanted_.mode != sent_.mode && !streamed;
+    const bool mode = has(has_mode) && wanted_.mode != sent_.mode && !streamed;
     // A profile takes its values with an edge; a speed is followed as it changes.
     Wanted now = wanted_;
+    if (!has(has_controlword)) now.controlword = sent_.controlword;
+    if (!has(has_mode)) now.mode = sent_.mode;
     if (!speed_counts_) now.target_velocity = sent_.target_velocity;
     if (streamed) {
         now = sent_;
-        now.controlword = wanted_.controlword;
+        if (has(has_controlword)) now.controlword = wanted_.controlword;
     } else if (!word && !mode) {
         if (wanted_.mode != velocity_mode || on_their_way_ > 0) return {};
         now.target_position = sent_.target_position;
         now.homing_method = sent_.homing_method;
     }
-    const bool due = speed_due_ && now.mode == velocity_mode;
+    const bool due = speed_due_ && wanted_.mode == velocity_mode;
     if (now == sent_ && !due) return {};
     ProcessData d;
     if (due) {

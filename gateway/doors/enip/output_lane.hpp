@@ -9,6 +9,7 @@
 #include "gateway/axis/image.hpp"
 #include "gateway/core/command.hpp"
 #include "gateway/protocols/cip/bytes.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate::enip {
 
@@ -22,6 +23,22 @@ struct Wanted {
     std::int16_t homing_method = 0;
     bool operator==(const Wanted&) const = default;
 };
+/// Members of it that an output has; what it has not is never sent, and its mode is the axis' own.
+enum WantedMember : std::uint8_t {
+    has_controlword = 1,
+    has_mode = 2,
+    has_target_position = 4,
+    has_profile_velocity = 8,
+    has_profile_acceleration = 16,
+    has_profile_deceleration = 32,
+    has_target_velocity = 64,
+    has_homing_method = 128,
+    has_all = 255
+};
+/// None: it is no set-point.
+[[nodiscard]] std::uint8_t member_of(AxisPoint point) noexcept;
+/// The members that `data` has replace those of `wanted`.
+void overlay(Wanted& wanted, const ProcessData& data) noexcept;
 /// Of 32 bytes.
 [[nodiscard]] Wanted read_wanted(cip::View bytes) noexcept;
 /// All of it, for a write that stands by itself.
@@ -29,12 +46,14 @@ struct Wanted {
 
 class OutputLane {
 public:
+    /// `members`: of WantedMember.
+    explicit OutputLane(std::uint8_t members = has_all) : members_(members) {}
     struct Step {
         std::optional<ProcessData> command;
         std::optional<SetPoint> set_point;  ///< axis, times and origin are the caller's
     };
     /// From here on as if nothing had been sent.
-    void reset() { *this = {}; }
+    void reset() { *this = OutputLane(members_); }
     [[nodiscard]] Step take(const Wanted& wanted, const AxisPicture& axis);
     /// A command of step() was handed on / has its result: then what waited may go.
     void begun() noexcept { ++on_their_way_; }
@@ -43,6 +62,8 @@ public:
 private:
     void compare(const Wanted& image, const AxisPicture& axis);
     [[nodiscard]] Step next();
+    [[nodiscard]] bool has(WantedMember m) const noexcept { return (members_ & m) != 0; }
+    std::uint8_t members_;
     Wanted base_, newest_;  // images as they came: the first, and the one before the newest
     Wanted wanted_, sent_;
     std::uint16_t held_ = 0;  // bits that were set from the start

@@ -226,7 +226,7 @@ void Server::Impl::on_site(const SiteState& site) {
         const AxisId id = site.axis_ids[i];
         axes.push_back({port_.image().picture(id).number, id, site.site.axes[i].name, port_.catalogue(id)});
     }
-    Layout layout(std::move(axes), revision, facts_);
+    Layout layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
     // An axis that was made anew is another one, though it looks the same.
     const bool changed = revision != values_.layout().mapping_revision() ||
                          !std::ranges::equal(layout.axes(), values_.layout().axes(), {}, &LayoutAxis::id, &LayoutAxis::id);

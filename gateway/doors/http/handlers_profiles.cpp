@@ -108,11 +108,14 @@ Handled put_profile(Call& c, SitePort& sites, const StagePort& staging) {
 
 Handled remove_profile(Call& c, SitePort& sites, const StagePort& staging) {
     const auto unit = parse_whole(c.names[0], 2, 254);
-    return change_site(c, sites, staging, false, [unit, name = c.names[0]](const SiteState& before) -> Planned {
+    return change_site(c, sites, staging, false, [&sites, unit, name = c.names[0]](const SiteState& before) -> Planned {
         if (!unit || !profile_of(before.site, *unit)) return nothing_named("profile of unit", name);
-        Site site = before.site;
-        std::erase_if(site.profiles, [&](const ProfileSpec& p) { return p.unit == *unit; });
-        return Plan{std::move(site), [](const std::shared_ptr<const SiteState>& now) {
+        json::object document = to_json(before.site);
+        document["profiles"] = others_than(before.site, *unit);
+        std::vector<SiteFault> faults;
+        auto site = parse_site(document, sites.families(), faults);  // an assembly may show its unit
+        if (!site) return refusal_for(faults, "", false);
+        return Plan{std::move(*site), [](const std::shared_ptr<const SiteState>& now) {
                         Response r;
                         r.status = 204;
                         put_revision(r, *now);

@@ -141,6 +141,10 @@ constexpr std::array routes{
         .asks("wait")
         .needs(Role::viewer)
         .moves(),  // as above
+    Route{"/api/v1/assemblies", Method::get, take<list_assemblies>},
+    Route{"/api/v1/assemblies/{instance}", Method::get, take<get_assembly>},
+    Route{"/api/v1/assemblies/{instance}", Method::put, take<put_assembly>, Takes::json},
+    Route{"/api/v1/assemblies/{instance}", Method::remove, take<remove_assembly>, Takes::nothing, Gives::nothing},
     Route{"/api/v1/profiles", Method::get, take<list_profiles>},
     Route{"/api/v1/profiles/{unit}", Method::get, take<get_profile>},
     Route{"/api/v1/profiles/{unit}", Method::put, take<put_profile>, Takes::json},

@@ -27,6 +27,7 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
       identity_(values, manager_),
       assembly_(values, manager_),
       parameter_(values),
+      own_(values),
       tcp_ip_(values),
       ethernet_link_(values),
       router_(manager_),
@@ -34,6 +35,7 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
     for (Object* o :
          std::initializer_list<Object*>{&manager_, &identity_, &assembly_, &parameter_, &tcp_ip_, &ethernet_link_, &qos_, &configuration_})
         router_.add(*o);
+    router_.add_own(own_);
 }
 
 bool Adapter::make_room(Instant now) {

@@ -98,6 +98,7 @@ private:
     IdentityObject identity_;
     AssemblyObject assembly_;
     ParameterObject parameter_;
+    OwnObject own_;
     TcpIpObject tcp_ip_;
     EthernetLinkObject ethernet_link_;
     QosObject qos_;

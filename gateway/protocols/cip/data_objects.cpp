@@ -31,6 +31,48 @@ General AssemblyObject::set(std::uint32_t instance, std::uint32_t attribute, con
     return values_.write(instance, data.take(info.size), context.peer, context.now);
 }
 
+namespace {
+constexpr std::uint32_t most_own = 255;  // attributes and instances that are looked for
+}
+std::uint32_t OwnObject::last_instance() const {
+    std::uint32_t last = 0;
+    for (std::uint32_t i = 1; i <= most_own; ++i)
+        last = has(i) ? i : last;
+    return last;
+}
+std::uint32_t OwnObject::instances() const {
+    std::uint32_t n = 0;
+    for (std::uint32_t i = 1; i <= most_own; ++i)
+        n += has(i) ? 1 : 0;
+    return n;
+}
+std::uint16_t OwnObject::last_attribute() const {
+    const std::uint32_t instance = last_instance();
+    std::uint16_t last = 0;
+    for (std::uint16_t i = 1; i <= most_own; ++i)
+        last = values_.own_attribute(class_, instance, i) ? i : last;
+    return last;
+}
+
+General OwnObject::get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) {
+    const auto what = attribute == 0 ? std::nullopt : values_.own_attribute(class_, instance, attribute);
+    if (!what) return General::attribute_not_supported;
+    return what->readable ? values_.get_own({class_, instance, attribute}, context.now, to) : General::attribute_not_gettable;
+}
+
+Response OwnObject::set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) {
+    const auto what = attribute == 0 ? std::nullopt : values_.own_attribute(class_, instance, attribute);
+    if (!what) return Response::of(General::attribute_not_supported);
+    if (!what->writable) return Response::of(General::attribute_not_settable);
+    const std::size_t size = size_of(what->type);
+    if (data.size() != size) return Response::of(data.size() < size ? General::not_enough_data : General::too_much_data);
+    if (context.token == 0) return Response::of(General::resource_unavailable);
+    Response r;
+    r.general = values_.set_own({class_, instance, attribute}, data, context.token, context.peer, context.now, r.pending);
+    r.pending = r.pending && r.good();
+    return r;
+}
+
 std::span<const std::uint16_t> ParameterObject::all(std::uint32_t) const {
     static constexpr std::uint16_t list[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21};
     return list;

@@ -1,4 +1,4 @@
-// EDS: section by section in the order of the standard. Every output pairs with the input of the same axis.
+// EDS: section by section in the order of the standard. Every output stands with the input that is its partner.
 // In: a description. Out: text with CR LF, seven bits alone. Never writes a quotation mark inside a text.
 #include "gateway/protocols/cip/eds.hpp"
 
@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "gateway/protocols/cip/path.hpp"
 
@@ -137,22 +138,23 @@ std::string eds_text(const Description& d, const EdsNames& names) {
     constexpr std::uint32_t owner = 0x04030002, reader = 0x02030002, listener = 0x01030002;
     constexpr std::uint32_t with_header = 0x44640405, heartbeat = 0x44640305;
     std::uint32_t only_input = 0, only_listen = 0, configuration = 0;
-    std::vector<std::uint32_t> inputs, outputs;
+    std::vector<std::uint32_t> inputs;
+    std::multimap<std::uint32_t, std::uint32_t> owners;  // outputs by their partner
     for (const std::uint32_t instance : d.assemblies()) {
         const AssemblyInfo info = *d.assembly(instance);
         if (info.role == Role::input_only) only_input = instance;
         if (info.role == Role::listen_only) only_listen = instance;
         if (info.role == Role::configuration) configuration = instance;
         if (info.size > 0 && info.role == Role::input) inputs.push_back(instance);
-        if (info.size > 0 && info.role == Role::output) outputs.push_back(instance);
+        if (info.size > 0 && info.role == Role::output) owners.emplace(info.partner, instance);
     }
     int number = 0;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const std::string of = names.assembly(inputs[i]);
-        if (i < outputs.size())
-            connection(s, ++number, owner, with_header, d, outputs[i], inputs[i], configuration, "Owner: " + names.assembly(outputs[i]));
-        connection(s, ++number, reader, heartbeat, d, only_input, inputs[i], configuration, "Input only: " + of);
-        connection(s, ++number, listener, heartbeat, d, only_listen, inputs[i], configuration, "Listen only: " + of);
+    for (const std::uint32_t input : inputs) {
+        const std::string of = names.assembly(input);
+        for (auto [it, end] = owners.equal_range(input); it != end; ++it)
+            connection(s, ++number, owner, with_header, d, it->second, input, configuration, "Owner: " + names.assembly(it->second));
+        connection(s, ++number, reader, heartbeat, d, only_input, input, configuration, "Input only: " + of);
+        connection(s, ++number, listener, heartbeat, d, only_listen, input, configuration, "Listen only: " + of);
     }
     s.line("\r\n[Capacity]\r\n        MaxMsgConnections = 64;\r\n        MaxIOProducers = 128;\r\n        MaxIOConsumers = 128;");
     s.line("        TSpec1 = TxRx, 32, 1000;");

@@ -51,13 +51,15 @@ public:
     [[nodiscard]] virtual bool is_late(std::uint32_t /*attribute*/) const noexcept { return false; }
     [[nodiscard]] virtual General ask(std::uint32_t instance, const Context& context);
 
+    /// Set_Attribute_Single. For those whose writes are answered by something behind them, now or later.
+    [[nodiscard]] virtual Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context);
+
     /// Any service. `path` names this class.
     [[nodiscard]] Response serve(std::uint8_t service, const Path& path, View data, Context& context);
 
 private:
     [[nodiscard]] General read(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to);
     [[nodiscard]] Response get_single(std::uint32_t instance, std::uint32_t attribute, const Context& context);
-    [[nodiscard]] Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context);
     [[nodiscard]] Response get_all(std::uint32_t instance, const Context& context);
     [[nodiscard]] Response get_list(std::uint32_t instance, View data, const Context& context);
     [[nodiscard]] Response set_list(std::uint32_t instance, View data, const Context& context);

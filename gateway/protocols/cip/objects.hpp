@@ -78,6 +78,25 @@ private:
     Values& values_;
 };
 
+/// The classes of another maker's device, behind which there is a profile. One object for all of them: the router says which is asked.
+class OwnObject final : public Object {
+public:
+    explicit OwnObject(Values& values) : values_(values) {}
+    [[nodiscard]] bool serves(std::uint32_t class_id) const { return values_.has_own_class(class_id); }
+    void name(std::uint32_t class_id) noexcept { class_ = class_id; }
+    [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_; }
+    [[nodiscard]] bool has(std::uint32_t instance) const override { return values_.own_attribute(class_, instance, 0).has_value(); }
+    [[nodiscard]] std::uint32_t last_instance() const override;
+    [[nodiscard]] std::uint32_t instances() const override;
+    [[nodiscard]] std::uint16_t last_attribute() const override;
+    [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) override;
+
+private:
+    Values& values_;
+    std::uint32_t class_ = 0;
+};
+
 class TcpIpObject final : public Object {
 public:
     explicit TcpIpObject(const Values& values) : values_(values) {}

@@ -68,8 +68,11 @@ Response Router::route(const Request& request, const Path& path, Context& contex
     if (wrong_route(path) || !path.symbols.empty() || !path.class_id) return Response::of(General::path_destination_unknown);
     if (path.places.size() > 1) return Response::of(General::path_segment_error);
     const auto it = std::ranges::find(objects_, *path.class_id, &Object::class_id);
-    if (it == objects_.end()) return Response::of(General::path_destination_unknown);
-    Response r = (*it)->serve(request.service, path, request.data, context);
+    const bool own = it == objects_.end() && own_ && own_->serves(*path.class_id);
+    if (it == objects_.end() && !own) return Response::of(General::path_destination_unknown);
+    if (own) own_->name(*path.class_id);
+    Object& object = own ? *own_ : **it;
+    Response r = object.serve(request.service, path, request.data, context);
     if (r.data.size() > context.most_answer) return Response::of(General::reply_data_too_large);
     return r;
 }

@@ -15,6 +15,8 @@ public:
     explicit Router(const Connections& connections) : connections_(connections) { add(*this); }
     /// The object outlives the router.
     void add(Object& object);
+    /// Who is asked for a class that no other object has.
+    void add_own(OwnObject& object) { own_ = &object; }
 
     struct Part {
         std::uint8_t service = 0;
@@ -44,6 +46,7 @@ private:
 
     const Connections& connections_;
     std::vector<Object*> objects_;  // by class
+    OwnObject* own_ = nullptr;
 };
 
 }  // namespace axisgate::cip

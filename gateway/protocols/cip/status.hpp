@@ -46,7 +46,8 @@ enum class General : std::uint8_t {
     path_size_invalid = 0x26,
     unexpected_attribute = 0x27,
     invalid_member_id = 0x28,
-    member_not_settable = 0x29
+    member_not_settable = 0x29,
+    attribute_not_gettable = 0x2C
 };
 
 /// Of General::connection_failure.

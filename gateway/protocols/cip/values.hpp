@@ -23,7 +23,8 @@ struct AssemblyInfo {
         listen_only     ///< heartbeat of one that lives as long as another that reads the same
     };
     Role role = Role::input;
-    std::uint16_t size = 0;  ///< bytes of data, without header and sequence count
+    std::uint16_t size = 0;     ///< bytes of data, without header and sequence count
+    std::uint32_t partner = 0;  ///< of an output: the input that an originator opens with it; 0: none
 };
 
 /// Elementary types by their number in CIP.
@@ -127,6 +128,29 @@ struct Values : Description {
     [[nodiscard]] virtual General ask(std::uint32_t instance, Token token, const Peer& who, Instant now) = 0;
     /// `value` has the right size.
     [[nodiscard]] virtual General set(std::uint32_t instance, View value, Token token, const Peer& who, Instant now) = 0;
+
+    // Classes of the maker's own (0x64..0xC7), whose instances and attributes are what a device of another maker has there.
+    struct OwnAttribute {
+        DataType type = DataType::dint;
+        bool readable = true, writable = false;
+    };
+    /// Nothing: there is no such class, or not this instance of it. `attribute` 0: whether there is the instance.
+    [[nodiscard]] virtual std::optional<OwnAttribute> own_attribute(std::uint32_t /*class_id*/, std::uint32_t /*instance*/,
+                                                                    std::uint32_t /*attribute*/) const {
+        return std::nullopt;
+    }
+    [[nodiscard]] virtual bool has_own_class(std::uint32_t /*class_id*/) const { return false; }
+    struct OwnPlace {
+        std::uint32_t class_id = 0, instance = 0, attribute = 0;
+    };
+    [[nodiscard]] virtual General get_own(const OwnPlace& /*place*/, Instant /*now*/, Bytes& /*to*/) {
+        return General::attribute_not_supported;
+    }
+    /// `value` has the right size. `later`: Adapter::told(token) follows, not from inside this call.
+    [[nodiscard]] virtual General set_own(const OwnPlace& /*place*/, View /*value*/, Token /*token*/, const Peer& /*who*/, Instant /*now*/,
+                                          bool& /*later*/) {
+        return General::attribute_not_supported;
+    }
 };
 
 }  // namespace axisgate::cip

@@ -29,6 +29,18 @@ public:
     Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override {
         return outside(address, count) ? gap() : pass(standard_.write(table, at(address), count, data, plan));
     }
+    /// Without the parameter channel, which is a conversation and no image.
+    std::vector<MapValue> values(Table table, std::uint16_t address, std::uint16_t count, bool written) override {
+        std::vector<MapValue> list;
+        if (outside(address, count) || (written && table != Table::holding_registers)) return list;
+        const auto number = static_cast<std::uint16_t>(base_ / registers_per_axis + 1);
+        for (const RegisterRow& r : standard_registers()) {
+            if (r.point.empty() || r.offset < address || r.offset + r.width() > address + count || (written && !r.writable)) continue;
+            list.push_back(
+                {r.offset, r.width(), false, standard_.word_order(), standard_.axis_numbered(number), axis_point_named(r.point)});
+        }
+        return list;
+    }
     void on_own_result(std::uint32_t note, const Result& result) override {
         standard_.on_own_result(note, result);
         refused_ = standard_.take_refused();

@@ -154,6 +154,22 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
+/// Settings count from the first image on; instructions, and what the position is called, count when they change.
+void LexiumMap::adopted(std::span<const Written> rows, WritePlan&) {
+    for (const Written& w : rows) {
+        switch (meanings_[w.row]) {
+            case Meaning::acceleration:
+            case Meaning::deceleration:
+            case Meaning::maximum_velocity:
+            case Meaning::kept:
+                values_[w.row] = w.bits;
+                break;
+            default:
+                break;
+        }
+    }
+}
+
 void LexiumMap::on_own_result(std::uint32_t, const Result& result) {
     if (!good(result)) error_ = language().error_of(result.reason);
 }

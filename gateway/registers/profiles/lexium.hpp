@@ -41,6 +41,7 @@ private:
     [[nodiscard]] static Meaning meaning_of(const LanguageRow& row);
     bool shown(std::size_t row, Instant now, std::uint32_t& bits) override;
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
+    void adopted(std::span<const Written> rows, WritePlan& plan) override;
     void instruct(const Written& w, Meaning meaning, WritePlan& plan);
     Verdict refuse_with(Reason reason, std::string text);
     /// ER as it reads now: the language's own, else a fault of the axis.

@@ -145,6 +145,26 @@ Verdict LinMotMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
+/// The count of the motion command and every bit that is set were so before: what is clear switches off, power may come, nothing moves.
+void LinMotMap::adopted(std::span<const Written> rows, WritePlan& plan) {
+    std::optional<std::uint16_t> control;
+    for (const Written& w : rows) {
+        const auto word = static_cast<std::uint16_t>(w.bits);
+        if (meanings_[w.row] == Meaning::control_word) {
+            control = word;
+        } else {
+            buffer_[std::min<std::size_t>(language().rows[w.row].address - std::size_t{1}, parameter_words)] = word;
+            if (meanings_[w.row] == Meaning::header) count_ = static_cast<std::uint8_t>(word & 0xF);
+        }
+    }
+    if (!control) return;
+    constexpr std::uint16_t edges = acknowledge | home_bit | jog_plus_bit | jog_minus_bit;
+    // Freezing ends with a motion to the old target when its bit comes back: here it was back before.
+    if (state_ == State::freezing && (*control & no_freeze) != 0) target_known_ = false;
+    control_ |= *control & edges;
+    take_control(static_cast<std::uint16_t>(*control & ~unsupported), plan);
+}
+
 void LinMotMap::off(State to, WritePlan& plan) {
     if (std::exchange(power_asked_, false)) give(Disable{}, Asked::nothing, plan);
     state_ = to;

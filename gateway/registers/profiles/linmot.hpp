@@ -52,6 +52,7 @@ private:
     [[nodiscard]] static Meaning meaning_of(const LanguageRow& row);
     bool shown(std::size_t row, Instant now, std::uint32_t& bits) override;
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
+    void adopted(std::span<const Written> rows, WritePlan& plan) override;
     /// The part of the state machine that follows what the axis does by itself.
     [[nodiscard]] State state() const;
     [[nodiscard]] bool powered(State s) const noexcept { return s >= State::enabled; }

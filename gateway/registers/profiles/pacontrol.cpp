@@ -109,7 +109,7 @@ Verdict PaControlMap::taken(std::span<const Written> rows, WritePlan& plan) {
         const bool first = !std::exchange(axes_[i].configured, true);
         interfaces_ = true;
         axes_[i].control = values_[axis_rows_[i][0]];
-        if (first) before[i] = axes_[i].control;
+        if (first && !axes_[i].based) before[i] = axes_[i].control;
         take_axis(i, before[i], plan);
     }
     if (code) {
@@ -122,10 +122,41 @@ Verdict PaControlMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
+/// The toggle of CMD stands where it stands, and every set bit of CTRL and of an axis interface was set before: what fell acts, no more.
+/// An interface that is all zero is not configured by that: a master of CMD alone leaves it so.
+void PaControlMap::adopted(std::span<const Written> rows, WritePlan& plan) {
+    if (mode_ == Mode::silent) mode_ = Mode::home;
+    std::array<std::uint32_t, 8> control{};
+    std::array<bool, 8> there{};
+    for (const Written& w : rows) {
+        values_[w.row] = w.bits;
+        const auto axis = language().rows[w.row].axis;
+        if (axis != 0) there[axis - 1u] = there[axis - 1u] || w.bits != 0 || axes_[axis - 1u].configured;
+        if (meanings_[w.row] == Meaning::axis_control) {
+            control[axis - 1u] = w.bits;
+            axes_[axis - 1u].based = true;
+        }
+        if (meanings_[w.row] == Meaning::cmd_code) sf_ = (w.bits & 0x8000u) != 0;
+        if (meanings_[w.row] != Meaning::ctrl) continue;
+        ctrl_based_ = true;
+        if (w.bits == 0 && !ctrl_configured_) continue;
+        ctrl_ |= w.bits & ctrl_online;
+        take_ctrl(static_cast<std::uint16_t>(w.bits), plan);
+    }
+    for (std::size_t i = 0; i < axes(); ++i) {
+        AxisState& a = axes_[i];
+        if (!there[i] || !a.based) continue;
+        const std::uint32_t before = (a.configured ? a.control : 0u) | control[i];
+        a.control = control[i];
+        a.configured = interfaces_ = true;
+        take_axis(i, before, plan);
+    }
+}
+
 void PaControlMap::take_ctrl(std::uint16_t word, WritePlan& plan) {
     const auto fell = [&](std::uint16_t bit) { return (ctrl_ & bit) != 0 && (word & bit) == 0; };
     // What stands in the first image may be left from before this gateway began: it starts nothing.
-    const bool online = ctrl_configured_ && (ctrl_ & ctrl_online) == 0 && (word & ctrl_online) != 0;
+    const bool online = (ctrl_configured_ || ctrl_based_) && (ctrl_ & ctrl_online) == 0 && (word & ctrl_online) != 0;
     if (fell(ctrl_reset)) reset_faults(plan, Asked::nothing);
     if (fell(ctrl_cancel)) {
         leave_online(plan);

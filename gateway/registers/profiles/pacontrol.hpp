@@ -59,6 +59,7 @@ private:
         double enable_mode = 1, target = 0;
         bool released = false;    ///< may move without a reference run: 0A83, G26
         bool configured = false;  ///< its axis interface has been written
+        bool based = false;       ///< what it was before the first write is known: the base of an image
         std::uint32_t control = 0;
         bool active = false;         ///< a task of the axis interface is under way ...
         std::uint32_t task_bit = 0;  ///< ... by this bit of the control word
@@ -77,6 +78,7 @@ private:
     [[nodiscard]] static Meaning meaning_of(const LanguageRow& row);
     bool shown(std::size_t row, Instant now, std::uint32_t& bits) override;
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
+    void adopted(std::span<const Written> rows, WritePlan& plan) override;
 
     // modes
     void take_ctrl(std::uint16_t word, WritePlan& plan);
@@ -124,7 +126,7 @@ private:
     std::array<std::size_t, 3> cmd_rows_{};                  // data, parameter, code
     std::array<std::array<std::size_t, 4>, 8> axis_rows_{};  // control, acceleration, speed, target
     Mode mode_ = Mode::silent;
-    bool integers_ = false, interfaces_ = false, ctrl_configured_ = false;
+    bool integers_ = false, interfaces_ = false, ctrl_configured_ = false, ctrl_based_ = false;
     std::uint16_t ctrl_ = 0x0007;
     bool sf_ = false;
     Reply reply_;

@@ -93,11 +93,7 @@ Verdict ProfileMap::read_registers(Table table, std::uint16_t address, std::uint
                           fmt::format("{} says nothing of what {} is", axis(0).name, row.name));
         }
         std::uint8_t bytes[4];
-        if (row.width() == 1) {
-            put16(bytes, static_cast<std::uint16_t>(bits));
-        } else {
-            put32(bytes, bits, setup_.word_order);
-        }
+        put_bits(row, bits, bytes);
         const std::uint32_t from = std::max<std::uint32_t>(begin, row.address), to = std::min(end, row.end());
         std::memcpy(out + 2 * std::size_t{from - begin}, bytes + 2 * std::size_t{from - row.address}, 2 * std::size_t{to - from});
         return Verdict::good;
@@ -138,21 +134,91 @@ Verdict ProfileMap::write(Table table, std::uint16_t address, std::uint16_t coun
     Verdict e = each(table, address, count, true, [&](std::size_t index) {
         const LanguageRow& row = language().rows[index];
         const std::uint8_t* const at = data + 2 * std::size_t{row.address - std::uint32_t{address}};
-        const std::uint32_t bits = row.width() == 1 ? get16(at) : get32(at, setup_.word_order);
-        const double n = number_of(row.type, bits);
-        if (std::isnan(n) || (row.min && n < *row.min) || (row.max && n > *row.max)) {
-            (void)refuse(
-                Verdict::bad_value, axis(0).id, Reason::out_of_range,
-                fmt::format("{} {} is out of its range: {} to {}", row.name, n, row.min.value_or(-INFINITY), row.max.value_or(INFINITY)));
-            refused_.value = fmt::format("{}", n);
-            return Verdict::bad_value;
-        }
+        std::uint32_t bits = 0;
+        if (!bits_in(row, at, bits)) return Verdict::bad_value;
         written_.push_back({index, bits});
         return Verdict::good;
     });
     if (e == Verdict::good) e = taken(written_, plan);
     if (e != Verdict::good) plan.commands.clear();
     return e;
+}
+
+bool ProfileMap::bits_in(const LanguageRow& row, const std::uint8_t* at, std::uint32_t& bits) {
+    bits = row.width() == 1 ? get16(at) : get32(at, setup_.word_order);
+    const double n = number_of(row.type, bits);
+    if (!std::isnan(n) && n >= row.min.value_or(n) && n <= row.max.value_or(n)) return true;
+    (void)refuse(Verdict::bad_value, axis(0).id, Reason::out_of_range,
+                 fmt::format("{} {} is out of its range: {} to {}", row.name, n, row.min.value_or(-INFINITY), row.max.value_or(INFINITY)));
+    refused_.value = fmt::format("{}", n);
+    return false;
+}
+
+void ProfileMap::put_bits(const LanguageRow& row, std::uint32_t bits, std::uint8_t* at) const noexcept {
+    if (row.width() == 1) {
+        put16(at, static_cast<std::uint16_t>(bits));
+    } else {
+        put32(at, bits, setup_.word_order);
+    }
+}
+
+std::vector<MapValue> ProfileMap::values(Table table, std::uint16_t address, std::uint16_t count, bool written) {
+    std::vector<MapValue> list;
+    for (const LanguageRow& r : language().rows) {
+        if (r.address < address || r.end() > std::uint32_t{address} + count || !there(r, table) || !(written ? r.writable : r.readable))
+            continue;
+        list.push_back({r.address, r.width(), false, setup_.word_order, axis(r.axis == 0 ? 0 : r.axis - 1u).id, std::nullopt});
+    }
+    return list;
+}
+
+void ProfileMap::show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) {
+    std::memset(out, 0, 2 * std::size_t{count});
+    const auto& rows = language().rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const LanguageRow& r = rows[i];
+        std::uint32_t bits = 0;
+        if (r.address < address || r.end() > std::uint32_t{address} + count || !there(r, table) || !r.readable || !shown(i, now, bits))
+            continue;
+        put_bits(r, bits, out + 2 * std::size_t(r.address - address));
+    }
+}
+
+void ProfileMap::adopt(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) {
+    written_.clear();
+    const auto& rows = language().rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const LanguageRow& r = rows[i];
+        std::uint32_t bits = 0;
+        if (r.address < address || r.end() > std::uint32_t{address} + count || !there(r, table) || !r.writable) continue;
+        if (bits_in(r, data + 2 * std::size_t(r.address - address), bits)) written_.push_back({i, bits});
+    }
+    refused_ = {};
+    adopted(written_, plan);
+}
+
+void ProfileMap::renew(Table table, std::uint16_t address, std::span<const MapValue> changed, const std::uint8_t* data, WritePlan& plan,
+                       std::vector<Refused>& refused) {
+    written_.clear();
+    const auto& rows = language().rows;
+    auto it = rows.begin();
+    for (const MapValue& v : changed) {
+        it = std::find_if(it, rows.end(), [&](const LanguageRow& r) { return r.address == v.address && there(r, table) && r.writable; });
+        if (it == rows.end()) break;
+        std::uint32_t bits = 0;
+        if (bits_in(*it, data + 2 * std::size_t(v.address - address), bits)) {
+            written_.push_back({static_cast<std::size_t>(it - rows.begin()), bits});
+        } else {
+            refused.push_back(take_refused());
+        }
+    }
+    if (written_.empty() || taken(written_, plan) == Verdict::good) return;
+    // One of them spoils itself alone: nobody is told, and a stop beside it must not be lost.
+    plan.commands.clear();
+    refused_ = {};
+    for (const Written& w : written_) {
+        if (taken({&w, 1}, plan) != Verdict::good) refused.push_back(take_refused());
+    }
 }
 
 bool ProfileMap::enabled(std::size_t i) const { return power_state_of(picture(i).statusword) == PowerState::operation_enabled; }

@@ -44,6 +44,13 @@ public:
     Verdict check_write(Table table, std::uint16_t address, std::uint16_t count) override;
     Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
 
+    std::vector<MapValue> values(Table table, std::uint16_t address, std::uint16_t count, bool written) override;
+    void show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
+    [[nodiscard]] bool takes_images() const noexcept override { return true; }
+    void adopt(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
+    void renew(Table table, std::uint16_t address, std::span<const MapValue> changed, const std::uint8_t* data, WritePlan& plan,
+               std::vector<Refused>& refused) override;
+
     [[nodiscard]] const Language& language() const noexcept { return *setup_.language; }
 
 protected:
@@ -58,6 +65,10 @@ protected:
     virtual bool shown(std::size_t row, Instant now, std::uint32_t& bits) = 0;
     /// What a write means, rows in order of their addresses, each within its range. Unless it is good, nothing has changed.
     virtual Verdict taken(std::span<const Written> rows, WritePlan& plan) = 0;
+
+    /// The first image of a client that renews one: what is set in it was set before, and only what switches off may act. As `taken`, but
+    /// no row is too much or out of its range: such a one is not among them.
+    virtual void adopted(std::span<const Written> rows, WritePlan& plan) = 0;
 
     [[nodiscard]] std::size_t axes() const noexcept { return setup_.axes.size(); }
     [[nodiscard]] const PlacedProfileAxis& axis(std::size_t i) const { return setup_.axes[i]; }
@@ -84,6 +95,9 @@ protected:
     const Setup setup_;
 
 private:
+    /// The bits of a row in an image; false: they are no number, or out of its range.
+    [[nodiscard]] bool bits_in(const LanguageRow& row, const std::uint8_t* at, std::uint32_t& bits);
+    void put_bits(const LanguageRow& row, std::uint32_t bits, std::uint8_t* at) const noexcept;
     template <class F>
     Verdict each(Table table, std::uint16_t address, std::uint16_t count, bool writing, F&& f);
     [[nodiscard]] bool there(const LanguageRow& row, Table table) const noexcept;

@@ -14,7 +14,7 @@ struct Described final : Description {
     std::optional<AssemblyInfo> assembly(std::uint32_t i) const override {
         using Role = AssemblyInfo::Role;
         if (i == 101 || i == 1041) return AssemblyInfo{Role::input, 32};
-        if (i == 151 || i == 2041) return AssemblyInfo{Role::output, 32};
+        if (i == 151 || i == 2041) return AssemblyInfo{Role::output, 32, i == 151 ? 101u : 1041u};
         return AssemblyInfo{i == 197 ? Role::listen_only : i == 198 ? Role::input_only : Role::configuration, 0};
     }
     const std::vector<std::uint32_t>& assemblies() const override { return list_; }

@@ -75,6 +75,27 @@ TEST(CipEncapsulation, ListsByteForByte) {
                                             "FFFF 0C00 0100 0307 3400 04030201 08 6178697367617465 03"));
 }
 
+TEST(CipEncapsulation, AListThatBringsDataHasAWrongLength) {
+    Bench b;
+    for (const std::uint16_t order : std::initializer_list<std::uint16_t>{0x04, 0x63, 0x64}) {
+        const Bytes answer = b.packet_of(1, order, hex("AABBCC"));
+        EXPECT_EQ(b.status, PacketStatus::invalid_length) << order;
+        EXPECT_EQ(answer.size(), header_size) << "nothing but the header: " << order;
+        Header h;
+        h.command = order;
+        b.output.datagrams.clear();
+        b.adapter.on_datagram(packet(h, hex("AABBCC")), Bench::plc, false, b.now);
+        ASSERT_EQ(b.output.datagrams.size(), 1u);
+        EXPECT_EQ(read_header(b.output.datagrams[0].bytes).status, static_cast<std::uint32_t>(PacketStatus::invalid_length)) << order;
+        b.output.datagrams.clear();
+        b.adapter.on_datagram(hex("0400 FF00 00000000"), Bench::plc, false, b.now);
+        b.adapter.on_datagram(hex("6300 1000 00000000 00000000 0000000000000000 00000000 AA"), Bench::plc, false, b.now);
+        EXPECT_TRUE(b.output.datagrams.empty()) << "half a header, or a lie about the length: nothing to answer";
+    }
+    EXPECT_TRUE(b.packet_of(1, 0x00, Bytes(4000, 0xA5)).empty()) << "NOP brings what it likes";
+    EXPECT_FALSE(b.packet_of(1, 0x04, {}).empty()) << "and the session goes on";
+}
+
 TEST(CipEncapsulation, ABroadcastIsAnsweredWithinItsDelayAndAQuestionToThisDeviceAtOnce) {
     Bench b;
     Header h;

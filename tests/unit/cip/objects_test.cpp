@@ -94,6 +94,47 @@ TEST(CipObjects, AParametersValueComesWhenTheDriveHasTold) {
     EXPECT_EQ(b.output.streams[1], answer) << "told once";
 }
 
+/// What an answer over a connection may have is that connection's size, here 20 bytes with the sequence count.
+TEST(CipObjects, AnAnswerThatIsTooLargeIsNotCutButRefused) {
+    Bench b;
+    Open o;
+    o.transport = 0xA3, o.path = "20 02 24 01", o.ot_size = 100, o.to_size = 20;
+    const std::uint32_t id = b.opened(o);
+    ASSERT_NE(id, 0u);
+    std::uint16_t count = 0;
+    const auto send = [&](View message) {
+        Bytes d = hex("00000000 0000 0200 A100 0400");
+        put32(d, id);
+        put16(d, item::connected_data);
+        put16(d, static_cast<std::uint16_t>(2 + message.size()));
+        put16(d, ++count);
+        put_bytes(d, message);
+        b.output.streams[1].clear();
+        return b.packet_of(1, 0x70, d);
+    };
+    const auto general = [&](const Bytes& answer) { return answer.empty() ? -1 : answer.at(header_size + 6 + 2 + 8 + 4 + 2 + 2); };
+    EXPECT_EQ(general(send(get(1, 1, 1))), 0);
+    EXPECT_EQ(general(send(get(4, 101, 3))), 0x11) << "32 bytes of an assembly";
+    EXPECT_EQ(general(send(get(1, 1, 0, service::get_all))), 0x11);
+    EXPECT_EQ(general(send(get(1, 1, 0, service::get_list, hex("0400 0100 0200 0300 0700")))), 0x11);
+    Bytes several = hex("0200 0600 0E00");
+    put_bytes(several, get(1, 1, 7));
+    put_bytes(several, get(1, 1, 7));
+    EXPECT_EQ(general(send(get(2, 1, 0, service::multiple, several))), 0x11) << "each fits, all together do not";
+    EXPECT_TRUE(send(get(0x0F, 1, 1)).empty());
+    ASSERT_FALSE(b.values.asked.empty());
+    b.adapter.told(b.values.asked.back(), General::success, Bytes(40, 0x41));
+    EXPECT_EQ(general(b.output.streams[1]), 0x11) << "a value that came later";
+    EXPECT_EQ(general(send(get(1, 1, 1))), 0) << "the connection goes on";
+    Bench c;
+    EXPECT_EQ(c.ask(get(0x0F, 1, 1)).data, Bytes{});
+    c.output.streams[1].clear();
+    c.adapter.told(c.values.asked.at(0), General::success, Bytes(501, 0x41));
+    const Bytes answer = c.output.streams[1];
+    ASSERT_GT(answer.size(), 4u);
+    EXPECT_EQ(Bytes(answer.end() - 4, answer.end()), hex("8E 00 11 00")) << "504 bytes of an unconnected answer";
+}
+
 TEST(CipObjects, AParameterDescribesItself) {
     Bench b;
     EXPECT_EQ(b.ask(get(0x0F, 1, 7)).data, hex("0B 72756E5F63757272656E74"));

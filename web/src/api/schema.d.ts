@@ -1515,6 +1515,51 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/assemblies": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * EtherNet/IP assembly instances of the site's own and of its profiles, and what stands at which byte
+         * @description Those that every site has are not among them; 100+n and 150+n of the axes, heartbeats, configuration.
+         */
+        get: operations["listAssemblies"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assemblies/{instance}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description assembly instance, 1 to 65535 */
+                instance: string;
+            };
+            cookie?: never;
+        };
+        /** An assembly of the site's own */
+        get: operations["getAssembly"];
+        /**
+         * Serves a range of a unit's registers as an assembly
+         * @description Connections that are open on EtherNet/IP are closed with the cause, as after every change of the layout.
+         */
+        put: operations["putAssembly"];
+        post?: never;
+        /** Takes an assembly away */
+        delete: operations["removeAssembly"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/profiles": {
         parameters: {
             query?: never;
@@ -3300,6 +3345,84 @@ export interface components {
             modbus_units?: components["schemas"]["ModbusUnitSpec"][];
             /** @description units that speak another device's language, whatever drives are behind their axes */
             profiles?: components["schemas"]["ProfileSpec"][];
+            /** @description EtherNet/IP assembly instances of the site's own */
+            assemblies?: components["schemas"]["AssemblySpec"][];
+        };
+        /** @description A range of registers of a Modbus unit, served as an EtherNet/IP assembly instance. */
+        AssemblySpec: {
+            /** @description one that nothing else has; 100 to 140, 150 to 190, 197 to 199, 1041 to 2024 and 2041 to 3024 are taken */
+            instance: number;
+            direction: components["schemas"]["AssemblyDirection"];
+            unit: number;
+            /**
+             * @default holding_registers
+             * @enum {string}
+             */
+            table?: "holding_registers" | "input_registers";
+            /** @default 0 */
+            address?: number;
+            /** @description two bytes each */
+            registers: number;
+            byte_order?: components["schemas"]["AssemblyOrder"];
+            comment?: string;
+        };
+        /**
+         * @description seen from the originator: input is what it reads
+         * @enum {string}
+         */
+        AssemblyDirection: "input" | "output";
+        /**
+         * @description little_endian: each value with its lowest byte first, whatever the word order of its registers; registers: as Modbus carries them
+         * @default little_endian
+         * @enum {string}
+         */
+        AssemblyOrder: "little_endian" | "registers";
+        /** @description as AssemblySpec; the instance is the path's */
+        AssemblyEntry: {
+            instance?: number;
+            direction: components["schemas"]["AssemblyDirection"];
+            unit: number;
+            /** @enum {string} */
+            table?: "holding_registers" | "input_registers";
+            address?: number;
+            registers: number;
+            byte_order?: components["schemas"]["AssemblyOrder"];
+            comment?: string;
+        };
+        Assemblies: {
+            assemblies: components["schemas"]["Assembly"][];
+            /** @description entries that a site may have */
+            most: number;
+        };
+        Assembly: {
+            instance: number;
+            direction: components["schemas"]["AssemblyDirection"];
+            unit: number;
+            /** @enum {string} */
+            table: "holding_registers" | "input_registers";
+            address: number;
+            registers: number;
+            byte_order: components["schemas"]["AssemblyOrder"];
+            comment?: string;
+            bytes: number;
+            /** @description as the EDS calls it */
+            name: string;
+            /** @description that it shows */
+            axes: string[];
+            /** @description of an output: the input that the EDS opens with it */
+            partner: number | null;
+            /** @description it comes and goes with a profile and is changed there */
+            of_profile: boolean;
+            values: components["schemas"]["AssemblyValue"][];
+        };
+        AssemblyValue: {
+            /** @description bytes, from 0 */
+            offset: number;
+            bytes: number;
+            /** @description the point, or as the language has it */
+            name: string;
+            axis: string | null;
+            type: string;
         };
         ProfileSpec: {
             /** @description one that has neither mappings nor another profile */
@@ -3312,6 +3435,12 @@ export interface components {
             word_order?: "high_first" | "low_first" | null;
             /** @description in the order in which the language numbers them; pacontrol takes up to eight, the others one */
             axes: components["schemas"]["ProfileAxisSpec"][];
+            /** @description EtherNet/IP instance of what the language's master reads */
+            input_assembly?: number | null;
+            /** @description EtherNet/IP instance of what it writes */
+            output_assembly?: number | null;
+            /** @description lexium: instance of the classes that its manual prints */
+            object_instance?: number | null;
         };
         FleetList: {
             /** @description this gateway is in a domain */
@@ -3586,6 +3715,12 @@ export interface components {
             /** @enum {string|null} */
             word_order?: "high_first" | "low_first" | null;
             axes: components["schemas"]["ProfileAxisSpec"][];
+            /** @description EtherNet/IP instance of what the language's master reads */
+            input_assembly?: number | null;
+            /** @description EtherNet/IP instance of what it writes */
+            output_assembly?: number | null;
+            /** @description lexium: instance of the classes that its manual prints */
+            object_instance?: number | null;
         };
         Profiles: {
             languages: components["schemas"]["LanguagePage"][];
@@ -8487,6 +8622,128 @@ export interface operations {
             422: components["responses"]["Unprocessable"];
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listAssemblies: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description all of them, by instance */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Assemblies"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    getAssembly: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description assembly instance, 1 to 65535 */
+                instance: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the entry */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssemblySpec"];
+                };
+            };
+            404: components["responses"]["NotFound"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    putAssembly: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description assembly instance, 1 to 65535 */
+                instance: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example {
+                 *       "direction": "input",
+                 *       "unit": 2,
+                 *       "address": 0,
+                 *       "registers": 4
+                 *     }
+                 */
+                "application/json": components["schemas"]["AssemblyEntry"];
+            };
+        };
+        responses: {
+            /** @description the entry as it is now */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssemblySpec"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            422: components["responses"]["Unprocessable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeAssembly: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path: {
+                /** @description assembly instance, 1 to 65535 */
+                instance: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description it is gone */
+            204: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

@@ -7,7 +7,7 @@ import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profi
 import { useGateway } from '../gateway';
 import { addressBase } from '../state/address-base';
 import { persisted } from '../state/persisted';
-import { profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
+import { instanceWords, profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
 import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { useBarred } from './gate';
@@ -20,6 +20,9 @@ const language = persisted('profile.language', 'lexium');
 const counts = persisted('profile.counts');
 const velocity = persisted('profile.velocity');
 const acceleration = persisted('profile.acceleration');
+const input = persisted('profile.input');
+const output = persisted('profile.output');
+const object = persisted('profile.object');
 
 export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; revision: unknown }) {
   const { client, store } = useGateway();
@@ -52,13 +55,13 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
   };
   const add = async () => {
     const taken = new Map<number, string>([...[...mapped].map((u) => [u, 'mappings'] as const), ...profiles.map((p) => [p.unit, `the profile ${title(p)}`] as const)]);
-    const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value }, languages, taken);
+    const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value, input: input.value, output: output.value, object: object.value }, languages, taken);
     faults.value = 'faults' in read ? read.faults : {};
     if ('faults' in read) {
       told.value = { tone: 'refused', text: 'Mend the fields that are marked.' };
       return;
     }
-    if (await send('Adding …', () => door.put(read.unit, read.entry), `Unit ${read.unit} speaks ${chosen?.title} now.`)) unit.value = '';
+    if (await send('Adding …', () => door.put(read.unit, read.entry), `Unit ${read.unit} speaks ${chosen?.title} now.`)) unit.value = input.value = output.value = object.value = '';
   };
   const place = (i: number, value: string) => {
     const next = axes.value.map((a, k) => (k === i ? value : a)).filter((a, k) => a !== '' || k === 0);
@@ -71,6 +74,7 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
         <details key={p.unit} class="card profile" data-profile={p.unit}>
           <summary>
             Unit {p.unit}: <strong>{title(p)}</strong> in front of {profileWords(p)}
+            {instanceWords(p) !== '' && <span class="where"> EtherNet/IP: {instanceWords(p)}</span>}
           </summary>
           <RegisterList profile={p} listed={listed.value!} />
           <div class="form-foot">
@@ -128,6 +132,11 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
           <TextField label="Counts per unit" number value={counts.value} onText={(t) => (counts.value = t)} fault={faults.value.counts} hint="of the program, for one unit of the axis; empty: as the language has it" />
           <TextField label="Full speed" number value={velocity.value} onText={(t) => (velocity.value = t)} fault={faults.value.velocity} hint="units/s; empty: the axis' limit" />
           <TextField label="Full acceleration" number value={acceleration.value} onText={(t) => (acceleration.value = t)} fault={faults.value.acceleration} hint="units/s²; empty: the axis' limit" />
+          <TextField label="Input assembly" number value={input.value} onText={(t) => (input.value = t)} fault={faults.value.input} hint="EtherNet/IP instance; empty: none" />
+          <TextField label="Output assembly" number value={output.value} onText={(t) => (output.value = t)} fault={faults.value.output} hint="EtherNet/IP instance; empty: none" />
+          {language.value === 'lexium' && (
+            <TextField label="Instance of its objects" number value={object.value} onText={(t) => (object.value = t)} fault={faults.value.object} hint="of classes 64h to 6Ah; empty: none" />
+          )}
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary" {...no}>
@@ -154,6 +163,7 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
             <th scope="col">Type</th>
             <th scope="col">Access</th>
             <th scope="col">What it is</th>
+            {profile.object_instance != null && <th scope="col">EtherNet/IP</th>}
           </tr>
         </thead>
         <tbody>
@@ -164,6 +174,7 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
               <td class="mono">{r.type}</td>
               <td>{r.access}</td>
               <td>{r.text}</td>
+              {profile.object_instance != null && <td>{r.object}</td>}
             </tr>
           ))}
         </tbody>

@@ -4,6 +4,7 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
+import { Assemblies } from '../components/assemblies';
 import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
 import { Gate, useBarred, Why } from '../components/gate';
 import { HmiView } from '../components/hmi-view';
@@ -197,6 +198,7 @@ export function MappingsPage() {
         <MappingPaste book={book} known={{ ...known, base: '0' }} />
       </Gate>
       <Profiles mapped={mapped} revision={revision} />
+      <Assemblies revision={revision} />
       <HmiView door={door} rows={rows} />
       <PrintedList rows={rows} known={known} hash={book.hash.value} />
     </main>

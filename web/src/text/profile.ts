@@ -11,6 +11,10 @@ export interface ProfileDraft {
   counts: string;
   velocity: string;
   acceleration: string;
+  /** EtherNet/IP instances; empty: none. */
+  input: string;
+  output: string;
+  object: string;
 }
 export type ProfileFaults = Partial<Record<keyof ProfileDraft, string>>;
 
@@ -18,6 +22,11 @@ const above = (text: string): number | null | 'wrong' => {
   if (text.trim() === '') return null;
   const p = parseNumber(text);
   return p.good && p.value > 0 ? p.value : 'wrong';
+};
+
+const place = (text: string): number | null | 'wrong' => {
+  const n = above(text);
+  return typeof n === 'number' && !(Number.isInteger(n) && n <= 65535) ? 'wrong' : n;
 };
 
 /** `taken`: units that have mappings, or a profile of another one. */
@@ -35,11 +44,18 @@ export function readProfile(d: ProfileDraft, languages: readonly Language[], tak
   else if (new Set(axes).size < axes.length) faults.axes = 'Each axis once.';
   const numbers = { counts: above(d.counts), velocity: above(d.velocity), acceleration: above(d.acceleration) };
   for (const k of ['counts', 'velocity', 'acceleration'] as const) if (numbers[k] === 'wrong') faults[k] = 'A number above 0, or nothing.';
+  const instances = { input: place(d.input), output: place(d.output), object: place(d.object) };
+  for (const k of ['input', 'output', 'object'] as const) if (instances[k] === 'wrong') faults[k] = `A whole number from 1 to ${k === 'object' ? 255 : 65535}, or nothing.`;
+  if (typeof instances.object === 'number' && instances.object > 255) faults.object = 'A whole number from 1 to 255, or nothing.';
   if (Object.keys(faults).length > 0 || n === null || !language) return { faults };
   const number = (v: number | null | 'wrong') => (typeof v === 'number' ? v : undefined);
   const more = { counts_per_unit: number(numbers.counts), velocity: number(numbers.velocity), acceleration: number(numbers.acceleration) };
   const given = Object.fromEntries(Object.entries(more).filter(([, v]) => v !== undefined));
-  return { unit: n, entry: { language: language.language, axes: axes.map((axis) => ({ axis, ...given })) } };
+  const entry: ProfileEntry = { language: language.language, axes: axes.map((axis) => ({ axis, ...given })) };
+  if (typeof instances.input === 'number') entry.input_assembly = instances.input;
+  if (typeof instances.output === 'number') entry.output_assembly = instances.output;
+  if (typeof instances.object === 'number' && language.language === 'lexium') entry.object_instance = instances.object;
+  return { unit: n, entry };
 }
 
 /** Counts, speed and ramp of the axes, where the entry says them. */
@@ -52,6 +68,12 @@ export function profileWords(p: Profile): string {
     .join(', ');
 }
 
+/** Where it stands on EtherNet/IP; empty: nowhere. */
+export function instanceWords(p: Profile): string {
+  const parts = [p.input_assembly != null && `input assembly ${p.input_assembly}`, p.output_assembly != null && `output assembly ${p.output_assembly}`, p.object_instance != null && `objects with instance ${p.object_instance}`];
+  return parts.filter(Boolean).join(', ');
+}
+
 const accessWords = { R: 'read', W: 'write', RW: 'read and write' } as const;
 export interface RegisterRow {
   key: string;
@@ -60,6 +82,8 @@ export interface RegisterRow {
   type: string;
   access: string;
   text: string;
+  /** On EtherNet/IP: "66h 1 7"; empty: it has no attribute. */
+  object: string;
 }
 /** The registers of a language that a profile of so many axes has. */
 export function registerRows(language: Language, axes: number, base: Base): RegisterRow[] {
@@ -76,6 +100,7 @@ export function registerRows(language: Language, axes: number, base: Base): Regi
         type: r.type,
         access: `${accessWords[r.access]}${r.tables.length === 1 && table === 'input_registers' ? ', input register' : ''}`,
         text: r.description,
+        object: r.object ? `class ${r.object.class.toString(16).toUpperCase()}h, attribute ${r.object.attribute}` : '',
       };
     });
 }

@@ -75,7 +75,7 @@ def test_the_lines_of_the_page_work_in_their_order(folder):
         assert n == 1 and g.code
         out = run_lines(text, folder, 100)
         assert "node_id" in out and "include_addressing" in out
-        assert (folder / "backup.db").read_bytes().startswith(b"SQLite format 3")
+        assert (folder / "backup.tar").read_bytes().startswith(b"backup.json") and (folder / "backup.sealed").read_bytes().startswith(b"AXISGATE-SEALED")
         assert g.get("/axes/feeder")["unit"] == "cm" and not g.axis()["moving"]
         assert g.request("GET", "/healthz")[0] == 200
 

@@ -156,6 +156,9 @@ function(axisgate_families)
   # A MACS is a CiA 402 node with more to it: it stands on that family's adapter and twin.
   target_link_libraries(axisgate_aposs PUBLIC axisgate_cia402)
   target_link_libraries(axisgate_aposs_twin PUBLIC axisgate_cia402_twin)
+  # The simulated axis of another gateway has the shaft of the simulated servo.
+  target_link_libraries(axisgate_remote PUBLIC axisgate::mirror)
+  target_link_libraries(axisgate_remote_twin PUBLIC axisgate::mirror axisgate_cia402_twin)
   set(shipped ${names})
   list(REMOVE_ITEM shipped ${A_NOT_SHIPPED})
   axisgate_family_list(families ${shipped})

@@ -55,7 +55,7 @@ npm_ci() {
 
 build_page() {
     local newest
-    newest=$(find web schema/openapi.yaml -path web/node_modules -prune -o -path web/dist -prune -o -type f -newer web/dist/index.html -print 2>/dev/null | head -n 1) || true
+    newest=$(find web schema/openapi.yaml docs adapters/*/README.md gateway/doors/*/README.md -path web/node_modules -prune -o -path web/dist -prune -o -type f -newer web/dist/index.html -print 2>/dev/null | head -n 1) || true
     if [ -f web/dist/index.html ] && [ -z "$newest" ]; then return 0; fi
     install_node
     npm_ci web

@@ -37,7 +37,7 @@ def options(program, command):
 def program_page(program, version):
     lines = [f'.TH AXISGATE 1 "" "axisgate {roff(version)}" "User Commands"', ".SH NAME", "axisgate \\- fieldbus gateway for motor drives", ".SH SYNOPSIS", ".B axisgate",
              ".I SUBCOMMAND", "[\\fIOPTION\\fR...]", ".SH DESCRIPTION", roff(said(program, "--help").splitlines()[0]) + ".",
-             "The configuration of a host is in", ".BR axisgate.toml (5);", "the handbook is in", ".IR /usr/share/doc/axisgate/handbook .", ".SH SUBCOMMANDS"]
+             "The configuration of a host is in", ".BR axisgate.toml (5);", "the handbook is in", ".IR /usr/share/doc/axisgate/handbook ,", "and the gateway serves it at", ".IR /help .", ".SH SUBCOMMANDS"]
     for name, text in subcommands(program):
         lines += [".SS " + roff(name), roff(text[:1].upper() + text[1:]) + "."]
         if name not in ("help", "version"):

@@ -1,6 +1,6 @@
 // Adapter of CiA 402 drives: the CAN line: who is on it, whose turn it is, what arrives, and the SYNC of all of them.
 // In: setup, line state, commands, set-points, frames, time. Out: frames; feedback, results, links, notices.
-// Never sends a message to all nodes but the SYNC.
+// Never sends a message to all nodes but the SYNC and its own heartbeat.
 #pragma once
 
 #include "adapters/cia402/drive.hpp"
@@ -17,7 +17,7 @@ public:
     void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
-    [[nodiscard]] Instant deadline() const override { return std::min(line_.turns.deadline(), next_sync_); }
+    [[nodiscard]] Instant deadline() const override { return std::min({line_.turns.deadline(), next_sync_, heartbeat_.deadline()}); }
     [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
@@ -25,11 +25,16 @@ private:
     /// Often while something moves, seldom at rest, never while nobody listens; never more than half of what the bus carries.
     [[nodiscard]] Duration cycle() const;
     void plan_sync(Instant now);
+    void choose_own_node(const LineSetup& setup);
+    /// As long as a drive that watches it answers. One that is alone and does not answer any more is left to its watchdog.
+    void plan_heartbeat(Instant now);
     Line line_;
     drive::Roster<Drive> drives_;
     std::array<Drive*, 128> by_node_{};
     bool up_ = false;
     Instant next_sync_ = never, last_sync_{};
+    canopen::HeartbeatProducer heartbeat_;  ///< the gateway's own
+    Duration heartbeat_period_{};
 };
 
 }  // namespace axisgate::cia402_drive

@@ -39,6 +39,11 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     drive::OptionReader options(node_.setup.options);
     node_.keep_quick_stop = options.flag("quick_stop_stays", true, "yes", "no");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
+    Watch& watch = node_.watch;
+    watch.action = options.word("watchdog_action", {"quick_stop", "disable", "fault", "none"});
+    watch.on = watch.action != "none";
+    watch.option = watch.action == "fault" ? 1 : watch.action == "disable" ? 2 : 3;
+    watch.time = options.milliseconds("watchdog_ms", 100, 60'000, watch.time);
     if (line.dialect.places_move) node_.places = moved_places(node_.setup.options);
     fit_axes();
 }
@@ -80,6 +85,10 @@ int Drive::listeners() const noexcept {
 }
 bool Drive::quick() const noexcept {
     return std::ranges::any_of(axes_, [](const auto& a) { return a->quick(); });
+}
+
+bool Drive::streams() const noexcept {
+    return std::ranges::any_of(axes_, [](const auto& a) { return a->streams(); });
 }
 
 void Drive::forget(Reason reason, std::string_view why, Turn& t) {

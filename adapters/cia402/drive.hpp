@@ -10,6 +10,7 @@
 #include "adapters/cia402/drive_double.hpp"
 #include "adapters/cia402/parameters.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/polls.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/sdo_client.hpp"
@@ -29,6 +30,7 @@ public:
     void line_down(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
+    void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
     void on_frame(const Frame& frame, Turn& t);
     void before_sync(Duration cycle, Turn& t);  ///< the next targets go out
     void after_sync() noexcept;
@@ -44,6 +46,17 @@ public:
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
     [[nodiscard]] bool quick() const noexcept;
+    /// It watches the gateway's heartbeat, and answers.
+    [[nodiscard]] bool watches() const noexcept {
+        return node_.presence.online() && node_.presence.watchdog().state == DriveWatchdog::State::armed;
+    }
+    [[nodiscard]] Duration watch_time() const noexcept { return node_.watch.time; }
+    /// The gateway has another number on the line: it is set up anew, and goes on meanwhile.
+    void watch_anew() {
+        if (node_.presence.is(Presence::Phase::ready) && !axes_.empty()) start();
+    }
+    [[nodiscard]] bool streams() const noexcept;
+    [[nodiscard]] const drive::Pace& pace() const noexcept { return pace_; }
 
 private:
     [[nodiscard]] Axis* of(AxisId id) noexcept;
@@ -65,6 +78,8 @@ private:
     void started(const canopen::SdoEnd& end, Turn& t);
     void next_start(Turn& t);
     void set_up();
+    void set_up_watch();
+    void watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t);
     // feedback.cpp
     void on_emergency(const canopen::Emergency& e, Turn& t);
     void on_heartbeat(const Frame& frame, Turn& t);
@@ -74,6 +89,7 @@ private:
     std::size_t slot_;
     std::vector<std::unique_ptr<Axis>> axes_;
     std::size_t turn_ = 0;  ///< whose turn it is among them
+    drive::Pace pace_;
     Duration heartbeat_period_ = std::chrono::milliseconds(500);
     drive::LateMarks<Address, 8> late_;
     canopen::SdoClient sdo_;
@@ -94,6 +110,7 @@ private:
     ExpectedIdentity expected_;  ///< of the description, if the site names one
     Identity told_;
     DoubleBeat double_beat_;
+    std::uint32_t watched_ = 0;  ///< 1016h:01 as it was found
 };
 
 }  // namespace axisgate::cia402_drive

@@ -57,9 +57,8 @@ public:
     [[nodiscard]] std::size_t place() const noexcept { return place_; }  ///< among the axes of the node, from 0
     /// It has the profile's objects, so that its PDOs are waited for.
     [[nodiscard]] bool listens() const noexcept { return node_.presence.is(Presence::Phase::ready) && known_.profile; }
-    [[nodiscard]] bool quick() const noexcept {
-        return listens() && (known_.fb.moving || stream_ != Stream::none || job_ || !stops_.empty());
-    }
+    [[nodiscard]] bool quick() const noexcept { return listens() && (known_.fb.moving || streams() || job_ || !stops_.empty()); }
+    [[nodiscard]] bool streams() const noexcept { return newest_ || stream_ != Stream::none; }
     [[nodiscard]] bool moving() const noexcept { return known_.fb.moving; }
 
 private:

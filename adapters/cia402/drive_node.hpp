@@ -47,6 +47,15 @@ struct Line {
     AdapterCounters counters;
     std::uint32_t bit_rate = 0;
     Duration cycle = std::chrono::milliseconds(20);  ///< between two SYNCs now
+    std::uint8_t own_node = 127;                     ///< the gateway's, for its heartbeat
+};
+
+/// What a drive shall do when the gateway's heartbeat stops: 6007h. `none`: it does not watch it.
+struct Watch {
+    std::int64_t option = 3;  ///< 1 fault, 2 disable voltage, 3 quick stop
+    std::string_view action = "quick_stop";
+    Duration time = std::chrono::milliseconds(1000);
+    bool on = true;
 };
 
 struct Node {
@@ -66,6 +75,7 @@ struct Node {
     DriveSetup setup;
     std::uint8_t number;
     bool keep_quick_stop = true;
+    Watch watch;
     Places places;
     Presence presence;
     drive::Tickets tickets;

@@ -39,6 +39,10 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
         }
     }
     presence.heard(t.now);
+    // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
+    if (news == canopen::NodeNews::state && heartbeat_.state() == canopen::NmtState::pre_operational &&
+        presence.is(Presence::Phase::ready) && listeners() > 0)
+        start();
 }
 
 bool Drive::on_pdo(const Frame& f, Turn& t) {

@@ -130,6 +130,8 @@ void plan_stop(const AxisKnown& known, Job& job) {
         job.steps.back().patience = std::chrono::milliseconds(200);
     } else if (std::holds_alternative<QuickStop>(job.command.body)) {
         job.word(0x0B);
+    } else if (known.fb.quick_stopping) {
+        job.word(0x0B | halt_bit);  // the drive has stopped by itself, perhaps: another word would enable it
     } else {
         job.word(static_cast<std::uint16_t>((known.cw & 0x0Fu) | halt_bit));
     }

@@ -25,7 +25,7 @@ void Drive::start() {
     if (node_.presence.is(Presence::Phase::ready)) node_.presence.found();  // set up anew
     start_.clear();
     start_at_ = 0;
-    for (const Address a : {object::vendor, object::product, object::revision})
+    for (const Address a : {object::vendor, object::product, object::revision, object::watched_heartbeat})
         start_.push_back({{Step::Kind::read, a, {}, 0, 0, true}});
     for (const auto& a : axes_)
         a->begin_anew();
@@ -53,9 +53,40 @@ void Drive::set_up() {
         for (Step& s : writes)
             start_.push_back({std::move(s), a.get()});
     }
+    set_up_watch();
     Step go;
     go.kind = Step::Kind::nmt;
     start_.push_back({go});
+}
+
+/// 1016h:01 holds the number of the node that is watched and the time in ms; the watch begins with its first heartbeat after that. What it
+/// shall do comes first. One that watched this gateway before and shall not any more must not miss it.
+void Drive::set_up_watch() {
+    const Watch& watch = node_.watch;
+    const bool watched = ((watched_ >> 16) & 0x7Fu) == node_.line.own_node && (watched_ & 0xFFFFu) != 0;
+    if (!watch.on)
+        node_.presence.watched({DriveWatchdog::State::off, {}, {}});
+    else if (node_.presence.watchdog().state == DriveWatchdog::State::refused)
+        node_.presence.watched({});
+    if (!watch.on && !watched) return;
+    const std::int64_t entry = watch.on ? std::int64_t{node_.line.own_node} << 16 | milliseconds_of(watch.time) : 0;
+    if (watch.on) start_.push_back({{Step::Kind::write, object::connection_lost_option, bytes_of(watch.option, 2), 0, 0, true}});
+    start_.push_back({{Step::Kind::write, object::watched_heartbeat, bytes_of(entry, 4), 0, 0, true}});
+}
+
+/// An answer to what set_up_watch has asked for.
+void Drive::watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t) {
+    const Watch& watch = node_.watch;
+    if (!watch.on || node_.presence.watchdog().state == DriveWatchdog::State::refused) return;
+    if (!end.done()) {
+        node_.presence.watched({DriveWatchdog::State::refused, {}, {}});
+        return node_.notices.tell(Severity::info, first_axis(), "watchdog", 0,
+                                  fmt::format("{}: it cannot be told to stop by itself when the gateway is gone: {}: {}", node_.setup.name,
+                                              canopen::to_text(step.address), canopen::to_text(end)),
+                                  t.now, t.out);
+    }
+    if (step.address == object::watched_heartbeat)
+        node_.presence.watched({DriveWatchdog::State::armed, watch.time, std::string(watch.action)});
 }
 
 void Drive::next_start(Turn& t) {
@@ -99,6 +130,10 @@ void Drive::started(const canopen::SdoEnd& end, Turn& t) {
         axis->first_read(step, end);
     } else if (step.address == object::heartbeat) {
         double_beat_.begin(end.done() ? heartbeat_period_ : Duration::zero());
+    } else if (step.kind == Step::Kind::write) {
+        watch_set(step, end, t);
+    } else if (step.address == object::watched_heartbeat) {
+        watched_ = static_cast<std::uint32_t>(end.done() ? canopen::low_first(end.data) : 0);
     } else if (step.kind == Step::Kind::read) {
         const auto raw = static_cast<std::uint32_t>(end.done() ? canopen::low_first(end.data) : 0);
         static constexpr std::string_view names[] = {"vendor", "product", "revision"};

@@ -85,7 +85,7 @@ drive::Want Drive::wants(Instant now) const noexcept {
     if (!presence_.online()) return presence_.probe_due(now) ? drive::Want::probe : drive::Want::nothing;
     if (job_ || !queue_.empty() || !set_points_.empty()) return drive::Want::command;
     const bool moves = std::ranges::any_of(axes_, &AxisFeedback::moving);
-    return !polls_.due(now) ? drive::Want::nothing : moves ? drive::Want::quick_poll : drive::Want::poll;
+    return !polls_.due(now) ? drive::Want::nothing : moves && !pace_.close() ? drive::Want::quick_poll : drive::Want::poll;
 }
 
 void Drive::go(Turn& t) {
@@ -220,9 +220,9 @@ void Drive::learn(int channel, std::string_view text, Turn& t) {
     fb.velocity = velocity;
     fb.position_demand = demand;
     fb.demand_source = bits & 1 ? DemandSource::drive : DemandSource::none;
-    (void)polls_.every(static_cast<drive::Polls::Item>(channel), line_.timing.poll_period * (fb.moving ? 1 : 4),
-                       t.now + 4 * line_.timing.poll_period);
-    polls_.quick(static_cast<drive::Polls::Item>(channel), fb.moving);
+    (void)polls_.every(static_cast<drive::Polls::Item>(channel), pace_.period(line_.timing.poll_period, fb.moving),
+                       t.now + pace_.period(line_.timing.poll_period, false));
+    polls_.quick(static_cast<drive::Polls::Item>(channel), fb.moving && !pace_.close());
     emit(channel, t);
 }
 

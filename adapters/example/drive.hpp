@@ -39,6 +39,9 @@ public:
     /// The site has other axes of this drive: those that stay go on.
     void set_axes(const DriveSetup& setup, Turn& t);
     void submit(const Command& command, Turn& t);
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) polls_.hurry();
+    }
     void follow(const SetPoint& set_point);
     void on_telegram(const Telegram& telegram, Turn& t);
     // asked by drive::settle, serve and wake
@@ -98,7 +101,8 @@ private:
     drive::StopLane<Stop, 8> stops_;
     drive::Exchange<Ask> exchange_;
     drive::LateMarks<Telegram, 8> late_;  ///< by address, axis and item: what an answer can be told by
-    drive::Polls polls_;                  ///< items are channels
+    drive::Pace pace_;
+    drive::Polls polls_;  ///< items are channels
     drive::SetPoints set_points_;
     bool streamed_last_ = false;
     std::array<Move, channels + 1> followed_;  ///< by channel: whose ramps and speed the drive was told last by a stream

@@ -62,6 +62,9 @@ public:
     void line_down(Turn& t, std::string_view why);
     void remove(Turn& t, std::string_view why);
     void submit(const Command& command, Turn& t);
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) poll_.hurry();
+    }
     void follow(const SetPoint& set_point);
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant deadline() const noexcept { return exchange_.deadline(); }
@@ -218,6 +221,7 @@ private:
     drive::Tickets tickets_;
     drive::Notices notices_;
     drive::PollTimer poll_;
+    drive::Pace pace_;
     drive::LateTime late_;
     drive::Reading reading_;
     Instant repeated_at_ = Instant::min();

@@ -17,7 +17,7 @@ Want Drive::wants(Instant now) const noexcept {
     if (stream_.on) return stream_.ending || now >= stream_.next ? Want::command : Want::nothing;
     if (reading_.core_pending() || release_home_) return Want::command;
     if (job_.active ? now >= job_.not_before : !queue_.empty() || !set_points_.empty() || stream_.newest) return Want::command;
-    if (poll_.due(now)) return fb_.moving ? Want::quick_poll : Want::poll;
+    if (poll_.due(now)) return fb_.moving && !pace_.close() ? Want::quick_poll : Want::poll;
     return Want::nothing;
 }
 
@@ -76,7 +76,7 @@ void Drive::go(Turn& t) {
         }
     }
     if (exchange_.active() || !poll_.due(t.now)) return;
-    poll_.asked(t.now, bus_.timing.poll_period);
+    poll_.asked(t.now, pace_.period(bus_.timing.poll_period));
     send({status, Purpose::poll}, t);
 }
 

@@ -177,7 +177,7 @@ Request Drive::choose(Turn& t) {
     // The first poll goes before the first command: an error that stands from before must not count as its own.
     if (feedback.seen()) jobs.take_next(t);
     if (feedback.seen() && jobs.job().pending() && !jobs.job().waits_for_rest()) return jobs.next(t.now);
-    poll.soon(t.now + bus.timing.poll_period);
+    poll.soon(t.now + pace.period(bus.timing.poll_period));
     return Request::ask(What::poll, feedback.poll_items(t.now));
 }
 

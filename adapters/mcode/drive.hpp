@@ -38,6 +38,9 @@ public:
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     /// What it would send next is answered without a mark (a line, not a question), and is no stop.
     [[nodiscard]] bool wants_unmarked(Instant now) const noexcept;
+    void look(const DriveSetup& setup) noexcept {
+        if (pace.take(setup)) poll.hurry();
+    }
     [[nodiscard]] Instant wish() const noexcept { return ready() ? poll.deadline() : presence.deadline(); }
     [[nodiscard]] Request next(Turn& t);
     /// How the exchange ended. `waiting` as verdict: nobody answered.
@@ -82,6 +85,7 @@ public:
     LinkWords words;
     drive::Presence presence;
     drive::PollTimer poll;
+    drive::Pace pace;
     Start start{*this};
     ProgramMode mode{*this};
     Feedback feedback{*this};

@@ -149,7 +149,7 @@ bool Feedback::learn_poll(const std::string& data, Turn& t) {
         note(Severity::info, "program", 0,
              fmt::format("{}: a program runs in it already: it is left alone; quick stop ends it, halt stops its motion only", name()), t);
     }
-    drive_.poll.soon(t.now + drive_.bus.timing.poll_period);
+    drive_.poll.soon(t.now + drive_.pace.period(drive_.bus.timing.poll_period));
     show(t);
     drive_.program.watch(t);
     drive_.jobs.watch(t);

@@ -46,6 +46,14 @@ void Drive::set_axes(const DriveSetup& setup, Turn& t) {
     polls_.clear();
 }
 
+void Drive::look(const DriveSetup& setup) noexcept {
+    for (Axis& a : pac_.axes) {
+        const auto it = std::ranges::find(setup.axes, a.channel, &AxisSetup::channel);
+        a.looked_at = it != setup.axes.end() && it->look_period > Duration::zero();
+    }
+    polls_.look(setup);
+}
+
 void Drive::submit(const Command& c, Turn& t) {
     Axis& a = *pac_.axis_of(c.axis);  // one of its own: the roster looks
     if (drive::admit(c, pac_.setup.name, pac_.presence, a.queue, pac_.tickets, t) == drive::Admission::urgent) stops_.submit(a, c, t);

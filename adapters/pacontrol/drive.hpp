@@ -26,6 +26,7 @@ public:
     /// Other axes of the same control: those that stay go on undisturbed.
     void set_axes(const DriveSetup& setup, Turn& t);
     void submit(const Command& command, Turn& t);
+    void look(const DriveSetup& setup) noexcept;
     void on_bytes(std::span<const std::uint8_t> bytes, Turn& t) { port_.on_bytes(bytes, t); }
     void on_deadline(Turn& t);
     [[nodiscard]] Instant deadline(Instant now) const noexcept;

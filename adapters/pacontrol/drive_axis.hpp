@@ -131,6 +131,7 @@ struct Axis {
     bool extended_missing = false;  ///< 1921 is not executable here: 1910 is read in its place
     bool reached = false;           ///< the last motion has ended at its target, by the control's counter
     bool running = false;
+    bool looked_at = false;                                          ///< closely: asked in each cycle
     Instant counter_at{}, velocity_at{}, running_at{}, status_at{};  ///< when 190C, 190D, 1911 and 1910 or 1921 were received last
     Motion motion;
     std::optional<std::int64_t> speed, acceleration;  ///< overrides in force, increments/s and /s2

@@ -16,7 +16,7 @@ constexpr std::size_t parameters_per_cycle = 4;
 }  // namespace
 
 void Polls::plan_cycle(Instant now) {
-    const Duration period = pac_.line.timing.poll_period;
+    const Duration period = pace_.period(pac_.line.timing.poll_period);
     cycle_time_ = std::clamp<Duration>(now - cycle_began_, period, longest_cycle);
     cycle_began_ = now;
     cycle_at_ = now + period;
@@ -41,6 +41,10 @@ void Polls::plan_cycle(Instant now) {
             if (a.demand.lag_turn) add(code::following_error, a);
             add(code::position, a);
             if (!a.demand.lag_turn) add(code::speed, a);
+        } else if (a.looked_at) {
+            if (lag) add(code::following_error, a);
+            add(code::position, a);
+            add(a.status_code(), a);
         } else if (a.demand.lag_due && lag) {
             add(code::following_error, a);
         }
@@ -56,7 +60,7 @@ void Polls::plan_cycle(Instant now) {
 /// Axes that stand, in turn: they may be pushed, or their position be set at the control. So many of them that what is known of each is
 /// never older than `standing_age` where the line allows it; where axes move, not one more.
 void Polls::plan_standing(bool crowded) {
-    const auto stands = [](const Axis& a) { return a.here() && !a.moves() && a.position_known; };
+    const auto stands = [](const Axis& a) { return a.here() && !a.moves() && !a.looked_at && a.position_known; };
     const auto standing = static_cast<std::size_t>(std::ranges::count_if(pac_.axes, stands));
     const double wanted = crowded ? static_cast<double>(standing) * seconds(cycle_time_) / seconds(standing_age)
                                   : static_cast<double>(standing) / standing_cycles;

@@ -26,6 +26,10 @@ public:
     void soon_standing(const Axis& a);
     /// Not asked any more in this cycle; of all axes without `a`.
     void drop(std::uint16_t code, const Axis* a = nullptr);
+    /// While an axis is looked at closely one cycle follows the other.
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) cycle_at_ = Instant{};
+    }
     void hurry(Instant now) noexcept { cycle_at_ = std::min(cycle_at_, now); }
     /// Everything of every axis is read in the next cycle.
     void start_over() noexcept { first_cycle_ = true; }
@@ -39,6 +43,7 @@ private:
     void add(std::uint16_t code, const Axis& a, std::uint8_t parameter = 0) { waiting_.push_back({code, a.place(), parameter}); }
 
     Control& pac_;
+    drive::Pace pace_;
     std::deque<Poll> waiting_;
     bool first_cycle_ = true;
     Instant cycle_at_{}, cycle_began_{};

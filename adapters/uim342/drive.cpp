@@ -169,7 +169,7 @@ void Drive::go(Turn& t) {
     if (!poll_due) return;
     commanded_last_ = false;
     const Message m = msg_get(cw::MS, poll_speed_ ? 1 : 0);
-    if (!poll_speed_) poll_.asked(t.now, (moving_now() ? 1 : 4) * bus_.timing.poll_period);
+    if (!poll_speed_) poll_.asked(t.now, pace_.period(bus_.timing.poll_period, moving_now()));
     poll_speed_ = !poll_speed_;
     if (late_.has(mark_of(m))) return go_barrier(t);
     send_exchange(m, Purpose::poll, 0, 0, Priority::poll, t);

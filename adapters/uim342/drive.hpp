@@ -51,6 +51,9 @@ public:
     /// Ends everything with `reason`; the node is about to be destroyed.
     void remove(Turn& t, std::string_view why);
     void submit(const Command& command, Turn& t);
+    void look(const DriveSetup& setup) noexcept {
+        if (pace_.take(setup)) poll_.hurry();
+    }
     void on_message(const Message& m, Turn& t);
     void on_deadline(Turn& t);
     /// Of what it waits for: an answer, a stop's acknowledgement, the end of a supervised ramp or search.
@@ -331,6 +334,7 @@ private:
 
     // polls
     drive::PollTimer poll_;
+    drive::Pace pace_;
     bool poll_speed_ = false;      ///< next is MS[1]
     bool commanded_last_ = false;  ///< a command has begun since the last poll
     bool startup_turn_ = false;    ///< next is a value of the start-up, though a poll is due

@@ -236,13 +236,18 @@ std::string to_text(const SerialFormat& f) {
 LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud, std::string_view default_format) {
     constexpr std::string_view any_example =
         "can:can0, serial:/dev/ttyUSB0?baud=9600&format=8N1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, "
-        "udp-listen:HOST:PORT, pty:PATH or twin";
+        "udp-listen:HOST:PORT, pty:PATH, dds or twin";
     if (text.empty()) return fault("the line URI is empty", any_example);
     if (text.size() > max_length) return fault(fmt::format("the line URI is longer than {} characters", max_length), any_example);
     if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; })) {
         return fault("the line URI holds a control character", any_example);
     }
     if (text == "twin") return {};
+    if (text == "dds") {
+        LineUriResult r;
+        r.uri.kind = LineUri::Kind::dds;
+        return r;
+    }
     const auto colon = text.find(':');
     const std::string_view scheme = text.substr(0, colon);
     if (colon != std::string_view::npos) {
@@ -255,6 +260,7 @@ LineUriResult parse_line_uri(std::string_view text, std::uint32_t default_baud, 
         if (scheme == "udp-listen") return parse_endpoint(scheme, rest, LineUri::Kind::udp_listen);
         if (scheme == "pty") return parse_pty(rest, default_format);
         if (scheme == "twin") return fault("twin stands alone", "twin");
+        if (scheme == "dds") return fault("dds stands alone: the drives' addresses say which gateway, hall-2/feeder", "dds");
     }
     return fault(fmt::format("\"{}\" is not a kind of line", scheme), any_example);
 }
@@ -278,6 +284,8 @@ std::string to_text(const LineUri& u) {
             return fmt::format("pty:{}?baud={}&format={}", u.path, u.serial.baud, to_text(u.serial.format));
         case LineUri::Kind::twin:
             return "twin";
+        case LineUri::Kind::dds:
+            return "dds";
         case LineUri::Kind::serial:
             break;
     }

@@ -1,4 +1,4 @@
-// LineUri: the text that says where a line is: `can:can0`, `serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1`, `tcp:HOST:PORT`, ...
+// LineUri: the text that says where a line is: `can:can0`, `dds`, `serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1`, `tcp:HOST:PORT`, ...
 // In: text, and the family's defaults for a serial line. Out: a checked value, or one sentence that says what is wrong and shows what
 // would be right. Never opens, resolves or looks at anything: a name that does not exist is a good URI.
 #pragma once
@@ -50,7 +50,7 @@ struct SerialSettings {
 };
 
 struct LineUri {
-    enum class Kind : std::uint8_t { can, serial, tcp, tcp_listen, udp, udp_listen, pty, twin };
+    enum class Kind : std::uint8_t { can, serial, tcp, tcp_listen, udp, udp_listen, pty, twin, dds };
     Kind kind = Kind::twin;
     std::string interface;   ///< can: 1..15 characters, a network interface's name
     std::string path;        ///< serial, pty

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gateway/core/command.hpp"
+#include "gateway/core/drive_watchdog.hpp"
 #include "gateway/core/ids.hpp"
 #include "gateway/core/instant.hpp"
 #include "gateway/core/value.hpp"
@@ -65,6 +66,8 @@ struct AxisFeedback {
     /// The state of a drive that has CiA 402's state machine itself, as the bits 0..6 of a status word (0x27: operation enabled); absent:
     /// it knows on and off alone. Other bits are not looked at: they are members of their own here.
     std::optional<std::uint16_t> statusword{};
+    /// What answers for it is simulated by somebody else than this gateway: an axis of another gateway that is served by a twin there.
+    bool simulated = false;
     Instant at{};
 };
 
@@ -75,6 +78,7 @@ struct DriveLink {
     std::uint32_t silent_exchanges = 0;  ///< in a row
     Duration retry_pause{};              ///< present pause between attempts while it is silent
     std::string text;                    ///< why, for people
+    DriveWatchdog watchdog{};
 };
 
 enum class Severity : std::uint8_t { info, warning, alarm };

@@ -23,6 +23,9 @@ enum class LineKind : std::uint8_t { can, bytes };
 struct AxisSetup {
     AxisId id = no_axis;
     int channel = 1;  ///< 1-based axis within the drive
+    /// Zero: asked in the line's rhythm. Else it is looked at closely for a while: asked so often as far as the line has room for it, with
+    /// what others are owed first. Never makes two setups of a drive different.
+    Duration look_period{};
 };
 
 struct DriveSetup {

@@ -3,12 +3,14 @@
 // Never asks twice for what was missed: who is late goes on from now. Never starves one for another.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "gateway/core/instant.hpp"
+#include "gateway/core/setup.hpp"
 
 namespace axisgate::drive {
 
@@ -17,6 +19,10 @@ class PollTimer {
 public:
     void stop() noexcept { next_ = never; }
     void soon(Instant now) noexcept { next_ = now; }
+    /// Now, if it is asked at all.
+    void hurry() noexcept {
+        if (next_ != never) next_ = Instant{};
+    }
     /// First at a share of the period by place, so that many drives that start together are not asked together.
     void begin(Instant now, Duration period, std::size_t place) noexcept {
         next_ = now + period * static_cast<std::int64_t>(place % 16) / 16;
@@ -32,6 +38,31 @@ private:
     Instant next_ = never;
 };
 
+/// How often a drive is asked: in its line's rhythm, or in one of its own while an axis of it is looked at closely.
+class Pace {
+public:
+    static constexpr int rested = 4;  ///< an axis that stands waits so many periods
+
+    /// True: it is looked at more closely than before.
+    bool take(const DriveSetup& setup) noexcept {
+        Duration closest{};
+        for (const AxisSetup& a : setup.axes)
+            if (a.look_period > Duration::zero() && (closest == Duration::zero() || a.look_period < closest)) closest = a.look_period;
+        const bool closer = closest > Duration::zero() && (own_ == Duration::zero() || closest < own_);
+        own_ = closest;
+        return closer;
+    }
+    [[nodiscard]] bool close() const noexcept { return own_ > Duration::zero(); }
+    /// `line`: the line's period of an axis that moves.
+    [[nodiscard]] Duration period(Duration line, bool moves = true) const noexcept {
+        if (close()) return std::min(own_, line);
+        return moves ? line : rested * line;
+    }
+
+private:
+    Duration own_{};
+};
+
 /// Several things of one drive, or of the channels of one. `Item` is the family's number for "this question about that axis".
 class Polls {
 public:
@@ -43,6 +74,11 @@ public:
     bool every(Item item, Duration period, Instant first);
     /// Once, before everything else that is due; a known one keeps its period. False: full.
     bool soon(Item item, Instant now);
+    /// All of them as soon as there is a place.
+    void hurry() noexcept {
+        for (Entry& e : entries_)
+            e.timer.hurry();
+    }
     /// Those of an axis that moves go before those of axes that stand.
     void quick(Item item, bool on) noexcept;
     void drop(Item item) noexcept;

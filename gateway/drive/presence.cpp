@@ -75,8 +75,10 @@ void Presence::restart(Instant now, Duration time) noexcept {
 
 void Presence::report(std::string text, Out& out) {
     const Duration pause = phase_ == Phase::absent ? retry_pause_ : Duration{};
-    if (reported_.drive == drive_ && reported_.online == online() && reported_.retry_pause == pause && reported_.text == text) return;
-    reported_ = {drive_, online(), silent_, pause, std::move(text)};
+    if (reported_.drive == drive_ && reported_.online == online() && reported_.retry_pause == pause && reported_.text == text &&
+        reported_.watchdog == watchdog_)
+        return;
+    reported_ = {drive_, online(), silent_, pause, std::move(text), watchdog_};
     out.links.push_back(reported_);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "gateway/core/adapter.hpp"
 #include "gateway/drive/timing.hpp"
@@ -66,6 +67,9 @@ public:
     [[nodiscard]] Instant deadline() const noexcept { return next_probe_; }
     [[nodiscard]] bool probe_due(Instant now) const noexcept { return now >= next_probe_; }
 
+    /// What its own watchdog was programmed to; said with the next report.
+    void watched(DriveWatchdog watchdog) { watchdog_ = std::move(watchdog); }
+    [[nodiscard]] const DriveWatchdog& watchdog() const noexcept { return watchdog_; }
     /// Says whether it is online, and why, unless exactly that was said last.
     void report(std::string text, Out& out);
 
@@ -78,6 +82,7 @@ private:
     Duration retry_pause_{};
     Instant next_probe_ = never;
     DriveLink reported_;
+    DriveWatchdog watchdog_;
 };
 
 }  // namespace axisgate::drive

@@ -1,6 +1,7 @@
 // Roster: the drives of one line: who stays, who goes and who is new when the site changes; and whose an axis is.
 // In: the line's setup. Out: drives by slot and by axis. Never touches a drive that is the same in both setups.
-// `Drive` has `const DriveSetup& setup() const` and `static constexpr int channels` (axes with a channel above are on no drive).
+// `Drive` has `const DriveSetup& setup() const`, `void look(const DriveSetup&)` (how closely its axes are looked at, told each time) and
+// `static constexpr int channels` (axes with a channel above are on no drive).
 #pragma once
 
 #include <algorithm>
@@ -47,6 +48,11 @@ public:
             fresh.push_back(drives_[slot].get());
         }
         by_axis_.clear();
+        for (const DriveSetup& s : setup.drives) {
+            each([&](Drive& d) {
+                if (same_drive(s, d.setup())) d.look(s);
+            });
+        }
         each([&](Drive& d) {
             for (const AxisSetup& a : d.setup().axes) {
                 if (a.id != no_axis && a.channel >= 1 && a.channel <= Drive::channels) by_axis_.emplace_back(a.id, &d);

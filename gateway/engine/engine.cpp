@@ -206,7 +206,7 @@ void Engine::publish(Axis& a, Instant now) {
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
         word = on ? static_cast<std::uint16_t>(word | bit) : static_cast<std::uint16_t>(word & ~bit);
     };
-    const bool simulated = a.drive->serving == Presence::twin, stale = a.stale || !online;
+    const bool simulated = a.drive->serving == Presence::twin || a.profile.feedback().simulated, stale = a.stale || !online;
     put(p.flags, flag_online, online);
     if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
     p.fail_safe_cause = static_cast<std::uint16_t>(a.loss);

@@ -88,7 +88,7 @@ public:
     /// How long a Modbus client that commands an axis may be silent, where the axis' site entry does not say it; 0: for ever.
     void set_watchdog(Duration limit) noexcept { watchdog_ = limit; }
     /// A client is gone: what it commanded last is treated as the axes' site entries say. With set_points_silent, the connection by which
-    /// it streamed: only what it streams is.
+    /// it streamed: only what it streams is, and a DDS client's set-points have then missed their deadline (dds_deadline).
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// How often axes were stopped since the start because of this cause.
     /// From a command's being taken to its first frame having left on a real line; any thread. One command per line at a time is measured.
@@ -108,6 +108,10 @@ public:
     [[nodiscard]] std::string start_scan(LineId line, ScanWish wish, Instant now);
     void cancel_scan(LineId line, Instant now);
     [[nodiscard]] ScanReport scan_report(LineId line) const;
+    /// Axes of one line are asked every `period` for a while, as far as the line has room besides what its other drives are owed; zero: no
+    /// more. It ends by itself at `until`, `longest_look` from now at most. Empty: so it is; else why not.
+    static constexpr Duration longest_look = std::chrono::minutes(10), shortest_look_period = std::chrono::milliseconds(1);
+    [[nodiscard]] std::string look_closely(const std::vector<AxisId>& axes, Duration period, Instant until, Instant now);
     [[nodiscard]] LineReport line_report(LineId line, Instant now) const;
     [[nodiscard]] DriveStatus drive_status(DriveId drive) const;
     /// Outlives the line for those who still read it.
@@ -198,6 +202,10 @@ private:
     // loss of command (engine_fail_safe.cpp)
     void fail_safe(Axis& axis, LossCause cause, Instant now);
     [[nodiscard]] static AtLoss at_loss(const Axis& axis);
+    /// What the silence of a client that streams set-points is called.
+    [[nodiscard]] static LossCause silence_of(const AuthorityClient& who) noexcept {
+        return who.door == Door::dds ? LossCause::dds_deadline : LossCause::set_points_silent;
+    }
     void check_watchdog(Axis& axis, Instant now);
 
     // the site (engine_site.cpp), presence (engine_presence.cpp), time (engine_turn.cpp), questions (engine_ask.cpp)
@@ -218,6 +226,7 @@ private:
     void begin_handback(Drive& drive, Instant now);
     bool handback_result(const Result& result, Instant now);
     void housekeeping(Instant now);
+    void end_looks(Instant now);
     void save_twin_memory(Drive& drive);
     void drop_axis(Axis& axis, std::string_view why, Instant now);
     void new_source(Axis& axis);

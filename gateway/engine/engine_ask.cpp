@@ -55,6 +55,7 @@ DriveStatus Engine::drive_status(DriveId id) const {
     const DriveLink& serving = s.simulated ? d->twin_link : d->device_link;
     s.silent_exchanges = serving.silent_exchanges;
     s.retry_pause_ms = milliseconds_of(serving.retry_pause);
+    s.watchdog = serving.watchdog;
     return s;
 }
 

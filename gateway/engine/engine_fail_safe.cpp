@@ -30,6 +30,10 @@ std::string why_lost(LossCause cause, Duration limit) {
             return "the drive could not be reached meanwhile";
         case LossCause::gateway_ends:
             return "the gateway ends";
+        case LossCause::dds_deadline:
+            return limit > Duration::zero()
+                       ? fmt::format("has missed the deadline of its set-points over DDS: none for {} ms", milliseconds_of(limit))
+                       : "is gone from the DDS domain: nobody writes for it any more";
         case LossCause::none:
         case LossCause::modbus_closed:
             break;
@@ -42,11 +46,12 @@ void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant
     if (tap_) tap_->client_lost(who, cause, now);
     now_ = std::max(now_, now);
     for (const auto& a : axes_) {
-        // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on.
-        const bool meant =
-            a && (cause == LossCause::set_points_silent ? a->stream.on && a->stream.who == who : a->authority.commander() == who);
-        if (!meant) continue;
-        fail_safe(*a, cause, now);
+        if (!a) continue;
+        // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on. And set-points
+        // over DDS have a deadline of their own: they go on while they are renewed, whoever else does not write for their client any more.
+        const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
+        if (feed ? !streams : a->authority.commander() != who || (cause == LossCause::dds_deadline && streams)) continue;
+        fail_safe(*a, feed ? silence_of(who) : cause, now);
         if (a->stream.who == who) end_stream(*a, Reason::interrupted, who.text() + " is gone", now);
     }
 }
@@ -79,8 +84,9 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
     const Duration limit = cause == LossCause::modbus_silent ? a.spec.fail_safe.watchdog(watchdog_)
-                           : cause == LossCause::set_points_silent && now - a.stream.renewed > a.stream.good_for ? a.stream.good_for
-                                                                                                                 : Duration::zero();
+                           : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for
+                               ? a.stream.good_for
+                               : Duration::zero();
     const AuthorityClient& who = a.stream.on ? a.stream.who : a.authority.commander();
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
                          why_lost(cause, limit));

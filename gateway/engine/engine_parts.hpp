@@ -197,6 +197,8 @@ struct Engine::Axis {
     AxisAuthority authority;
     LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
     std::optional<AtLoss> lost_line;   ///< its drive went silent while this axis was commanded, and has not spoken since
+    Duration look_period{};            ///< zero: asked in the line's rhythm
+    Instant look_until{};
     bool stale = true;
     bool was_fault = false;
     std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice

@@ -65,7 +65,7 @@ LineSetup Engine::setup_for(const Speaker& speaker) const {
         ds.options = d.spec.options;
         ds.catalogue = d.catalogue;
         for (const AxisId a : d.axes)
-            ds.axes.push_back({a, axes_[index_of(a)]->spec.channel});
+            ds.axes.push_back({a, axes_[index_of(a)]->spec.channel, axes_[index_of(a)]->look_period});
         s.drives.push_back(std::move(ds));
     }
     s.drives.insert(s.drives.end(), speaker.probes.begin(), speaker.probes.end());

@@ -178,7 +178,7 @@ void Engine::stream_refused(const Side& side, const Out::StreamEnd& end, Instant
 void Engine::check_stream(Axis& a, Instant now) {
     if (!a.stream.on) return;
     if (now - a.stream.renewed > a.stream.good_for) {
-        fail_safe(a, LossCause::set_points_silent, now);
+        fail_safe(a, silence_of(a.stream.who), now);
         return end_stream(a, Reason::interrupted,
                           fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
     }

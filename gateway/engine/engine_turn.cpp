@@ -65,7 +65,39 @@ void Engine::on_deadline(Instant now) {
     }
 }
 
+std::string Engine::look_closely(const std::vector<AxisId>& axes, Duration period, Instant until, Instant now) {
+    if (tap_) tap_->look({axes, period, until}, now);
+    const FlightWithin within(tap_);
+    const bool on = period > Duration::zero();
+    const LineUnit* line = nullptr;
+    for (const AxisId id : axes) {
+        const Axis* a = axis(id);
+        if (!a) return "there is no such axis";
+        if (line && a->drive->line != line) return "the axes are not on one line";
+        line = a->drive->line;
+    }
+    for (const AxisId id : axes) {
+        Axis& a = *axis(id);
+        a.look_period = on ? std::max(period, shortest_look_period) : Duration::zero();
+        a.look_until = on ? std::min(until, now + longest_look) : Instant{};
+    }
+    for (Side* s : sides_)
+        if (&s->unit == line) configure_side(*s, now);
+    return {};
+}
+
+/// Nobody who asked to look closely needs to be there to say that it is enough.
+void Engine::end_looks(Instant now) {
+    for (const auto& slot : axes_) {
+        if (!slot || slot->look_period == Duration::zero() || now < slot->look_until) continue;
+        slot->look_period = Duration::zero();
+        for (Side* s : sides_)
+            if (&s->unit == slot->drive->line) configure_side(*s, now);
+    }
+}
+
 void Engine::housekeeping(Instant now) {
+    end_looks(now);
     for (const auto& unit : lines_) {
         if (unit) scan_turn(*unit, now);
     }

@@ -276,6 +276,11 @@ void io(A& a, Of<A, ScanWish> v) {
     io_list(a, v.known, [&](auto& x) { io(a, x); });
 }
 template <class A>
+void io(A& a, Of<A, LookRecord> v) {
+    io_list(a, v.axes, [&](auto& x) { io(a, x); });
+    io_all(a, v.period, v.until);
+}
+template <class A>
 void io(A& a, Of<A, PictureRecord> v) {
     io_all(a, v.position, v.demand, v.velocity, v.native_status, v.error_code, v.statusword, v.flags, v.fail_safe_cause, v.mode_display,
            v.demand_source, v.presence, v.current, v.age);

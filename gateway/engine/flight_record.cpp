@@ -60,6 +60,7 @@ template std::optional<LossRecord> unpack(std::span<const char>);
 template std::optional<StoredRecord> unpack(std::span<const char>);
 template std::optional<HandRecord> unpack(std::span<const char>);
 template std::optional<LineStateRecord> unpack(std::span<const char>);
+template std::optional<LookRecord> unpack(std::span<const char>);
 template std::optional<ScanWish> unpack(std::span<const char>);
 template std::optional<Result> unpack(std::span<const char>);
 template std::optional<Event> unpack(std::span<const char>);
@@ -96,6 +97,8 @@ std::string_view name_of(FlightKind kind) noexcept {
             return "line_state";
         case FlightKind::heard:
             return "heard";
+        case FlightKind::look:
+            return "look";
         case FlightKind::send_refused:
             return "send_refused";
         case FlightKind::twin_frame:

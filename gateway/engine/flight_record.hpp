@@ -38,6 +38,7 @@ enum class FlightKind : std::uint8_t {
     sent = 12,          ///< a frame has left by a cable; index: line
     line_state = 13,    ///< of a cable; index: line
     heard = 14,         ///< the answer of a door to the question when a client was heard last
+    look = 16,          ///< axes are looked at closely, or no more
     send_refused = 15,  ///< the line did not take a frame: its number among those handed to it; index: line
     twin_frame = 32,    ///< a frame on a twin bus; index: line
     handed = 33,        ///< a frame for a cable, handed to its line; index: line
@@ -107,6 +108,11 @@ struct HandRecord {
     std::vector<std::pair<std::string, Value>> items;
     Origin origin;
 };
+struct LookRecord {
+    std::vector<AxisId> axes;
+    Duration period{};
+    Instant until{};
+};
 struct LineStateRecord {
     bool up = false;
     std::string why;
@@ -123,6 +129,7 @@ extern template std::optional<LossRecord> unpack(std::span<const char>);
 extern template std::optional<StoredRecord> unpack(std::span<const char>);
 extern template std::optional<HandRecord> unpack(std::span<const char>);
 extern template std::optional<LineStateRecord> unpack(std::span<const char>);
+extern template std::optional<LookRecord> unpack(std::span<const char>);
 extern template std::optional<ScanWish> unpack(std::span<const char>);
 extern template std::optional<Result> unpack(std::span<const char>);
 extern template std::optional<Event> unpack(std::span<const char>);
@@ -149,6 +156,7 @@ public:
     void stored(Ticket order, const std::string& fault, Instant now);
     void turn(Instant now) { take({FlightKind::turn, 0xFFFF, now, {}}); }
     void scan(LineId line, const ScanWish& wish, Instant now);
+    void look(const LookRecord& look, Instant now);
     void scan_cancel(LineId line, Instant now) { take({FlightKind::scan_cancel, index_of(line), now, {}}); }
     void hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now);
     void shut_down(Instant now) { take({FlightKind::shut_down, 0xFFFF, now, {}}); }

@@ -30,6 +30,10 @@ void FlightTap::stored(Ticket order, const std::string& fault, Instant now) {
     pack(scratch_, StoredRecord{order, fault});
     give(FlightKind::stored, 0xFFFF, now);
 }
+void FlightTap::look(const LookRecord& look, Instant now) {
+    pack(scratch_, look);
+    give(FlightKind::look, 0xFFFF, now);
+}
 void FlightTap::scan(LineId line, const ScanWish& wish, Instant now) {
     pack(scratch_, wish);
     give(FlightKind::scan, index_of(line), now);

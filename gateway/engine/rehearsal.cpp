@@ -63,7 +63,7 @@ public:
     RehearsalCell play() {
         cell_.axis = spec_.name;
         cell_.cause = wish_.cause;
-        cell_.chosen = spec_.fail_safe.of(wish_.cause);
+        if (!gateway_gone()) cell_.chosen = spec_.fail_safe.of(wish_.cause);
         cell_.fault = set_off();
         if (!cell_.fault.empty()) return cell_;
         lose();
@@ -95,15 +95,27 @@ private:
             case LossCause::enip_timed_out:
             case LossCause::enip_idle:
                 return Door::ethernet_ip;
+            case LossCause::dds_deadline:
+                return Door::dds;
             default:
                 return Door::http;
         }
     }
     [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
 
+    [[nodiscard]] bool gateway_gone() const { return wish_.cause == LossCause::none; }
+
     void step() {
+        if (lost_ && gateway_gone()) return step_alone();
         now_ = std::clamp(engine_.deadline(), now_ + 10us, now_ + 1ms);
         engine_.on_deadline(now_);
+    }
+    /// The drive with nobody who speaks to it; what it says is heard by nobody.
+    void step_alone() {
+        Twin& twin = *engine_.twin(drive_);
+        now_ = std::clamp(twin.deadline(), now_ + 10us, now_ + 1ms);
+        Out unheard;
+        if (twin.deadline() <= now_) twin.on_deadline(now_, unheard);
     }
     void run_for(Duration time) {
         for (const Instant end = now_ + time; now_ < end;)
@@ -165,7 +177,7 @@ private:
         fast_ = std::max<std::int64_t>(fast_, 1);
         ramp_ = std::max<std::int64_t>(ramp_, 1);
         const AtLoss runs{true, true, true};
-        const bool goes_on = spec_.fail_safe.action(wish_.cause, runs) == FailSafeAction::nothing;
+        const bool goes_on = !gateway_gone() && spec_.fail_safe.action(wish_.cause, runs) == FailSafeAction::nothing;
         if (wish_.cause == LossCause::set_points_silent) {
             cell_.motion = "set_points";
             place_ = picture().position;
@@ -219,6 +231,8 @@ private:
                 return;
             case LossCause::gateway_ends:
                 return engine_.shut_down(now_);
+            case LossCause::none:
+                return;
             default:
                 engine_.on_client_lost(who, wish_.cause, now_);
         }

@@ -148,6 +148,8 @@ private:
                 return with<StoredRecord>(r, [&](const StoredRecord& s) { e.on_stored(s.order, s.fault, r.at); });
             case FlightKind::scan:
                 return with<ScanWish>(r, [&](const ScanWish& w) { (void)e.start_scan(LineId{r.index}, w, r.at); });
+            case FlightKind::look:
+                return with<LookRecord>(r, [&](const LookRecord& l) { (void)e.look_closely(l.axes, l.period, l.until, r.at); });
             case FlightKind::scan_cancel:
                 return e.cancel_scan(LineId{r.index}, r.at);
             case FlightKind::hand:

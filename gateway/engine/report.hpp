@@ -19,6 +19,7 @@ struct DriveStatus {
     std::string text;                       ///< why it is so, for people
     std::uint32_t silent_exchanges = 0;
     std::int64_t retry_pause_ms = 0;
+    DriveWatchdog watchdog{};  ///< of the drive that serves
 };
 struct LineReport {
     LineStatus status;          ///< of the real line; of the twin bus if the URI is "twin"

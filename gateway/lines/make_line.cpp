@@ -26,7 +26,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can, const PtyPlaces& ptys) {
+std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can, const PtyPlaces& ptys,
+                                const PairEnd& fleet) {
     switch (uri.kind) {
         case LineUri::Kind::can:
             return std::make_unique<CanLine>(base, uri.interface, can);
@@ -42,6 +43,8 @@ std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const 
             return std::make_unique<UdpLine>(base, uri.host, uri.port, UdpLine::Role::listens);
         case LineUri::Kind::pty:
             return std::make_unique<PtyLine>(base, uri.path, uri.serial.baud, uri.serial.format, ptys);
+        case LineUri::Kind::dds:
+            return std::make_unique<PairLine>(base, fleet);
         case LineUri::Kind::twin:
             break;
     }
@@ -49,13 +52,13 @@ std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const 
 }
 
 std::unique_ptr<Line> make_real_line(std::string_view uri, const LineSetup& setup, boost::asio::io_context& io,
-                                     std::string_view default_format, const PtyPlaces& ptys, Duration stale_after) {
+                                     std::string_view default_format, const PtyPlaces& ptys, Duration stale_after, const PairEnd& fleet) {
     const LineBase base{io, machine_clock(), {}, stale_after};
     const LineUriResult parsed = parse_line_uri(uri, setup.bit_rate == 0 ? 9600 : setup.bit_rate, default_format);
     if (!parsed.good()) return std::make_unique<NoLine>(base, parsed.fault);
     CanLineOptions can;
     can.bit_rate = setup.bit_rate;
-    return make_line(parsed.uri, base, can, ptys);
+    return make_line(parsed.uri, base, can, ptys, fleet);
 }
 
 }  // namespace axisgate

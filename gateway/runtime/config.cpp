@@ -244,6 +244,10 @@ const std::vector<Key>& keys() {
          Written::as_number},
         {"recorder", "disk_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_disk_mb, s, 1, 1'000'000); },
          Written::as_number},
+        {"recorder", "trend_disk_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_disk_mb, s, 0, 100'000); },
+         Written::as_number},
+        {"recorder", "captures_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_captures_mb, s, 1, 100'000); },
+         Written::as_number},
         {"recorder", "freeze_on", [](Config& c, const std::string& s) { return set_text(c.recorder_freeze_on, s); }},
     };
     return list;

@@ -245,7 +245,7 @@ void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
     const Family* family = find_family(spec.family);  // none: a CAN line of several
-    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys);
+    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys, stale_send_limit, settings_.fleet);
 }
 
 void Hot::publish_reports(Instant now) {

@@ -16,6 +16,7 @@
 #include "gateway/core/histogram.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
+#include "gateway/lines/pair_line.hpp"
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"
@@ -40,6 +41,7 @@ struct HotSettings {
     int cpu = -1;
     std::size_t trace_frames = 4096;
     Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
+    PairEnd fleet{};                              ///< takes the other ends of mirror lines; empty: there is no fleet
     PtyPlaces ptys{};                             ///< where lines of the site may link pseudo-terminals
 };
 

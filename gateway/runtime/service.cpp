@@ -134,6 +134,14 @@ int Service::open_store() {
     hs.cpu = static_cast<int>(options.config.hot_cpu);
     hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
     hs.ptys = {options.config.lines_pty_dir, options.config.data_dir};
+    if (options.config.dds_enabled) {
+        hs.fleet = [this](int fd) {
+            boost::asio::post(warm, [this, fd] {
+                if (dds) return dds->take_mirror(fd);
+                ::close(fd);
+            });
+        };
+    }
     hot = std::make_unique<Hot>(families, hs);
     hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
     hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
@@ -155,6 +163,7 @@ int Service::open_store() {
     ports->events.listen(&log);
     ports->backup.use(backup_plan(options.config, options.config_file));
     ports->recorder.begin(recorder_settings(options.config));
+    ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();
     outlets.changed = [this] {
         boost::asio::post(warm, [this] {

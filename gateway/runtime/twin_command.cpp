@@ -202,8 +202,8 @@ int command_twin(const TwinOptions& o) {
         usable = false;
     };
     if (!uri.good()) refuse("--line: " + uri.fault);
-    if (uri.good() && uri.uri.kind == LineUri::Kind::twin)
-        refuse("--line: twin is a line of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
+    if (uri.good() && (uri.uri.kind == LineUri::Kind::twin || uri.uri.kind == LineUri::Kind::dds))
+        refuse("--line: twin and dds are lines of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
     if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
     auto addresses = o.addresses;
     if (addresses.empty()) addresses.emplace_back(family.factory_address);

@@ -8,6 +8,7 @@
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/warm_axes.hpp"
 #include "gateway/runtime/warm_backup.hpp"
+#include "gateway/runtime/warm_captures.hpp"
 #include "gateway/runtime/warm_descriptions.hpp"
 #include "gateway/runtime/warm_documents.hpp"
 #include "gateway/runtime/warm_events.hpp"
@@ -44,8 +45,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,   backup,     clock,    descriptions, documents, drives, events,    fleet, lines,
-                modbus, parameters, recorder, registers,    rehearsal, site,   snapshots, stage, status};
+        return {axes,   backup,     captures, clock,     descriptions, documents, drives,    events, fleet, lines,
+                modbus, parameters, recorder, registers, rehearsal,    site,      snapshots, stage,  status};
     }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
@@ -62,6 +63,7 @@ public:
     WarmDocuments documents{threads_};
     WarmSnapshots snapshots{threads_};
     WarmRecorder recorder{threads_, events, site};
+    WarmCaptures captures{threads_, recorder, events};
     WarmRegisters registers{threads_};
     WarmRehearsal rehearsal{threads_, site.families()};
     WarmFleet fleet;

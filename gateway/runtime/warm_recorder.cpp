@@ -9,14 +9,11 @@
 #include <boost/asio/post.hpp>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "gateway/runtime/clock.hpp"
 #include "gateway/services/recorder/axr.hpp"
-#include "gateway/store/files.hpp"
 #include "gateway/wire/frame_export.hpp"
 
 namespace axisgate {
@@ -102,39 +99,12 @@ std::string packed(const Frozen& f) {
     return w.finish();
 }
 
-/// Empty, or why it is not on the disk; then nothing of it is.
-std::string put_on_disk(const std::string& path, const std::string& directory, const std::string& bytes) {
-    if (const auto made = files::make_directory(directory); !made) return made.error().text;
-    const std::string fresh = path + ".new";
-    std::string fault;
-    if (const auto made = files::create(fresh, directory); !made) return made.error().text;
-    {
-        std::ofstream out(fresh, std::ios::binary | std::ios::trunc);
-        errno = 0;
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (!out) fault = fmt::format("{} cannot be written: {}", path, errno != 0 ? std::strerror(errno) : "the disk is full");
-    }
-    if (fault.empty()) {
-        if (const auto done = files::sync(fresh, directory); !done) fault = done.error().text;
-    }
-    if (fault.empty()) {
-        if (const auto done = files::rename(fresh, path, directory); !done) fault = done.error().text;
-    }
-    std::error_code ec;
-    if (!fault.empty()) (void)fs::remove(fresh, ec);
-    return fault;
-}
-
-RecordingInfo info_of(const fs::path& path) {
+RecordingInfo info_of(const std::string& path, std::string name) {
     RecordingInfo i;
-    i.name = path.stem().string();
+    i.name = std::move(name);
     std::error_code ec;
     i.bytes = fs::file_size(path, ec);
-    std::string head(1u << 20, '\0');
-    std::ifstream in(path, std::ios::binary);
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
+    const std::string head = read_beginning(path);
     const auto text = axr_head(head, i.fault);
     boost::system::error_code unread;
     const auto meta = i.fault.empty() ? json::parse(text, unread) : json::value();
@@ -179,6 +149,10 @@ RecorderSettings recorder_settings(const Config& c) {
     r.trend_bytes = static_cast<std::size_t>(c.recorder_trend_mb) << 20;
     r.stretch_bytes = static_cast<std::size_t>(c.recorder_stretch_mb) << 20;
     r.inputs_bytes = static_cast<std::size_t>(c.recorder_inputs_mb) << 20;
+    r.trends = c.data_dir + "/trends";
+    r.trend_disk_bytes = static_cast<std::uint64_t>(c.recorder_trend_disk_mb) << 20;
+    r.captures = c.data_dir + "/captures";
+    r.captures_bytes = static_cast<std::uint64_t>(c.recorder_captures_mb) << 20;
     r.disk_bytes = static_cast<std::uint64_t>(c.recorder_disk_mb) << 20;
     r.freeze_on = words_of(c.recorder_freeze_on);
     return r;
@@ -202,8 +176,8 @@ void WarmRecorder::Tap::take_site(std::shared_ptr<const SiteInput> input, Instan
 WarmRecorder::~WarmRecorder() {
     if (trends_) threads_.hot.engine().set_tap(nullptr);  // its thread has ended, or was never begun
     events_.unlisten(this);
-    disk_.stop();
-    disk_.join();
+    if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->end(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));
+    end_disk();
 }
 
 void WarmRecorder::begin(RecorderSettings settings) {
@@ -211,13 +185,16 @@ void WarmRecorder::begin(RecorderSettings settings) {
     trends_ = std::make_unique<Trends>(settings_.trend_bytes, settings_.trend_length);
     stretch_ = std::make_unique<FlightLog>(settings_.stretch_bytes, true);
     inputs_ = std::make_unique<FlightLog>(settings_.inputs_bytes, false);
-    std::error_code ec;
-    for (const auto& entry : fs::directory_iterator(settings_.directory, ec)) {
-        if (kept_.size() >= most_recordings) break;
-        if (entry.path().extension() == ".new") (void)fs::remove(entry.path(), ec);  // a writing that was cut off
-        if (entry.path().extension() != ".axr" || !check_recording_name(entry.path().stem().string()).empty()) continue;
-        auto info = info_of(entry.path());
-        kept_[info.name] = std::move(info);
+    shelf_.open(settings_.directory, info_of);
+    if (settings_.trend_disk_bytes > 0) {
+        trend_disk_ = std::make_unique<TrendDisk>(disk_, settings_.trends, settings_.trend_disk_bytes);
+        if (auto fault = trend_disk_->open(unix_now_ns(), unix_ns_of(at_ns(0)), settings_.trend_length); !fault.empty()) {
+            Event e;
+            e.kind = "recording";
+            e.severity = Severity::warning;
+            e.text = std::move(fault);
+            events_.note(std::move(e));
+        }
     }
     threads_.hot.engine().set_tap(&tap_);
     events_.listen(this);
@@ -248,13 +225,22 @@ void WarmRecorder::empty() {
         keep({r.kind, r.index, r.at, written});
     });
     if (tap_.ring.lost() > 0 && !inputs_->overflowed()) inputs_->give_up();
+    if (listener_) listener_->on_time(monotonic_now());
+    if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->keep(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));
 }
 
 void WarmRecorder::keep(const FlightRecord& r) {
     stretch_->add(r);
     if (is_input(r.kind)) inputs_->add(r);
+    if (r.kind == FlightKind::command && listener_) {
+        if (const auto c = unpack<CommandRecord>(r.payload)) listener_->on_command(c->command, r.at);
+    }
     if (r.kind != FlightKind::picture) return;
-    if (const auto p = unpack<PictureRecord>(r.payload)) trends_->add(AxisId{r.index}, *p, r.at);
+    if (const auto p = unpack<PictureRecord>(r.payload)) {
+        if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->bring_back(AxisId{r.index}, *trends_, *site);
+        trends_->add(AxisId{r.index}, *p, r.at);
+        if (listener_) listener_->on_picture(AxisId{r.index}, *p, r.at);
+    }
 }
 
 TrendStretch WarmRecorder::trend(AxisId axis, Instant from, Instant to, std::size_t columns) {
@@ -270,13 +256,6 @@ std::string WarmRecorder::not_replayable() const {
     return "";
 }
 
-std::uint64_t WarmRecorder::disk_bytes() const {
-    std::uint64_t n = 0;
-    for (const auto& [name, info] : kept_)
-        n += info.bytes;
-    return n;
-}
-
 RecorderState WarmRecorder::recorder_state() {
     empty();
     RecorderState s;
@@ -290,18 +269,10 @@ RecorderState WarmRecorder::recorder_state() {
     s.trend_bytes = trends_ ? trends_->bytes() : 0;
     s.trend_bound = settings_.trend_bytes;
     s.trend_minutes = std::chrono::duration<double, std::ratio<60>>(settings_.trend_length).count();
-    s.disk_bytes = disk_bytes();
+    s.disk_bytes = shelf_.bytes();
     s.disk_bound = settings_.disk_bytes;
-    s.disk_fault = disk_fault_;
+    s.disk_fault = shelf_.disk_fault();
     return s;
-}
-
-std::vector<RecordingInfo> WarmRecorder::recordings() const {
-    std::vector<RecordingInfo> out;
-    for (const auto& [name, info] : kept_)
-        out.push_back(info);
-    std::ranges::sort(out, [](const auto& a, const auto& b) { return a.at_unix_ns > b.at_unix_ns; });
-    return out;
 }
 
 void WarmRecorder::freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) {
@@ -313,12 +284,12 @@ void WarmRecorder::freeze_this(std::string name, std::string why, std::string wh
     using Kind = RecordingFault::Kind;
     const auto refuse = [&](Kind kind, std::string text) { then({kind, std::move(text)}, {}); };
     if (!trends_) return refuse(Kind::busy, "nothing is recorded yet");
-    if (writing_) return refuse(Kind::busy, "another recording is being written: try again");
-    if (kept_.contains(name)) return refuse(Kind::exists, fmt::format("there is a recording {} already: choose another name", name));
+    if (shelf_.writing()) return refuse(Kind::busy, "another recording is being written: try again");
+    if (shelf_.kept().contains(name)) return then(shelf_.exists(name), {});
     if (automatic) make_room_for_automatic();
-    if (kept_.size() >= most_recordings || disk_bytes() >= settings_.disk_bytes)
-        return refuse(Kind::no_room, fmt::format("{} recordings take {} MB of {} MB: delete some", kept_.size(), disk_bytes() >> 20,
-                                                 settings_.disk_bytes >> 20));
+    if (shelf_.full(settings_.disk_bytes))
+        return refuse(Kind::no_room, fmt::format("{} recordings take {} MB of {} MB: delete some", shelf_.kept().size(),
+                                                 shelf_.bytes() >> 20, settings_.disk_bytes >> 20));
     empty();
     auto f = std::make_shared<Frozen>();
     f->stretch = stretch_->chunks();
@@ -339,34 +310,19 @@ void WarmRecorder::freeze_this(std::string name, std::string why, std::string wh
         f->info.to_unix_ns = ns_of(f->stretch.back()->last) + f->unix_offset_ns;
     }
     f->info.not_replayable = not_replayable();
-    writing_ = true;
-    boost::asio::post(disk_, [this, f, path = path_of(f->info.name), then = std::move(then)]() mutable {
-        const std::string bytes = packed(*f);
-        f->info.bytes = bytes.size();
-        auto fault = put_on_disk(path, settings_.directory, bytes);
-        threads_.answer([this, f, fault = std::move(fault), then = std::move(then)] {
-            writing_ = false;
-            disk_fault_ = fault;
-            if (!fault.empty()) return then({Kind::no_room, "the recording is not written: " + fault}, {});
-            kept_[f->info.name] = f->info;
-            then({}, f->info);
-        });
-    });
+    shelf_.write(
+        f->info, [f] { return packed(*f); }, std::move(then));
 }
 
 /// The oldest that nobody asked for make room; what somebody has asked for stays.
 void WarmRecorder::make_room_for_automatic() {
-    while (kept_.size() >= most_recordings || disk_bytes() + settings_.stretch_bytes + settings_.inputs_bytes > settings_.disk_bytes) {
+    while (shelf_.full(settings_.disk_bytes) || shelf_.bytes() + settings_.stretch_bytes + settings_.inputs_bytes > settings_.disk_bytes) {
         const RecordingInfo* oldest = nullptr;
-        for (const auto& [name, info] : kept_) {
+        for (const auto& [name, info] : shelf_.kept()) {
             if (info.automatic && (!oldest || info.at_unix_ns < oldest->at_unix_ns)) oldest = &info;
         }
         if (!oldest) return;
-        boost::asio::post(disk_, [path = path_of(oldest->name)] {
-            std::error_code ec;
-            (void)fs::remove(path, ec);
-        });
-        kept_.erase(std::string(oldest->name));
+        shelf_.remove(std::string(oldest->name), [](const RecordingFault&) {});
     }
 }
 
@@ -391,44 +347,21 @@ void WarmRecorder::on_event(const Event& e) {
     });
 }
 
-void WarmRecorder::load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) {
-    if (!kept_.contains(name)) return then(std::nullopt);
-    boost::asio::post(disk_, [this, path = path_of(name), then = std::move(then)]() mutable {
-        std::optional<std::string> bytes;
-        if (std::ifstream in(path, std::ios::binary); in)
-            bytes.emplace(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-        threads_.answer([then = std::move(then), bytes = std::move(bytes)]() mutable { then(std::move(bytes)); });
-    });
-}
-
-void WarmRecorder::rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) {
-    using Kind = RecordingFault::Kind;
-    if (!kept_.contains(name)) return then({Kind::no_such, ""});
-    if (name == to) return then({});
-    if (kept_.contains(to)) return then({Kind::exists, fmt::format("there is a recording {} already: choose another name", to)});
-    auto node = kept_.extract(name);
-    node.key() = node.mapped().name = to;
-    node.mapped().automatic = false;  // who names it wants to keep it
-    kept_.insert(std::move(node));
-    boost::asio::post(disk_, [this, from = path_of(name), into = path_of(to), name, to, then = std::move(then)]() mutable {
-        const auto done = files::rename(from, into, settings_.directory);
-        threads_.answer([this, name, to, fault = done ? std::string() : done.error().text, then = std::move(then)] {
-            if (!fault.empty()) {
-                if (auto back = kept_.extract(to); back) back.key() = back.mapped().name = name, kept_.insert(std::move(back));
-                return then({Kind::no_room, fault});
-            }
-            then({});
+void WarmRecorder::play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, json::object)> then) {
+    Families families = sites_.families();
+    families.descriptions = std::make_shared<DescriptionShelf>();  // what the recording has shelved is for this alone
+    shelf_.read<std::pair<std::string, json::object>>(
+        name,
+        [families = std::move(families), wish](const std::string& bytes) {
+            std::pair<std::string, json::object> out;
+            out.second = axisgate::play_back(bytes, families, wish, out.first);
+            return out;
+        },
+        [then = std::move(then)](std::optional<std::pair<std::string, json::object>> done) {
+            if (!done) return then({RecordingFault::Kind::no_such, ""}, {});
+            if (!done->first.empty()) return then({RecordingFault::Kind::damaged, done->first}, {});
+            then({}, std::move(done->second));
         });
-    });
-}
-
-void WarmRecorder::remove_recording(const std::string& name, std::function<void(RecordingFault)> then) {
-    if (kept_.erase(name) == 0) return then({RecordingFault::Kind::no_such, ""});
-    boost::asio::post(disk_, [this, path = path_of(name), then = std::move(then)]() mutable {
-        std::error_code ec;
-        (void)fs::remove(path, ec);
-        threads_.answer([then = std::move(then)] { then({}); });
-    });
 }
 
 }  // namespace axisgate

@@ -5,14 +5,15 @@
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "gateway/engine/flight_record.hpp"
 #include "gateway/runtime/config.hpp"
+#include "gateway/runtime/file_shelf.hpp"
 #include "gateway/runtime/record_ring.hpp"
+#include "gateway/runtime/trend_disk.hpp"
 #include "gateway/runtime/warm_threads.hpp"
 #include "gateway/services/ports/events.hpp"
 #include "gateway/services/ports/recorder.hpp"
@@ -22,19 +23,30 @@ namespace axisgate {
 
 /// What the recorder may use, and when it freezes by itself ([recorder] of the configuration).
 struct RecorderSettings {
-    std::string directory;  ///< of the recordings
+    std::string directory;               ///< of the recordings
+    std::string captures;                ///< folder of the captures
+    std::string trends;                  ///< folder of the trends
+    std::uint64_t trend_disk_bytes = 0;  ///< 0: they are in memory alone
     Duration trend_length = std::chrono::minutes(10);
     std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
-    std::uint64_t disk_bytes = 512u << 20;
+    std::uint64_t disk_bytes = 512u << 20, captures_bytes = 64u << 20;
     std::vector<std::string> freeze_on;  ///< kinds of events of severity alarm
 };
 
 [[nodiscard]] RecorderSettings recorder_settings(const Config& config);
 
+/// Who looks at records as they come.
+struct RecordListener {
+    virtual void on_picture(AxisId axis, const PictureRecord& picture, Instant at) = 0;
+    virtual void on_command(const Command& command, Instant at) = 0;
+    /// All that had come by then was told.
+    virtual void on_time(Instant now) = 0;
+    virtual ~RecordListener() = default;
+};
+
 class WarmRecorder final : public RecorderPort, EventListener {
 public:
     static constexpr std::size_t ring_bytes = 4u << 20;
-    static constexpr std::size_t most_recordings = 100;
     static constexpr Duration after_alarm = std::chrono::seconds(2);      ///< how much is recorded behind it
     static constexpr Duration between_alarms = std::chrono::seconds(60);  ///< that freeze
 
@@ -49,11 +61,29 @@ public:
 
     [[nodiscard]] TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) override;
     [[nodiscard]] RecorderState recorder_state() override;
-    [[nodiscard]] std::vector<RecordingInfo> recordings() const override;
+    [[nodiscard]] std::vector<RecordingInfo> recordings() const override { return shelf_.newest_first(); }
     void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) override;
-    void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) override;
-    void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override;
-    void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override;
+    void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) override {
+        shelf_.load(name, std::move(then));
+    }
+    void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override;
+    void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
+        shelf_.rename(
+            name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // who names it wants to keep it
+    }
+    void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override {
+        shelf_.remove(name, std::move(then));
+    }
+    /// One at most; it outlives this.
+    void listen(RecordListener* listener) { listener_ = listener; }
+    [[nodiscard]] boost::asio::thread_pool& disk() noexcept { return disk_; }
+    /// What waits for the disk is given up, and what it does is waited for.
+    void end_disk() {
+        disk_.stop();
+        disk_.join();
+    }
+    /// Takes what has come up to now.
+    void look() { empty(); }
 
 private:
     /// The hot thread's end.
@@ -70,9 +100,7 @@ private:
     void freeze_this(std::string name, std::string why, std::string who, bool automatic,
                      std::function<void(RecordingFault, RecordingInfo)> then);
     void make_room_for_automatic();
-    [[nodiscard]] std::string path_of(const std::string& name) const { return settings_.directory + "/" + name + ".axr"; }
     [[nodiscard]] std::string not_replayable() const;
-    [[nodiscard]] std::uint64_t disk_bytes() const;
 
     const WarmThreads& threads_;
     EventPort& events_;
@@ -81,13 +109,13 @@ private:
     Tap tap_;
     std::unique_ptr<Trends> trends_;
     std::unique_ptr<FlightLog> stretch_, inputs_;
-    std::map<std::string, RecordingInfo> kept_;
-    std::string disk_fault_;
-    bool writing_ = false;
+    RecordListener* listener_ = nullptr;
+    std::unique_ptr<TrendDisk> trend_disk_;
     bool found_ = false;  ///< records came with the last look
     Instant frozen_at_{};
     std::unique_ptr<boost::asio::steady_timer> timer_, alarm_timer_;
     boost::asio::thread_pool disk_{1};
+    FileShelf<RecordingInfo> shelf_{threads_, disk_, "recording", ".axr"};
 };
 
 }  // namespace axisgate

@@ -5,6 +5,7 @@
 
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/backup.hpp"
+#include "gateway/services/ports/captures.hpp"
 #include "gateway/services/ports/clock.hpp"
 #include "gateway/services/ports/descriptions.hpp"
 #include "gateway/services/ports/documents.hpp"
@@ -26,7 +27,8 @@
 namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
-using Ports = PortSet<AxisPort, BackupPort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort, ModbusPort,
-                      ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+using Ports =
+    PortSet<AxisPort, BackupPort, CapturePort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort,
+            ModbusPort, ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

@@ -17,17 +17,18 @@ enum class LossCause : std::uint8_t {
     none = 0,
     modbus_closed = 1,      ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
     modbus_silent = 2,      ///< connected, but no request for longer than the watchdog time
-    set_points_silent = 3,  ///< it streamed set-points, and the next one did not come in time
+    set_points_silent = 3,  ///< it streamed set-points (not over DDS), and the next one did not come in time
     lease_ended = 4,        ///< it held the axis by a lease, and let it expire
     enip_closed = 5,        ///< its EtherNet/IP connection was closed, by its scanner or by the gateway
     enip_timed_out = 6,     ///< its EtherNet/IP connection brought nothing for its time-out (interval x multiplier)
     enip_idle = 7,          ///< its scanner says that it is in program mode (the run/idle bit)
     line_lost = 8,          ///< the drive could not be reached while it was commanded; acted upon when it answers again
-    gateway_ends = 9        ///< the gateway itself is told to end
+    gateway_ends = 9,       ///< the gateway itself is told to end
+    dds_deadline = 10       ///< it commands over DDS: its set-point missed its deadline, or nobody writes for it any more (liveliness)
 };
-inline constexpr std::array<LossCause, 9> loss_causes{LossCause::modbus_closed, LossCause::modbus_silent, LossCause::set_points_silent,
-                                                      LossCause::lease_ended,   LossCause::enip_closed,   LossCause::enip_timed_out,
-                                                      LossCause::enip_idle,     LossCause::line_lost,     LossCause::gateway_ends};
+inline constexpr std::array<LossCause, 10> loss_causes{
+    LossCause::modbus_closed,  LossCause::modbus_silent, LossCause::set_points_silent, LossCause::lease_ended,  LossCause::enip_closed,
+    LossCause::enip_timed_out, LossCause::enip_idle,     LossCause::line_lost,         LossCause::gateway_ends, LossCause::dds_deadline};
 /// As the enumerator is called: the word of the site's document.
 [[nodiscard]] std::string_view name_of(LossCause cause) noexcept;
 

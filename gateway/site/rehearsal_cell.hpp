@@ -12,6 +12,7 @@ namespace axisgate {
 
 struct RehearsalWish {
     std::string axis;  ///< of the site
+    /// none: the gateway itself is gone without a word (its supply, a kill): what its drive does then.
     LossCause cause = LossCause::modbus_closed;
     Duration watchdog = std::chrono::seconds(5);   ///< [modbus] watchdog_ms
     Duration lease = std::chrono::seconds(30);     ///< how long a command holds an axis
@@ -22,7 +23,7 @@ struct RehearsalWish {
 /// drive's silence for line_lost, else from the moment at which the door tells it.
 struct RehearsalCell {
     std::string axis;
-    LossCause cause = LossCause::none;
+    LossCause cause = LossCause::none;               ///< none: the gateway is gone, and the drive alone acts
     std::optional<FailSafeAction> chosen;            ///< as the site has it; nothing: the default
     FailSafeAction taken = FailSafeAction::nothing;  ///< what the engine did
     std::string motion;                              ///< "velocity", "position", "set_points"

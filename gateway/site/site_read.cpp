@@ -221,6 +221,11 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         if (family.family) {
             const bool is_can = uri.uri.kind == LineUri::Kind::can;
             const bool is_twin = uri.uri.kind == LineUri::Kind::twin;
+            if (uri.uri.kind == LineUri::Kind::dds && l.family != "remote") {
+                faults.push_back({at("lines", i, "uri"),
+                                  fmt::format("{} does not speak on dds: axes of other gateways alone are there", l.family),
+                                  "use the family remote, or another line"});
+            }
             if ((is_can && !family.family->uses_can) || (!is_can && !is_twin && !family.family->uses_bytes)) {
                 faults.push_back({at("lines", i, "uri"), fmt::format("{} does not speak on {}", l.family, is_can ? "CAN" : "a byte line"),
                                   is_can ? "use serial:, tcp: or twin" : "use can: or twin"});
@@ -249,6 +254,11 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         if (!addresses.emplace(d.line, site.family_of(d), d.address).second) {
             faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address),
                               "give each drive an address of its own"});
+        }
+        if (line->uri == "dds" && d.presence != PresenceRule::device) {
+            faults.push_back({at("drives", i, "presence"),
+                              fmt::format("drive {}: what stands for an axis of another gateway is that axis, or nothing", d.name),
+                              "use presence device: its own gateway simulates the drive, and that is shown here"});
         }
         if (line->uri == "twin" && d.presence == PresenceRule::device) {
             faults.push_back({at("drives", i, "presence"), fmt::format("drive {}: a twin line has no real drives", d.name),

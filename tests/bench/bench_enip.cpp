@@ -1,7 +1,9 @@
-// EtherNet/IP benchmark: explicit messages against a plain echo of the same sizes, implicit data's jitter, the stop when an owner falls
-// silent. In: where the program listens, and which part. Out: per figure the ratio, its limit and both figures; exit 1 if a limit is not
-// kept. Everything is plain sockets. When data came is what the kernel noted, so that this program's own waking up is not measured.
+// EtherNet/IP benchmark: explicit messages against a plain echo of the same sizes, implicit data's jitter, the way of an output to the
+// drive's line, the stop when an owner falls silent. In: where the program listens, and which part. Out: per figure the ratio, its limit
+// and both figures; exit 1 if a limit is not kept. Everything is plain sockets. When data came is what the kernel noted, so that this
+// program's own waking up is not measured.
 #include <netinet/tcp.h>
+#include <signal.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -18,14 +20,17 @@
 #include <thread>
 #include <vector>
 
+#include "gateway/runtime/threads.hpp"
 #include "tests/bench/enip_originator.hpp"
+#include "tests/bench/enip_output.hpp"
 #include "tests/bench/report.hpp"
 
 namespace axisgate::bench {
 namespace {
 // --- explicit messages
 
-/// epoll, recv, one send of so many bytes for each request of its size: nothing that still answers is faster.
+/// epoll, recv, one send of so many bytes for each request of its size, on the processor and with the rank of the gateway's hot thread:
+/// nothing that still answers is faster.
 class Echo {
 public:
     Echo(std::size_t request, std::size_t answer) : request_(request), answer_(answer), listening_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -48,6 +53,7 @@ public:
 private:
     void serve() {
         keep_on(0);
+        if (!go_first()) take_short_turns();
         const int poller = ::epoll_create1(0), on = 1;
         const auto watch = [&](int fd) {
             epoll_event e{};
@@ -123,7 +129,24 @@ double rate(const std::vector<int>& fds, const std::vector<Bytes>& requests, std
     return static_cast<double>(answers) * 1e9 / static_cast<double>(now - begun);
 }
 
-bool explicit_messages(Address program) {
+/// The gateway does nothing while the echo answers, as the echo does nothing while the gateway does: one of them has the processor.
+class Paused {
+public:
+    explicit Paused(pid_t program) : program_(program) {
+        if (program_ > 0) (void)::kill(program_, SIGSTOP);
+    }
+    ~Paused() {
+        if (program_ > 0) (void)::kill(program_, SIGCONT);
+    }
+    Paused(const Paused&) = delete;
+    Paused& operator=(const Paused&) = delete;
+
+private:
+    pid_t program_;
+};
+
+/// `pid` of the program; 0: it goes on beside the echo, and the figure flatters it.
+bool explicit_messages(Address program, pid_t pid) {
     constexpr double least = 0.9;
     constexpr int slices = 7;
     bool kept = true;
@@ -147,12 +170,16 @@ bool explicit_messages(Address program) {
         for (int i = 0; i < count; ++i)
             theirs.push_back(connected(echo.address()));
         std::vector<double> ratio, a, b;
+        const auto of_echo = [&](double seconds) {
+            const Paused gateway(pid);
+            return rate(theirs, requests, answer, seconds);
+        };
         (void)rate(ours, requests, answer, 0.1);
-        (void)rate(theirs, requests, answer, 0.1);
+        (void)of_echo(0.1);
         for (int i = 0; i < slices; ++i) {
             const bool first = i % 2 == 0;
             if (first) a.push_back(rate(ours, requests, answer, 0.3));
-            b.push_back(rate(theirs, requests, answer, 0.3));
+            b.push_back(of_echo(0.3));
             if (!first) a.push_back(rate(ours, requests, answer, 0.3));
             ratio.push_back(a.back() / b.back());
         }
@@ -302,14 +329,15 @@ int main(int argc, char** argv) {
     Address program, io, modbus;
     const auto usage = [] {
         std::fputs(
-            "usage: bench_enip explicit HOST:PORT | jitter HOST:PORT HOST:IO_PORT MODBUS_HOST:PORT [SECONDS] | lost HOST:PORT "
-            "HOST:IO_PORT\n",
+            "usage: bench_enip output PROGRAM [COUNT] | explicit HOST:PORT [PID] | jitter HOST:PORT HOST:IO_PORT MODBUS_HOST:PORT "
+            "[SECONDS] | lost HOST:PORT HOST:IO_PORT\n",
             stderr);
         return 2;
     };
+    if (arg.size() >= 2 && arg[0] == "output") return output_to_frame(arg[1], arg.size() > 2 ? std::atoi(arg[2].c_str()) : 4000) ? 0 : 1;
     if (arg.size() < 2 || !parse_address(arg[1], program)) return usage();
     keep_on(1);
-    if (arg[0] == "explicit") return explicit_messages(program) ? 0 : 1;
+    if (arg[0] == "explicit") return explicit_messages(program, arg.size() > 2 ? std::atoi(arg[2].c_str()) : 0) ? 0 : 1;
     if (arg.size() < 3 || !parse_address(arg[2], io)) return usage();
     if (arg[0] == "lost") return lost_owner(program, io) ? 0 : 1;
     if (arg[0] != "jitter" || arg.size() < 4 || !parse_address(arg[3], modbus)) return usage();

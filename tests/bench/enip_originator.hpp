@@ -20,15 +20,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/bench/line_probe.hpp"
 #include "tests/bench/modbus_load.hpp"
 
 namespace axisgate::bench {
 using Bytes = std::vector<std::uint8_t>;
 
-[[noreturn]] inline void give_up(const std::string& why) {
-    std::fprintf(stderr, "bench_enip: %s\n", why.c_str());
-    std::exit(2);
-}
 inline std::int64_t real_ns() {
     timespec t{};
     (void)::clock_gettime(CLOCK_REALTIME, &t);

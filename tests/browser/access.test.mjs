@@ -15,7 +15,7 @@ after(async () => {
 });
 const settled = (page) => page.locator('[data-live=true], main h1').first().waitFor();
 
-for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway']) {
+for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway', '/recorder/trends/', '/recorder/captures/', '/recorder/recordings/', '/report']) {
   test(`axe-core finds nothing serious on ${path}, in light and in dark, where nothing is furnished`, async () => {
     const page = await open(browser, program.url + path, { bypassCSP: true });
     await settled(page);
@@ -93,7 +93,7 @@ for (const widths of [[390, 320], [768, 1024, 1440]]) {
   test(`at ${widths.join(', ')} px no page scrolls sideways and the stops are in sight`, async () => {
     const fingers = widths[0] < 500;
     const page = await open(browser, program.url, { viewport: { width: widths[0], height: 844 }, hasTouch: fingers, isMobile: fingers });
-    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/axes/feeder/scope', '/axes/feeder/drive', '/axes/feeder/simulation', '/axes/feeder/events', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters']) {
+    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/axes/feeder/scope', '/axes/feeder/drive', '/axes/feeder/simulation', '/axes/feeder/events', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters', '/recorder/trends/', '/recorder/captures/', '/recorder/recordings/']) {
       await page.goto(program.url + path);
       await settled(page);
       if (path.endsWith('/parameters')) await page.locator('[data-parameter]').first().waitFor();

@@ -23,6 +23,7 @@ test('an action is chosen for a cause, in plain words, and the gateway has it', 
   const card = section().locator('[data-fail-safe="feeder"]');
   await until('the default is said', async () => /all as by default/.test(await card.innerText()) || (await card.innerText()));
   await card.locator('summary').click();
+  assert.match(await card.locator('[data-field="drive-watchdog"]').innerText(), /no watchdog of its own\. The manual names none/);
   await card.getByLabel('Modbus connection closed').selectOption({ label: 'Quick stop' });
   await becomes('it is in force', async () => (await program.call('GET', '/fail_safe/feeder')).body.fail_safe.modbus_closed, 'quick_stop');
   await until('the card says it', async () => /Modbus connection closed: quick stop/.test(await card.locator('summary').innerText()) || (await card.innerText()));

@@ -160,6 +160,32 @@ TEST_P(FailSafeLaws, AnEnabledAxisAtRestIsSwitchedOffWhereTheSiteSaysDisable) {
     }
 }
 
+TEST_P(FailSafeLaws, ADriveThatHasAWatchdogHasItProgrammedAndStopsWhenItDoesNotHearTheGateway) {
+    if (!e.catalogue->document().at("drive_watchdog").at("available").as_bool()) {
+        begin_with(LossCause::line_lost, FailSafeAction::nothing);
+        EXPECT_EQ(world->engine.drive_status(d1).watchdog.state, DriveWatchdog::State::unknown) << "what its family has not is not shown";
+        return;
+    }
+    begin_with(LossCause::line_lost, FailSafeAction::nothing);
+    const auto watchdog = world->engine.drive_status(d1).watchdog;
+    ASSERT_EQ(watchdog.state, DriveWatchdog::State::armed);
+    ASSERT_GT(watchdog.time, 0ms);
+    if (!set_off(true)) ASSERT_TRUE(set_off(false));
+    world->run_for(3 * watchdog.time);
+    ASSERT_TRUE(moving(a1)) << "while it hears the gateway it goes on";
+    const auto& cable = world->cables.at("line");
+    cable->cut(world->now);
+    world->run_for(watchdog.time + 2s);
+    cable->heal(world->now);
+    ASSERT_TRUE(world->run_until_true([&] { return online(a1); }, 30s));
+    world->run_for(500ms);
+    EXPECT_FALSE(moving(a1)) << "it has stopped, and the line's return starts nothing";
+    at_rest();
+    ASSERT_EQ(world->engine.drive_status(d1).watchdog, watchdog) << "and it is armed again";
+    const Result* on = tell(Enable{});
+    ASSERT_TRUE(on && good(*on)) << told(on);
+}
+
 TEST_P(FailSafeLaws, ALeaseThatAnotherClientLetsExpireIsNothingToTheMotion) {
     begin_with(LossCause::lease_ended, FailSafeAction::quick_stop);
     ASSERT_TRUE(set_off(false));

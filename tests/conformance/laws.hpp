@@ -134,6 +134,10 @@ protected:
     [[nodiscard]] std::ptrdiff_t events(std::string_view kind) const {
         return std::ranges::count_if(world->events, [&](const Event& v) { return v.kind == kind; });
     }
+    /// By its page something of the drive can be set; what stands for a drive of somebody else's may have nothing to set.
+    [[nodiscard]] bool has_settings() const {
+        return std::ranges::any_of(e.catalogue->parameters(), [](const Parameter& p) { return p.writable(); });
+    }
     [[nodiscard]] Point first_point(std::uint16_t parameter) const {
         const Parameter& p = e.catalogue->parameters()[parameter];
         return {parameter, p.count ? p.first : std::uint16_t{0}};

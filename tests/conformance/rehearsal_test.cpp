@@ -15,7 +15,7 @@ protected:
     Site site_with(LossCause cause, std::optional<FailSafeAction> action) {
         Site s = world->twins(e, 2);
         for (AxisSpec& a : s.axes) {
-            a.fail_safe.of(cause) = action;
+            if (cause != LossCause::none) a.fail_safe.of(cause) = action;
             a.fail_safe.watchdog_ms = 300;
         }
         return s;
@@ -64,6 +64,25 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             EXPECT_LE(*cell.standstill_ms - *cell.noticed_ms, 3000);
         }
     }
+}
+
+TEST_P(Rehearsals, WhenTheGatewayIsGoneADriveWithAWatchdogStopsByItselfAndAnyOtherGoesOn) {
+    const auto& says = e.catalogue->document().at("drive_watchdog").as_object();
+    EXPECT_GT(says.at("description").as_string().size(), 20u);
+    const RehearsalCell cell = play(LossCause::none, std::nullopt);
+    ASSERT_EQ(cell.fault, "");
+    EXPECT_GT(cell.speed, 0);
+    EXPECT_FALSE(cell.noticed_ms) << "there is nobody who could";
+    EXPECT_EQ(cell.taken, FailSafeAction::nothing);
+    if (!says.at("available").as_bool()) {
+        EXPECT_FALSE(cell.reaction_ms);
+        EXPECT_FALSE(cell.standstill_ms);
+        EXPECT_GE(cell.watched_ms, 15000);
+        return;
+    }
+    ASSERT_TRUE(cell.reaction_ms && cell.standstill_ms);
+    EXPECT_GE(*cell.reaction_ms, 900) << "as delivered: 1000 ms after the last heartbeat";
+    EXPECT_LE(*cell.standstill_ms, 2500);
 }
 
 TEST_P(Rehearsals, TheSameSiteGivesTheSameFigures) {

@@ -15,8 +15,10 @@ protected:
     static constexpr Duration cycle = 20ms, good_for = 200ms;
     std::int64_t begin = 0;
 
-    static Origin from(std::string who) { return {Door::ethernet_ip, std::make_shared<const std::string>(std::move(who)), {}}; }
-    const Origin plc = from("192.0.2.9:50000"), other = from("192.0.2.8:50000");
+    static Origin from(std::string who, Door door = Door::ethernet_ip) {
+        return {door, std::make_shared<const std::string>(std::move(who)), {}};
+    }
+    const Origin plc = from("192.0.2.9:50000"), other = from("192.0.2.8:50000"), member = from("yard anna", Door::dds);
 
     void begin_with(FailSafe fail_safe = {}, double room = 0) {
         world = fresh();
@@ -211,6 +213,37 @@ TEST_P(StreamLaws, AClosedFeedEndsItsStreamAtOnceAndNothingElse) {
     world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::set_points_silent, world->now);
     world->run_for(60s);
     EXPECT_EQ(now().position, begin) << "a motion that it commanded otherwise goes on";
+}
+
+TEST_P(StreamLaws, OverDdsAStreamThatStopsHasMissedItsDeadline) {
+    FailSafe f;
+    f.of(LossCause::set_points_silent) = FailSafeAction::nothing;
+    f.of(LossCause::dds_deadline) = FailSafeAction::disable;
+    begin_with(f);
+    if (does_not_follow(Mode::position)) return;
+    stream(begin + 40000, Mode::position, 1s, &member);
+    ASSERT_TRUE(now().streaming);
+    const Instant last = world->now - cycle;
+    ASSERT_TRUE(world->run_until_true([&] { return !now().streaming; }, good_for + 100ms));
+    EXPECT_GE(world->now - last, good_for);
+    EXPECT_LE(world->now - last, good_for + 50ms);
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::dds_deadline));
+    EXPECT_EQ(world->engine.losses(LossCause::dds_deadline), 1u);
+    ASSERT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) < PowerState::operation_enabled; }, 5s));
+}
+
+TEST_P(StreamLaws, OverDdsAFeedThatEndsMissesItsDeadlineAtOnceAndACommanderThatIsGoneLeavesLivingSetPointsAlone) {
+    begin_with();
+    if (does_not_follow(Mode::position)) return;
+    stream(begin + 40000, Mode::position, 500ms, &member);
+    world->engine.on_client_lost(AuthorityClient::of(member), LossCause::dds_deadline, world->now);
+    stream(begin + 40000, Mode::position, 300ms, &member);
+    EXPECT_TRUE(now().streaming) << "its set-points are renewed, whichever of its writers is gone";
+    EXPECT_EQ(events("fail_safe"), 0);
+    world->engine.on_client_lost(AuthorityClient::of(member), LossCause::set_points_silent, world->now);
+    EXPECT_FALSE(now().streaming) << "without waiting for good_for";
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::dds_deadline));
+    ASSERT_TRUE(world->run_until_true([&] { return !moving(a1); }, 5s));
 }
 
 TEST_P(StreamLaws, ARefusedSetPointIsAnsweredWithItsReason) {

@@ -1,5 +1,7 @@
 # Loss of command from outside: the matrix over REST, a drive that could not be reached, the gateway's own end, and a rehearsal of all
 # cells of a site with drives of several families. In: the program with its twins. Out: answers, axis states, a report without gaps.
+import json
+import pathlib
 import time
 
 from harness import Gateway, until
@@ -12,14 +14,14 @@ SITE = {
              for i, n in enumerate(("lift", "press", "table", "arm"))],
     "mappings": [],
 }
-CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends"]
+CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends", "dds_deadline"]
 
 
 def test_the_matrix_is_read_and_changed_axis_by_axis(folder):
     with Gateway(folder, SITE) as g:
         matrix = g.get("/fail_safe")
         assert [c["cause"] for c in matrix["causes"]] == CAUSES
-        assert [c["number"] for c in matrix["causes"]] == list(range(1, 10))
+        assert [c["number"] for c in matrix["causes"]] == list(range(1, 11))
         status, row, _ = g.request("PUT", "/api/v1/fail_safe/lift", {"line_lost": "disable", "watchdog_ms": 700})
         assert status == 200, row
         assert g.get("/fail_safe/lift")["fail_safe"]["line_lost"] == "disable"
@@ -60,16 +62,16 @@ def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
         before = {n: g.axis(n)["position_increments"] for n in ("lift", "press", "table", "arm")}
         g.request("PUT", "/api/v1/fail_safe/press", {"modbus_closed": "nothing"})
         status, state, _ = g.request("POST", "/api/v1/fail_safe/rehearsal", {})
-        assert status == 202 and state["state"] == "running" and state["total"] == 33, state
+        assert status == 202 and state["state"] == "running" and state["total"] == 41, state
         assert g.request("POST", "/api/v1/fail_safe/rehearsal", {})[0] == 409
         until(lambda: g.get("/fail_safe/rehearsal")["state"] == "done", 60, "the rehearsal's end")
         report = g.get("/fail_safe/rehearsal")["report"]
         cells = {(c["axis"], c["cause"]): c for c in report["cells"]}
-        assert set(cells) == {(a, c) for a in before for c in CAUSES if c != "set_points_silent" or a == "press"}
+        assert set(cells) == {(a, c) for a in before for c in CAUSES + ["gateway_gone"] if c != "set_points_silent" or a == "press"}
         assert report["without_set_points"] == ["lift", "table", "arm"]
         assert report["without_figures"] == 0, [c for c in report["cells"] if c["text"].startswith("no figures")]
         for cell in report["cells"]:
-            assert cell["standstill_ms"] is not None, cell
+            assert cell["standstill_ms"] is not None or cell["cause"] == "gateway_gone", cell
         assert cells["press", "modbus_closed"]["taken"] == "nothing" and cells["press", "modbus_closed"]["motion"] == "position"
         assert cells["lift", "modbus_silent"]["noticed_ms"] >= 5000
         assert cells["lift", "enip_timed_out"]["noticed_ms"] < 5
@@ -78,3 +80,34 @@ def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
         assert g.get("/events?kind=rehearsal")
     with Gateway(folder, None) as g:
         assert g.get("/fail_safe/rehearsal")["report"] == report, "it is kept"
+
+
+def test_every_axis_of_the_demo_has_a_figure_for_every_cause(folder):
+    demo = json.loads((pathlib.Path(__file__).resolve().parents[2] / "deploy/examples/demo-site.json").read_text())
+    with Gateway(folder, demo) as g:
+        names = [a["name"] for a in demo["axes"]]
+        until(lambda: all(g.axis(n)["online"] for n in names), 20, "online")
+        rows = {r["axis"]: r["drive_watchdog"] for r in g.get("/fail_safe")["axes"]}
+        own = {n for n in names if rows[n]["available"]}
+        assert own == {"spindle", "macs.master", "macs.slave"}, rows
+        for n in own:
+            until(lambda: g.get(f"/fail_safe/{n}")["drive_watchdog"]["state"] == "armed", 10, "armed")
+            row = g.get(f"/fail_safe/{n}")["drive_watchdog"]
+            assert (row["time_ms"], row["action"]) == (1000, "quick_stop"), row
+        status, state, _ = g.request("POST", "/api/v1/fail_safe/rehearsal", {})
+        assert status == 202, state
+        until(lambda: g.get("/fail_safe/rehearsal")["state"] == "done", 120, "the rehearsal's end")
+        report = g.get("/fail_safe/rehearsal")["report"]
+        cells = {(c["axis"], c["cause"]): c for c in report["cells"]}
+        streams = set(names) - set(report["without_set_points"])
+        assert streams == {"shuttle", "spindle"}, report["without_set_points"]
+        assert set(cells) == {(n, c) for n in names for c in CAUSES + ["gateway_gone"] if c != "set_points_silent" or n in streams}
+        assert report["without_figures"] == 0, [c for c in report["cells"] if c["text"].startswith("no figures")]
+        for cell in report["cells"]:
+            stops = cell["cause"] != "gateway_gone" or cell["axis"] in own
+            assert (cell["reaction_ms"] is not None) == stops and (cell["standstill_ms"] is not None) == stops, cell
+        for n in own:
+            assert 900 <= cells[n, "gateway_gone"]["reaction_ms"] <= 1200, cells[n, "gateway_gone"]
+        for cause in CAUSES:
+            if cause not in ("modbus_silent", "lease_ended", "line_lost", "set_points_silent"):
+                assert cells["spindle", cause]["noticed_ms"] < 5, cells["spindle", cause]

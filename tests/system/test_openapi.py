@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -169,6 +169,7 @@ def test_every_get_answers_as_described_in_every_state_of_an_axis(gateway):
     client = Client(gateway, 30).sign_in(gateway)
     gateway.send("POST", "/descriptions", {"name": "plain.eds", "text": EDS}, 201)
     gateway.send("POST", "/recorder/recordings", {"name": "crash", "why": "test"}, 201)
+    gateway.send("POST", "/recorder/captures", {"name": "tuned", "axes": ["feeder"], "after_ms": 50}, 201)
     gateway.send("PUT", "/recipes/warm-up", RECIPE, 201)
     gateway.send("POST", "/recipes/warm-up/run", {}, 202)
     gateway.send("PUT", "/profiles/40", {"language": "lexium", "axes": [{"axis": "feeder"}]})
@@ -297,6 +298,9 @@ def test_every_write_answers_as_described(gateway):
         ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403),
         ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200), ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
         ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404),
+        ("armCapture", {}, {"name": "wave", "axes": ["feeder"], "trigger": {"kind": "state", "state": "warning"}}, 201), ("armCapture", {}, {"name": "wave", "axes": ["feeder"]}, 409), ("armCapture", {}, {"name": "x"}, 422),
+        ("armCapture", {}, {"name": "two", "axes": ["feeder"]}, 503), ("renameCapture", {"capture": "wave"}, {"name": "other"}, 200), ("renameCapture", {"capture": "wave"}, {"name": "x"}, 404),
+        ("removeCapture", {"capture": "other"}, None, 204), ("removeCapture", {"capture": "other"}, None, 404),
         ("makeRecording", {}, {"name": "crash", "why": "test"}, 201), ("makeRecording", {}, {"name": "crash"}, 409), ("makeRecording", {}, {"name": "../x"}, 422), ("renameRecording", {"recording": "crash"}, {"name": "other"}, 200),
         ("renameRecording", {"recording": "crash"}, {"name": "other"}, 404), ("removeRecording", {"recording": "other"}, None, 204), ("removeRecording", {"recording": "other"}, None, 404)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]

@@ -2,6 +2,10 @@
 
 In: the real program with simulated drives. Out: judgements.
 """
+import datetime
+import pathlib
+import time
+
 import harness
 from harness import until
 
@@ -36,6 +40,18 @@ def test_a_recording_is_played_again_without_a_difference(gateway, folder):
     until(lambda: gateway.axis("feeder")["online"], 10, "its return")
     made = gateway.send("POST", "/recorder/recordings", {"name": "crash", "why": "test"}, 201)
     assert made["replayable"] and made["bytes"] > 1000, made
+    end = gateway.get("/recorder/recordings/crash/playback?columns=500")
+    slide = next(a for a in end["axes"] if a["name"] == "slide")
+    assert abs(slide["position"] - gateway.axis("slide")["position"]) < 0.01 and slide["state"] == "switch_on_disabled", slide
+    assert end["frames"] and any(f["decoded"] for f in end["frames"]) and any("disable" in h["text"] for h in end["happened"]), end["frames"][-1]
+    high = max(v for a in end["curves"] if a["axis"] == "slide" for v in (a["points"]["position"].get("high") or a["points"]["position"]["values"]))
+    begin = int(datetime.datetime.fromisoformat(end["from"]).timestamp() * 1000) + 1000
+    early = gateway.get(f"/recorder/recordings/crash/playback?at={begin}&frames=0")
+    before = next(a for a in early["axes"] if a["name"] == "slide")["position"]
+    assert high - before > 4 and early["frames"] == [], (high, before)
+    words = next(r for r in end["registers"] if r["axis"] == "slide")["words"]
+    shown = (words[2] << 16 | words[3]) - (1 << 32 if words[2] & 0x8000 else 0)
+    assert abs(shown / slide["increments_per_unit"] - slide["position"]) < 0.01, (words, slide)
     file = folder / "data" / "recordings" / "crash.axr"
     code, told = replay(file)
     assert code == 0 and " 0 differences" in told, told
@@ -77,3 +93,81 @@ def test_recordings_outlive_the_gateway_and_say_when_they_cannot_be_replayed(fol
         assert [r["name"] for r in g.get("/recorder/recordings")["recordings"]] == ["late"]
         code, told = replay(folder / "data" / "recordings" / "late.axr")
         assert code != 0 and "not replayed" in told, told
+
+
+def wait_for_capture(gateway, name, state="done"):
+    return until(lambda: next((c for c in gateway.get("/recorder/captures")["captures"] if c["name"] == name and c["state"] == state and (state != "done" or c["bytes"] > 0)), None), 20, f"{name} {state}")
+
+
+def test_a_capture_triggers_by_a_level_at_a_kilohertz_and_is_kept(gateway, folder):
+    gateway.command("slide", {"command": "enable"})
+    before = gateway.axis("slide")["position"]
+    wish = {"name": "before-tuning", "axes": ["slide"], "before_ms": 100, "after_ms": 400, "trigger": {"kind": "level", "level": before + 1}}
+    made = gateway.send("POST", "/recorder/captures", wish, 201)
+    assert made["state"] == "armed", made
+    status, said, _ = gateway.request("POST", "/api/v1/recorder/captures", dict(wish, name="second"))
+    assert status == 503 and "before-tuning" in said["detail"], (status, said)
+    gateway.command("slide", {"command": "move_relative", "position": 5, "velocity": 20, "acceleration": 200, "deceleration": 200})
+    info = wait_for_capture(gateway, "before-tuning")
+    assert info["axes"][0]["rate_hz"] > 300, info
+    whole = gateway.get("/recorder/captures/before-tuning")
+    column = whole["columns"][0]
+    assert min(column["seconds"]) < -0.05 and max(column["seconds"]) > 0.35, (min(column["seconds"]), max(column["seconds"]))
+    behind = [p for s, p in zip(column["seconds"], column["position"]) if s >= 0]
+    ahead = [p for s, p in zip(column["seconds"], column["position"]) if s < 0]
+    assert max(ahead) < before + 1 <= behind[1] and max(behind) > before + 3, (before, max(ahead), behind[:2])
+    status, text, _ = gateway.request("GET", "/api/v1/recorder/captures/before-tuning", None, {"Accept": "text/csv"})
+    assert status == 200 and text.count(b"\r\n") == len(column["seconds"]) + 1, text[:200]
+    assert gateway.send("PATCH", "/recorder/captures/before-tuning", {"name": "kept"})["name"] == "kept"
+    file = folder / "data" / "captures" / "kept.axc"
+    whole = file.read_bytes()
+    file.write_bytes(whole[:-40])
+    status, said, _ = gateway.request("GET", "/api/v1/recorder/captures/kept")
+    assert status == 409 and "cut off" in said["detail"], said
+    file.write_bytes(whole)
+
+
+def test_captures_by_command_and_state_are_given_up_and_cancelled(folder):
+    with harness.Gateway(folder, harness.DEMO) as g:
+        g.command("slide", {"command": "enable"})
+        g.send("POST", "/recorder/captures", {"name": "start", "axes": ["slide"], "after_ms": 200, "trigger": {"kind": "command"}}, 201)
+        g.command("slide", {"command": "move_relative", "position": 2, "velocity": 20, "acceleration": 200, "deceleration": 200})
+        assert wait_for_capture(g, "start")["trigger"] == {"kind": "command", "axis": "slide"}
+        g.send("POST", "/recorder/captures", {"name": "never", "axes": ["slide"], "wait_ms": 300, "trigger": {"kind": "state", "state": "fault"}}, 201)
+        assert "did not come within" in wait_for_capture(g, "never", "cancelled")["why"]
+        g.send("POST", "/recorder/captures", {"name": "long", "axes": ["slide"], "trigger": {"kind": "state", "state": "fault"}}, 201)
+        g.send("DELETE", "/recorder/captures/long", None, 204)
+        g.send("POST", "/recorder/captures", {"name": "never", "axes": ["slide"], "after_ms": 100}, 201)  # a name that was given up is free
+        wait_for_capture(g, "never")
+    with harness.Gateway(folder, None) as g:
+        assert sorted(c["name"] for c in g.get("/recorder/captures")["captures"]) == ["never", "start"]
+        g.send("DELETE", "/recorder/captures/start", None, 204)
+        assert [c["name"] for c in g.get("/recorder/captures")["captures"]] == ["never"]
+
+
+def test_the_kept_recordings_do_the_same_again():
+    kept = sorted((pathlib.Path(__file__).resolve().parents[1] / "recordings").glob("*.axr"))
+    assert len(kept) >= 3, kept
+    for file in kept:
+        assert file.stat().st_size < 200_000, (file, file.stat().st_size)
+        code, told = replay(file)
+        assert code == 0 and " 0 differences" in told, f"{file.name}: {told}\nIf this is as it should be: tests/recordings/make.py build/release/axisgate"
+
+
+def test_trends_on_the_disk_outlive_the_gateway(folder):
+    settings = ("--set", "recorder.trend_disk_mb=8")
+    with harness.Gateway(folder, harness.DEMO, *settings) as g:
+        move_a_little(g)
+        until(lambda: g.get("/recorder/trends?axes=slide&points=position")["axes"][0]["at"], 10, "rows")
+        time.sleep(1)  # what was told a moment ago is on its way
+    files = list((folder / "data" / "trends").glob("*.axt"))
+    assert files, "nothing was written at the end"
+    with harness.Gateway(folder, None, *settings) as g:
+        axis = until(lambda: next((a for a in g.get("/recorder/trends?axes=slide&points=position,state&columns=5000")["axes"] if len(a["at"]) > 5), None), 15, "what was before")
+        position = axis["points"]["position"]
+        values = [v for v in (position.get("values") or position["high"]) if v is not None]
+        assert max(values) - min(values) > 4 and "operation_enabled" in axis["points"]["state"]["values"], axis
+    (folder / "data" / "trends" / files[0].name).write_bytes(files[0].read_bytes()[:-50])
+    with harness.Gateway(folder, None, *settings) as g:
+        until(lambda: any("damaged" in e["text"] for e in g.get("/events?kind=recording&limit=100")), 10, "a word of it")
+        move_a_little(g)

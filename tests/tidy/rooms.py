@@ -25,18 +25,19 @@ ROOMS = {
     "axis": ("core", "site"),
     "protocols/canopen": ("core",),
     "protocols/cip": ("core",),
+    "protocols/mirror": ("core",),
     "drive": ("core",),
     "engine": ("core", "site", "axis", "wire"),
     "registers": ("core", "site", "axis", "engine/door.hpp"),
     "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
-    "doors/modbus": ("core", "site", "axis", "registers", "engine"),
-    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip"),
-    "doors/dds": ("core", "site", "axis", "services"),
+    "doors/modbus": ("core", "site", "axis", "registers", "engine", "lines/poller.hpp"),
+    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip", "lines/poller.hpp"),
+    "doors/dds": ("core", "site", "axis", "services", "protocols/mirror"),
     "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
 }
-PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "drive", "engine", "registers", "services", "adapter", "twin")
+PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "protocols/mirror", "drive", "engine", "registers", "services", "adapter", "twin")
 
 
 # What a family's files are called, so that who knows one family knows all: see CONTRIBUTING. A role that a family does not need is absent.
@@ -54,7 +55,7 @@ def role_faults(family, names):
 
 
 # A family whose drives are another family's with more to them stands on that one: it may include its adapter's and its twin's files.
-STANDS_ON = {"aposs": "cia402"}
+STANDS_ON = {"aposs": "cia402", "remote": "cia402"}
 
 
 def room(path):

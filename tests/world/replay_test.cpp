@@ -1,39 +1,10 @@
 // Recordings replayed: a world is recorded and played again through an engine of its own: every family, on twins and on a cable.
 // In: worlds. Out: no difference where nothing was changed, the right one where something was. Never sleeps.
-#include "gateway/engine/replay.hpp"
-
-#include "tests/world/world.hpp"
+#include "tests/world/tape.hpp"
 
 namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
-
-/// Both logs of a recorder, as bytes.
-struct Tape final : FlightTap {
-    FlightLog inputs{64u << 20, false};
-    FlightLog window;
-    explicit Tape(std::size_t window_bytes = 64u << 20) : window(window_bytes, true) {}
-    static std::string joined(const FlightLog& log) {
-        std::string all;
-        for (const auto& c : log.chunks())
-            all += c->bytes;
-        return all;
-    }
-    ReplayReport play(std::string_view changed_inputs = {}) const {
-        const std::string in = changed_inputs.empty() ? joined(inputs) : std::string(changed_inputs), out = joined(window);
-        return replay(families(), {in, out, window.gone_outcomes()});
-    }
-
-private:
-    void take(const FlightRecord& r) override {
-        window.add(r);
-        if (is_input(r.kind)) inputs.add(r);
-    }
-    void take_site(std::shared_ptr<const SiteInput> input, Instant now) override {
-        const std::string packed = pack_site(*input);
-        take({FlightKind::site, 0xFFFF, now, packed});
-    }
-};
 
 std::string told(const ReplayReport& r) {
     std::string text = r.fault;

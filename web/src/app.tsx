@@ -8,9 +8,11 @@ import { FleetPage } from './pages/fleet';
 import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
 import { MappingsPage } from './pages/mappings';
+import { RecorderPage } from './pages/recorder';
 import { RecipePage, RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
+import { ReportPage } from './pages/report';
 import { SitePage } from './pages/site';
 import { SignInPage } from './pages/sign-in';
 import { UsersPage } from './pages/users';
@@ -23,7 +25,9 @@ const titles = {
   recipes: 'Recipes',
   site: 'Site',
   events: 'Events',
+  recorder: 'Recorder',
   gateway: 'Gateway',
+  report: 'Commissioning report',
   fleet: 'Fleet',
   users: 'Users',
   'sign-in': 'Sign in',
@@ -80,8 +84,10 @@ function Page() {
     case 'line': return <LinePage key={r.name} name={r.name} />;
     case 'recipes': return <RecipesPage />;
     case 'recipe': return <RecipePage key={r.name} name={r.name} />;
+    case 'recorder': return <RecorderPage tab={r.tab} axis={r.axis} at_ms={r.at_ms} />;
     case 'events': return <EventsPage />;
     case 'gateway': return <GatewayPage />;
+    case 'report': return <ReportPage />;
     case 'fleet': return <FleetPage />;
     case 'mappings': return <MappingsPage />;
     case 'parameters': return <ParametersPage key={r.name} name={r.name} />;

@@ -22,6 +22,7 @@ import './styles/recipes.css';
 import './styles/alarms.css';
 import './styles/users.css';
 import './styles/fleet.css';
+import './styles/recorder.css';
 
 applyTheme();
 startClock();

@@ -10,7 +10,9 @@ export type Route =
   | { page: 'recipes' }
   | { page: 'recipe'; name: string }
   | { page: 'events' }
+  | { page: 'recorder'; tab: RecorderTab; axis?: string; at_ms?: number }
   | { page: 'gateway' }
+  | { page: 'report' }
   | { page: 'fleet' }
   | { page: 'mappings' }
   | { page: 'parameters'; name: string }
@@ -24,8 +26,12 @@ export const axisTabs = ['move', 'scope', 'drive', 'simulation', 'events'] as co
 export type AxisTab = (typeof axisTabs)[number];
 const tabOf = (s: string | undefined): AxisTab | undefined => axisTabs.find((t) => t === s && t !== 'move');
 
+/** The tabs of the recorder. `/recorder/trends/AXIS/MS` is an axis around an instant, `/recorder/captures/AXIS` a capture of it. */
+export const recorderTabs = ['trends', 'captures', 'recordings'] as const;
+export type RecorderTab = (typeof recorderTabs)[number];
+
 /** Pages without a name. */
-const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'fleet', 'users', 'sign-in'] as const;
+const plain = ['lines', 'mappings', 'recipes', 'site', 'events', 'gateway', 'report', 'fleet', 'users', 'sign-in'] as const;
 const isPlain = (s: string): s is (typeof plain)[number] => (plain as readonly string[]).includes(s);
 
 export function routeOf(path: string): Route {
@@ -40,6 +46,12 @@ export function routeOf(path: string): Route {
   if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
   const tab = tabOf(rest[0]);
   if (first === 'axes' && second !== undefined && rest.length === 1 && tab) return { page: 'axis', name: second, tab };
+  if (first === 'recorder') {
+    const part = second === undefined ? 'trends' : recorderTabs.find((t) => t === second);
+    const [axis, at] = rest;
+    const at_ms = at === undefined ? undefined : Number(at);
+    if (part && rest.length <= 2 && (at_ms === undefined || Number.isSafeInteger(at_ms))) return { page: 'recorder', tab: part, ...(axis === undefined ? {} : { axis }), ...(at_ms === undefined ? {} : { at_ms }) };
+  }
   if (second === undefined && isPlain(first)) return { page: first };
   return { page: 'unknown', path };
 }
@@ -50,6 +62,9 @@ export const axisPath = (name: string): string => pathOf('axes', name);
 export const axisTabPath = (name: string, tab: AxisTab): string => (tab === 'move' ? axisPath(name) : `/axes/${encodeURIComponent(name)}/${tab}`);
 export const parametersPath = (name: string): string => `/axes/${encodeURIComponent(name)}/parameters`;
 export const linePath = (name: string): string => pathOf('lines', name);
+
+export const recorderPath = (tab: RecorderTab, axis?: string, at_ms?: number): string =>
+  `/recorder/${tab}${axis === undefined ? '' : `/${encodeURIComponent(axis)}`}${at_ms === undefined ? '/' : `/${Math.round(at_ms)}`}`;
 
 export const recipePath = (name: string): string => pathOf('recipes', name);
 
@@ -74,7 +89,7 @@ export function startRouter(): void {
   document.addEventListener('click', (event) => {
     if (event.defaultPrevented || event.button !== 0 || event.metaKey || event.ctrlKey || event.shiftKey || event.altKey) return;
     const link = (event.target as Element | null)?.closest?.('a');
-    if (!link || link.target || link.origin !== location.origin || link.hasAttribute('download') || link.pathname.startsWith('/api/')) return;
+    if (!link || link.target || link.origin !== location.origin || link.hasAttribute('download') || /^\/(api|help)(\/|$)/.test(link.pathname)) return;
     if (link.hash && link.pathname === location.pathname) return; // a place on this page
     event.preventDefault();
     go(link.pathname);

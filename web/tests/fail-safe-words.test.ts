@@ -1,13 +1,14 @@
 // Fail-safe in words: causes, what an axis has named, one change, the cells of a rehearsal. All pure.
 import { describe, expect, it } from 'vitest';
 import type { Cell, FailSafeRow } from '../src/api/fail-safe';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog } from '../src/text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog, watchdogWords } from '../src/text/fail-safe';
 
-const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null });
+const none: FailSafeRow['drive_watchdog'] = { available: false, state: null, time_ms: null, action: null, description: 'The manual names none.' };
+const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null, drive_watchdog: none });
 const cell: Cell = { axis: 'feeder', cause: 'modbus_closed', chosen: null, taken: 'halt', motion: 'velocity', speed: 10, noticed_ms: 0.12, reaction_ms: 14.6, standstill_ms: 105, watched_ms: 2000, travel: 1.23456, text: '' };
 
 describe('words', () => {
-  it('names causes, also one that this page does not know yet', () => expect([causeText('enip_timed_out'), causeText('dds_deadline')]).toEqual(['EtherNet/IP connection timed out', 'dds deadline']));
+  it('names causes, also one that this page does not know yet', () => expect([causeText('enip_timed_out'), causeText('dds_deadline'), causeText('gateway_gone'), causeText('moon_full')]).toEqual(['EtherNet/IP connection timed out', 'DDS deadline missed', 'Gateway without supply', 'moon full']));
   it('says the default with each cause', () => {
     const of = (a: 'halt' | 'quick_stop', b: 'nothing' | 'quick_stop') => actionChoices({ cause: 'line_lost', number: 8, description: '', default_endless: a, default_to_a_target: b })[0]!.text;
     expect(of('halt', 'nothing')).toBe('default: halt');
@@ -22,6 +23,14 @@ describe('words', () => {
     expect(namedWords(row({ modbus_closed: null }))).toBe('all as by default');
     expect(namedWords(row({ modbus_closed: 'quick_stop', enip_idle: 'disable', watchdog_ms: 800 }))).toBe('Modbus connection closed: quick stop; EtherNet/IP scanner idle: switch off; Modbus clients watched for 800 ms');
   });
+  it('says what the drive does by itself', () => {
+    const words = (w: Partial<typeof none>) => watchdogWords({ ...row({}), drive_watchdog: { ...none, available: true, ...w } });
+    expect(watchdogWords(row({}))).toBe('The drive has no watchdog of its own. The manual names none.');
+    expect(words({ state: 'armed', time_ms: 300, action: 'disable' })).toBe("The drive's own watchdog: switched off after 300 ms without the gateway.");
+    expect(words({ state: 'off' })).toMatch(/switched off \(watchdog_action\)/);
+    expect(words({ state: 'refused' })).toMatch(/it goes on/);
+    expect(words({})).toMatch(/has not been set yet/);
+  });
   it('changes one member and leaves the others', () => {
     expect(changed(row({ modbus_closed: 'halt', line_lost: 'disable' }), 'modbus_closed', '')).toEqual({ modbus_closed: null, line_lost: 'disable' });
     expect(changed(row({}), 'line_lost', 'halt')).toEqual({ line_lost: 'halt' });
@@ -33,5 +42,6 @@ describe('words', () => {
   it('shows a cell, and says where it has no figure', () => {
     expect(cellRow(cell, 'mm')).toMatchObject({ action: 'Halt, by default', acted: '0.1 ms', slower: '15 ms', stood: '105 ms', way: '1.235 mm' });
     expect(cellRow({ ...cell, chosen: 'halt', noticed_ms: null, standstill_ms: null }, '')).toMatchObject({ action: 'Halt', acted: 'not', stood: 'not within 2000 ms', way: '1.235' });
+    expect(cellRow({ ...cell, cause: 'gateway_gone', taken: 'nothing', noticed_ms: null }, '')).toMatchObject({ action: "the drive's own", acted: '' });
   });
 });

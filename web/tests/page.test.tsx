@@ -233,7 +233,7 @@ describe('a role', () => {
 describe('a gateway that has never had a site', () => {
   it('is told from one that has not answered yet: its revision is 0', async () => {
     for (const list of ['axes', 'drives', 'lines', 'events']) client[list] = vi.fn(async () => []);
-    client.about = vi.fn(async () => ({ families: [] }));
+    client.about = vi.fn(async () => ({ families: [], doors: [] }));
     vi.spyOn(gateway.stream, 'start').mockImplementation(() => undefined);
     gateway.start();
     await tick();

@@ -24,6 +24,143 @@ TEST(Cia402Adapter, FindsSetsUpAndTellsANode) {
     EXPECT_EQ(b.axis.statusword.value_or(0) & 0x6F, 0x27) << "who hears enabled finds it shown";
 }
 
+Move run_at(std::int64_t speed) {
+    Move m;
+    m.kind = Move::Kind::velocity;
+    m.target = speed;
+    m.acceleration = m.deceleration = 50'000;
+    return m;
+}
+bool armed(const LineBench& b, Duration time, std::string_view action) {
+    return b.link.watchdog == DriveWatchdog{DriveWatchdog::State::armed, time, std::string(action)};
+}
+
+TEST(Cia402Adapter, ADriveStopsByItselfWhenNothingOfTheGatewayReachesItAndStandsUntilItIsCommanded) {
+    LineBench b;
+    b.run(2s);
+    ASSERT_TRUE(armed(b, 1000ms, "quick_stop"));
+    ASSERT_TRUE(b.enable());
+    ASSERT_TRUE(good(b.ask(run_at(10'000))));
+    b.run(5s);
+    ASSERT_EQ(b.speed(), 10'000) << "the gateway's heartbeat holds it";
+    EXPECT_EQ(b.told("emergency"), 0);
+    b.deaf = true;
+    const Instant cut = b.now;
+    while (b.speed() == 10'000 && b.now < cut + 5s)
+        b.run(1ms);
+    EXPECT_GE(b.now - cut, 940ms);
+    EXPECT_LE(b.now - cut, 1005ms);
+    b.run(3s);
+    EXPECT_EQ(b.speed(), 0);
+    b.deaf = false;
+    b.run(6s);
+    EXPECT_TRUE(b.link.online) << b.link.text;
+    EXPECT_TRUE(armed(b, 1000ms, "quick_stop")) << "and it watches again";
+    EXPECT_EQ(b.speed(), 0) << "nothing moves because the line is back";
+    EXPECT_EQ(b.axis.statusword.value_or(0) & 0x6F, 0x07);
+    // A halt, as a lost line brings it, does not take it out of its quick stop.
+    ASSERT_TRUE(good(b.ask(Halt{})));
+    b.run(1s);
+    EXPECT_EQ(b.speed(), 0);
+    EXPECT_EQ(b.axis.statusword.value_or(0) & 0x6F, 0x07);
+    ASSERT_TRUE(b.enable());
+    ASSERT_TRUE(good(b.ask(run_at(10'000))));
+    b.run(3s);
+    EXPECT_EQ(b.speed(), 10'000);
+}
+
+TEST(Cia402Adapter, TheSiteSaysWhatItsDriveDoesAndAfterWhichTime) {
+    for (const auto& [action, state] : {std::pair{"disable", 0x40u}, {"fault", 0x08u}}) {
+        SCOPED_TRACE(action);
+        LineBench b;
+        b.setup.drives[0].options = {{"watchdog_action", action}, {"watchdog_ms", "150"}};
+        b.configure();
+        b.run(2s);
+        ASSERT_TRUE(armed(b, 150ms, action));
+        ASSERT_TRUE(b.enable());
+        ASSERT_TRUE(good(b.ask(run_at(10'000))));
+        b.run(2s);
+        const int before = b.heartbeats;
+        b.run(1s);
+        EXPECT_NEAR(b.heartbeats - before, 1000.0 / 37.5, 2) << "four times in the watchdog's time";
+        ASSERT_EQ(b.speed(), 10'000);
+        b.deaf = true;
+        b.run(1s);
+        EXPECT_EQ(b.speed(), 0);
+        b.deaf = false;
+        b.run(6s);
+        EXPECT_EQ(b.axis.statusword.value_or(0) & (state == 0x08 ? 0x4Fu : 0x6Fu), state);
+    }
+}
+
+TEST(Cia402Adapter, AWatchThatTheSiteTakesBackIsTakenOutOfTheDriveAndNoHeartbeatIsSent) {
+    LineBench b;
+    b.run(2s);
+    ASSERT_TRUE(armed(b, 1000ms, "quick_stop"));
+    b.setup.drives[0].options = {{"watchdog_action", "none"}};
+    b.configure();
+    b.run(2s);
+    EXPECT_EQ(b.link.watchdog.state, DriveWatchdog::State::off);
+    const int before = b.heartbeats;
+    ASSERT_TRUE(b.enable());
+    ASSERT_TRUE(good(b.ask(run_at(10'000))));
+    b.run(5s);
+    EXPECT_EQ(b.speed(), 10'000);
+    EXPECT_EQ(b.heartbeats, before);
+    EXPECT_EQ(b.ask(native("1016:01?")).text, "0");
+}
+
+TEST(Cia402Adapter, TheGatewaysNodeNumberIsOneThatNoDriveOfTheSiteHas) {
+    LineBench b;
+    b.setup.options["gateway_node"] = "5";
+    b.gateway_node = 4;
+    b.configure();
+    b.run(2s);
+    EXPECT_GT(b.heartbeats, 10);
+    ASSERT_TRUE(b.enable());
+    ASSERT_TRUE(good(b.ask(run_at(10'000))));
+    // A drive with that number comes to the site while the other one moves: it watches the next free number from then on.
+    DriveSetup second = b.setup.drives[0];
+    second.id = DriveId{1};
+    second.name = "second";
+    second.address = "4";
+    second.axes = {{AxisId{1}, 1}};
+    b.setup.drives.push_back(second);
+    b.heartbeats = 0;
+    b.gateway_node = 3;
+    b.configure();
+    b.run(5s);
+    EXPECT_GT(b.heartbeats, 50);
+    EXPECT_EQ(b.speed(), 10'000) << "and it does not miss the old one";
+}
+
+TEST(Cia402Adapter, ADriveThatTakesNoWatchdogIsServedAndSaidToHaveNone) {
+    LineBench b;
+    const std::string text =
+        "[FileInfo]\nFileName=a.eds\n[DeviceInfo]\nVendorNumber=0x99\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n"
+        "[1000]\nParameterName=Device type\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0x00020192\nPDOMapping=0\n"
+        "[OptionalObjects]\nSupportedObjects=1\n1=0x1016\n"
+        "[1016]\nParameterName=Consumer heartbeat time\nObjectType=0x8\nSubNumber=2\n"
+        "[1016sub0]\nParameterName=Entries\nObjectType=0x7\nDataType=0x0005\nAccessType=const\nDefaultValue=1\nPDOMapping=0\n"
+        "[1016sub1]\nParameterName=Entry\nObjectType=0x7\nDataType=0x0007\nAccessType=ro\nDefaultValue=0\nPDOMapping=0\n";
+    std::vector<canopen::FileFault> faults, notes;
+    const auto eds = canopen::read_eds(text, faults, notes);
+    ASSERT_TRUE(eds) << (faults.empty() ? "" : faults[0].text);
+    TwinSetup t;
+    t.address = "5";
+    t.kind = LineKind::can;
+    b.bus->remove(DriveId{0});
+    b.bus->add(DriveId{0}, twin::make_twin(t, &*eds), {}, b.now);
+    b.run(6s);
+    EXPECT_TRUE(b.link.online) << b.link.text;
+    EXPECT_EQ(b.link.watchdog.state, DriveWatchdog::State::refused);
+    EXPECT_EQ(b.told("watchdog"), 1);
+    const int before = b.heartbeats;
+    ASSERT_TRUE(b.enable());
+    b.run(1s);
+    EXPECT_EQ(b.heartbeats, before) << "a heartbeat for nobody is not sent";
+}
+
 TEST(Cia402Adapter, APdoOfAWrongLengthIsCountedAndTellsNothing) {
     LineBench b;
     b.run(2s);

@@ -46,6 +46,9 @@ public:
     std::vector<Notice> notices;
     std::vector<Out::StreamEnd> stream_ends;
     DriveLink link;
+    bool deaf = false;  ///< nothing that the gateway sends reaches the bus
+    unsigned gateway_node = 127;
+    int heartbeats = 0;  ///< that the gateway has sent under that number
 
     /// One node; `twins` of the same number stand on the bus.
     explicit LineBench(int twins = 1) : LineBench(page(), {}, 1) {
@@ -104,6 +107,13 @@ public:
         adapter.on_frame(f, now, out);
         take(out);
     }
+    /// The site is changed.
+    void configure() {
+        Out out;
+        adapter.configure(setup, now, out);
+        take(out);
+    }
+    [[nodiscard]] double speed(int drive = 0) { return bus->twin(DriveId{static_cast<std::uint16_t>(drive)})->mechanics(1, now).velocity; }
     void follow(const SetPoint& p) {
         Out out;
         adapter.on_set_point(p, now, out);
@@ -135,8 +145,10 @@ public:
 
 private:
     void take(const Out& out) {
-        for (const auto& f : out.frames)
-            (void)bus->send(f.frame, f.priority, now);
+        for (const auto& f : out.frames) {
+            if (f.frame.id == 0x700u + gateway_node && f.frame.kind == Frame::Kind::can) ++heartbeats;
+            if (!deaf) (void)bus->send(f.frame, f.priority, now);
+        }
         for (const auto& f : out.feedback)
             feedback.push_back(of_axis[f.axis] = axis = f.value);
         for (const auto& r : out.results)

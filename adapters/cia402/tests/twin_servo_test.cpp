@@ -401,6 +401,63 @@ TEST(Cia402Twin, TheOlderModesOfTorqueAndInterpolationAreThere) {
     EXPECT_EQ(i.read(0x6064), 1000);
 }
 
+TEST(Cia402Twin, StopsByItselfWhenTheHeartbeatThatItWatchesStops) {
+    struct Case {
+        int option;  // 6007h
+        unsigned state;
+        bool moves;
+    };
+    for (const Case c : {Case{0, 0x27, true}, Case{1, 0x08, false}, Case{2, 0x40, false}, Case{3, 0x07, false}}) {
+        SCOPED_TRACE(c.option);
+        Bench b;
+        b.send(canopen::nmt_frame(canopen::NmtCommand::start, 5));
+        ASSERT_EQ(b.write(0x605A, 0, 6, 2), Abort::none);
+        ASSERT_EQ(b.write(0x6007, 0, c.option, 2), Abort::none);
+        ASSERT_EQ(b.write(0x1016, 1, 0x007F'012C, 4), Abort::none);  // node 127, 300 ms
+        b.enable(3);
+        ASSERT_EQ(b.write(0x60FF, 0, 10'000, 4), Abort::none);
+        b.pass(2s);
+        ASSERT_EQ(b.read(0x606C), 10'000) << "the watch begins with the first heartbeat";
+        for (int i = 0; i < 10; ++i) {
+            b.send(canopen::heartbeat_frame(127, canopen::NmtState::operational));
+            b.send(canopen::heartbeat_frame(126, canopen::NmtState::operational));
+            b.pass(100ms);
+        }
+        ASSERT_EQ(b.read(0x606C), 10'000);
+        b.out.clear();
+        b.send(canopen::heartbeat_frame(126, canopen::NmtState::operational));  // another node's is nothing to it
+        b.pass(199ms);
+        EXPECT_EQ(b.count(0x85), 0u) << "300 ms are not over";
+        b.pass(1ms);
+        EXPECT_EQ(b.count(0x85), 1u) << "EMCY, and once";
+        b.pass(3s);
+        EXPECT_EQ(b.count(0x85), 1u);
+        EXPECT_EQ(b.read(0x606C) != 0, c.moves);
+        EXPECT_EQ(b.status() & (c.state == 0x08 ? 0x4Fu : 0x6Fu), c.state);
+        // Out of the operational state, until it is started again: no PDO at a SYNC.
+        ASSERT_EQ(b.write(0x1800, 2, 1, 1), Abort::none);
+        b.out.clear();
+        b.send(canopen::data_frame(0x80, {}));
+        EXPECT_EQ(b.count(0x185), 0u);
+        b.send(canopen::nmt_frame(canopen::NmtCommand::start, 5));
+        b.send(canopen::data_frame(0x80, {}));
+        EXPECT_EQ(b.count(0x185), 1u);
+    }
+}
+
+TEST(Cia402Twin, AWatchThatIsTakenBackIsNoWatch) {
+    Bench b;
+    ASSERT_EQ(b.write(0x6007, 0, 3, 2), Abort::none);
+    ASSERT_EQ(b.write(0x1016, 1, 0x007F'012C, 4), Abort::none);
+    b.enable(3);
+    ASSERT_EQ(b.write(0x60FF, 0, 10'000, 4), Abort::none);
+    b.send(canopen::heartbeat_frame(127, canopen::NmtState::operational));
+    b.pass(200ms);
+    ASSERT_EQ(b.write(0x1016, 1, 0, 4), Abort::none);
+    b.pass(5s);
+    EXPECT_EQ(b.read(0x606C), 10'000);
+}
+
 TEST(Cia402Twin, OutputsAreWhatTheMaskLetsThrough) {
     Bench b({{"travel", "5000"}});
     EXPECT_EQ(b.read(0x60FD), 4) << "it stands on the home switch";

@@ -77,6 +77,7 @@ void Node::power_off(Instant now) {
     state_ = NmtState::boot_up;
     heartbeat_.set_period({}, now);
     guard_.set({}, 0);
+    watch_ = canopen::HeartbeatWatch{0};
     server_.reset();
     for (auto* list : {&receive_, &transmit_})
         for (Pdo& p : *list)
@@ -109,11 +110,30 @@ void Node::boot(Instant now, Out& out) {
     heartbeat_.set_period(std::chrono::milliseconds(d_.integer({0x1017, 0}).value_or(0)), now);
     guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
+    watch_as_written();
     read_sync();
     read_pdos(now);
 }
 
 void Node::read_sync() { sync_id_ = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu; }
+
+/// 1016h:01: the node in bits 16 to 22, its time in ms below; the watch begins with its first heartbeat (CiA 301).
+void Node::watch_as_written() {
+    const auto entry = static_cast<std::uint32_t>(d_.integer({0x1016, 1}).value_or(0));
+    const auto node = (entry >> 16) & 0xFFu;
+    const bool valid = node >= 1 && node <= 127;
+    watch_ = canopen::HeartbeatWatch(static_cast<std::uint8_t>(valid ? node : 0), std::chrono::milliseconds(valid ? entry & 0xFFFFu : 0u));
+}
+
+/// Nobody asks, or the watched heartbeat has stopped. 1029h:01 = 0: out of the operational state (CiA 301, the default).
+void Node::connection_lost(Instant at, Out& out) {
+    shown_.reset();
+    if (d_.integer({0x6007, 0}).value_or(0) != 1)
+        send(canopen::emergency_frame(node_, {0x8130, 0x11, {}}), at, out);  // 1: a fault tells it
+    device_->connection_lost(at);
+    if (state_ == NmtState::operational && d_.integer({0x1029, 1}).value_or(0) == 0) state_ = NmtState::pre_operational;
+}
+
 void Node::read_pdos(Instant now) {
     for (std::uint16_t n = 1; n <= pdos; ++n)
         for (const auto direction : {PdoDirection::receive, PdoDirection::transmit})
@@ -163,6 +183,7 @@ void Node::take_writes(Instant now, Out& out) {
     if (!writes_.empty()) shown_.reset();
     for (const Address a : std::exchange(writes_, {})) {
         device_->written(a, now);
+        if (a.index == 0x1016) watch_as_written();
         if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
         if (a.index == 0x1005) read_sync();
         if (a.index == 0x100C || a.index == 0x100D)
@@ -216,6 +237,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     now_ = now;
     if (f.kind != Frame::Kind::can || f.extended) return;
     if (const auto command = canopen::nmt_for(f, node_)) return nmt(*command, now, out);
+    (void)watch_.on_frame(f, now);
     if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
     if (state_ == NmtState::stopped) return;
     if (canopen::is_data(f, sync_id_)) return on_sync(now, out);
@@ -306,7 +328,7 @@ void Node::events(Instant at, Out& out) {
 
 Instant Node::deadline() const {
     if (!powered_) return never;
-    Instant next = std::min({device_->next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline()});
+    Instant next = std::min({device_->next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline(), watch_.deadline()});
     if (state_ == NmtState::operational)
         for (const Pdo& p : transmit_)
             next = std::min(next, p.event);
@@ -322,10 +344,8 @@ void Node::advance(Instant now, Out& out) {
             device_->on_event(at);
         }
         if (const auto beat = heartbeat_.on_deadline(at, node_, state_)) send(*beat, at, out);
-        if (guard_.on_deadline(at)) {
-            shown_.reset();
-            device_->connection_lost(at);
-        }
+        if (guard_.on_deadline(at)) connection_lost(at, out);
+        if (watch_.on_deadline(at) == canopen::NodeNews::lost) connection_lost(at, out);
         std::vector<Frame> answers;
         server_.on_deadline(at, answers);
         for (const Frame& f : answers)

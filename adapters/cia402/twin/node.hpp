@@ -65,6 +65,8 @@ private:
     void transmit(Pdo& p, Instant at, Out& out);
     [[nodiscard]] std::vector<std::uint8_t> packed(const Pdo& p, Instant at);
     void on_sync(Instant now, Out& out);
+    void watch_as_written();
+    void connection_lost(Instant at, Out& out);
     void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
 
     std::uint8_t node_;
@@ -75,6 +77,7 @@ private:
     std::uint32_t sync_id_ = 0x80;
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
+    canopen::HeartbeatWatch watch_{0};  ///< of the node that 1016h:01 names
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};

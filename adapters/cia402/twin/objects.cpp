@@ -53,6 +53,8 @@ constexpr Row rows[] = {
     {0x1018, 2, u32, ro, no, 0x402, "Product code"},
     {0x1018, 3, u32, ro, no, 0x10001, "Revision number"},
     {0x1018, 4, u32, ro, no, 4711, "Serial number"},
+    {0x1029, 0, u8, con, no, 1, "Error behaviour"},
+    {0x1029, 1, u8, rw, no, 0, "Communication error", 0, 1},
     {0x6007, 0, i16, rw, no, 1, "Abort connection option code", 0, 3},
     {0x603F, 0, u16, ro, tx, 0, "Error code"},
     {0x6040, 0, u16, rw, both, 0, "Controlword"},

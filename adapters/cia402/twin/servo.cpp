@@ -337,7 +337,7 @@ void Servo::fail(std::uint16_t code, Instant now) {
 }
 
 void Servo::connection_lost(Instant now) {
-    const auto option = get(0x6007);
+    const auto option = d_.integer({0x6007, 0}).value_or(0);  // of the node, whichever of its axes this is
     if (option == 1) fail(0x8130, now);
     if (option == 2) command(0, now);
     if (option == 3) command(0x0A, now);

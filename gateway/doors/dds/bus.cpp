@@ -157,6 +157,11 @@ std::string secure(dds_qos_t* q, const std::string& folder) {
 }
 
 void on_data_available(dds_entity_t, void* bus) { static_cast<const Bus*>(bus)->on_data(); }
+/// Called for each writer by itself: with one alive less, it is this one.
+void on_liveliness(dds_entity_t reader, const dds_liveliness_changed_status_t status, void* bus) {
+    if (status.alive_count_change < 0) static_cast<Bus*>(bus)->on_writer_gone(reader, status.last_publication_handle);
+}
+bool commands_by(Topic t) { return t == Topic::axis_command || t == Topic::parameter_write; }
 
 /// Of what is told to everybody, what is for this gateway. The others' would fill the reader's places: one for each axis of the plant.
 template <class T>
@@ -241,9 +246,12 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
         dds_qset_ignorelocal(q.get(), DDS_IGNORELOCAL_PARTICIPANT);
         dds_listener_t* listener = dds_create_listener(this);
         dds_lset_data_available(listener, &on_data_available);
-        readers_[i] = dds_create_reader(subscriber_, heard, q.get(), listener);
+        if (commands_by(t)) dds_lset_liveliness_changed(listener, &on_liveliness);
+        const auto reader = dds_create_reader(subscriber_, heard, q.get(), listener);
         dds_delete_listener(listener);
-        if (readers_[i] < 0) return failed(shape_of(t).name, readers_[i]);
+        const std::scoped_lock lock(gone_mutex_);
+        readers_[i] = reader;
+        if (reader < 0) return failed(shape_of(t).name, reader);
     }
     return {};
 }
@@ -254,12 +262,44 @@ void Bus::close() {
     domain_ = participant_ = publisher_ = subscriber_ = 0;
     writers_.fill(0);
     readers_.fill(0);
+    gone_.clear();
+    gone_more_ = false;
 }
 
 bool Bus::write_raw(Topic t, const void* sample, bool ended) {
     const dds_entity_t writer = writers_[static_cast<std::size_t>(t)];
     if (writer <= 0) return false;
     return (ended ? dds_dispose(writer, sample) : dds_write(writer, sample)) == DDS_RETCODE_OK;
+}
+
+void Bus::on_writer_gone(std::int32_t reader, std::uint64_t handle) {
+    {
+        const std::scoped_lock lock(gone_mutex_);
+        // The reader's entity is known here when it was made; a writer that came and went before that has written nothing.
+        const auto at = std::find(readers_.begin(), readers_.end(), reader);
+        if (at == readers_.end()) return;
+        gone_more_ = gone_more_ || gone_.size() >= gone_most;
+        if (!gone_more_) gone_.push_back({Topic{static_cast<std::uint8_t>(at - readers_.begin())}, handle});
+    }
+    wake_();
+}
+
+std::vector<Bus::Writer> Bus::take_gone(const std::function<std::vector<Writer>()>& known) {
+    std::unique_lock lock(gone_mutex_);
+    std::vector<Writer> gone = std::exchange(gone_, {});
+    const bool more = std::exchange(gone_more_, false);
+    lock.unlock();
+    if (!more) return gone;
+    gone = known();
+    std::erase_if(gone, [this](const Writer& w) { return is_there(w); });
+    return gone;
+}
+
+bool Bus::is_there(const Writer& writer) const {
+    const Entity reader = readers_[static_cast<std::size_t>(writer.topic)];
+    dds_builtintopic_endpoint_t* data = reader > 0 ? dds_get_matched_publication_data(reader, writer.handle) : nullptr;
+    if (data) dds_builtintopic_free_endpoint(data);
+    return data != nullptr;
 }
 
 std::uint64_t Bus::turned_away() const {

@@ -1,6 +1,7 @@
 // Bus: the edge to Cyclone DDS: one participant with the topics of schema/axisgate.idl, their quality of service in one table.
 // In: samples to write; wishes to take what has come. Out: samples, in batches; a call when there is something to take.
-// Never hands a library thread through: `wake` is all that is called there, and what came waits in the readers' bounded caches.
+// Never hands a library thread through: `wake` is all that is called there; what came waits in the readers' bounded caches, who is gone
+// in a bounded list.
 #pragma once
 
 #include <array>
@@ -8,9 +9,11 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "axisgate.h"
 
@@ -84,8 +87,20 @@ public:
     }
     /// Samples that came and had no room, or were lost on their way, since it was opened: all readers together.
     [[nodiscard]] std::uint64_t turned_away() const;
-    /// Called by the library, through its listener.
+    /// A writer of others for a topic of commands: axis commands or parameter writes.
+    struct Writer {
+        Topic topic = Topic::axis_command;
+        std::uint64_t handle = 0;  ///< Seen::writer
+        bool operator==(const Writer&) const = default;
+    };
+    static constexpr std::size_t gone_most = 1024;
+    /// Such writers that are gone since this was asked last: closed, their participant gone for longer than its lease, or silent for
+    /// longer than their own liveliness says. `wake` tells of them, too. If there were more than are kept, those of `known` that are gone.
+    [[nodiscard]] std::vector<Writer> take_gone(const std::function<std::vector<Writer>()>& known);
+    [[nodiscard]] bool is_there(const Writer& writer) const;
+    /// Called by the library, through its listeners.
     void on_data() const { wake_(); }
+    void on_writer_gone(std::int32_t reader, std::uint64_t handle);
 
 private:
     [[nodiscard]] std::string add(Topic topic, const BusSettings& settings, bool writes, bool reads);
@@ -96,6 +111,9 @@ private:
     using Entity = std::int32_t;  // dds_entity_t: greater than 0, or an error
     Entity domain_ = 0, participant_ = 0, publisher_ = 0, subscriber_ = 0;
     std::array<Entity, topic_count> writers_{}, readers_{};
+    std::mutex gone_mutex_;  // what the library's threads say of writers
+    std::vector<Writer> gone_;
+    bool gone_more_ = false;
     std::string gateway_;  // outlives the readers that ask for it
 };
 

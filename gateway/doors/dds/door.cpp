@@ -47,7 +47,8 @@ bool is_finite(const axisgate_AxisCommand& s) {
 struct DdsDoor::Asked {
     std::string axis, source, id;
     std::uint64_t instance = 0;
-    bool stops = false;  ///< whatever is wrong with its names: a stop is carried out, twice if need be, and never refused for want of room
+    bool renews = false;  ///< a held move that goes on: twice is as good as once, and nothing begins by it; it is not remembered
+    bool stops = false;   ///< whatever is wrong with its names: a stop is carried out, twice if need be, and never refused for want of room
 };
 
 DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
@@ -87,6 +88,7 @@ std::string DdsDoor::address() const {
 void DdsDoor::stop(std::function<void()> done) {
     if (open_) {
         open_ = false;
+        mirrors_.clear();
         timer_.cancel();
         look_timer_.cancel();
         ports_.get<EventPort>().unlisten(this);
@@ -120,7 +122,12 @@ void DdsDoor::on_turn() {
     tell_axes(now);
     for (auto& event : fleet_.on_turn(now))
         ports_.get<EventPort>().note(std::move(event));
+    mirrors_.remove_if([](const MirrorEnd& m) { return !m.is_open(); });
+    for (auto& m : mirrors_)
+        m.on_turn();
     std::erase_if(namesakes_, [this](std::uint64_t instance) { return !fleet_.alive(instance); });
+    for (const auto& writer : std::exchange(gone_before_, {}))
+        on_gone(writer);
     timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(turn));
     timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec) on_turn();
@@ -169,6 +176,7 @@ void DdsDoor::tell_axes(Instant now) {
         axes_.assign(site->site.axes.size(), {});
         for (std::size_t i = 0; i < axes_.size(); ++i)
             axes_[i].name = site->site.axes[i].name;
+        commanders_.keep([&site](const std::string& axis) { return index_of_name(site->site.axes, axis).has_value(); });
         site_ = site;
     }
     for (std::size_t i = 0; i < axes_.size() && i < site->axis_ids.size(); ++i) {
@@ -188,7 +196,7 @@ void DdsDoor::tell_axes(Instant now) {
     }
 }
 
-void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) const {
+void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) {
     const AxisPicture p = ports_.get<AxisPort>().picture(place.id());
     const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
     put_text(s.gateway, settings_.name);
@@ -219,6 +227,9 @@ void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) const {
     s.set_points = p.set_points;
     s.set_points_refused = p.set_points_refused;
     put_text(s.set_point_refusal, axisgate::name_of(p.set_point_refusal));
+    s.position_demand = p.position_demand;
+    put_text(s.demand_source, axisgate::name_of(p.demand_source));
+    s.count = ++sequence_;
 }
 
 void DdsDoor::on_event(const Event& e) {
@@ -254,20 +265,23 @@ void DdsDoor::read() {
     };
     const auto mine = [this](const auto& s) { return settings_.name == s.gateway; };
     all(static_cast<axisgate_GatewayState*>(nullptr), [this](const auto& s, const Bus::Seen& seen) { on_gateway(s, seen); });
-    all(static_cast<axisgate_AxisState*>(nullptr),
-        [this](const auto& s, const Bus::Seen& seen) { fleet_.on_axis(s, seen.valid, seen.alive); });
+    all(static_cast<axisgate_AxisState*>(nullptr), [this](const auto& s, const Bus::Seen& seen) {
+        fleet_.on_axis(s, seen.valid, seen.alive);
+        tell_mirrors(s.gateway, s.axis);
+    });
     all(static_cast<axisgate_CommandResult*>(nullptr), [this](const auto& s, const Bus::Seen& seen) {
         if (seen.valid) fleet_.on_result(s);
     });
     all(static_cast<axisgate_AxisCommand*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
-        if (seen.valid && mine(s)) on_command(s);
+        if (seen.valid && mine(s)) on_command(s, seen);
     });
     all(static_cast<axisgate_ParameterWrite*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
-        if (seen.valid && mine(s)) on_parameter_write(s);
+        if (seen.valid && mine(s)) on_parameter_write(s, seen);
     });
     all(static_cast<axisgate_SetPoint*>(nullptr), [this, mine](const auto& s, const Bus::Seen& seen) {
         if (mine(s)) on_set_point(s, seen);
     });
+    look_for_gone();
     // What is left has its turn after everything else that waits.
     if (more && !woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
 }
@@ -303,13 +317,14 @@ bool DdsDoor::to_be_done(const Asked& a) {
         refuse(a, Reason::out_of_range, "a command over DDS has a source and an id, so that it is never carried out twice; name both");
         return false;
     }
-    const auto seen = seen_.begin(a.source, a.id, clock_());
+    const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_());
     switch (seen.told) {
         case CommandsSeen::Told::under_way:
             ++counters_.repeated;
             return false;  // its result is still to come
         case CommandsSeen::Told::answered:
             ++counters_.repeated;
+            tell_again(a.axis);
             answer(a, *seen.result, true);
             return false;
         case CommandsSeen::Told::no_room:
@@ -343,9 +358,9 @@ bool DdsDoor::to_be_done(const Asked& a) {
     return true;
 }
 
-void DdsDoor::on_command(const axisgate_AxisCommand& s) {
+void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const std::string_view name(s.command);
-    const Asked a{s.axis, s.source, s.id, s.instance, name == "halt" || name == "quick_stop"};
+    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, name == "halt" || name == "quick_stop"};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -356,11 +371,12 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s) {
         const auto& f = read.faults.front();
         return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
     }
+    note_commander(a, {Topic::axis_command, seen.writer});
     carry_out(a, *place, std::move(*read.body), s.until_done);
 }
 
-void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s) {
-    const Asked a{s.axis, s.source, s.id, s.instance, false};
+void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen) {
+    const Asked a{s.axis, s.source, s.id, s.instance};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -377,7 +393,23 @@ void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s) {
     auto checked = check_write_now(*place->catalogue, *point, *value,
                                    [&parameters, id = place->id()](Point p) { return parameters.live(id, p).value; });
     if (!checked.fault.empty()) return refuse(a, Reason::out_of_range, checked.fault);
+    note_commander(a, {Topic::parameter_write, seen.writer});
     carry_out(a, *place, WriteParameter{*point, std::move(checked.value)}, false);
+}
+
+void DdsDoor::note_commander(const Asked& asked, const Bus::Writer& writer) {
+    if (commanders_.note(asked.axis, asked.source, writer) && !bus_.is_there(writer) && gone_before_.size() < Bus::gone_most)
+        gone_before_.push_back(writer);
+}
+
+void DdsDoor::look_for_gone() {
+    for (const auto& writer : bus_.take_gone([this] { return commanders_.writers(); }))
+        on_gone(writer);
+}
+
+void DdsDoor::on_gone(const Bus::Writer& writer) {
+    for (const auto& source : commanders_.gone(writer))
+        ports_.get<AxisPort>().client_lost(AuthorityClient::of(origin_of(source)), LossCause::dds_deadline);
 }
 
 void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done) {
@@ -388,8 +420,26 @@ void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody 
     c.origin = origin_of(asked.source);
     (void)ports_.get<AxisPort>().submit(std::move(c), [this, asked](const Result& r) {
         seen_.end(asked.source, asked.id, r, clock_());
+        tell_again(asked.axis);
         answer(asked, r, false);
     });
+}
+
+/// In the next turn, changed or not: who waits for a state that is newer than an answer has it soon.
+void DdsDoor::tell_again(const std::string& axis) {
+    const auto it = std::ranges::find(axes_, axis, &Told::name);
+    if (it != axes_.end()) it->ever = false;
+}
+
+void DdsDoor::tell_mirrors(std::string_view gateway, std::string_view axis) {
+    for (auto& m : mirrors_)
+        m.on_axis(gateway, axis);
+}
+
+void DdsDoor::take_mirror(int fd) {
+    mirrors_.emplace_back(
+        context_, fd, fleet_, [this] { return ports_.get<ClockPort>().now_unix_ns(); }, clock_);
+    if (!open_) mirrors_.pop_back();  // its line finds its other end closed
 }
 
 void DdsDoor::refuse(const Asked& asked, Reason reason, std::string text) {
@@ -415,6 +465,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
     s.code = r.code;
     put_text(s.text, r.text);
     s.repeated = repeated;
+    s.count = sequence_;
     if (!bus_.write(s)) ++counters_.unsent;  // whoever misses it sends the command again
 }
 

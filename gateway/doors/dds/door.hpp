@@ -8,6 +8,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/json/object.hpp>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,8 +16,10 @@
 #include <vector>
 
 #include "gateway/doors/dds/bus.hpp"
+#include "gateway/doors/dds/commanders.hpp"
 #include "gateway/doors/dds/commands_seen.hpp"
 #include "gateway/doors/dds/fleet.hpp"
+#include "gateway/doors/dds/mirror_end.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/door.hpp"
 #include "gateway/services/ports.hpp"
@@ -57,6 +60,9 @@ public:
     /// To an axis of this gateway it goes the way of every command here, under the origin that it has; else over the bus.
     void command(FleetOrder order, std::function<void(const Result&)> then) override;
 
+    /// The other end of a mirror line: a connected stream, which is this door's from here on. More than one can be open.
+    void take_mirror(int fd);
+
     struct Counters {
         std::uint64_t commands = 0, repeated = 0, refused = 0, set_points = 0, set_points_wrong = 0, unsent = 0;
     };
@@ -76,14 +82,20 @@ private:
     void on_turn();
     void tell_gateway(Instant now);
     void tell_axes(Instant now);
-    void fill(axisgate_AxisState& s, const AxisPlace& place) const;
+    void fill(axisgate_AxisState& s, const AxisPlace& place);
     void read();
     void on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen);
-    void on_command(const axisgate_AxisCommand& s);
-    void on_parameter_write(const axisgate_ParameterWrite& s);
+    void on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen);
+    void on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen);
+    /// Who commands the axis now, and the writer that it does so with.
+    void note_commander(const Asked& asked, const Bus::Writer& writer);
+    void look_for_gone();
+    void on_gone(const Bus::Writer& writer);
     void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
     [[nodiscard]] bool to_be_done(const Asked& asked);
     void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
+    void tell_again(const std::string& axis);
+    void tell_mirrors(std::string_view gateway, std::string_view axis);
     void refuse(const Asked& asked, Reason reason, std::string text);
     void answer(const Asked& asked, const Result& result, bool repeated);
     [[nodiscard]] static Origin origin_of(const std::string& source);
@@ -99,9 +111,13 @@ private:
     std::vector<Told> axes_;
     std::shared_ptr<const SiteState> site_;
     Instant gateway_told_{};
-    std::set<std::uint64_t> namesakes_;              // instances of other gateways with this one's name
+    std::set<std::uint64_t> namesakes_;  // instances of other gateways with this one's name
+    Commanders commanders_;
     std::map<std::string, std::string> set_points_;  // who streams, by axis
+    std::vector<Bus::Writer> gone_before_;           // that wrote and were gone before that was read: their command is let through first
     Counters counters_;
+    std::list<MirrorEnd> mirrors_;
+    std::uint64_t sequence_ = 0;  // of the state that was told last
     bool open_ = false;
     Bus bus_;  // last: its threads end first
 };

@@ -36,6 +36,7 @@ Reason reason_named(std::string_view word) {
 
 Event Fleet::lose(Known& k, Instant now) {
     k.gateway.alive = false;
+    ++comings_;
     k.lost_at = now;
     std::vector<std::string> unanswered;
     for (const auto& [id, w] : waiting_) {
@@ -63,6 +64,7 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
         return lose(it->second, now);
     }
     const bool found = it == known_.end() || !it->second.gateway.alive;
+    if (found) ++comings_;
     if (it == known_.end() && known_.size() >= gateways_most) {
         ++left_out_;
         return std::nullopt;
@@ -123,6 +125,9 @@ void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
     a.position = s.position;
     a.velocity = s.velocity;
     a.at_unix_ns = s.at_unix_ns;
+    a.position_demand = s.position_demand;
+    a.demand_source = s.demand_source;
+    a.sequence = s.count;
 }
 
 void Fleet::on_result(const axisgate_CommandResult& s) {
@@ -132,6 +137,10 @@ void Fleet::on_result(const axisgate_CommandResult& s) {
     if (it == waiting_.end() || it->second->instance != s.instance || std::string_view(it->second->sample.source) != s.source) return;
     Result r = no_result(outcome_named(s.outcome), reason_named(s.reason), s.text);
     r.code = s.code;
+    if (const auto known = known_.find(s.instance); known != known_.end()) {
+        const auto axis = known->second.axes.find(s.axis);
+        if (axis != known->second.axes.end()) axis->second.answered = std::max(axis->second.answered, s.count);
+    }
     end(s.id, r);
 }
 
@@ -169,13 +178,33 @@ std::vector<FleetGateway> Fleet::list(std::int64_t now_unix_ns, Instant now) con
         g.silent_ms = std::max<std::int64_t>(0, (now - k.heard_at) / std::chrono::milliseconds(1));
         for (const auto& [name, a] : k.axes) {
             g.axes.push_back(a);
-            if (a.at_unix_ns != 0)
-                g.axes.back().age_ms = std::max<std::int64_t>(0, (now_unix_ns + g.clock_ahead_ns - a.at_unix_ns) / 1'000'000);
+            g.axes.back().age_ms = age_ms(g, a, now_unix_ns);
         }
         out.push_back(std::move(g));
     }
     std::ranges::stable_sort(out, {}, &FleetGateway::name);
     return out;
+}
+
+std::int64_t Fleet::age_ms(const FleetGateway& g, const FleetAxis& a, std::int64_t now_unix_ns) {
+    if (a.at_unix_ns == 0) return -1;
+    return std::max<std::int64_t>(0, (now_unix_ns + g.clock_ahead_ns - a.at_unix_ns) / 1'000'000);
+}
+
+Fleet::Seen Fleet::mirrored(std::string_view gateway, std::string_view axis) const {
+    FleetOrder to;
+    to.gateway = gateway;
+    Result fault;
+    const FleetGateway* g = target(to, fault);
+    if (!g) return {nullptr, nullptr, fault.text};
+    const auto no = [&](std::string_view what) { return Seen{nullptr, nullptr, fmt::format("{}/{} {}", gateway, axis, what)}; };
+    if (g->here) return no("is an axis of this gateway: it needs no mirror");
+    const auto& axes = known_.at(g->instance).axes;
+    const auto it = axes.find(std::string(axis));
+    if (it == axes.end()) return no("is not there: its gateway has no such axis");
+    if (it->second.family == "remote") return no("is a mirror itself: name the gateway that has the drive");
+    if (!it->second.online) return {g, nullptr, fmt::format("{}/{} does not answer its own gateway", gateway, axis), true};
+    return {g, &it->second, {}};
 }
 
 const FleetGateway* Fleet::target(const FleetOrder& o, Result& fault) const {
@@ -215,7 +244,18 @@ void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then
         const auto& f = read.faults.front();
         return then(no_result(Outcome::refused, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy)));
     }
-    if (waiting_.size() >= waiting_most)
+    if (is_urgent(*read.body)) {
+        std::vector<std::string> overtaken;
+        for (const auto& [id, w] : waiting_) {
+            const std::string_view command(w->sample.command);
+            if (w->instance == g->instance && o.axis == w->sample.axis && command != "halt" && command != "quick_stop" &&
+                command != "disable")
+                overtaken.push_back(id);
+        }
+        for (const auto& id : overtaken)
+            end(id, no_result(Outcome::failed, Reason::interrupted,
+                              fmt::format("interrupted by {} before its answer came; whether it was begun is not known", read.name)));
+    } else if (waiting_.size() >= waiting_most)
         return then(
             no_result(Outcome::refused, Reason::busy, "too many commands to other gateways wait for their results; try again later"));
     auto w = std::make_unique<Waiting>();
@@ -248,7 +288,7 @@ void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then
     s.prepare = flag("prepare");
     s.renew = flag("renew");
     w->sent = now;
-    w->until = now + waits_most;
+    w->until = now + (o.wait > Duration::zero() ? std::min(o.wait, waits_most) : waits_most);
     w->then = std::move(then);
     const auto& kept = *waiting_.emplace(id, std::move(w)).first->second;
     send_(kept.sample);

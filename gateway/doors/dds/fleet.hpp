@@ -44,7 +44,22 @@ public:
     [[nodiscard]] std::vector<FleetGateway> list(std::int64_t now_unix_ns, Instant now) const;
     /// The one that is meant, or why none is (`fault`).
     [[nodiscard]] const FleetGateway* target(const FleetOrder& order, Result& fault) const;
-    /// Gives it to another gateway; `then` is called once, perhaps from inside this call.
+    /// An axis of another gateway that can be mirrored, or why it cannot (`why`): its gateway is not there or gone, it is this gateway's
+    /// own, its drive is not online, or it is a mirror itself.
+    struct Seen {
+        const FleetGateway* gateway = nullptr;
+        const FleetAxis* axis = nullptr;
+        std::string why;
+        bool known = false;  ///< it is there, and its drive does not answer
+    };
+    /// Counts gateways that come and go: what was looked up before may have changed.
+    [[nodiscard]] std::uint64_t comings() const noexcept { return comings_; }
+    [[nodiscard]] Seen mirrored(std::string_view gateway, std::string_view axis) const;
+    /// What is known of it was told before the newest answer to a command from here.
+    [[nodiscard]] static bool outdated(const FleetAxis& axis) noexcept { return axis.sequence != 0 && axis.sequence <= axis.answered; }
+    [[nodiscard]] static std::int64_t age_ms(const FleetGateway& gateway, const FleetAxis& axis, std::int64_t now_unix_ns);
+    /// Gives it to another gateway; a stop ends what waits for its axis, which would otherwise be sent again after it. `then` is called
+    /// once, perhaps from inside this call.
     void command(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
     [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
     /// States of gateways and axes that came when as many as are kept were known.
@@ -73,7 +88,7 @@ private:
     std::function<void(const axisgate_AxisCommand&)> send_;
     std::map<std::uint64_t, Known> known_;                     // by instance
     std::map<std::string, std::unique_ptr<Waiting>> waiting_;  // by id
-    std::uint64_t next_ = 1, left_out_ = 0;
+    std::uint64_t next_ = 1, left_out_ = 0, comings_ = 0;
 };
 
 }  // namespace axisgate::dds

@@ -6,22 +6,27 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/epoll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/basic_waitable_timer.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <map>
+#include <span>
 
 #include "gateway/doors/enip/counters.hpp"
 #include "gateway/doors/enip/host_facts.hpp"
 #include "gateway/doors/enip/tcp_session.hpp"
+#include "gateway/lines/poller.hpp"
 #include "gateway/site/site_state.hpp"
 
 namespace axisgate::enip {
@@ -67,11 +72,11 @@ sockaddr_in sockaddr_of(cip::Endpoint e) {
 class Server::Impl final : public HotDoor, public cip::Output, public std::enable_shared_from_this<Server::Impl> {
 public:
     Impl(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)
-        : io_(io),
-          port_(port),
+        : port_(port),
           settings_(settings),
           values_(port, image, settings.lease_s),
           adapter_(values_, *this, settings.incarnation),
+          poller_(io, [this](std::span<const epoll_event> events) { on_ready(events); }),
           acceptor_(io.get_executor()),
           explicit_(io.get_executor()),
           implicit_(io.get_executor()),
@@ -91,6 +96,7 @@ public:
         arm();
     }
     void on_site(const SiteState& site) override;
+    bool serve_now() override { return poller_.serve_now(); }
     [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters(), accepts_postponed_); }
 
     // --- cip::Output
@@ -122,6 +128,7 @@ private:
                        reinterpret_cast<const sockaddr*>(&a), sizeof a);
     }
     std::string bind_udp(UdpSocket& socket, std::uint16_t& port);
+    void on_ready(std::span<const epoll_event> events);
     void accept();
     /// False: no descriptor is left, and somebody waits in the listen queue.
     [[nodiscard]] bool admit();
@@ -131,11 +138,11 @@ private:
     void arm();
     void on_timer();
 
-    asio::io_context& io_;
     DoorPort& port_;
     ServerSettings settings_;
     AxisValues values_;
     cip::Adapter adapter_;
+    Poller poller_;
     Acceptor acceptor_;
     UdpSocket explicit_, implicit_;
     asio::steady_timer timer_;
@@ -169,6 +176,7 @@ std::string Server::Impl::bind_udp(UdpSocket& socket, std::uint16_t& port) {
 std::string Server::Impl::open(const std::string& text) {
     const BindAddress b = parse_bind(text);
     if (!b.fault.empty()) return b.fault;
+    if (!poller_.good()) return "[enip] no file descriptor is left: raise the limit (LimitNOFILE= of the unit, ulimit -n)";
     bound_ = b.address;
     facts_ = host_facts(b.address);
     boost::system::error_code ec;
@@ -205,8 +213,10 @@ void Server::Impl::close() {
     explicit_.close(ignored);
     implicit_.close(ignored);
     timer_.cancel();
-    for (auto& [key, session] : std::exchange(sessions_, {}))
+    for (auto& [key, session] : std::exchange(sessions_, {})) {
         session->hang_up();
+        adapter_.on_disconnected(key);
+    }
 }
 
 void Server::Impl::on_site(const SiteState& site) {
@@ -251,26 +261,30 @@ bool Server::Impl::admit() {
     const int on = 1;
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     (void)::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
-    TcpSession::Socket socket(io_.get_executor(), tcp::v4(), fd);
     const cip::SessionKey key = ++newest_;
-    if (!adapter_.on_connected(key, endpoint_of(peer), port_.now())) return true;
-    auto session = std::make_shared<TcpSession>(
-        std::move(socket), most_unsent,
-        [weak = weak_from_this(), key](cip::View bytes) {
-            const auto self = weak.lock();
-            if (!self) return;
-            self->adapter_.on_stream(key, bytes, self->port_.now());
-            self->arm();
-        },
-        [weak = weak_from_this(), key] {
-            const auto self = weak.lock();
-            if (!self) return;
-            self->sessions_.erase(key);
-            self->adapter_.on_disconnected(key);
-        });
-    sessions_.emplace(key, session);
-    session->begin();
+    const bool watched = poller_.add(fd, key, EPOLLIN);
+    if (!watched || !adapter_.on_connected(key, endpoint_of(peer), port_.now())) {
+        ::close(fd);
+        return true;
+    }
+    sessions_.emplace(key, std::make_shared<TcpSession>(
+                               fd, poller_, key, most_unsent, [this, key](cip::View bytes) { adapter_.on_stream(key, bytes, port_.now()); },
+                               [this, key] {
+                                   sessions_.erase(key);
+                                   adapter_.on_disconnected(key);
+                               }));
     return true;
+}
+
+/// Sessions never call by themselves: they live as long as this does.
+void Server::Impl::on_ready(std::span<const epoll_event> events) {
+    for (const epoll_event& e : events) {
+        const auto it = sessions_.find(e.data.u64);
+        if (it == sessions_.end()) continue;
+        const auto session = it->second;  // may be erased meanwhile
+        session->on_ready(e.events);
+    }
+    arm();
 }
 
 void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool)) {
@@ -308,7 +322,7 @@ void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::
 void Server::Impl::arm() {
     if (!open_) return;
     const Instant due = std::min(adapter_.deadline(), next_sweep_);
-    if (due == armed_) return;
+    if (armed_ <= due) return;  // it rings too early at most, and is set anew then: cheaper than a system call for each request
     armed_ = due;
     timer_.expires_at(
         std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));

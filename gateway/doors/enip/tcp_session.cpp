@@ -2,7 +2,9 @@
 // In: readiness. Out: bytes. Never reads on while its answers wait.
 #include "gateway/doors/enip/tcp_session.hpp"
 
+#include <sys/epoll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -12,23 +14,30 @@ namespace {
 bool would_block() noexcept { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 }  // namespace
 
+void TcpSession::on_ready(std::uint32_t events) {
+    const auto self = shared_from_this();  // what arrives may end the session
+    if (!open_) return end();
+    if (!unsent_.empty()) {
+        // Whoever hangs up while answers wait for him is not watched for reading: his end is told with these.
+        if (events & (EPOLLOUT | EPOLLERR | EPOLLHUP)) write();
+    } else if (events & (EPOLLIN | EPOLLERR | EPOLLHUP)) {
+        read();
+    }
+}
+
 void TcpSession::read() {
-    socket_.async_wait(Socket::wait_read, [self = shared_from_this()](boost::system::error_code ec) {
-        if (ec || !self->open_) return self->end();
-        std::array<std::uint8_t, 4096> bytes;
-        const auto n = ::recv(self->socket_.native_handle(), bytes.data(), bytes.size(), 0);
-        if (n == 0 || (n < 0 && !would_block())) return self->end();
-        if (n > 0) self->arrived_({bytes.data(), static_cast<std::size_t>(n)});
-        if (!self->open_) return self->end();
-        if (self->unsent_.empty()) self->read();  // else when it has taken its answers
-    });
+    std::array<std::uint8_t, 4096> bytes;
+    const auto n = ::recv(fd_, bytes.data(), bytes.size(), 0);
+    if (n == 0 || (n < 0 && !would_block())) return end();
+    if (n > 0) arrived_({bytes.data(), static_cast<std::size_t>(n)});
+    if (!open_) end();
 }
 
 void TcpSession::send(cip::View bytes) {
     if (!open_) return;
     std::size_t taken = 0;
     if (unsent_.empty()) {
-        const auto n = ::send(socket_.native_handle(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        const auto n = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (n < 0 && !would_block()) {
             open_ = false;
             return;
@@ -40,33 +49,32 @@ void TcpSession::send(cip::View bytes) {
         hang_up();
         return;
     }
-    const bool idle = unsent_.empty();
+    if (unsent_.empty()) poller_.change(fd_, token_, EPOLLOUT);
     cip::put_bytes(unsent_, bytes.subspan(taken));
-    if (idle) write();
 }
 
 void TcpSession::write() {
-    socket_.async_wait(Socket::wait_write, [self = shared_from_this()](boost::system::error_code ec) {
-        if (ec || !self->open_) return self->end();
-        const auto n = ::send(self->socket_.native_handle(), self->unsent_.data(), self->unsent_.size(), MSG_NOSIGNAL);
-        if (n < 0 && !would_block()) return self->end();
-        if (n > 0) self->unsent_.erase(self->unsent_.begin(), self->unsent_.begin() + n);
-        self->unsent_.empty() ? self->read() : self->write();
-    });
+    const auto n = ::send(fd_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (n < 0 && !would_block()) return end();
+    if (n > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + n);
+    if (unsent_.empty()) poller_.change(fd_, token_, EPOLLIN);
 }
 
 void TcpSession::hang_up() {
     if (!open_) return;
     open_ = false;
-    boost::system::error_code ignored;
-    socket_.shutdown(Socket::shutdown_both, ignored);  // wakes the read that waits
+    (void)::shutdown(fd_, SHUT_RDWR);  // the poller tells of it, and the session ends then
 }
 
 void TcpSession::end() {
     open_ = false;
-    boost::system::error_code ignored;
-    socket_.close(ignored);
+    close();
     if (const auto ended = std::exchange(ended_, nullptr)) ended();
+}
+
+void TcpSession::close() {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = -1;
 }
 
 }  // namespace axisgate::enip

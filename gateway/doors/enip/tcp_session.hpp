@@ -1,23 +1,28 @@
 // TCP session: one originator's TCP connection: bytes in, bytes out, and what it does not read.
-// In: a connected non-blocking socket. Out: bytes by a callback. Never keeps more unsent than its bound.
+// In: a connected non-blocking socket, its readiness. Out: bytes by a callback. Never keeps more unsent than its bound.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 
+#include "gateway/lines/poller.hpp"
 #include "gateway/protocols/cip/bytes.hpp"
 
 namespace axisgate::enip {
 
 class TcpSession : public std::enable_shared_from_this<TcpSession> {
 public:
-    using Socket = boost::asio::basic_stream_socket<boost::asio::ip::tcp, boost::asio::io_context::executor_type>;
-    /// `arrived` gets what came; `ended` is called once, when the other end is gone or does not read.
-    TcpSession(Socket socket, std::size_t most_unsent, std::function<void(cip::View)> arrived, std::function<void()> ended)
-        : socket_(std::move(socket)), most_unsent_(most_unsent), arrived_(std::move(arrived)), ended_(std::move(ended)) {}
-    void begin() { read(); }
+    /// Owns `fd`, which `poller` watches for EPOLLIN under `token`. `arrived` gets what came; `ended` is called once, when the other end is
+    /// gone or does not read.
+    TcpSession(int fd, Poller& poller, std::uint64_t token, std::size_t most_unsent, std::function<void(cip::View)> arrived,
+               std::function<void()> ended)
+        : fd_(fd), poller_(poller), token_(token), most_unsent_(most_unsent), arrived_(std::move(arrived)), ended_(std::move(ended)) {}
+    ~TcpSession() { close(); }
+    TcpSession(const TcpSession&) = delete;
+    TcpSession& operator=(const TcpSession&) = delete;
+    void on_ready(std::uint32_t events);
     void send(cip::View bytes);
     /// What was sent still goes out, as far as the kernel takes it.
     void hang_up();
@@ -26,7 +31,10 @@ private:
     void read();
     void write();
     void end();
-    Socket socket_;
+    void close();
+    int fd_;
+    Poller& poller_;
+    std::uint64_t token_;
     std::size_t most_unsent_;
     std::function<void(cip::View)> arrived_;
     std::function<void()> ended_;

@@ -180,9 +180,9 @@ Handled get_trace(Call&, const LinePort&, const SitePort&);
 Handled list_events(Call&, EventPort&);
 
 // --- handlers_fail_safe.cpp -------------------------------------------------------------------------------------------
-Handled get_fail_safe(Call&, const AxisPort&, const RehearsalPort&, const SitePort&);
-Handled get_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&);
-Handled put_axis_fail_safe(Call&, AxisPort&, RehearsalPort&, SitePort&, const StagePort&);
+Handled get_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
+Handled get_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
+Handled put_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&, const StagePort&);
 Handled get_rehearsal(Call&);
 Handled start_rehearsal(Call&);
 // --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------
@@ -205,8 +205,17 @@ Handled get_trends(Call&, const ClockPort&, RecorderPort&, const SitePort&);
 Handled list_recordings(Call&, const ClockPort&, RecorderPort&);
 Handled make_recording(Call&, EventPort&, RecorderPort&);
 Handled get_recording(Call&, RecorderPort&);
+Handled play_back_recording(Call&, RecorderPort&);
 Handled rename_recording(Call&, RecorderPort&);
 Handled remove_recording(Call&, RecorderPort&);
+/// What is wrong with a wish for a capture or a recording (`kind`) of that name.
+[[nodiscard]] Response kept_refusal(std::string_view kind, const RecordingFault& fault, std::string_view name);
+// --- handlers_captures.cpp --------------------------------------------------------------------------------------------
+Handled list_captures(Call&, CapturePort&);
+Handled arm_capture(Call&, CapturePort&, EventPort&, const SitePort&);
+Handled get_capture(Call&, CapturePort&);
+Handled rename_capture(Call&, CapturePort&);
+Handled remove_capture(Call&, CapturePort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
 Handled list_recipes(Call&, const DocumentPort&);
 Handled get_recipe(Call&, const DocumentPort&);

@@ -30,7 +30,7 @@ std::string_view described(LossCause cause) {
         case LossCause::modbus_silent:
             return "who commands it is connected over Modbus, and has asked nothing for longer than watchdog_ms";
         case LossCause::set_points_silent:
-            return "the set-points that it follows are not renewed in time, or their connection has ended";
+            return "the set-points that it follows (other than over DDS) are not renewed in time, or their connection has ended";
         case LossCause::lease_ended:
             return "who commands it held it by a lease, and the lease has expired or was taken back with the right to command";
         case LossCause::enip_closed:
@@ -43,6 +43,8 @@ std::string_view described(LossCause cause) {
             return "the drive could not be reached while it was commanded; done as soon as it answers again";
         case LossCause::gateway_ends:
             return "the gateway is told to end";
+        case LossCause::dds_deadline:
+            return "who commands it does so over DDS, and its set-points have missed their deadline or nobody writes for it any more";
         case LossCause::none:
             break;
     }
@@ -59,28 +61,62 @@ json::object choice_of(const FailSafe& chosen) {
     return o;
 }
 
-json::object axis_row(const AxisSpec& spec, AxisId id, const AxisPort& axes, Duration watchdog) {
-    const auto cause = static_cast<LossCause>(axes.picture(id).fail_safe_cause);
-    return {{"axis", spec.name},
-            {"fail_safe", choice_of(spec.fail_safe)},
-            {"watchdog_ms_in_force", milliseconds_of(spec.fail_safe.watchdog(watchdog))},
-            {"last_cause", cause == LossCause::none ? json::value(nullptr) : json::value(name_of(cause))}};
+json::value state_of(DriveWatchdog::State state) {
+    switch (state) {
+        case DriveWatchdog::State::off:
+            return "off";
+        case DriveWatchdog::State::armed:
+            return "armed";
+        case DriveWatchdog::State::refused:
+            return "refused";
+        case DriveWatchdog::State::unknown:
+            break;
+    }
+    return nullptr;
 }
 
-using MatrixPorts = PortSet<AxisPort, RehearsalPort, SitePort>;
+using MatrixPorts = PortSet<AxisPort, DrivePort, RehearsalPort, SitePort>;
+
+/// What the drive of an axis does by itself when it does not hear the gateway any more: what its family has, and what was programmed.
+json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
+    json::object o{{"available", false}, {"state", nullptr}, {"time_ms", nullptr}, {"action", nullptr}, {"description", ""}};
+    const auto d = index_of_name(site.site.drives, spec.drive);
+    const auto page = d ? catalogue_of(site.site, site.site.drives[*d], ports.get<SitePort>().families()) : nullptr;
+    const auto* says = page ? page->document().if_contains("drive_watchdog") : nullptr;
+    if (!says || !says->is_object()) return o;
+    o["available"] = says->get_object().at("available");
+    o["description"] = says->get_object().at("description");
+    if (*d >= site.drive_ids.size() || !o["available"].as_bool()) return o;
+    const DriveWatchdog w = ports.get<DrivePort>().drive_status(site.drive_ids[*d]).watchdog;
+    o["state"] = state_of(w.state);
+    if (w.state != DriveWatchdog::State::armed) return o;
+    o["time_ms"] = milliseconds_of(w.time);
+    o["action"] = w.action;
+    return o;
+}
+
+json::object axis_row(const MatrixPorts& ports, const SiteState& site, std::size_t i) {
+    const AxisSpec& spec = site.site.axes[i];
+    const auto cause = static_cast<LossCause>(ports.get<AxisPort>().picture(site.axis_ids[i]).fail_safe_cause);
+    return {{"axis", spec.name},
+            {"fail_safe", choice_of(spec.fail_safe)},
+            {"watchdog_ms_in_force", milliseconds_of(spec.fail_safe.watchdog(ports.get<RehearsalPort>().watchdog()))},
+            {"last_cause", cause == LossCause::none ? json::value(nullptr) : json::value(name_of(cause))},
+            {"drive_watchdog", watchdog_of(ports, site, spec)}};
+}
 
 std::optional<Response> row_of(const MatrixPorts& ports, std::string_view name) {
     const auto site = ports.get<SitePort>().site();
     const auto i = index_of_name(site->site.axes, name);
     if (!i) return std::nullopt;
-    Response r =
-        json_response(axis_row(site->site.axes[*i], site->axis_ids[*i], ports.get<AxisPort>(), ports.get<RehearsalPort>().watchdog()));
+    Response r = json_response(axis_row(ports, *site, *i));
     put_revision(r, *site);
     return r;
 }
 }  // namespace
 
-Handled get_fail_safe(Call&, const AxisPort& axes, const RehearsalPort& player, const SitePort& sites) {
+Handled get_fail_safe(Call&, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites) {
+    const MatrixPorts ports{axes, drives, player, sites};
     json::array causes, rows;
     for (const LossCause cause : loss_causes) {
         const auto [endless, to_a_target] = by_default(cause);
@@ -92,23 +128,23 @@ Handled get_fail_safe(Call&, const AxisPort& axes, const RehearsalPort& player, 
     }
     const auto site = sites.site();
     for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
-        rows.push_back(axis_row(site->site.axes[i], site->axis_ids[i], axes, player.watchdog()));
+        rows.push_back(axis_row(ports, *site, i));
     Response r = json_response(json::object{{"causes", std::move(causes)}, {"axes", std::move(rows)}});
     put_revision(r, *site);
     return r;
 }
 
-Handled get_axis_fail_safe(Call& c, AxisPort& axes, RehearsalPort& player, SitePort& sites) {
-    auto row = row_of({axes, player, sites}, c.names[0]);
+Handled get_axis_fail_safe(Call& c, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites) {
+    auto row = row_of({axes, drives, player, sites}, c.names[0]);
     return row ? std::move(*row) : nothing_named("axis", c.names[0]);
 }
 
-Handled put_axis_fail_safe(Call& c, AxisPort& axes, RehearsalPort& player, SitePort& sites, const StagePort& staging) {
+Handled put_axis_fail_safe(Call& c, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites, const StagePort& staging) {
     json::object wanted;  // null is the default, as GET tells it
     for (const auto& [key, value] : c.body.get_object()) {
         if (!value.is_null()) wanted[key] = value;
     }
-    const MatrixPorts ports{axes, player, sites};
+    const MatrixPorts ports{axes, drives, player, sites};
     return change_site(
         c, sites, staging, false, [ports, wanted = std::move(wanted), name = c.names[0]](const SiteState& before) -> Planned {
             auto edited = patch_entry(to_json(before.site), Collection::axes, name, {{"fail_safe", nullptr}});

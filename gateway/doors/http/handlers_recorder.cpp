@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <boost/json/array.hpp>
-#include <cmath>
 #include <utility>
 
-#include "gateway/axis/cia402.hpp"
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/recorder/axr.hpp"
+#include "gateway/services/recorder/trend_document.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 constexpr std::int64_t most_columns = 5000;
 constexpr std::size_t most_trend_axes = 64;
-constexpr std::string_view trend_points[] = {"position", "velocity", "demand", "following_error", "state"};
 
 std::vector<std::string> comma_list(std::string_view text) {
     std::vector<std::string> out;
@@ -25,82 +23,6 @@ std::vector<std::string> comma_list(std::string_view text) {
         const auto end = std::min(text.find(','), text.size());
         if (end > 0) out.emplace_back(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return out;
-}
-
-struct TrendAxis {
-    std::string name, unit;
-    double scale = 1;
-    TrendStretch stretch;
-};
-
-/// Smallest (or greatest) value of a point in a column, in units; nothing: it is not known.
-std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, bool high) {
-    const TrendRow& r = high ? c.high : c.low;
-    if (point == "position") return static_cast<double>(r.position) / a.scale;
-    if (point == "velocity") return static_cast<double>(r.velocity) / a.scale;
-    if (!c.low.demand_known) return std::nullopt;
-    if (point == "demand") return static_cast<double>(r.demand) / a.scale;
-    return static_cast<double>(high ? c.greatest_error : c.least_error) / a.scale;
-}
-double ms_of(std::int64_t unix_ns) { return static_cast<double>(unix_ns / 1000) / 1000; }
-
-json::value number_or_null(const std::optional<double>& v) { return v && std::isfinite(*v) ? json::value(*v) : json::value(nullptr); }
-
-json::object trend_document(const TrendAxis& a, const std::vector<std::string>& points, const ClockPort& clock) {
-    json::array at;
-    for (const auto& c : a.stretch.columns)
-        at.emplace_back(ms_of(clock.to_unix_ns(c.low.at)));
-    json::object shown;
-    for (const auto& point : points) {
-        if (point == "state") {
-            json::array values;
-            for (const auto& c : a.stretch.columns)
-                values.emplace_back(name_of(power_state_of(c.high.statusword)));
-            shown[point] = json::object{{"values", std::move(values)}};
-            continue;
-        }
-        json::array low, high;
-        for (const auto& c : a.stretch.columns) {
-            low.push_back(number_or_null(value_of(a, c, point, false)));
-            high.push_back(number_or_null(value_of(a, c, point, true)));
-        }
-        if (a.stretch.thinned)
-            shown[point] = json::object{{"low", std::move(low)}, {"high", std::move(high)}};
-        else
-            shown[point] = json::object{{"values", std::move(low)}};
-    }
-    return {{"axis", a.name},
-            {"unit", a.unit},
-            {"rate_hz", std::round(a.stretch.rate_hz * 10) / 10},
-            {"thinned", a.stretch.thinned},
-            {"oldest", a.stretch.oldest ? json::value(ms_of(clock.to_unix_ns(*a.stretch.oldest))) : json::value(nullptr)},
-            {"newest", a.stretch.newest ? json::value(ms_of(clock.to_unix_ns(*a.stretch.newest))) : json::value(nullptr)},
-            {"at", std::move(at)},
-            {"points", std::move(shown)}};
-}
-
-std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points, const ClockPort& clock) {
-    std::string out = "time,axis,unit";
-    for (const auto& p : points)
-        out += p == "state" ? ",state" : fmt::format(",{0}_low,{0}_high", p);
-    out += "\r\n";
-    for (const auto& a : axes) {
-        for (const auto& c : a.stretch.columns) {
-            out += fmt::format("{},{},{}", format_time(clock.to_unix_ns(c.low.at)), csv_cell(a.name), csv_cell(a.unit));
-            for (const auto& p : points) {
-                if (p == "state") {
-                    out += fmt::format(",{}", name_of(power_state_of(c.high.statusword)));
-                    continue;
-                }
-                for (const bool high : {false, true}) {
-                    const auto v = value_of(a, c, p, high);
-                    out += v ? fmt::format(",{}", *v) : ",";
-                }
-            }
-            out += "\r\n";
-        }
     }
     return out;
 }
@@ -126,20 +48,6 @@ const RecordingInfo* recording_in(const std::vector<RecordingInfo>& list, std::s
     return it == list.end() ? nullptr : &*it;
 }
 
-Response refusal_of(const RecordingFault& fault, std::string_view name) {
-    using Kind = RecordingFault::Kind;
-    switch (fault.kind) {
-        case Kind::no_such:
-            return nothing_named("recording", name);
-        case Kind::exists:
-            return problem(409, "conflict", fault.text);
-        case Kind::busy:
-            return problem(503, "busy", fault.text);
-        default:
-            return problem(507, "not_stored", fault.text);
-    }
-}
-
 /// The members of a body that may be there, each a text.
 std::vector<Fault> texts_of(const json::object& body, std::initializer_list<std::pair<std::string_view, std::string*>> into) {
     std::vector<Fault> faults;
@@ -157,6 +65,21 @@ std::vector<Fault> texts_of(const json::object& body, std::initializer_list<std:
 }
 }  // namespace
 
+Response kept_refusal(std::string_view kind, const RecordingFault& fault, std::string_view name) {
+    using Kind = RecordingFault::Kind;
+    switch (fault.kind) {
+        case Kind::no_such:
+            return nothing_named(kind, name);
+        case Kind::exists:
+        case Kind::damaged:
+            return problem(409, "conflict", fault.text);
+        case Kind::busy:
+            return problem(503, "busy", fault.text);
+        default:
+            return problem(507, "not_stored", fault.text);
+    }
+}
+
 Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, const SitePort& sites) {
     const auto site = sites.site();
     std::vector<std::string> names = comma_list(c.target.query.get("axes").value_or(""));
@@ -166,9 +89,9 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
     }
     if (names.size() > most_trend_axes) return bad_query("axes", fmt::format("at most {} axes", most_trend_axes));
     std::vector<std::string> points = comma_list(c.target.query.get("points").value_or(""));
-    if (points.empty()) points.assign(std::begin(trend_points), std::end(trend_points));
+    if (points.empty()) points.assign(trend_points.begin(), trend_points.end());
     for (const auto& p : points) {
-        if (std::ranges::find(trend_points, p) == std::end(trend_points))
+        if (std::ranges::find(trend_points, p) == trend_points.end())
             return bad_query("points", "some of position, velocity, demand, following_error, state");
     }
     std::optional<Response> fault;
@@ -196,12 +119,12 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
         r.headers.set("Content-Type", "text/csv; charset=utf-8");
         r.headers.set("Content-Disposition", "attachment; filename=\"trends.csv\"");
         r.headers.set("Vary", "Accept");
-        r.body = trend_csv(axes, points, clock);
+        r.body = trend_csv(axes, points, offset);
         return r;
     }
     json::array list;
     for (const auto& a : axes)
-        list.push_back(trend_document(a, points, clock));
+        list.push_back(trend_document(a, points, offset));
     Response r = json_response(json::object{{"from", from}, {"to", to}, {"axes", std::move(list)}});
     r.headers.set("Vary", "Accept");
     return r;
@@ -235,7 +158,7 @@ Handled make_recording(Call& c, EventPort& events, RecorderPort& recorder) {
     if (!faults.empty()) return invalid(std::move(faults));
     recorder.freeze(name, why, c.who(),
                     [name, who = c.who(), &events, respond = c.respond](const RecordingFault& fault, const RecordingInfo& info) {
-                        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+                        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("recording", fault, name));
                         Event e;
                         e.kind = "recording";
                         e.text = fmt::format("recording {} was made, {} bytes", name, info.bytes);
@@ -273,6 +196,22 @@ Handled get_recording(Call& c, RecorderPort& recorder) {
     return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
 }
 
+Handled play_back_recording(Call& c, RecorderPort& recorder) {
+    std::optional<Response> fault;
+    const std::int64_t at_ms = query_whole(c, "at", 0, INT64_MAX / 1'000'000, -1, fault);
+    const std::int64_t frames = query_whole(c, "frames", 0, 500, 50, fault);
+    const std::int64_t columns = query_whole(c, "columns", 0, most_columns, 0, fault);
+    if (fault) return *fault;
+    PlaybackWish wish;
+    if (at_ms >= 0) wish.at_unix_ns = at_ms * 1'000'000;
+    wish.frames = static_cast<std::size_t>(frames);
+    wish.columns = static_cast<std::size_t>(columns);
+    recorder.play_back(c.names[0], wish, [name = c.names[0], respond = c.respond](const RecordingFault& wrong, json::object document) {
+        respond(wrong.kind == RecordingFault::Kind::none ? json_response(std::move(document)) : kept_refusal("recording", wrong, name));
+    });
+    return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
+}
+
 Handled rename_recording(Call& c, RecorderPort& recorder) {
     std::string to;
     auto faults = texts_of(c.body.get_object(), {{"name", &to}});
@@ -280,7 +219,7 @@ Handled rename_recording(Call& c, RecorderPort& recorder) {
         faults.push_back({"/name", wrong, "choose another name"});
     if (!faults.empty()) return invalid(std::move(faults));
     recorder.rename_recording(c.names[0], to, [name = c.names[0], to, &recorder, respond = c.respond](const RecordingFault& fault) {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("recording", fault, name));
         const auto list = recorder.recordings();
         const auto* info = recording_in(list, to);
         respond(info ? json_response(recording_document(*info)) : nothing_named("recording", to));
@@ -290,7 +229,7 @@ Handled rename_recording(Call& c, RecorderPort& recorder) {
 
 Handled remove_recording(Call& c, RecorderPort& recorder) {
     recorder.remove_recording(c.names[0], [name = c.names[0], respond = c.respond](const RecordingFault& fault) {
-        if (fault.kind != RecordingFault::Kind::none) return respond(refusal_of(fault, name));
+        if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("recording", fault, name));
         Response r;
         r.status = 204;
         respond(std::move(r));

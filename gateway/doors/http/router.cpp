@@ -108,9 +108,16 @@ constexpr std::array routes{
     Route{"/api/v1/backup/pending", Method::get, take<get_waiting_backup>}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::remove, take<cancel_waiting_backup>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
     Route{"/api/v1/recorder/trends", Method::get, take<get_trends>, Takes::nothing, Gives::own}.asks("axes points from to columns"),
+    Route{"/api/v1/recorder/captures", Method::get, take<list_captures>},
+    Route{"/api/v1/recorder/captures", Method::post, take<arm_capture>, Takes::json}.needs(Role::operating),
+    Route{"/api/v1/recorder/captures/{capture}", Method::get, take<get_capture>, Takes::nothing, Gives::own},
+    Route{"/api/v1/recorder/captures/{capture}", Method::patch, take<rename_capture>, Takes::patch}.needs(Role::operating),
+    Route{"/api/v1/recorder/captures/{capture}", Method::remove, take<remove_capture>, Takes::nothing, Gives::nothing}.needs(
+        Role::operating),
     Route{"/api/v1/recorder/recordings", Method::get, take<list_recordings>},
     Route{"/api/v1/recorder/recordings", Method::post, take<make_recording>, Takes::json}.needs(Role::operating),
     Route{"/api/v1/recorder/recordings/{recording}", Method::get, take<get_recording>, Takes::nothing, Gives::own},
+    Route{"/api/v1/recorder/recordings/{recording}/playback", Method::get, take<play_back_recording>}.asks("at frames columns"),
     Route{"/api/v1/recorder/recordings/{recording}", Method::patch, take<rename_recording>, Takes::patch}.needs(Role::operating),
     Route{"/api/v1/recorder/recordings/{recording}", Method::remove, take<remove_recording>, Takes::nothing, Gives::nothing}.needs(
         Role::operating),

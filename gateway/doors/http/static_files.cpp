@@ -61,7 +61,7 @@ bool asks_for_html(std::string_view field) {
     return false;
 }
 bool is_address_of_page(const Target& target) {
-    constexpr std::array<std::string_view, 5> others{"api", "assets", "healthz", "readyz", "metrics"};
+    constexpr std::array<std::string_view, 6> others{"api", "assets", "healthz", "help", "metrics", "readyz"};
     return std::ranges::find(others, std::string_view(target.segments.front())) == others.end();
 }
 }  // namespace
@@ -90,6 +90,7 @@ std::string_view media_for(std::string_view path) noexcept {
 Response static_file(const AssetLookup& asset, const Target& target, const Headers& headers) {
     if (is_hidden_or_upward(target)) return problem(404, "not_found", "there is no such file");
     std::string path = target.path;
+    if (path == "/help") path += '/';  // the handbook's contents; the links in it are whole paths
     if (path.ends_with('/')) path += "index.html";
     std::string_view bytes = asset ? asset("web/dist" + path) : std::string_view();
     // The page has addresses of its own, with names in them ("/axes/portal.x"): whoever opens one in a browser gets the page.

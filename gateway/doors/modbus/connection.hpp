@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "gateway/doors/modbus/poller.hpp"
 #include "gateway/doors/modbus/session.hpp"
+#include "gateway/lines/poller.hpp"
 
 namespace axisgate::modbus {
 

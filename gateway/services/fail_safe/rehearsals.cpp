@@ -22,6 +22,13 @@ double rounded(double v) { return std::round(v * 1e6) / 1e6; }
 
 std::string in_words(const RehearsalCell& c) {
     if (!c.fault.empty()) return "no figures: " + c.fault;
+    if (c.cause == LossCause::none) {
+        if (!c.reaction_ms) return fmt::format("the drive goes on by itself: watched for {:.1f} s", c.watched_ms / 1000);
+        return c.standstill_ms
+                   ? fmt::format("the drive stops by itself after {:.1f} ms, at rest after {:.1f} ms", *c.reaction_ms, *c.standstill_ms)
+                   : fmt::format("the drive slows down by itself after {:.1f} ms, and it still moved {:.1f} s later", *c.reaction_ms,
+                                 c.watched_ms / 1000);
+    }
     if (!c.noticed_ms && !c.standstill_ms) return fmt::format("it goes on: watched for {:.1f} s", c.watched_ms / 1000);
     if (!c.noticed_ms) return fmt::format("nothing is done: the motion to its target ended after {:.1f} ms", *c.standstill_ms);
     if (!c.standstill_ms)
@@ -32,7 +39,7 @@ std::string in_words(const RehearsalCell& c) {
 
 json::object to_json(const RehearsalCell& c) {
     return {{"axis", c.axis},
-            {"cause", name_of(c.cause)},
+            {"cause", c.cause == LossCause::none ? "gateway_gone" : name_of(c.cause)},
             {"chosen", c.chosen ? json::value(name_of(*c.chosen)) : json::value(nullptr)},
             {"taken", name_of(c.taken)},
             {"motion", c.motion},
@@ -72,6 +79,7 @@ std::string Rehearsals::start(std::vector<std::string> axes, const Origin& origi
                 run.left.emplace_back(name, cause);
             }
         }
+        run.left.emplace_back(name, LossCause::none);  // what the drive does when the gateway is gone without a word
     }
     run.total = run.left.size();
     run.who = origin.who ? *origin.who : "";

@@ -37,7 +37,8 @@ public:
           player_(ports.get<RehearsalPort>()),
           sites_(ports.get<SitePort>()) {}
 
-    /// Every cause of these axes; of all where none is named. Empty: it has begun; else why not.
+    /// Every cause of these axes, and what their drives do when the gateway is gone without a word; of all where none is named. Empty: it
+    /// has begun; else why not.
     [[nodiscard]] std::string start(std::vector<std::string> axes, const Origin& origin);
     /// {"state": "none" | "running" | "done", "done", "total", "report"}: the report is the last one that is complete.
     [[nodiscard]] boost::json::object state() const;

@@ -22,7 +22,10 @@ struct FleetAxis {
          warning = false;
     std::uint16_t statusword = 0, error_code = 0, fail_safe_cause = 0;
     std::int16_t mode = 0;
-    std::int64_t position = 0, velocity = 0;
+    std::int64_t position = 0, position_demand = 0, velocity = 0;
+    std::string demand_source;    ///< as name_of(DemandSource); empty: an older program, that does not say
+    std::uint64_t sequence = 0;   ///< counts up with each state of its gateway; 0: an older program
+    std::uint64_t answered = 0;   ///< states up to this one were told before the newest answer to a command from here
     std::int64_t at_unix_ns = 0;  ///< on its gateway's clock; 0: its drive was never seen
     std::int64_t age_ms = -1;     ///< since then, the clocks' difference taken out, delivery included; -1: its drive was never seen
 };
@@ -48,6 +51,7 @@ struct FleetOrder {
     boost::json::object body;
     bool until_done = false;
     Origin origin;
+    Duration wait{};  ///< no longer is its result waited for, nor the command sent again; 0: as long as a gateway remembers commands
 };
 
 class FleetPort {

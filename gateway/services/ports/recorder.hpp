@@ -3,12 +3,14 @@
 // frozen by bytes of memory, recordings by bytes of disk; what is full is said, and stops nothing else.
 #pragma once
 
+#include <boost/json/object.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "gateway/services/recorder/playback.hpp"
 #include "gateway/services/recorder/trends.hpp"
 
 namespace axisgate {
@@ -35,7 +37,7 @@ struct RecorderState {
 };
 
 struct RecordingFault {
-    enum class Kind : std::uint8_t { none, no_such, exists, no_room, busy } kind = Kind::none;
+    enum class Kind : std::uint8_t { none, no_such, exists, no_room, busy, damaged } kind = Kind::none;
     std::string text;
 };
 
@@ -48,6 +50,8 @@ public:
     /// The stretch up to now becomes a file.
     virtual void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) = 0;
     virtual void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) = 0;
+    /// What it shows of an instant, as a document (playback.hpp).
+    virtual void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) = 0;
     virtual void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) = 0;
     virtual void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) = 0;
 };

@@ -117,7 +117,8 @@ Axr read_axr(std::span<const char> bytes) {
         out.sections.push_back(*s);
         at += section_head + s->data.size();
     }
-    if (!out.has(axr_meta) || !out.has(axr_records)) return wrong("the recording lacks a section that each one has");
+    if (!out.has(axr_meta) || (!out.has(axr_records) && !out.has(axr_capture) && !out.has(axr_trends)))
+        return wrong("the recording lacks a section that each one has");
     return out;
 }
 

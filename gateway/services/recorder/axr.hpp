@@ -23,6 +23,8 @@ inline constexpr std::string_view axr_meta = "META",  ///< JSON: name, when, who
     axr_site = "SITE",                                ///< JSON: the site in force when it was frozen
     axr_inputs = "INPT",                              ///< every input since the gateway's start (FlightLog); missing: not replayable
     axr_records = "RECS",                             ///< the last stretch, inputs and outcomes (FlightLog)
+    axr_capture = "CAPT",                             ///< of a capture: its columns as JSON, in the place of RECS
+    axr_trends = "TRND",                              ///< of kept trends: for each axis its name and its rows, in the place of RECS
     axr_frames = "PCAP",                              ///< its frames as pcapng
     axr_end = "END ";                                 ///< SHA-256 over all that comes before it
 

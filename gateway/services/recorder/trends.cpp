@@ -50,6 +50,85 @@ void widen(TrendColumn& c, const TrendRow& r) {
 }
 }  // namespace
 
+namespace {
+void put_row(std::string& out, const TrendRow& was, const TrendRow& row) {
+    const auto mask = static_cast<std::uint8_t>(
+        (row.position != was.position ? position_bit : 0) | (row.demand != was.demand ? demand_bit : 0) |
+        (row.velocity != was.velocity ? velocity_bit : 0) | (row.demand_known != was.demand_known ? known_bit : 0) |
+        (row.statusword != was.statusword ? statusword_bit : 0) | (row.flags != was.flags ? flags_bit : 0));
+    out.push_back(static_cast<char>(mask));
+    put(out, ns_of(row.at) - ns_of(was.at));
+    if (mask & position_bit) put(out, minus(row.position, was.position));
+    if (mask & demand_bit) put(out, minus(row.demand, was.demand));
+    if (mask & velocity_bit) put(out, minus(row.velocity, was.velocity));
+    if (mask & statusword_bit) put(out, row.statusword);
+    if (mask & flags_bit) put(out, row.flags);
+}
+
+/// Reads like take(), and never beyond the end.
+bool take_checked(std::span<const char>& in, std::int64_t& v) {
+    std::uint64_t raw = 0;
+    for (unsigned shift = 0; shift < 64 && !in.empty(); shift += 7) {
+        const auto byte = static_cast<std::uint8_t>(in.front());
+        in = in.subspan(1);
+        raw |= static_cast<std::uint64_t>(byte & 0x7Fu) << shift;
+        if ((byte & 0x80u) != 0) continue;
+        v = static_cast<std::int64_t>(raw >> 1) ^ -static_cast<std::int64_t>(raw & 1);
+        return true;
+    }
+    return false;
+}
+}  // namespace
+
+std::string pack_rows(std::span<const TrendRow> rows) {
+    std::string out;
+    TrendRow was;
+    for (const TrendRow& r : rows) {
+        put_row(out, was, r);
+        was = r;
+    }
+    return out;
+}
+
+std::optional<std::vector<TrendRow>> unpack_rows(std::span<const char> in) {
+    std::vector<TrendRow> rows;
+    TrendRow r;
+    while (!in.empty()) {
+        const auto mask = static_cast<std::uint8_t>(in.front());
+        in = in.subspan(1);
+        std::int64_t v = 0;
+        if (mask > 63 || !take_checked(in, v)) return std::nullopt;
+        r.at = at_ns(plus(ns_of(r.at), v));
+        for (const auto& [bit, member] :
+             {std::pair{position_bit, &TrendRow::position}, {demand_bit, &TrendRow::demand}, {velocity_bit, &TrendRow::velocity}}) {
+            if (!(mask & bit)) continue;
+            if (!take_checked(in, v)) return std::nullopt;
+            r.*member = plus(r.*member, v);
+        }
+        if (mask & known_bit) r.demand_known = !r.demand_known;
+        for (const auto& [bit, member] : {std::pair{statusword_bit, &TrendRow::statusword}, {flags_bit, &TrendRow::flags}}) {
+            if (!(mask & bit)) continue;
+            if (!take_checked(in, v) || v < 0 || v > 0xFFFF) return std::nullopt;
+            r.*member = static_cast<std::uint16_t>(v);
+        }
+        if (!rows.empty() && r.at < rows.back().at) return std::nullopt;
+        rows.push_back(r);
+    }
+    return rows;
+}
+
+TrendRow trend_row(const PictureRecord& p, Instant at) noexcept {
+    TrendRow row;
+    row.at = at;
+    row.position = p.position;
+    row.demand_known = p.demand_source == DemandSource::drive || p.demand_source == DemandSource::computed;
+    row.demand = row.demand_known ? p.demand : p.position;
+    row.velocity = p.velocity;
+    row.statusword = p.statusword;
+    row.flags = p.flags;
+    return row;
+}
+
 template <class F>
 void Trends::for_each(const Block& block, F&& f) {
     TrendRow r = block.head;
@@ -80,17 +159,7 @@ void Trends::append(Axis& a, const TrendRow& row) {
     }
     Block& b = a.blocks.back();
     const TrendRow was = std::exchange(b.tail, row);
-    const auto mask = static_cast<std::uint8_t>(
-        (row.position != was.position ? position_bit : 0) | (row.demand != was.demand ? demand_bit : 0) |
-        (row.velocity != was.velocity ? velocity_bit : 0) | (row.demand_known != was.demand_known ? known_bit : 0) |
-        (row.statusword != was.statusword ? statusword_bit : 0) | (row.flags != was.flags ? flags_bit : 0));
-    b.rows.push_back(static_cast<char>(mask));
-    put(b.rows, ns_of(row.at) - ns_of(was.at));
-    if (mask & position_bit) put(b.rows, minus(row.position, was.position));
-    if (mask & demand_bit) put(b.rows, minus(row.demand, was.demand));
-    if (mask & velocity_bit) put(b.rows, minus(row.velocity, was.velocity));
-    if (mask & statusword_bit) put(b.rows, row.statusword);
-    if (mask & flags_bit) put(b.rows, row.flags);
+    put_row(b.rows, was, row);
 }
 
 void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
@@ -107,14 +176,7 @@ void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
         a.counted_from = at;
     }
     a.newest = std::max(a.newest, at);
-    TrendRow row;
-    row.at = a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at);
-    row.position = p.position;
-    row.demand_known = p.demand_source == DemandSource::drive || p.demand_source == DemandSource::computed;
-    row.demand = row.demand_known ? p.demand : p.position;
-    row.velocity = p.velocity;
-    row.statusword = p.statusword;
-    row.flags = p.flags;
+    const TrendRow row = trend_row(p, a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at));
     if (!a.blocks.empty() && a.blocks.back().tail.same_values(row)) return;
     append(a, row);
     shorten(a, at);
@@ -127,6 +189,15 @@ void Trends::shorten(Axis& a, Instant now) {
         bytes_ -= a.blocks.front().size();
         a.blocks.pop_front();
     }
+}
+
+void Trends::restore(AxisId id, std::span<const TrendRow> rows) {
+    if (axes_.contains(id) || rows.empty()) return;
+    Axis& a = axes_[id];
+    for (const TrendRow& r : rows)
+        append(a, r);
+    a.newest = rows.back().at;
+    if (bytes_ > bound_) make_room();
 }
 
 void Trends::make_room() {

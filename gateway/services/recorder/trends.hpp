@@ -8,6 +8,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ struct TrendRow {
     }
 };
 
+/// Rows as they lie in memory and on the disk, each as its difference from the one before; and back, of bytes of any origin.
+[[nodiscard]] std::string pack_rows(std::span<const TrendRow> rows);
+[[nodiscard]] std::optional<std::vector<TrendRow>> unpack_rows(std::span<const char> bytes);
+[[nodiscard]] TrendRow trend_row(const PictureRecord& picture, Instant at) noexcept;
+
 /// A column of a thinned stretch: from `low.at` on. Each member of `low` and `high` is the smallest and greatest of its own; state and
 /// flags are the newest ones.
 struct TrendColumn {
@@ -51,6 +57,9 @@ public:
 
     Trends(std::size_t bound, Duration keep) : bound_(bound), keep_(keep) {}
     void add(AxisId axis, const PictureRecord& picture, Instant at);
+    /// What was known of an axis of which nothing has been told here yet; in the order of time, before all that comes.
+    void restore(AxisId axis, std::span<const TrendRow> rows);
+    [[nodiscard]] bool knows(AxisId axis) const noexcept { return axes_.contains(axis); }
     /// Rows from `from` to `to`; the one that holds at `from` comes first, as if it were told then. More than `columns` (0: no bound) are
     /// thinned to so many of equal length.
     [[nodiscard]] TrendStretch read(AxisId axis, Instant from, Instant to, std::size_t columns) const;

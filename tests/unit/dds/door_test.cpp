@@ -250,6 +250,55 @@ TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
     EXPECT_EQ(gateway.lost[0].second, LossCause::set_points_silent);
 }
 
+TEST_F(DdsDoorTest, ACommanderIsLostWhenTheLastWriterThatItCommandedByIsGone) {
+    Bus second([] {});
+    ASSERT_EQ(second.open({79, "plant", "lo"}, {Topic::axis_command, Topic::parameter_write}, {}), "");
+    auto reset = command("w1", "slide", "reset_fault");
+    ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
+    ASSERT_TRUE(until([&] { return gateway.submitted.size() == 1; }));
+    ASSERT_TRUE(until([&] {  // the same client on another axis, by another writer
+        (void)second.write(reset);
+        return gateway.submitted.size() == 2;
+    }));
+    peer.close();
+    const Instant later = now + std::chrono::milliseconds(300);
+    ASSERT_TRUE(until([&] { return now >= later; }));
+    EXPECT_TRUE(gateway.lost.empty()) << "it is still there";
+    second.close();
+    ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));
+    ASSERT_EQ(gateway.lost.size(), 1u);
+    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{Door::dds, "yard anna"}));
+    EXPECT_EQ(gateway.lost[0].second, LossCause::dds_deadline);
+}
+
+TEST_F(DdsDoorTest, ACommanderThatAnotherHasReplacedIsNotMissedNorOneThatWroteParametersAndStays) {
+    Bus second([] {});
+    ASSERT_EQ(second.open({79, "plant", "lo"}, {Topic::axis_command}, {}), "");
+    ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
+    ASSERT_TRUE(until([&] { return gateway.submitted.size() == 1; }));
+    auto other = command("o1", "feeder", "halt");
+    put_text(other.source, "panel");
+    ASSERT_TRUE(until([&] {
+        (void)second.write(other);
+        return gateway.submitted.size() == 2;
+    }));
+    peer.close();
+    second.close();
+    ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));
+    const Instant later = now + std::chrono::milliseconds(300);
+    ASSERT_TRUE(until([&] { return now >= later; }));
+    ASSERT_EQ(gateway.lost.size(), 1u) << "the one that commanded last";
+    EXPECT_EQ(gateway.lost[0].first.name, "panel");
+}
+
+TEST_F(DdsDoorTest, WhoWritesAndIsGoneBeforeItIsReadIsLostAfterItsCommand) {
+    ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
+    peer.close();
+    ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));
+    ASSERT_EQ(gateway.submitted.size(), 1u);
+    EXPECT_EQ(gateway.lost[0].second, LossCause::dds_deadline);
+}
+
 /// Another gateway of the domain, with a site and axes of its own, on the same thread.
 class DdsFleetTest : public DdsDoorTest {
 protected:

@@ -30,6 +30,7 @@ class FakeGateway final : public FakeClock,
                           public FakeRehearsal,
                           public FakeFleet,
                           public FakeRecorder,
+                          public FakeCaptures,
                           public FakeModbus,
                           public FakeBackup {
 public:

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "gateway/services/ports/captures.hpp"
 #include "gateway/services/ports/fleet.hpp"
 #include "gateway/services/ports/recorder.hpp"
 #include "gateway/services/ports/rehearsal.hpp"
@@ -66,6 +67,11 @@ public:
         then({}, info);
     }
     void load_recording(const std::string&, std::function<void(std::optional<std::string>)> then) override { then("the file"); }
+    void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override {
+        played = wish;
+        then(next_fault.kind == RecordingFault::Kind::none ? RecordingFault{} : std::exchange(next_fault, {}), {{"name", name}});
+    }
+    PlaybackWish played;
     void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
         for (auto& r : recorded)
             if (r.name == name) return r.name = to, then({});
@@ -73,6 +79,44 @@ public:
     }
     void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override {
         const bool gone = std::erase_if(recorded, [&](const auto& r) { return r.name == name; }) > 0;
+        then(gone ? RecordingFault{} : RecordingFault{RecordingFault::Kind::no_such, ""});
+    }
+};
+
+/// Captures that the test feeds; they are kept in memory.
+class FakeCaptures : public CapturePort {
+public:
+    std::vector<std::pair<CaptureOrder, Capture>> running;
+    RecordingFault capture_fault;  ///< of the next wish
+    CaptureRoom capture_room() const override { return {1000, 2000, ""}; }
+    std::vector<CaptureInfo> captures() override {
+        std::vector<CaptureInfo> out;
+        for (const auto& [order, capture] : running) {
+            CaptureInfo i;
+            i.name = order.name;
+            i.summary = capture_summary(order, capture, 0);
+            out.push_back(std::move(i));
+        }
+        return out;
+    }
+    void arm(CaptureOrder order, std::function<void(RecordingFault, CaptureInfo)> then) override {
+        if (capture_fault.kind != RecordingFault::Kind::none) return then(std::exchange(capture_fault, {}), {});
+        Capture capture(order.wish, Instant(std::chrono::seconds(1)));
+        running.emplace_back(std::move(order), std::move(capture));
+        then({}, captures().back());
+    }
+    void load_capture(const std::string& name, std::function<void(RecordingFault, boost::json::array)> then) override {
+        for (const auto& [order, capture] : running)
+            if (order.name == name) return then(std::exchange(capture_fault, {}), capture_columns(order, capture));
+        then({RecordingFault::Kind::no_such, ""}, {});
+    }
+    void rename_capture(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
+        for (auto& r : running)
+            if (r.first.name == name) return r.first.name = to, then({});
+        then({RecordingFault::Kind::no_such, ""});
+    }
+    void remove_capture(const std::string& name, std::function<void(RecordingFault)> then) override {
+        const bool gone = std::erase_if(running, [&](const auto& r) { return r.first.name == name; }) > 0;
         then(gone ? RecordingFault{} : RecordingFault{RecordingFault::Kind::no_such, ""});
     }
 };

@@ -20,6 +20,8 @@ Harness::Harness()
             {"web/dist/assets/main.js", "let a = 1;"},
             {"web/dist/assets/big.js", "let big = 1;"},
             {"web/dist/assets/big.js.gz", "PACKED"},
+            {"web/dist/help/index.html", "<html>contents</html>"},
+            {"web/dist/help/fleet.html", "<html>fleet</html>"},
             {"web/dist/empty.txt", ""},
             {"web/secret.txt", "not for the page"},
             {"schema/openapi.yaml", "openapi: 3.0.3\n"}},

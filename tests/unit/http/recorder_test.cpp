@@ -80,5 +80,68 @@ TEST_F(RecorderOverHttp, ARecordingIsMadeHandedOutRenamedAndDeleted) {
     EXPECT_NE(full.text.find("the disk is full"), std::string::npos);
 }
 
+TEST_F(RecorderOverHttp, ACaptureIsArmedInUnitsAndHandedOutAsBoth) {
+    const std::string path = "/api/v1/recorder/captures";
+    const auto armed = call("POST", path, R"({"name":"before","axes":["feeder"],"rate_hz":500,"before_ms":50,"after_ms":100,
+        "trigger":{"kind":"level","point":"position","level":1.5,"edge":"falling"}})");
+    ASSERT_EQ(armed.status, 201u) << armed.text;
+    EXPECT_EQ(armed.at("state"), "armed");
+    const auto& order = gateway.running.at(0).first;
+    EXPECT_EQ(order.wish.trigger.level, 4800);
+    EXPECT_FALSE(order.wish.trigger.rising);
+    EXPECT_EQ(order.wish.period, std::chrono::milliseconds(2));
+    EXPECT_EQ(order.line, "can0");
+    auto& capture = gateway.running.at(0).second;
+    for (int i = 0; i < 10; ++i) {
+        PictureRecord p;
+        p.current = true;
+        p.position = 3200 * (5 - i);
+        capture.on_picture(gateway.axis("feeder"), p, Instant(std::chrono::seconds(1) + i * std::chrono::milliseconds(2)));
+    }
+    const auto whole = call("GET", path + "/before");
+    EXPECT_EQ(whole.at("state"), "triggered");
+    EXPECT_EQ(whole.object().at("columns").as_array().at(0).as_object().at("position").as_array().at(0).as_double(), 5);
+    const auto csv = call("GET", path + "/before", "", {{"Accept", "text/csv"}});
+    EXPECT_TRUE(csv.text.starts_with("seconds,axis,unit,position,")) << csv.text;
+    EXPECT_EQ(call("PATCH", path + "/before", R"({"name":"tuned"})").at("name"), "tuned");
+    EXPECT_EQ(call("GET", path).object().at("captures").as_array().size(), 1u);
+    EXPECT_EQ(call("GET", path + "/before").status, 404u);
+    EXPECT_EQ(call("DELETE", path + "/tuned").status, 204u);
+    EXPECT_EQ(call("DELETE", path + "/tuned").status, 404u);
+}
+
+TEST_F(RecorderOverHttp, WishesForCapturesThatAreNoneAreNamed) {
+    const std::string path = "/api/v1/recorder/captures";
+    for (const auto& [body, place] : std::vector<std::pair<std::string, std::string>>{
+             {R"({"axes":["feeder"]})", "/name"},
+             {R"({"name":"a/b","axes":["feeder"]})", "/name"},
+             {R"({"name":"a"})", "/axes"},
+             {R"({"name":"a","axes":[]})", "/axes"},
+             {R"({"name":"a","axes":["nobody"]})", "/axes/0"},
+             {R"({"name":"a","axes":["feeder","feeder"]})", "/axes/1"},
+             {R"({"name":"a","axes":["feeder"],"rate_hz":1001})", "/rate_hz"},
+             {R"({"name":"a","axes":["feeder"],"before_ms":70000,"after_ms":70000})", "/after_ms"},
+             {R"({"name":"a","axes":["feeder","slide"],"after_ms":110000})", "/after_ms"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"moon"}})", "/trigger/kind"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"level"}})", "/trigger/level"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"level","level":1e300}})", "/trigger/level"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"level","level":1,"point":"torque"}})", "/trigger/point"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"state","state":"sad"}})", "/trigger/state"},
+             {R"({"name":"a","axes":["feeder"],"trigger":{"kind":"command","axis":"slide"}})", "/trigger/axis"},
+             {R"({"name":"a","axes":["feeder"],"trigger":7})", "/trigger"},
+             {R"({"name":"a","axes":["feeder"],"colour":"red"})", "/colour"}}) {
+        const auto a = call("POST", path, body);
+        EXPECT_EQ(a.status, 422u) << body << a.text;
+        EXPECT_NE(a.text.find("\"" + place + "\""), std::string::npos) << body << a.text;
+    }
+    EXPECT_EQ(gateway.running.size(), 0u);
+    gateway.capture_fault = {RecordingFault::Kind::busy, "another runs"};
+    EXPECT_EQ(call("POST", path, R"({"name":"a","axes":["feeder"]})").status, 503u);
+    EXPECT_EQ(call("POST", path, R"({"name":"a","axes":["feeder"]})").status, 201u);
+    gateway.capture_fault = {RecordingFault::Kind::damaged, "the recording was altered"};
+    EXPECT_EQ(call("GET", path + "/a").status, 409u);
+    EXPECT_EQ(call("GET", path + "/a", "", {{"Accept", "image/png"}}).status, 406u);
+}
+
 }  // namespace
 }  // namespace axisgate::http::test

@@ -299,6 +299,21 @@ TEST_F(HttpTest, FilesGoPackedToWhoTakesThem) {
     EXPECT_EQ(small.headers.count("Vary"), 0u);
 }
 
+TEST_F(HttpTest, TheHandbookIsServedAndWhatItHasNotIsNotThePage) {
+    const std::vector<std::pair<std::string, std::string>> browser{{"Accept", "text/html,*/*;q=0.8"}};
+    for (const auto* path : {"/help", "/help/", "/help/index.html"})
+        EXPECT_EQ(call("GET", path, "", browser).text, "<html>contents</html>") << path;
+    const auto chapter = call("GET", "/help/fleet.html");
+    EXPECT_EQ(chapter.text, "<html>fleet</html>");
+    EXPECT_EQ(chapter.headers.get("Content-Type"), "text/html; charset=utf-8");
+    EXPECT_NE(chapter.headers.get("Content-Security-Policy").find("default-src 'self'"), std::string::npos);
+    for (const auto* path : {"/help/nothing.html", "/help/fleet", "/help/../secret.txt", "/help/%2e%2e/secret.txt"})
+        EXPECT_NE(call("GET", path, "", browser).status, 200u) << path;
+    EXPECT_EQ(call("GET", "/help/nothing.html", "", browser).status, 404u);
+    EXPECT_EQ(call("GET", "/helpers", "", browser).text, "<html>page</html>") << "an address of the page";
+    EXPECT_EQ(call("POST", "/help/", "{}").status, call("POST", "/index.html", "{}").status);
+}
+
 TEST_F(HttpTest, StaticFiles) {
     const auto page = call("GET", "/");
     EXPECT_EQ(page.status, 200u);

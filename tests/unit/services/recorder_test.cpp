@@ -2,6 +2,8 @@
 // Out: rows and columns as they were told; one sentence for what is not to be trusted.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/trends.hpp"
 
@@ -107,6 +109,50 @@ TEST(Trends, NothingIsMadeUp) {
     ASSERT_EQ(r.columns.size(), 1u);
     EXPECT_FALSE(r.columns[0].low.demand_known);
     EXPECT_TRUE(t.read(one, Instant(3s), Instant(1s), 10).columns.empty());
+}
+
+TEST(Trends, RowsComeBackFromTheDiskAsTheyWere) {
+    std::vector<TrendRow> rows;
+    for (int i = 0; i < 500; ++i) {
+        PictureRecord p = at_position(i * i * 1000003LL - 7, i % 5 - 2);
+        p.flags = static_cast<std::uint16_t>(i * 131);
+        p.statusword = static_cast<std::uint16_t>(65535 - i);
+        if (i % 3 == 0) p.demand_source = DemandSource::none;
+        rows.push_back(trend_row(p, Instant(i * 10ms - 3s)));
+    }
+    const std::string bytes = pack_rows(rows);
+    const auto back = unpack_rows(bytes);
+    ASSERT_TRUE(back);
+    ASSERT_EQ(back->size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        ASSERT_EQ((*back)[i].at, rows[i].at);
+        ASSERT_TRUE((*back)[i].same_values(rows[i]));
+    }
+    // Bytes of any origin: nothing, or rows in the order of time; never beyond the end.
+    for (std::size_t n = 0; n < bytes.size(); n += 7)
+        (void)unpack_rows(std::span(bytes).first(n));
+    for (std::size_t n = 0; n < 200; ++n) {
+        std::string other = bytes.substr(0, 300);
+        other[n] = static_cast<char>(other[n] ^ (1 << (n % 8)));
+        if (const auto r = unpack_rows(other)) {
+            EXPECT_TRUE(std::ranges::is_sorted(*r, {}, &TrendRow::at)) << n;
+        }
+    }
+    EXPECT_FALSE(unpack_rows(std::string(3, '\xFF')));
+}
+
+TEST(Trends, WhatWasKnownBeforeComesBeforeWhatIsTold) {
+    Trends t(1 << 20, 10min);
+    const std::vector<TrendRow> before{trend_row(at_position(5), Instant(-60s)), trend_row(at_position(9), Instant(-50s))};
+    t.restore(one, before);
+    t.add(one, at_position(20), Instant(2s));
+    t.restore(one, before);  // it is known: nothing happens
+    t.add(two, at_position(1), Instant(2s));
+    const auto r = t.read(one, Instant(-55s), Instant(10s), 0);
+    ASSERT_EQ(r.columns.size(), 3u);
+    EXPECT_EQ(r.columns[0].low.position, 5);
+    EXPECT_EQ(r.columns[1].low.position, 9);
+    EXPECT_EQ(r.columns[2].low.position, 20);
 }
 
 std::string recording() {

@@ -1364,6 +1364,49 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/recorder/captures": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Fast captures, those that run and those that are kept */
+        get: operations["listCaptures"];
+        put?: never;
+        /**
+         * Arms a fast capture
+         * @description Until it is over the axes are asked as often as is wished and their line has room for; the line's other drives are asked as often as
+         *     before. Each word of a drive is a row. One capture of a line at a time, four in all. It is kept as soon as it is done.
+         */
+        post: operations["armCapture"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/recorder/captures/{capture}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                capture: components["parameters"]["capture"];
+            };
+            cookie?: never;
+        };
+        /** A capture with its rows; of one that runs, what there is by now */
+        get: operations["getCapture"];
+        put?: never;
+        post?: never;
+        /** Cancels a capture that runs, or deletes one that is kept */
+        delete: operations["removeCapture"];
+        options?: never;
+        head?: never;
+        /** Gives a capture another name */
+        patch: operations["renameCapture"];
+        trace?: never;
+    };
     "/api/v1/recorder/recordings": {
         parameters: {
             query?: never;
@@ -1405,6 +1448,29 @@ export interface paths {
         head?: never;
         /** Gives a recording another name */
         patch: operations["renameRecording"];
+        trace?: never;
+    };
+    "/api/v1/recorder/recordings/{recording}/playback": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        /**
+         * What a recording shows of one instant
+         * @description Axes as they were, their registers as unit 1 had them (the high word first), the last frames with their reading, and what had happened
+         *     lately. With `columns` also the curves of the whole stretch.
+         */
+        get: operations["playBackRecording"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/api/v1/fleet": {
@@ -2395,7 +2461,7 @@ export interface components {
         };
         LineFields: {
             name?: components["schemas"]["Name"];
-            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, twin */
+            /** @description can:can0, serial:/dev/ttyUSB0?baud=9600&format=7N1&rs485=1, tcp:HOST:PORT, tcp-listen:HOST:PORT, udp:HOST:PORT, udp-listen:HOST:PORT, pty:PATH, pty:PATH?baud=9600&format=7N1, dds (axes of other gateways), twin */
             uri?: string;
             /** @description of the drives that name none; may be left out on a CAN line */
             family?: string;
@@ -2600,6 +2666,7 @@ export interface components {
             enip_idle?: components["schemas"]["FailSafeAction"];
             line_lost?: components["schemas"]["FailSafeAction"];
             gateway_ends?: components["schemas"]["FailSafeAction"];
+            dds_deadline?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
@@ -2621,6 +2688,7 @@ export interface components {
             enip_idle?: components["schemas"]["FailSafeWish"];
             line_lost?: components["schemas"]["FailSafeWish"];
             gateway_ends?: components["schemas"]["FailSafeWish"];
+            dds_deadline?: components["schemas"]["FailSafeWish"];
             watchdog_ms?: number | null;
         };
         FailSafeRow: {
@@ -2630,11 +2698,31 @@ export interface components {
             watchdog_ms_in_force: number;
             /** @description why the gateway stopped the axis without a command, until the next command to it */
             last_cause: string | null;
+            drive_watchdog: components["schemas"]["DriveWatchdog"];
+        };
+        /** @description what the drive of the axis does by itself when it does not hear the gateway any more */
+        DriveWatchdog: {
+            /** @description drives of its family have one */
+            available: boolean;
+            /**
+             * @description armed: programmed, and acknowledged by the drive; off: by the site; refused: this drive does not take it; null: it has none, or has not been set up yet
+             * @enum {string|null}
+             */
+            state: "armed" | "off" | "refused" | null;
+            /** @description of silence, after which it acts; null: it is not armed */
+            time_ms: number | null;
+            /**
+             * @description null: it is not armed
+             * @enum {string|null}
+             */
+            action: "quick_stop" | "disable" | "fault" | null;
+            /** @description by what, or why there is none */
+            description: string;
         };
         FailSafeMatrix: {
             causes: {
                 /** @enum {string} */
-                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline";
                 /** @description as register 22 of the axis has it */
                 number: number;
                 description: string;
@@ -2646,8 +2734,11 @@ export interface components {
         /** @description times in ms from the loss; for silence, a lease and a lost drive from the last that was heard */
         FailSafeCell: {
             axis: string;
-            /** @enum {string} */
-            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends";
+            /**
+             * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything
+             * @enum {string}
+             */
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "gateway_gone";
             /** @description what the site names; null: the default */
             chosen: string | null;
             taken: components["schemas"]["FailSafeAction"];
@@ -2752,7 +2843,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
@@ -3232,6 +3323,99 @@ export interface components {
         RecordingChange: {
             name: components["schemas"]["RecordingName"];
         };
+        /** @description null - at once */
+        CaptureTrigger: {
+            /**
+             * @description level - the point crosses it; state - the flag comes (rising) or goes; command - one that moves is given to the axis
+             * @enum {string}
+             */
+            kind: "at_once" | "level" | "state" | "command";
+            /** @description one of the axes; left out - the first */
+            axis?: string;
+            /**
+             * @default position
+             * @enum {string}
+             */
+            point?: "position" | "velocity" | "demand" | "following_error";
+            /** @description in units of the axis */
+            level?: number;
+            /** @enum {string} */
+            state?: "moving" | "target_reached" | "fault" | "warning" | "referenced" | "online" | "fail_safe";
+            /**
+             * @default rising
+             * @enum {string}
+             */
+            edge?: "rising" | "falling";
+        } | null;
+        CaptureWish: {
+            name: components["schemas"]["RecordingName"];
+            /** @description of one line */
+            axes: string[];
+            /**
+             * @description wished; the line says what there is
+             * @default 1000
+             */
+            rate_hz?: number;
+            /** @default 200 */
+            before_ms?: number;
+            /**
+             * @description 120 s together with before_ms, and 120,000 rows of all axes, at most
+             * @default 1000
+             */
+            after_ms?: number;
+            /**
+             * @description for the trigger; then it is given up
+             * @default 60000
+             */
+            wait_ms?: number;
+            trigger?: components["schemas"]["CaptureTrigger"];
+        };
+        Capture: {
+            name: components["schemas"]["RecordingName"];
+            /** @enum {string} */
+            state: "armed" | "triggered" | "done" | "cancelled";
+            /** @description why it was cancelled, or ended early */
+            why: string | null;
+            who: string | null;
+            armed_at: string | null;
+            triggered_at: string | null;
+            trigger: components["schemas"]["CaptureTrigger"];
+            wanted_hz: number | null;
+            before_ms: number | null;
+            after_ms: number | null;
+            wait_ms: number | null;
+            axes: {
+                axis: string;
+                unit: string;
+                rows: number;
+                /** @description how often its drive told it; 0 - not known yet */
+                rate_hz: number;
+            }[];
+            /** @description on the disk; 0 - not there (yet) */
+            bytes: number;
+            /** @description the file is cut off, altered or of another version, and not trusted */
+            fault: string | null;
+        };
+        CaptureWithRows: components["schemas"]["Capture"] & {
+            columns: {
+                axis: string;
+                unit: string;
+                /** @description from the trigger on */
+                seconds: number[];
+                position: number[];
+                velocity: number[];
+                demand: (number | null)[];
+                following_error: (number | null)[];
+                statusword: number[];
+            }[];
+        };
+        CaptureList: {
+            disk_bytes: number;
+            disk_most_bytes: number;
+            /** @description why the last capture could not be written */
+            disk_fault: string | null;
+            captures: components["schemas"]["Capture"][];
+        };
         Recording: {
             name: components["schemas"]["RecordingName"];
             /** @description when it was made */
@@ -3252,6 +3436,32 @@ export interface components {
             not_replayable: string | null;
             /** @description the file is cut off, altered or of another version, and not trusted */
             fault: string | null;
+        };
+        Playback: {
+            /** @description the stretch that it shows */
+            from: string;
+            to: string;
+            at: string;
+            axes: {
+                [key: string]: unknown;
+            }[];
+            registers: {
+                axis: string;
+                /** @description of the first word in units 0 and 1 */
+                address: number;
+                words: number[];
+            }[];
+            frames: {
+                [key: string]: unknown;
+            }[];
+            /** @description commands, results, events; oldest first */
+            happened: {
+                at: string;
+                kind: string;
+                axis: string | null;
+                text: string;
+            }[];
+            curves: components["schemas"]["Trend"][];
         };
         RecordingList: {
             /** @description where the stretch begins that a recording made now would show */
@@ -4168,6 +4378,7 @@ export interface components {
     };
     parameters: {
         recording: components["schemas"]["RecordingName"];
+        capture: components["schemas"]["RecordingName"];
         description: components["schemas"]["DescriptionName"];
         snapshot: number;
         revision: number;
@@ -7904,6 +8115,148 @@ export interface operations {
             default: components["responses"]["Problem"];
         };
     };
+    listCaptures: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description those that run (or were given up lately) first, then newest first */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CaptureList"];
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    armCapture: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CaptureWish"];
+            };
+        };
+        responses: {
+            /** @description armed */
+            201: {
+                headers: {
+                    /** @description where it is */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Capture"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getCapture: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                capture: components["parameters"]["capture"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description as JSON or CSV, by Accept */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CaptureWithRows"];
+                    "text/csv": string;
+                };
+            };
+            404: components["responses"]["NotFound"];
+            406: components["responses"]["NotAcceptable"];
+            409: components["responses"]["Conflict"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    removeCapture: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                capture: components["parameters"]["capture"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description cancelled or deleted */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            503: components["responses"]["Unavailable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    renameCapture: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                capture: components["parameters"]["capture"];
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecordingChange"];
+                "application/merge-patch+json": components["schemas"]["RecordingChange"];
+            };
+        };
+        responses: {
+            /** @description renamed */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Capture"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            503: components["responses"]["Unavailable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
     listRecordings: {
         parameters: {
             query?: never;
@@ -8043,6 +8396,37 @@ export interface operations {
             415: components["responses"]["UnsupportedMediaType"];
             422: components["responses"]["Unprocessable"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    playBackRecording: {
+        parameters: {
+            query?: {
+                /** @description ms since 1970; left out - the end */
+                at?: number;
+                frames?: number;
+                columns?: number;
+            };
+            header?: never;
+            path: {
+                recording: components["parameters"]["recording"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the instant */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Playback"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
+            409: components["responses"]["Conflict"];
             default: components["responses"]["Problem"];
         };
     };

@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { Alarm } from '../api/types';
 import { useGateway } from '../gateway';
-import { linePath } from '../router';
+import { linePath, recorderPath } from '../router';
 import { capital } from '../state/commander';
 import { emptied } from '../state/persisted';
 import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
@@ -114,6 +114,11 @@ function AlarmRow(p: RowProps) {
           {a.code !== null && <span class="mono"> (code {a.code})</span>}
         </span>
         <span class="alarm-buttons">
+          {a.axis && (
+            <a class="button quiet" href={recorderPath('trends', a.axis, Date.parse(a.since))} aria-label={`Trends of ${a.axis} when the alarm came: ${a.text}`}>
+              Trends then
+            </a>
+          )}
           {canAcknowledge(a) && (
             <button type="button" class="button" {...no} aria-label={`Acknowledge ${about}: ${a.text}`} onClick={p.onAcknowledge}>
               Acknowledge

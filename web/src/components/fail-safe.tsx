@@ -5,7 +5,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { FailSafeDoor, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog } from '../text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog, watchdogWords } from '../text/fail-safe';
 import { dateTime } from '../text/time';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { useBarred } from './gate';
@@ -43,7 +43,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
     }
   };
   return (
-    <Section title="When who commands is lost" class="fail-safe" id="fail-safe">
+    <Section title="When who commands is lost" class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
         What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without
         supply, need the drive's own watchdog and the safety circuit.
@@ -60,6 +60,9 @@ export function FailSafe({ revision }: { revision: unknown }) {
               <Choice key={c.cause} label={causeText(c.cause)} value={row.fail_safe[c.cause] ?? ''} choices={actionChoices(c)} disabled={Boolean(no.disabled)} onChoice={(v) => void put(row, changed(row, c.cause, v), causeText(c.cause))} hint={causeHint(c)} />
             ))}
           </div>
+          <p class="where" data-field="drive-watchdog">
+            {watchdogWords(row)}
+          </p>
           <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, 'the time of a silent Modbus client')} />
         </details>
       ))}

@@ -7,6 +7,7 @@ import { route, type Route } from '../router';
 import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
 import { dark, nextTheme } from '../state/theme';
+import { helpOfPage } from '../text/help';
 import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
 import { lastKnownWords } from './axis-tile';
@@ -20,8 +21,9 @@ const places: { path: string; text: string; icon: IconName; pages: Route['page']
   { path: '/mappings', text: 'Mappings', icon: 'table', pages: ['mappings'] },
   { path: '/site', text: 'Site', icon: 'site', pages: ['site'] },
   { path: '/recipes', text: 'Recipes', icon: 'play', pages: ['recipes', 'recipe'] },
+  { path: '/recorder', text: 'Recorder', icon: 'clock', pages: ['recorder'] },
   { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
-  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway'] },
+  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway', 'report'] },
 ];
 /** Where the gateway is in a domain with others. */
 const fleet: (typeof places)[number] = { path: '/fleet', text: 'Fleet', icon: 'site', pages: ['fleet'] };
@@ -40,7 +42,7 @@ function AlarmBadge() {
 
 export function Navigation() {
   const page = route.value.page;
-  const inFleet = useGateway().store.about.value?.doors.some((d) => d.name === 'dds') ?? false;
+  const inFleet = useGateway().store.about.value?.doors?.some((d) => d.name === 'dds') ?? false;
   return (
     <nav class={`nav${inFleet ? ' with-fleet' : ''}`} aria-label="Pages">
       {(inFleet ? [...places, fleet] : places).map((p) => (
@@ -73,6 +75,15 @@ function ThemeButton() {
     <button type="button" class="button quiet square" aria-label={toDark ? 'Dark theme' : 'Light theme'} title={toDark ? 'Dark theme' : 'Light theme'} onClick={nextTheme}>
       <Icon name={toDark ? 'moon' : 'sun'} />
     </button>
+  );
+}
+
+/** To the chapter about this page, in a tab of its own: what is typed or commanded here goes on. */
+function HelpLink() {
+  return (
+    <a class="help-link" href={helpOfPage(route.value.page)} target="axisgate-help" data-field="help">
+      Help
+    </a>
   );
 }
 
@@ -125,6 +136,7 @@ export function Strip() {
       <div class="strip" data-field="strip">
         <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
         <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
+        <HelpLink />
       </div>
     );
   }
@@ -152,6 +164,7 @@ export function Strip() {
             Try now
           </button>
         )}
+        <HelpLink />
       </div>
     );
   }
@@ -167,6 +180,7 @@ export function Strip() {
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
       <Trial />
+      <HelpLink />
     </div>
   );
 }

@@ -29,7 +29,7 @@ export function ModbusDoor() {
   };
   const d = door.value;
   return (
-    <Section title="Modbus door">
+    <Section title="Modbus door" help="door-modbus-tcp">
       <div class="card" data-field="modbus-door">
         {why && <Empty text={why} />}
         {d && (

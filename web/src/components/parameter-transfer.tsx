@@ -11,20 +11,10 @@ import { emptied, persisted } from '../state/persisted';
 import { editText, steppedText, unitWords, valueText } from '../text/parameter';
 import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../text/transfer';
 import { quiet, Tell, type Told } from './form';
+import { saveText } from './save';
 import { Section } from './section';
 
 const largest = 2_000_000;
-
-/** Hands a text to the browser as a file. */
-export function saveText(name: string, type: string, text: string): void {
-  const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([text], { type }));
-  link.download = name;
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
-}
 
 export function ParameterTransfer({ axis }: { axis: string }) {
   const { client, store } = useGateway();

@@ -65,7 +65,7 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
     axes.value = (chosen?.axes ?? 1) > next.length && next.at(-1) !== '' ? [...next, ''] : next;
   };
   return (
-    <Section title="Profiles: another device's registers" class="profiles">
+    <Section title="Profiles: another device's registers" class="profiles" help="profiles">
       <p class="where">A unit of its own speaks the registers that a machine's program was written for, whatever drive is behind.</p>
       {profiles.map((p) => (
         <details key={p.unit} class="card profile" data-profile={p.unit}>

@@ -56,7 +56,7 @@ export function ScanSection({ line }: { line: string }) {
   };
   const r = report.value;
   return (
-    <Section title="Scan">
+    <Section title="Scan" help="commission#find-the-drives">
       <div class="card recipe-run" data-field="scan">
         <Why need="engineer" what="Looking for drives" />
         <div class="recipe-buttons">

@@ -105,7 +105,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   }
   const r = restoring.value;
   return (
-    <Section title="Snapshots" class="snapshots">
+    <Section title="Snapshots" class="snapshots" help="parameters">
       <form
         class="card form"
         noValidate

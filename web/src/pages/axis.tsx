@@ -20,7 +20,7 @@ import { Section } from '../components/section';
 import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
-import { linePath, type AxisTab } from '../router';
+import { linePath, recorderPath, type AxisTab } from '../router';
 import { commandedWords } from '../text/authority';
 import { markOf, unitOf } from '../text/axis';
 
@@ -91,6 +91,9 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
           <div class="scope-alone">
             <Scope axis={name} unit={unitOf(axis)} />
           </div>
+          <p class="where">
+            <a href={recorderPath('captures', name)}>Capture it at up to 1 kHz</a> · <a href={recorderPath('trends', name)}>its last minutes in the recorder</a>
+          </p>
         </>
       )}
       {tab === 'drive' && (
@@ -98,7 +101,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
           <Section title="Actions of the family">
             <Actions key={name} axis={name} family={axis.family} />
           </Section>
-          <Section title="Native console">
+          <Section title="Native console" help="reference#families">
             <Gate need="engineer">
               <Console drive={axis.drive} />
             </Gate>

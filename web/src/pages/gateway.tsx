@@ -29,6 +29,13 @@ export function GatewayPage() {
               ))}
             </dl>
           </Section>
+          <Section title="Commissioning report">
+            <p class="card form">
+              <span>
+                Site, wiring, parameters, registers, curves and the rehearsal of loss of command in one document to print and sign: <a href="/report">Commissioning report</a>
+              </span>
+            </p>
+          </Section>
           <Section title="Users and tokens">
             <p class="card form">
               <span>
@@ -57,6 +64,7 @@ export function GatewayPage() {
             </dd>
           </div>
           <div class="with-keys"><dt>Keys</dt><dd><kbd>Esc</kbd> stops all axes, wherever the keyboard is; while you type, it empties the field first and stops when pressed again. <kbd>Space</kbd> or <kbd>Enter</kbd> held on a jog button moves. <kbd>Enter</kbd> in a field does what the button beside it does.</dd></div>
+          <div><dt>Handbook</dt><dd><a href="/help/" target="axisgate-help">All chapters</a></dd></div>
           <div><dt>API</dt><dd><a href="/api/v1/openapi.yaml" target="_blank" rel="noopener">openapi.yaml</a></dd></div>
         </dl>
       </Section>

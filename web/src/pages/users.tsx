@@ -31,7 +31,7 @@ export function UsersPage() {
         </Section>
       )}
       <Section title="All users">{why ? <p class="card form" data-field="users-barred">{why}</p> : <UserList key={info?.user ?? ''} />}</Section>
-      <Section title="Tokens">
+      <Section title="Tokens" help="door-http#tokens-for-programs">
         <Tokens key={info?.user ?? ''} />
       </Section>
     </main>

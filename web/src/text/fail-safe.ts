@@ -12,10 +12,12 @@ const causes: Record<Cause, string> = {
   enip_idle: 'EtherNet/IP scanner idle',
   line_lost: 'Drive not reached',
   gateway_ends: 'Gateway is ended',
+  dds_deadline: 'DDS deadline missed',
 };
 const actions: Record<Action, string> = { nothing: 'Nothing', halt: 'Halt', quick_stop: 'Quick stop', disable: 'Switch off' };
 
-export const causeText = (cause: string): string => causes[cause as Cause] ?? cause.replaceAll('_', ' ');
+const gone = 'gateway_gone'; // in a rehearsal alone: nobody acts but the drive
+export const causeText = (cause: string): string => causes[cause as Cause] ?? (cause === gone ? 'Gateway without supply' : cause.replaceAll('_', ' '));
 export const actionText = (action: Action): string => actions[action];
 export const actionChoices = (cause: Matrix['causes'][number]) => [
   { value: '', text: `default: ${actionText(cause.default_endless).toLowerCase()}` },
@@ -32,10 +34,20 @@ export function causeHint(cause: Matrix['causes'][number]): string {
 export function namedWords(row: FailSafeRow): string {
   const own = (Object.keys(causes) as Cause[]).flatMap((c) => {
     const action = row.fail_safe[c];
-    return action ? [`${causeText(c).toLowerCase().replace('modbus', 'Modbus').replace('ethernet/ip', 'EtherNet/IP')}: ${actionText(action).toLowerCase()}`] : [];
+    return action ? [`${causeText(c).toLowerCase().replace('modbus', 'Modbus').replace('ethernet/ip', 'EtherNet/IP').replace('dds', 'DDS')}: ${actionText(action).toLowerCase()}`] : [];
   });
   if (row.fail_safe.watchdog_ms != null) own.push(`Modbus clients watched for ${row.fail_safe.watchdog_ms} ms`);
   return own.length === 0 ? 'all as by default' : own.join('; ');
+}
+
+const ofDrive = { quick_stop: 'quick stop', disable: 'switched off', fault: 'fault' } as const;
+/** What its drive does by itself, in one line. */
+export function watchdogWords({ drive_watchdog: w }: FailSafeRow): string {
+  if (!w.available) return `The drive has no watchdog of its own. ${w.description}`;
+  if (w.state === 'armed' && w.action !== null) return `The drive's own watchdog: ${ofDrive[w.action]} after ${w.time_ms} ms without the gateway.`;
+  if (w.state === 'off') return "The drive's own watchdog is switched off (watchdog_action).";
+  if (w.state === 'refused') return 'The drive does not take a watchdog of its own: without the gateway it goes on.';
+  return "The drive's own watchdog has not been set yet: the drive has not answered.";
 }
 
 /** The choice with one member changed, as PUT takes it: null is the default. */
@@ -64,8 +76,8 @@ export const cellRow = (c: Cell, unit: string): CellRow => ({
   key: `${c.axis} ${c.cause}`,
   axis: c.axis,
   cause: causeText(c.cause),
-  action: `${actionText(c.taken)}${c.chosen === null ? ', by default' : ''}`,
-  acted: ms(c.noticed_ms) || 'not',
+  action: c.cause === gone ? "the drive's own" : `${actionText(c.taken)}${c.chosen === null ? ', by default' : ''}`,
+  acted: ms(c.noticed_ms) || (c.cause === gone ? '' : 'not'),
   slower: ms(c.reaction_ms) || 'not',
   stood: ms(c.standstill_ms) || `not within ${ms(c.watched_ms)}`,
   way: `${Math.round(c.travel * 1000) / 1000}${unit ? ` ${unit}` : ''}`,

@@ -24,6 +24,7 @@ const words: Record<string, string> = {
   read_register: 'read register',
   set_points: 'set-points',
   set_points_silent: 'set-points silent',
+  dds_deadline: 'DDS deadline missed',
   wrong_state: 'not possible in this state',
   not_supported: 'not supported',
   bus_off: 'off the bus',

@@ -33,11 +33,11 @@ export interface FieldSpec {
 }
 
 const timing = (key: string, label: string, min: number, max: number): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: "the family's" });
-export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive'];
+export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive', 'dds'];
 
 const presences = [
   { value: 'auto', text: 'auto: the real one if it answers, else the twin' },
-  { value: 'device', text: 'device: the real one only' },
+  { value: 'device', text: 'device: the real one only; on a line dds: the other gateway’s axis' },
   { value: 'twin', text: 'twin: the model only' },
 ];
 
@@ -53,7 +53,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
     { key: 'name', label: 'Name', kind: 'name', required: true },
     { key: 'family', label: 'Family', kind: 'family', hint: 'of its drives; may be empty on a CAN line whose drives each name theirs' },
-    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone' },
+    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)' },
     { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
     timing('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
     timing('poll_period_ms', 'Poll period, ms', 0, 60000),
@@ -91,6 +91,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'fail_safe.enip_idle', label: 'When its EtherNet/IP scanner is idle', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.dds_deadline', label: 'When its DDS client misses a deadline or is gone', kind: 'choice', more: true, choices: failSafeActions },
     { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
     {
       key: 'stored_parameters',

@@ -14,7 +14,7 @@
 #include <memory>
 #include <span>
 
-namespace axisgate::modbus {
+namespace axisgate {
 
 class Poller {
 public:
@@ -43,4 +43,4 @@ private:
     std::shared_ptr<State> state_;
 };
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate

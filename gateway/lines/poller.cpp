@@ -1,12 +1,12 @@
 // Poller: an epoll descriptor inside the io_context's own: it is readable while one of its sockets is ready.
 // In: sockets. Out: those that are ready, asked for again in the same turn while there are more. Never runs beyond its bound per turn.
-#include "gateway/doors/modbus/poller.hpp"
+#include "gateway/lines/poller.hpp"
 
 #include <unistd.h>
 
 #include <utility>
 
-namespace axisgate::modbus {
+namespace axisgate {
 
 struct Poller::State : std::enable_shared_from_this<State> {
     State(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> ready)
@@ -76,4 +76,4 @@ void Poller::change(int fd, std::uint64_t token, std::uint32_t events) noexcept 
     (void)::epoll_ctl(state_->fd, EPOLL_CTL_MOD, fd, &e);
 }
 
-}  // namespace axisgate::modbus
+}  // namespace axisgate

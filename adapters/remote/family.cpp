@@ -1,0 +1,25 @@
+// Family remote: the table of its makers. An axis of another gateway is a drive here; between the two stands the fleet.
+// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about an axis.
+#include "adapters/remote/adapter.hpp"
+#include "adapters/remote/decoder.hpp"
+#include "adapters/remote/twin/twin.hpp"
+
+namespace axisgate {
+
+const Family& family_remote() {
+    static const Family family{
+        "remote",
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<remote::LineAdapter>(c); },
+        [](const Catalogue&, const TwinSetup& setup) -> std::unique_ptr<Twin> { return remote::twin::make_twin(setup); },
+        [](const Catalogue&, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<remote::LineDecoder>(); },
+        mirror::check_address,
+        "hall-2/axis-1",
+        12'000'000,
+        "8N1",
+        false,
+        true,
+    };
+    return family;
+}
+
+}  // namespace axisgate

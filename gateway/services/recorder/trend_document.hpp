@@ -1,0 +1,30 @@
+// Trend document: a stretch of trends as JSON and CSV, in the units of its axes.
+// In: stretches with the names of their axes, the points that are wanted. Out: documents. Times are ms since 1970, or RFC 3339.
+#pragma once
+
+#include <array>
+#include <boost/json/object.hpp>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/services/recorder/trends.hpp"
+
+namespace axisgate {
+
+inline constexpr std::array<std::string_view, 5> trend_points{"position", "velocity", "demand", "following_error", "state"};
+
+struct TrendAxis {
+    std::string name, unit;
+    double scale = 1;  ///< increments per unit
+    TrendStretch stretch;
+};
+
+/// `unix_offset_ns`: what makes an instant a time since 1970. `points`: some of trend_points.
+[[nodiscard]] boost::json::object trend_document(const TrendAxis& axis, const std::vector<std::string>& points,
+                                                 std::int64_t unix_offset_ns);
+[[nodiscard]] std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points,
+                                    std::int64_t unix_offset_ns);
+
+}  // namespace axisgate

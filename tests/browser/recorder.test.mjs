@@ -1,0 +1,144 @@
+// The recorder's page: trends of two axes that a reload does not empty, zoomed and read by a real mouse; two captures laid over each other; a
+// recording played back by its slider; the report. In: the program. Out: pictures under build/browser.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
+import { isMock, Program } from './lib/program.mjs';
+
+const skip = isMock && 'the stand-in keeps nothing';
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+const move = (position) => program.command('feeder', { command: 'move_relative', position, velocity: 40, acceleration: 400, deceleration: 400 });
+const arrived = () => until('it has arrived', async () => (await program.axis('feeder')).target_reached === true);
+const enabled = async () => {
+  await program.command('feeder', { command: 'enable' });
+  await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
+};
+const differences = (page) => page.locator('.cursor-table tr').last().locator('td').allInnerTexts();
+const number = (t) => Number(t.replace('−', '-').replace(' s', ''));
+
+test('trends: two axes in one plot, zoom by a drag, cursors with their difference, all of it after a reload', { skip }, async () => {
+  await enabled();
+  await move(20);
+  await arrived();
+  let page = await open(browser, `${program.url}/recorder/trends/`);
+  const plot = () => page.locator('.scope .u-over');
+  await plot().waitFor();
+  const axes = page.getByRole('group', { name: /^Axes/ });
+  for (const name of ['feeder', 'slide']) if ((await axes.getByRole('button', { name, exact: true }).getAttribute('aria-pressed')) !== 'true') await axes.getByRole('button', { name, exact: true }).click();
+  await becomes('both are drawn', () => page.getByRole('list', { name: 'Curves' }).locator('li').count(), 4);
+  await until('the rate is told', async () => /feeder told/.test(await page.locator('[data-field=trend-rate]').innerText()) || (await page.locator('[data-field=trend-rate]').innerText()));
+  await page.reload();
+  await plot().waitFor();
+  const reads = async (a, b) => {
+    const box = await plot().boundingBox();
+    await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'A', exact: true }).click();
+    await page.mouse.click(box.x + box.width * a, box.y + 30);
+    await page.getByRole('group', { name: /^Cursor/ }).getByRole('button', { name: 'B', exact: true }).click();
+    await page.mouse.click(box.x + box.width * b, box.y + 30);
+  };
+  await page.getByRole('group', { name: 'Part of time' }).getByRole('button', { name: 'Closer' }).click(); // it stands still
+  await reads(0.2, 0.98);
+  await until('the move is still there', async () => Math.abs(number((await differences(page))[1]) - 20) < 0.5 || (await differences(page)));
+  const wide = Math.abs(number((await differences(page))[0]));
+  const box = await plot().boundingBox();
+  await page.mouse.move(box.x + box.width * 0.4, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.5, box.y + 60, { steps: 4 });
+  await page.mouse.move(box.x + box.width * 0.6, box.y + 60, { steps: 4 });
+  await page.mouse.up();
+  await reads(0.2, 0.98);
+  await until('a fifth of the time is seen', async () => Math.abs(Math.abs(number((await differences(page))[0])) - wide * 0.2) < wide * 0.03 || (await differences(page)));
+  await page.locator('.scope-plot').focus();
+  await page.keyboard.press('0');
+  await reads(0.2, 0.98);
+  await until('all of it is seen', async () => Math.abs(number((await differences(page))[0])) > wide || (await differences(page)));
+  await shot(page, 'recorder-trends', { fullPage: true });
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('.scope').getByRole('button', { name: 'CSV' }).click()]);
+  assert.equal(download.suggestedFilename(), 'trends.csv');
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('captures: armed by a command, drawn with the trigger, a second one laid over it', { skip }, async () => {
+  const page = await open(browser, `${program.url}/axes/feeder/scope`);
+  await page.getByRole('link', { name: /Capture it/ }).click();
+  await enabled();
+  const form = page.getByRole('form', { name: 'New capture' });
+  for (const name of ['before', 'after']) {
+    await form.getByLabel('Name').fill(name);
+    await form.getByLabel('After it, ms').fill('600');
+    await form.getByRole('button', { name: 'Arm' }).click();
+    await until('it is armed', async () => /is armed/.test(await page.locator('[data-field=capture-told]').innerText()) || (await page.locator('[data-field=capture-told]').innerText()));
+    await move(5);
+    await becomes(`${name} is done`, () => page.locator(`[data-capture="${name}"]`).getAttribute('data-state'), 'done');
+    await arrived();
+  }
+  const overlay = page.locator('[data-field=overlay]');
+  await until('both are drawn', async () => /before: feeder position[\s\S]*after: feeder position/.test(await overlay.innerText()) || (await overlay.innerText()));
+  const rows = await page.locator('[data-capture="after"]').innerText();
+  assert.ok(Number(/feeder: ([\d\s ]+) of/.exec(rows)?.[1].replace(/\D/g, '')) > 200, rows);
+  await shot(page, 'recorder-captures', { fullPage: true });
+  await form.getByLabel('Begins with').selectOption('level');
+  await form.getByLabel(/^Level/).fill('1,5');
+  assert.match(await form.innerText(), /decimal sign as a point/);
+  assert.equal(await form.getByRole('button', { name: 'Arm' }).isDisabled(), true);
+  await page.getByRole('button', { name: 'Rename before' }).click();
+  await page.getByRole('form', { name: 'New name of before' }).getByLabel('Name').fill('kept');
+  await page.keyboard.press('Enter');
+  await page.locator('[data-capture="kept"]').waitFor();
+  await page.getByRole('button', { name: 'Delete after' }).click();
+  await becomes('it is gone', () => page.locator('[data-capture="after"]').count(), 0);
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('recordings: made, played back by the slider, downloaded, deleted', { skip }, async () => {
+  const page = await open(browser, `${program.url}/recorder/recordings/`);
+  const form = page.getByRole('form', { name: 'New recording' });
+  await form.getByLabel('Name').fill('crash');
+  await form.getByLabel('Why').fill('a try');
+  await form.getByRole('button', { name: /^Freeze/ }).click();
+  await page.locator('[data-recording="crash"]').waitFor();
+  await page.getByRole('button', { name: 'Play back crash' }).click();
+  const playback = page.locator('[data-field=playback]');
+  const feeder = () => playback.locator('tr[data-axis="feeder"]').innerText();
+  await until('its end is shown', async () => /operation enabled/.test(await feeder().catch(() => '')));
+  const end = await feeder();
+  assert.match(end, /[0-9A-F]{4} [0-9A-F]{4}/, 'its registers');
+  assert.ok((await playback.getByRole('region', { name: /^Frames/ }).locator('li').count()) > 5);
+  const slider = playback.getByRole('slider', { name: 'Instant of the recording' });
+  await slider.focus();
+  await page.keyboard.press('Home');
+  await until('the beginning is another one', async () => (await feeder().catch(() => '')) !== end);
+  await shot(page, 'recorder-playback', { fullPage: true });
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: 'Download crash' }).click()]);
+  assert.equal(download.suggestedFilename(), 'crash.axr');
+  await page.getByRole('button', { name: 'Delete crash' }).click();
+  await becomes('it is gone', () => page.locator('[data-recording="crash"]').count(), 0);
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('the commissioning report holds site, parameters, registers, curves and room to sign', { skip }, async () => {
+  const page = await open(browser, `${program.url}/gateway`);
+  await page.getByRole('link', { name: 'Commissioning report' }).click();
+  await page.getByLabel('Machine').fill('Press 7');
+  const report = page.locator('[data-field=report]');
+  await report.waitFor();
+  const text = await report.innerText();
+  for (const part of ['Press 7', 'Site and wiring', 'can0', 'values known', 'Hash of the mapping', 'kept', 'Not rehearsed', 'Taken over by']) assert.ok(text.includes(part), `${part} is not in ${text.slice(0, 1500)}`);
+  await page.emulateMedia({ media: 'print' });
+  await becomes('the form is not printed', () => page.locator('.report-form').isVisible(), false);
+  await shot(page, 'recorder-report', { fullPage: true });
+  await page.emulateMedia({ media: 'screen' });
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});

@@ -1,0 +1,127 @@
+"""Capture files of golden frames, and what tshark makes of a capture with the dissectors of deploy/wireshark.
+
+In: adapters/*/vectors.txt; runs of bytes, CAN frames, TCP payloads. Out: pcapng files as the gateway's own traces are; per packet the messages, with fields and words.
+"""
+import pathlib
+import re
+import struct
+import subprocess
+import xml.etree.ElementTree
+
+TOP = pathlib.Path(__file__).resolve().parents[2]
+DISSECTORS = TOP / "deploy/wireshark"
+USER0, SOCKETCAN, RAW_IP = 147, 227, 101
+PROTOCOLS = {"uimessage", "simplecan", "uim342", "mcode", "pacontrol", "linrs", "axisgate_line"}
+
+
+def block(kind, body):
+    size = len(body) + 12
+    return struct.pack("<II", kind, size) + body + struct.pack("<I", size)
+
+
+def write(path, link_type, packets):
+    """packets: (to_drive or None, bytes)"""
+    out = block(0x0A0D0D0A, struct.pack("<IHHq", 0x1A2B3C4D, 1, 0, -1)) + block(1, struct.pack("<HHI", link_type, 0, 0))
+    for n, (to_drive, data) in enumerate(packets):
+        padded = data + bytes(-len(data) % 4)
+        flags = b"" if to_drive is None else struct.pack("<HHIHH", 2, 4, 2 if to_drive else 1, 0, 0)
+        out += block(6, struct.pack("<IIIII", 0, 0, n * 1000, len(data), len(data)) + padded + flags)
+    pathlib.Path(path).write_bytes(out)
+
+
+def can_packet(identifier, data):
+    return struct.pack(">IB3x", identifier | 0x80000000, len(data)) + data
+
+
+def tcp_packets(port, payloads):
+    """A connection to `port`: (to_drive, bytes) as segments in order, without options and checksums."""
+    numbers, packets = {True: 1, False: 1}, []
+    for to_drive, data in payloads:
+        ports = (40000, port) if to_drive else (port, 40000)
+        tcp = struct.pack(">HHIIBBHHH", *ports, numbers[to_drive], numbers[not to_drive], 5 << 4, 0x18, 8192, 0, 0) + data
+        ip = struct.pack(">BBHHHBBHII", 0x45, 0, 20 + len(tcp), 0, 0, 64, 6, 0, *((1, 2) if to_drive else (2, 1)))
+        numbers[to_drive] += len(data)
+        packets.append((None, ip + tcp))
+    return packets
+
+
+def lines_of(family):
+    for line in (TOP / f"adapters/{family}/vectors.txt").read_text().splitlines():
+        word, _, rest = line.partition(" ")
+        yield word, rest
+
+
+def octets(text):
+    return bytes.fromhex(text.split("#")[0])
+
+
+def vectors(family):
+    """(to_drive, bytes) of every golden message on a line of bytes."""
+    messages, typed = [], False
+    for word, rest in lines_of(family):
+        if family == "uim342" and re.fullmatch(r"(uim|plain|uim13|stream)[<>]", word):
+            messages.append((word.endswith(">"), octets(rest)))
+        elif family == "linmot" and word in "<>" and word:
+            messages.append((word == ">", octets(rest)))
+        elif family == "pacontrol":
+            if word in (">", "<", "<~"):
+                to_drive = word == ">"
+            elif word == "bytes" or word == "printed":
+                messages.append((to_drive, bytes(int(b, 16) for b in re.findall(r"\b[0-9A-F]{2}\b", re.split(r" (?=check|other|text)|#", rest)[0]))))
+            elif word == "poll>":
+                messages.append((True, b"\x04"))
+        elif family == "mcode":
+            if word in ("bytes", "transcript", "program"):
+                typed = word != "bytes"
+            elif word in (">", "<") and typed:
+                messages.append((word == ">", rest.encode() + (b"\r" if word == ">" else b"\r\n")))
+            elif word == "|":
+                messages.append((True, rest.encode() + b"\r"))
+            elif word in (">", "<") and rest != "none":
+                messages.append((word == ">", octets(rest)))
+    return messages
+
+
+def can_vectors():
+    """(to_drive, identifier, data) of every golden CAN frame."""
+    for word, rest in lines_of("uim342"):
+        if word in ("can>", "can<"):
+            identifier, *data = rest.split("#")[0].split()
+            yield word == "can>", int(identifier, 16), bytes(int(b.replace("xx", "00"), 16) for b in data)
+
+
+def scripts():
+    # By name, as Wireshark does with its folder of plug-ins.
+    return [f"-Xlua_script:{p}" for p in sorted(DISSECTORS.glob("*.lua"))]
+
+
+class Message:
+    def __init__(self, proto):
+        self.protocol = proto.get("name")
+        self.words = proto.get("showname", "").partition(", ")[2]
+        self.fields = {}
+        for f in proto.iter("field"):
+            self.fields.setdefault(f.get("name"), f.get("show"))
+        self.faults = [n for n in self.fields if n.startswith(("_ws.malformed", "_ws.lua"))]
+
+    def __getitem__(self, name):
+        return self.fields.get(name)
+
+    def number(self, name):
+        value = self.fields.get(name)
+        return None if value is None else int(value, 0)
+
+
+def dissect(path, *arguments):
+    """One list of messages for each packet; any fault of a script, and anything malformed, is an error."""
+    p = subprocess.run(["tshark", *scripts(), *arguments, "-r", str(path), "-T", "pdml"], capture_output=True, text=True, timeout=120, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": str(pathlib.Path(path).parent), "LC_ALL": "C.UTF-8"})
+    assert p.returncode == 0 and "lua" not in p.stderr.lower(), p.stderr
+    assert "_ws.malformed" not in p.stdout and "Lua Error" not in p.stdout, re.findall(r".*(?:_ws.malformed|Lua Error).*", p.stdout)[:3]
+    packets = []
+    for packet in xml.etree.ElementTree.fromstring(p.stdout).iter("packet"):
+        packets.append([Message(x) for x in packet.iter("proto") if x.get("name") in PROTOCOLS])
+    return packets
+
+
+def messages(packets, protocol):
+    return [m for p in packets for m in p if m.protocol == protocol]

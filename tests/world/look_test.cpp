@@ -1,0 +1,73 @@
+// Closer looks: of every family on each of its wires: an axis is asked more often for a while, its neighbours no less often than before,
+// and all of it ends by itself and is replayed. In: worlds with two or more drives. Out: how often each was told. Never sleeps.
+#include "tests/world/tape.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+/// How often each axis was told, by what is said of its age.
+struct Tellings final : Tape {
+    std::map<AxisId, std::uint64_t> told;
+    std::map<AxisId, Instant> last;
+
+private:
+    void take(const FlightRecord& r) override {
+        Tape::take(r);
+        if (r.kind != FlightKind::picture) return;
+        const auto p = unpack<PictureRecord>(r.payload);
+        const AxisId axis{r.index};
+        if (!p || !p->current || r.at - p->age == last[axis]) return;
+        last[axis] = r.at - p->age;
+        ++told[axis];
+    }
+};
+
+class Looked : public testing::TestWithParam<Subject> {};
+INSTANTIATE_TEST_SUITE_P(Families, Looked, testing::ValuesIn(subjects()), name_of_subject);
+
+TEST_P(Looked, ItIsAskedMoreOftenAndNobodyLessOften) {
+    Tellings tape;
+    World w(5);
+    w.engine.set_tap(&tape);
+    const auto state = w.apply(w.twins(GetParam(), 3));
+    const AxisId axis = state->axis_ids[0];
+    for (const AxisId a : state->axis_ids)
+        ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a).flags & flag_online) != 0; }, 20s));
+    w.run_for(3s);
+    const auto count = [&](Duration d) {
+        const auto before = tape.told;
+        w.run_for(d);
+        std::map<AxisId, double> rate;
+        for (const AxisId a : state->axis_ids)
+            rate[a] =
+                static_cast<double>(tape.told[a] - (before.contains(a) ? before.at(a) : 0)) / std::chrono::duration<double>(d).count();
+        return rate;
+    };
+    auto plain = count(8s);
+    ASSERT_EQ(w.engine.look_closely({axis}, 1ms, w.now + 10s, w.now), "");
+    w.run_for(500ms);
+    auto close = count(8s);
+    const auto report_of_line = w.engine.line_report(state->line_ids[0], w.now);
+    const double load = std::max(report_of_line.status.load, report_of_line.twin_status.load);
+    EXPECT_TRUE(close[axis] >= 1.5 * plain[axis] || (load > 0.85 && close[axis] >= plain[axis]))
+        << close[axis] << " Hz, not looked at " << plain[axis] << " Hz, load of the line " << load;
+    for (const AxisId a : state->axis_ids)
+        if (a != axis) EXPECT_GE(close[a], 0.93 * plain[a] - 0.3) << "the neighbour " << index_of(a);
+    w.run_for(3s);  // nobody has said that it is enough
+    auto after = count(8s);
+    EXPECT_LE(after[axis], 1.1 * plain[axis] + 0.3);
+    const auto report = tape.play();
+    EXPECT_EQ(report.fault, "");
+    EXPECT_EQ(report.differences, 0u);
+}
+
+TEST(Look, OfWhatIsNotThereOrOnTwoLinesIsRefused) {
+    World w(5);
+    const auto state = w.apply(w.twins(subjects()[0], 1));
+    EXPECT_NE(w.engine.look_closely({AxisId{77}}, 1ms, w.now + 1s, w.now), "");
+    EXPECT_EQ(w.engine.look_closely(state->axis_ids, 0ms, {}, w.now), "");
+}
+
+}  // namespace
+}  // namespace axisgate::test

@@ -1,0 +1,41 @@
+// Tape: what a recorder keeps of a world: both of its logs, and the replay of them.
+// In: records of a world's engine. Out: bytes, a report. Never loses one: its bounds are for the tests that ask for them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "gateway/engine/replay.hpp"
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+
+/// Both logs of a recorder, as bytes.
+struct Tape : FlightTap {
+    FlightLog inputs{64u << 20, false};
+    FlightLog window;
+    explicit Tape(std::size_t window_bytes = 64u << 20) : window(window_bytes, true) {}
+    static std::string joined(const FlightLog& log) {
+        std::string all;
+        for (const auto& c : log.chunks())
+            all += c->bytes;
+        return all;
+    }
+    ReplayReport play(std::string_view changed_inputs = {}) const {
+        const std::string in = changed_inputs.empty() ? joined(inputs) : std::string(changed_inputs), out = joined(window);
+        return replay(families(), {in, out, window.gone_outcomes()});
+    }
+
+protected:
+    void take(const FlightRecord& r) override {
+        window.add(r);
+        if (is_input(r.kind)) inputs.add(r);
+    }
+    void take_site(std::shared_ptr<const SiteInput> input, Instant now) override {
+        const std::string packed = pack_site(*input);
+        take({FlightKind::site, 0xFFFF, now, packed});
+    }
+};
+
+}  // namespace axisgate::test

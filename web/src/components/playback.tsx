@@ -1,0 +1,210 @@
+// Playback: a recording at one instant: a slider over its time, the curves of its axes with that instant as cursor A, the axes as they were,
+// their registers, the frames before it in words, and what had happened. In: GET .../playback, 100 ms after the slider rests, or four times a
+// second while it plays. Out: a part of the page. Nothing in it can be commanded.
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { RecorderDoor } from '../api/recorder';
+import type { Playback } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { readAt } from '../state/plot';
+import { joined, trendPart } from '../state/recorder';
+import { formatNumber } from '../text/number';
+import { instantText, registerWords } from '../text/recorder';
+import { CursorTable, Plot, PlotButtons, PlotView } from './plot';
+import { trendCurves } from './recorder-trends';
+import { Section } from './section';
+
+const rest_ms = 100;
+const step_ms = 250;
+interface FrameRow {
+  line: string;
+  at: string;
+  to_drive: boolean;
+  simulated: boolean;
+  text?: string;
+  data: string;
+  decoded: string[];
+}
+interface AxisRow {
+  name: string;
+  unit: string;
+  state: string;
+  position: number | null;
+  velocity: number | null;
+  following_error: number | null;
+  error_code: number;
+  presence: string;
+}
+
+export function PlaybackPart({ name, close }: { name: string; close: () => void }) {
+  const { client } = useGateway();
+  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const whole = useSignal<Playback | null>(null);
+  const moment = useSignal<Playback | null>(null);
+  const fault = useSignal('');
+  const playing = useSignal(false);
+  const axis = useSignal('');
+  const at = useSignal<number | null>(null);
+  const view = useRef<PlotView>(null as unknown as PlotView);
+  view.current ??= new PlotView();
+  const v = view.current;
+  const told = (error: unknown) => (fault.value = capital(asProblem(error).words));
+
+  useEffect(() => {
+    let here = true;
+    door.playback(name, { frames: 40, columns: 1500 }).then((doc) => {
+      if (!here) return;
+      const [from, to] = [Date.parse(doc.from) / 1000, Date.parse(doc.to) / 1000];
+      v.whole.value = [from, Math.max(to, from + 0.01)];
+      v.all();
+      at.value = to;
+      moment.value = doc;
+      whole.value = doc;
+      axis.value = doc.curves[0]?.axis ?? '';
+    }, told);
+    return () => void (here = false);
+  }, [name, door]);
+  useEffect(() => {
+    const t = at.value;
+    if (t === null || !whole.value) return;
+    v.cursors[0].value = t;
+    let here = true;
+    const timer = setTimeout(() => void door.playback(name, { at_ms: t * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), told), playing.peek() ? 0 : rest_ms);
+    return () => {
+      here = false;
+      clearTimeout(timer);
+    };
+  }, [at.value]);
+  // A click into the plot is an instant, too.
+  useEffect(() => v.cursors[0].subscribe((t) => void (t !== null && whole.peek() && t !== at.peek() && (at.value = t))), [v]);
+  useEffect(() => {
+    if (!playing.value) return;
+    const timer = setInterval(() => {
+      const next = (at.peek() ?? 0) + step_ms / 1000;
+      if (next >= v.whole.peek()[1]) playing.value = false;
+      at.value = Math.min(next, v.whole.peek()[1]);
+    }, step_ms);
+    return () => clearInterval(timer);
+  }, [playing.value]);
+
+  const doc = whole.value;
+  const now = moment.value;
+  const curve = doc?.curves.find((c) => c.axis === axis.value);
+  const { drawn, curves } = useMemo(
+    () => ({ drawn: curve ? joined([trendPart(curve, ['position', 'velocity'], v.whole.peek()[1])]) : { at: [], columns: [] }, curves: curve ? trendCurves({ axes: [curve] }, [curve.axis], ['position', 'velocity']) : [] }),
+    [doc, axis.value],
+  );
+  const [low, high] = v.whole.value;
+  return (
+    <Section
+      title={`Playback of ${name}`}
+      beside={
+        <button type="button" class="button" onClick={close}>
+          Close
+        </button>
+      }
+    >
+      <div class="card form playback" data-field="playback" data-at={now?.at}>
+        {fault.value && <p class="notice tone-fault" role="status">{fault.value}</p>}
+        {!doc && !fault.value && <p class="where">Reading the recording.</p>}
+        {doc && now && (
+          <>
+            <div class="playback-time">
+              <button type="button" class="button" aria-pressed={playing.value} onClick={() => {
+                if (!playing.peek() && (at.peek() ?? 0) >= high) at.value = low;
+                playing.value = !playing.peek();
+              }}>
+                {playing.value ? 'Pause' : 'Play'}
+              </button>
+              <input
+                type="range"
+                min={low}
+                max={high}
+                step={0.01}
+                value={at.value ?? high}
+                aria-label="Instant of the recording"
+                aria-valuetext={instantText(at.value ?? high, 1)}
+                onInput={(e) => {
+                  playing.value = false;
+                  at.value = Number(e.currentTarget.value);
+                }}
+              />
+              <output class="mono">{instantText(at.value ?? high, 1)}</output>
+            </div>
+            {curve && (
+              <div class="scope recorder-plot">
+                <div class="scope-head">
+                  <div class="group scope-channels" role="group" aria-label="Axis of the curves">
+                    {doc.curves.map((c) => (
+                      <button key={c.axis} type="button" class="button small" aria-pressed={axis.value === c.axis} onClick={() => (axis.value = c.axis)}>
+                        {c.axis}
+                      </button>
+                    ))}
+                  </div>
+                  <PlotButtons view={v} />
+                </div>
+                <Plot zoomable view={v} curves={curves} data={() => [drawn.at, ...drawn.columns] as never} version={`${axis.value} ${drawn.at.length}`} timeText={(t, _e, s) => instantText(t, s)} label={`Curves of ${axis.value} in ${name}. Cursor A is the instant that is shown below.`} />
+                <CursorTable view={v} curves={curves} read={(c, t) => readAt(drawn.at, drawn.columns[curves.indexOf(c)] ?? [], t)} clock={(t) => instantText(t, 1)} />
+              </div>
+            )}
+            <div class="table-scroll" tabIndex={0} role="region" aria-label="Axes at that instant">
+              <table class="table">
+                <thead>
+                  <tr>
+                    <th scope="col">Axis</th>
+                    <th scope="col">State</th>
+                    <th scope="col" class="num">Position</th>
+                    <th scope="col" class="num">Velocity</th>
+                    <th scope="col" class="num">Following error</th>
+                    <th scope="col" class="num">Error</th>
+                    <th scope="col">Registers</th>
+                  </tr>
+                </thead>
+                <tbody>
+                  {(now.axes as unknown as AxisRow[]).map((a) => (
+                    <tr key={a.name} data-axis={a.name}>
+                      <th scope="row">{a.name}</th>
+                      <td>{a.state.replaceAll('_', ' ')}{a.presence === 'twin' ? ' (simulated)' : a.presence === 'offline' ? ' (offline)' : ''}</td>
+                      <td class="num">{formatNumber(a.position, 3)} {a.unit}</td>
+                      <td class="num">{formatNumber(a.velocity, 3)}</td>
+                      <td class="num">{formatNumber(a.following_error, 3)}</td>
+                      <td class="num">{a.error_code || '–'}</td>
+                      <td class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
+                    </tr>
+                  ))}
+                </tbody>
+              </table>
+            </div>
+            <h3>Frames before it</h3>
+            <div class="card scroll frames" tabIndex={0} role="region" aria-label="Frames before that instant, newest first">
+              <ol class="frame-list mono">
+                {(now.frames as unknown as FrameRow[]).toReversed().map((f, i) => (
+                  <li key={i} class="frame-row">
+                    <span>{f.at.slice(11, 23)}</span>
+                    <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? '→ drive' : '← drive'}</span>
+                    <span>{f.line}</span>
+                    <span class="bytes">{f.text || f.data}</span>
+                    <span class="reading">{f.decoded.join(' · ')}</span>
+                  </li>
+                ))}
+              </ol>
+            </div>
+            <h3>What had happened</h3>
+            <div class="card scroll playback-happened" tabIndex={0} role="region" aria-label="What had happened, newest first">
+              <ol class="frame-list mono">
+                {now.happened.toReversed().map((h, i) => (
+                  <li key={i}>
+                    {h.at.slice(11, 23)} {h.axis ? `${h.axis}: ` : ''}
+                    {h.text}
+                  </li>
+                ))}
+              </ol>
+            </div>
+          </>
+        )}
+      </div>
+    </Section>
+  );
+}

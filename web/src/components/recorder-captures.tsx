@@ -1,0 +1,326 @@
+// Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
+// triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
+import { useSignal } from '@preact/signals';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { RecorderDoor } from '../api/recorder';
+import type { Capture, CaptureList, CaptureTrigger, CaptureWish, CaptureWithRows } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { persisted } from '../state/persisted';
+import { readAt } from '../state/plot';
+import { captureParts, joined } from '../state/recorder';
+import { parseNumber, parseQuantity } from '../text/number';
+import { bytesWords, captureAbout, captureWord, freeName, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
+import { dateTime } from '../text/time';
+import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { Gate, useBarred } from './gate';
+import { Empty } from './lines';
+import { useLoaded } from './loaded';
+import { Pill } from './pill';
+import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
+import { RenameForm } from './rename-form';
+import { saveText } from './save';
+import { Section } from './section';
+
+const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-5'];
+export const mostOverlaid = 4;
+const chosenPoints = persisted('captures.points', 'position,following_error', 'browser');
+
+export function CapturesPart({ axis }: { axis: string | undefined }) {
+  const { client, store } = useGateway();
+  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const list = useSignal<CaptureList | null>(null);
+  const drawn = useSignal<readonly CaptureWithRows[]>([]);
+  const told = useSignal<Told>(quiet);
+  const load = async () => void (list.value = await door.captures());
+  const waiting = useLoaded(load, [door]);
+  const runs = list.value?.captures.some((c) => c.state === 'armed' || c.state === 'triggered' || (c.state === 'done' && c.bytes === 0 && !c.fault)) ?? false;
+  useEffect(() => {
+    if (!runs) return;
+    const timer = setInterval(() => void load().catch(() => undefined), 500);
+    return () => clearInterval(timer);
+  }, [door, runs]);
+  const show = async (name: string) => {
+    if (drawn.peek().some((c) => c.name === name)) return void (drawn.value = drawn.peek().filter((c) => c.name !== name));
+    try {
+      const whole = await door.capture(name);
+      drawn.value = [...drawn.peek().filter((c) => c.name !== name), whole].slice(-mostOverlaid);
+      told.value = quiet;
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+    }
+  };
+  const act = async (what: () => Promise<unknown>, done: string) => {
+    try {
+      await what();
+      told.value = { tone: 'good', text: done };
+      await load();
+      return true;
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      return false;
+    }
+  };
+  // One that was just armed here is drawn when it is done.
+  const mine = useRef('');
+  useEffect(() => {
+    const c = list.value?.captures.find((x) => x.name === mine.current);
+    if (!c || c.state !== 'done') return;
+    mine.current = '';
+    void show(c.name);
+  }, [list.value]);
+  const captures = list.value?.captures ?? [];
+  return (
+    <>
+      <Section title="New capture">
+        <Gate need="operator">
+          <ArmForm
+            first={axis ?? store.axisNames.value[0] ?? ''}
+            taken={captures.map((c) => c.name)}
+            arm={(wish) => {
+              mine.current = wish.name;
+              return act(() => door.arm(wish), `${wish.name} is armed.`);
+            }}
+          />
+        </Gate>
+        <Tell told={told.value} field="capture-told" />
+      </Section>
+      {drawn.value.length > 0 && <Overlay captures={drawn.value} />}
+      <Section title={`Captures${captures.length > 0 ? `, ${captures.length}` : ''}`} beside={list.value && <span class="where">{`${bytesWords(list.value.disk_bytes)} of ${bytesWords(list.value.disk_most_bytes)}`}</span>}>
+        {list.value?.disk_fault && <p class="notice tone-fault">{capital(list.value.disk_fault)}</p>}
+        {captures.length === 0 ? (
+          <Empty text={waiting || 'No capture yet.'} />
+        ) : (
+          <ul class="card rows" aria-label="Captures">
+            {captures.map((c) => (
+              <CaptureRow key={c.name} capture={c} drawn={drawn.value.some((d) => d.name === c.name)} show={() => void show(c.name)} door={door} act={act} gone={(name) => (drawn.value = drawn.peek().filter((d) => d.name !== name))} />
+            ))}
+          </ul>
+        )}
+      </Section>
+    </>
+  );
+}
+
+function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Capture; drawn: boolean; show: () => void; door: RecorderDoor; act: (what: () => Promise<unknown>, done: string) => Promise<boolean>; gone: (name: string) => void }) {
+  const no = useBarred('operator');
+  const renaming = useSignal(false);
+  const runs = c.state === 'armed' || c.state === 'triggered';
+  const unit = c.axes.find((a) => a.axis === c.trigger?.axis)?.unit ?? '';
+  const csv = () => void act(async () => saveText(`${c.name}.csv`, 'text/csv', await door.captureCsv(c.name)), `${c.name}.csv is saved.`);
+  return (
+    <li class="row recorder-row" data-capture={c.name} data-state={c.state}>
+      <Pill word={captureWord(c)} label="State" />
+      <span class="recorder-what">
+        <b>{c.name}</b>
+        <span class="where">
+          {' '}
+          {c.triggered_at ? dateTime(c.triggered_at) : ''} {captureAbout(c)} · {triggerWords(c.trigger, unit)}
+          {c.why ? ` · ${c.why}` : ''}
+        </span>
+      </span>
+      <span class="recorder-buttons">
+        {c.state === 'done' && !c.fault && (
+          <>
+            <button type="button" class="button" aria-pressed={drawn} aria-label={`Draw ${c.name}`} onClick={show}>
+              {drawn ? 'Drawn' : 'Draw'}
+            </button>
+            <button type="button" class="button" aria-label={`CSV of ${c.name}`} onClick={csv}>
+              CSV
+            </button>
+            <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={`Rename ${c.name}`} onClick={() => (renaming.value = !renaming.value)}>
+              Rename
+            </button>
+          </>
+        )}
+        <button
+          type="button"
+          class="button quiet"
+          {...no}
+          aria-label={`${runs ? 'Cancel' : 'Delete'} ${c.name}`}
+          onClick={() => void act(() => door.remove('captures', c.name), runs ? `${c.name} is cancelled.` : `${c.name} is deleted.`).then((good) => good && gone(c.name))}
+        >
+          {runs ? 'Cancel' : 'Delete'}
+        </button>
+      </span>
+      {renaming.value && (
+        <RenameForm
+          name={c.name}
+          rename={(to) =>
+            void act(() => door.rename('captures', c.name, to), `${c.name} is called ${to} now.`).then((good) => {
+              if (good) renaming.value = false;
+              if (good) gone(c.name);
+            })
+          }
+        />
+      )}
+    </li>
+  );
+}
+
+export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
+  const view = useRef<PlotView>(null as unknown as PlotView);
+  view.current ??= new PlotView();
+  const v = view.current;
+  const seen = points.filter((p) => chosenPoints.value.split(',').includes(p));
+  const several = captures.length > 1;
+  const key = captures.map((c) => c.name).join() + seen.join();
+  const { data, curves } = useMemo(() => {
+    let n = 0;
+    const list: Curve[] = captures.flatMap((c) =>
+      c.columns.flatMap((a) =>
+        seen.map((p) => {
+          const ink = inks[n % inks.length] as string;
+          const round = Math.floor(n / inks.length);
+          n += 1;
+          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: `${p === 'demand' ? 'position' : p} ${a.unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+        }),
+      ),
+    );
+    return { data: joined(captures.flatMap((c) => captureParts(c, seen))), curves: list };
+  }, [key]);
+  useEffect(() => {
+    const low = data.at[0] ?? 0;
+    const high = data.at.at(-1) ?? 1;
+    v.whole.value = [low, Math.max(high, low + 0.001)];
+    v.all();
+  }, [captures.map((c) => c.name).join()]);
+  return (
+    <Section title={several ? 'Laid over each other at their triggers' : `Capture ${captures[0]?.name ?? ''}`}>
+      <div class="scope card recorder-plot" data-field="overlay">
+        <div class="scope-head">
+          <div class="group scope-channels" role="group" aria-label="Points of the captures">
+            {points.map((p) => (
+              <button key={p} type="button" class="button small" aria-pressed={seen.includes(p)} onClick={() => (chosenPoints.value = flip(seen, p))}>
+                {pointNames[p]}
+              </button>
+            ))}
+          </div>
+          <PlotButtons view={v} />
+        </div>
+        <Plot
+          zoomable
+          view={v}
+          curves={curves}
+          data={() => [data.at, ...data.columns] as never}
+          version={key}
+          marks={[{ at: 0, text: 'trigger' }]}
+          timeText={(t, _end, span) => sinceText(t, span)}
+          label={`Captures ${captures.map((c) => c.name).join(', ')}, seconds from the trigger. Drag to come closer, 0 shows all. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away.`}
+        />
+        <ul class="curve-list" aria-label="Curves">
+          {curves.map((c) => (
+            <li key={c.id} class={`curve-key ink${c.color}`}>
+              {c.name}
+            </li>
+          ))}
+        </ul>
+        <CursorTable view={v} curves={curves} read={(c, t) => readAt(data.at, data.columns[curves.indexOf(c)] ?? [], t)} clock={(t) => sinceText(t, 0.1)} />
+      </div>
+    </Section>
+  );
+}
+const flip = (seen: readonly TracePoint[], p: TracePoint) => (seen.includes(p) ? seen.filter((x) => x !== p) : [...seen, p]).join(',') || p;
+
+function ArmForm({ first, taken, arm }: { first: string; taken: readonly string[]; arm: (wish: CaptureWish) => Promise<boolean> }) {
+  const { store } = useGateway();
+  const f = {
+    name: useSignal(''),
+    axis: useSignal(first),
+    more: useSignal<readonly string[]>([]),
+    rate: useSignal('1000'),
+    before: useSignal('200'),
+    after: useSignal('1000'),
+    wait: useSignal('60'),
+    kind: useSignal<CaptureTrigger['kind']>('command'),
+    point: useSignal<TracePoint>('position'),
+    edge: useSignal<'rising' | 'falling'>('rising'),
+    level: useSignal('0'),
+    state: useSignal<keyof typeof stateNames>('moving'),
+  };
+  const names = store.axisNames.value;
+  const axis = names.includes(f.axis.value) ? f.axis.value : (names[0] ?? '');
+  const entry = store.axis(axis)?.value.data;
+  const lineOf = (n: string) => store.axis(n)?.peek()?.data.line;
+  const others = names.filter((n) => n !== axis && lineOf(n) === entry?.line);
+  const more = f.more.value.filter((n) => others.includes(n));
+  const name = f.name.value || freeName('capture', taken);
+  const read = (text: string, low: number, high: number, what: string) => {
+    const p = parseQuantity(text);
+    if (!p.good) return { value: 0, fault: p.why };
+    return p.value >= low && p.value <= high ? { value: p.value, fault: undefined } : { value: p.value, fault: `${what} is ${low} to ${high}.` };
+  };
+  const rate = read(f.rate.value, 1, 1000, 'The rate');
+  const before = read(f.before.value, 0, 120_000, 'The time before');
+  const after = read(f.after.value, 1, 120_000, 'The time after');
+  const wait = read(f.wait.value, 0.1, 300, 'The wait');
+  const level = f.kind.value === 'level' ? parseNumber(f.level.value) : { good: true as const, value: 0 };
+  const wrongName = nameFault(name) ?? (taken.includes(name) ? 'There is one of this name.' : undefined);
+  const good = !wrongName && level.good && [rate, before, after, wait].every((x) => x.fault === undefined) && axis !== '';
+  const unit = entry?.unit ?? '';
+  const submit = () => {
+    if (!good) return;
+    const trigger: CaptureTrigger =
+      f.kind.value === 'level' ? { kind: 'level', axis, point: f.point.value, edge: f.edge.value, level: level.good ? level.value : 0 } : f.kind.value === 'state' ? { kind: 'state', axis, state: f.state.value, edge: f.edge.value } : { kind: f.kind.value, axis };
+    void arm({ name, axes: [axis, ...more], rate_hz: Math.round(rate.value), before_ms: Math.round(before.value), after_ms: Math.round(after.value), wait_ms: Math.round(wait.value * 1000), trigger }).then((done) => {
+      if (done) f.name.value = '';
+    });
+  };
+  return (
+    <form
+      class="card form form-grid capture-form"
+      noValidate
+      aria-label="New capture"
+      onSubmit={(e) => {
+        e.preventDefault();
+        submit();
+      }}
+    >
+      <TextField label="Name" value={f.name.value} placeholder={name} onText={(t) => (f.name.value = t)} fault={wrongName} />
+      <Choice label="Axis" value={axis} onChoice={(x) => (f.axis.value = x)} choices={names.map((n) => ({ value: n, text: n }))} />
+      <Choice
+        label="Begins with"
+        value={f.kind.value}
+        onChoice={(x) => (f.kind.value = x as CaptureTrigger['kind'])}
+        choices={[
+          { value: 'command', text: 'a command that moves it' },
+          { value: 'level', text: 'a level' },
+          { value: 'state', text: 'a state' },
+          { value: 'at_once', text: 'now' },
+        ]}
+      />
+      {f.kind.value === 'level' && (
+        <>
+          <Choice label="Point" value={f.point.value} onChoice={(x) => (f.point.value = x as TracePoint)} choices={points.map((p) => ({ value: p, text: pointNames[p] }))} />
+          <Choice label="Edge" value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: 'rises through' }, { value: 'falling', text: 'falls through' }]} />
+          <TextField label={`Level, ${pointUnit(f.point.value, unit)}`} number value={f.level.value} onText={(t) => (f.level.value = t)} fault={level.good ? undefined : level.why} />
+        </>
+      )}
+      {f.kind.value === 'state' && (
+        <>
+          <Choice label="State" value={f.state.value} onChoice={(x) => (f.state.value = x as 'moving')} choices={Object.entries(stateNames).map(([value, text]) => ({ value, text }))} />
+          <Choice label="Edge" value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: 'comes' }, { value: 'falling', text: 'goes' }]} />
+        </>
+      )}
+      <TextField label="Before it, ms" number value={f.before.value} onText={(t) => (f.before.value = t)} fault={before.fault} />
+      <TextField label="After it, ms" number value={f.after.value} onText={(t) => (f.after.value = t)} fault={after.fault} />
+      <TextField label="Rate, Hz" number value={f.rate.value} onText={(t) => (f.rate.value = t)} fault={rate.fault} hint="The line may have room for less; the others on it are asked as before." />
+      <TextField label="Wait for it at most, s" number value={f.wait.value} onText={(t) => (f.wait.value = t)} fault={wait.fault} />
+      {others.length > 0 && (
+        <div class="group recorder-axes" role="group" aria-label="More axes of this line">
+          {others.slice(0, 30).map((n) => (
+            <button key={n} type="button" class="button small" aria-pressed={more.includes(n)} disabled={!more.includes(n) && more.length >= 7} onClick={() => (f.more.value = more.includes(n) ? more.filter((x) => x !== n) : [...more, n])}>
+              {n}
+            </button>
+          ))}
+        </div>
+      )}
+      <div class="form-foot">
+        <button type="submit" class="button primary" disabled={!good}>
+          Arm
+        </button>
+      </div>
+    </form>
+  );
+}

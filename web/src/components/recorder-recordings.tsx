@@ -1,0 +1,128 @@
+// Recordings: what is being recorded, a button that freezes it, the files that there are, and one of them played back.
+// In: GET /recorder/recordings, with each connection and after each change. Out: requests, downloads.
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+import { asProblem } from '../api/problem';
+import { RecorderDoor, recordingFile } from '../api/recorder';
+import type { Recording, RecordingList } from '../api/types';
+import { useGateway } from '../gateway';
+import { capital } from '../state/commander';
+import { bytesWords, freeName, nameFault, recordingWord } from '../text/recorder';
+import { dateTime } from '../text/time';
+import { quiet, Tell, TextField, type Told } from './form';
+import { Gate, useBarred } from './gate';
+import { Empty } from './lines';
+import { useLoaded } from './loaded';
+import { Pill } from './pill';
+import { PlaybackPart } from './playback';
+import { RenameForm } from './rename-form';
+import { Section } from './section';
+
+export function RecordingsPart() {
+  const { client } = useGateway();
+  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const list = useSignal<RecordingList | null>(null);
+  const told = useSignal<Told>(quiet);
+  const open = useSignal('');
+  const name = useSignal('');
+  const why = useSignal('');
+  const load = async () => void (list.value = await door.recordings());
+  const waiting = useLoaded(load, [door]);
+  const act = async (what: () => Promise<unknown>, done: string) => {
+    told.value = { tone: 'busy', text: 'Asking the gateway.' };
+    try {
+      await what();
+      told.value = { tone: 'good', text: done };
+      await load();
+      return true;
+    } catch (error) {
+      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      return false;
+    }
+  };
+  const recordings = list.value?.recordings ?? [];
+  const wanted = name.value || freeName('recording', recordings.map((r) => r.name));
+  const fault = nameFault(wanted);
+  const now = list.value;
+  return (
+    <>
+      <Section title="Record what happened">
+        <Gate need="operator">
+          <form
+            class="card form form-grid"
+            noValidate
+            aria-label="New recording"
+            onSubmit={(e) => {
+              e.preventDefault();
+              if (!fault)
+                void act(() => door.record(wanted, why.value.trim()), `${wanted} is written.`).then((good) => {
+                  if (good) name.value = why.value = '';
+                });
+            }}
+          >
+            <TextField label="Name" value={name.value} placeholder={wanted} onText={(t) => (name.value = t)} fault={fault} />
+            <TextField label="Why" value={why.value} onText={(t) => (why.value = t)} />
+            <div class="form-foot">
+              <button type="submit" class="button primary" disabled={fault !== undefined}>
+                Freeze the last minutes
+              </button>
+              <span class="where">{now ? `${now.from ? `since ${dateTime(now.from)}, ` : ''}${bytesWords(now.bytes)}${now.not_replayable ? ` · to be read, not replayed: ${now.not_replayable}` : ' · replayable'}` : waiting}</span>
+            </div>
+          </form>
+        </Gate>
+        <Tell told={told.value} field="recording-told" />
+      </Section>
+      {open.value && <PlaybackPart key={open.value} name={open.value} close={() => (open.value = '')} />}
+      <Section title={`Recordings${recordings.length > 0 ? `, ${recordings.length}` : ''}`} beside={now && <span class="where">{`${bytesWords(now.disk_bytes)} of ${bytesWords(now.disk_most_bytes)}`}</span>}>
+        {now?.disk_fault && <p class="notice tone-fault">{capital(now.disk_fault)}</p>}
+        {recordings.length === 0 ? (
+          <Empty text={waiting || 'No recording yet. An alarm makes one by itself.'} />
+        ) : (
+          <ul class="card rows" aria-label="Recordings">
+            {recordings.map((r) => (
+              <RecordingRow key={r.name} recording={r} open={open.value === r.name} play={() => (open.value = open.peek() === r.name ? '' : r.name)} door={door} act={act} />
+            ))}
+          </ul>
+        )}
+      </Section>
+    </>
+  );
+}
+
+function RecordingRow({ recording: r, open, play, door, act }: { recording: Recording; open: boolean; play: () => void; door: RecorderDoor; act: (what: () => Promise<unknown>, done: string) => Promise<boolean> }) {
+  const no = useBarred('operator');
+  const renaming = useSignal(false);
+  return (
+    <li class="row recorder-row" data-recording={r.name}>
+      <Pill word={recordingWord(r)} label="State" />
+      <span class="recorder-what">
+        <b>{r.name}</b>
+        <span class="where">
+          {' '}
+          {r.at ? dateTime(r.at) : ''} {bytesWords(r.bytes)}
+          {r.automatic ? ' · by an alarm' : ''}
+          {r.why ? ` · ${r.why}` : ''}
+          {r.who ? ` · ${r.who}` : ''}
+          {r.fault ? ` · ${r.fault}` : ''}
+        </span>
+      </span>
+      <span class="recorder-buttons">
+        {!r.fault && (
+          <button type="button" class="button" aria-pressed={open} aria-label={`Play back ${r.name}`} onClick={play}>
+            Play back
+          </button>
+        )}
+        <a class="button" href={recordingFile(r.name)} download={`${r.name}.axr`} aria-label={`Download ${r.name}`}>
+          Download
+        </a>
+        <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={`Rename ${r.name}`} onClick={() => (renaming.value = !renaming.value)}>
+          Rename
+        </button>
+        <button type="button" class="button quiet" {...no} aria-label={`Delete ${r.name}`} onClick={() => void act(() => door.remove('recordings', r.name), `${r.name} is deleted.`)}>
+          Delete
+        </button>
+      </span>
+      {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), `${r.name} is called ${to} now.`).then((good) => good && (renaming.value = false))} />}
+    </li>
+  );
+}

@@ -1,0 +1,259 @@
+// Commissioning report: one document to print and sign: the site and its wiring, parameters beside snapshot and default, the register list with its
+// hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
+// opened and again by the button. Out: a page that the browser prints or saves as PDF. Nothing is read from a drive for it.
+import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
+import { FailSafeDoor, type Rehearsal } from '../api/fail-safe';
+import { MappingDoor, type MappingList } from '../api/mappings';
+import { RecorderDoor } from '../api/recorder';
+import type { AxisParameter, CaptureList, CaptureWithRows, Drive, Line } from '../api/types';
+import { TextField } from '../components/form';
+import { useLoaded } from '../components/loaded';
+import { PrintedList } from '../components/mapping-list';
+import { Mark } from '../components/pill';
+import { Overlay } from '../components/recorder-captures';
+import { useGateway } from '../gateway';
+import { persisted } from '../state/persisted';
+import { markOf, unitOf } from '../text/axis';
+import { cellRow } from '../text/fail-safe';
+import type { MappingPoint } from '../text/mapping';
+import { formatExact } from '../text/number';
+import { steppedText, unitWords, valueText } from '../text/parameter';
+import { captureAbout, triggerWords } from '../text/recorder';
+import { comparedSentence, parameterReport, type ParameterReport, type SnapshotValues } from '../text/report';
+import { dateTime } from '../text/time';
+import type { MaybeValue } from '../api/types';
+
+const fields = { machine: persisted('report.machine', '', 'browser'), place: persisted('report.place', '', 'browser'), who: persisted('report.who', '', 'browser'), notes: persisted('report.notes', '', 'browser') };
+const mostCaptures = 3;
+
+interface Whole {
+  at: string;
+  lines: Line[];
+  drives: Drive[];
+  mappings: MappingList;
+  points: MappingPoint[];
+  rehearsal: Rehearsal;
+  captures: CaptureList;
+  drawn: CaptureWithRows[];
+  axes: { name: string; list: AxisParameter[]; snapshot: SnapshotValues | null; report: ParameterReport }[];
+}
+
+export function ReportPage() {
+  const { client, store } = useGateway();
+  const whole = useSignal<Whole | null>(null);
+  const times = useSignal(0);
+  const doors = useMemo(() => ({ fail: new FailSafeDoor(client), map: new MappingDoor(client), recorder: new RecorderDoor(client) }), [client]);
+  const names = store.axisNames.value;
+  const why = useLoaded(async () => {
+    const [lines, drives, mappings, points, rehearsal, captures] = await Promise.all([client.lines(), client.drives(), doors.map.list(), doors.map.points(), doors.fail.rehearsal(), doors.recorder.captures()]);
+    const axes = [];
+    for (const name of names) {
+      const path = `/axes/${encodeURIComponent(name)}/snapshots`;
+      const [list, snapshots] = await Promise.all([client.parameters(name), client.call<{ n: number }[]>(path)]);
+      const newest = snapshots.reduce<number | null>((n, s) => (n === null || s.n > n ? s.n : n), null);
+      const snapshot = newest === null ? null : await client.call<SnapshotValues>(`${path}/${newest}`);
+      axes.push({ name, list, snapshot, report: parameterReport(list, snapshot) });
+    }
+    const done = captures.captures.filter((c) => c.state === 'done' && !c.fault && c.bytes > 0).slice(0, mostCaptures);
+    const drawn = await Promise.all(done.map((c) => doors.recorder.capture(c.name)));
+    whole.value = { at: new Date().toISOString(), lines, drives, mappings, points, rehearsal, captures, drawn, axes };
+  }, [doors, times.value, names.join()]);
+  const w = whole.value;
+  const about = store.about.value;
+  return (
+    <main class="page report-page">
+      <h1 tabIndex={-1}>Commissioning report</h1>
+      <div class="card form form-grid report-form">
+        <TextField label="Machine" value={fields.machine.value} onText={(t) => (fields.machine.value = t)} />
+        <TextField label="Place" value={fields.place.value} onText={(t) => (fields.place.value = t)} />
+        <TextField label="Commissioned by" value={fields.who.value} onText={(t) => (fields.who.value = t)} />
+        <TextField label="Remarks" value={fields.notes.value} onText={(t) => (fields.notes.value = t)} />
+        <div class="form-foot">
+          <button type="button" class="button primary" disabled={!w} onClick={() => print()}>
+            Print
+          </button>
+          <button type="button" class="button" onClick={() => (times.value += 1)}>
+            Read it again
+          </button>
+          <span class="where">Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.</span>
+        </div>
+      </div>
+      {!w && <p class="where" role="status">{why}</p>}
+      {w && (
+        <article class="report" data-field="report">
+          <dl class="report-facts">
+            <Fact name="Machine" value={fields.machine.value} />
+            <Fact name="Place" value={fields.place.value} />
+            <Fact name="Commissioned by" value={fields.who.value} />
+            <Fact name="Date" value={dateTime(w.at)} />
+            <Fact name="axisgate" value={`${about?.version ?? '–'}, page and API of the same program`} />
+            <Fact name="Revision of the site" value={String(store.siteRevision.value ?? '–')} />
+            <Fact name="Doors" value={about?.doors.map((d) => `${d.name} ${d.address}`).join(', ') ?? '–'} />
+            <Fact name="Remarks" value={fields.notes.value} />
+          </dl>
+
+          <h2>Site and wiring</h2>
+          <Table head={['Line', 'Port', 'Families', 'Bit rate', 'State', 'Drives']}>
+            {w.lines.map((l) => (
+              <tr key={l.name}>
+                <th scope="row">{l.name}</th>
+                <td class="mono">{l.uri}</td>
+                <td>{l.status.families?.map((f) => f.family).join(', ') || l.family || ''}</td>
+                <td>{l.bitrate ? formatExact(l.bitrate) : ''}</td>
+                <td>{l.status.state.replace('_', ' ')}</td>
+                <td>{l.drives.join(', ')}</td>
+              </tr>
+            ))}
+          </Table>
+          <Table head={['Drive', 'Line', 'Family', 'Address', 'Presence', 'Axes']}>
+            {w.drives.map((d) => (
+              <tr key={d.name}>
+                <th scope="row">{d.name}</th>
+                <td>{d.line}</td>
+                <td>{d.family}</td>
+                <td class="mono">{String(d.address)}</td>
+                <td>{d.presence}</td>
+                <td>{d.axes.join(', ')}</td>
+              </tr>
+            ))}
+          </Table>
+          <Table head={['Axis', 'Number', 'Drive, channel', 'Unit', 'Increments per unit', 'Limits of position', 'Referenced', 'Answered by']}>
+            {names.map((n) => {
+              const a = store.axis(n)?.peek()?.data;
+              if (!a) return null;
+              const limit = (v: number | null | undefined) => (v === null || v === undefined ? '–' : formatExact(v));
+              return (
+                <tr key={n}>
+                  <th scope="row">{n}</th>
+                  <td>{a.number}</td>
+                  <td>{`${a.drive}, ${a.channel}`}</td>
+                  <td>{unitOf(a)}</td>
+                  <td>{formatExact(a.increments_per_unit)}</td>
+                  <td>{`${limit(a.position_min)} to ${limit(a.position_max)}`}</td>
+                  <td>{a.referenced ? 'yes' : 'no'}</td>
+                  <td>
+                    <Mark mark={markOf(a)} />
+                  </td>
+                </tr>
+              );
+            })}
+          </Table>
+
+          <h2>Parameters</h2>
+          {w.axes.map((a) => (
+            <section key={a.name} aria-label={`Parameters of ${a.name}`}>
+              <h3>{a.name}</h3>
+              <p>{comparedSentence(a.report, a.snapshot)}</p>
+              {a.report.rows.length > 0 && (
+                <Table head={['Parameter', 'Name', 'Now', 'Default', a.snapshot ? `Snapshot ${a.snapshot.n}, ${dateTime(a.snapshot.at)}${a.snapshot.who ? `, ${a.snapshot.who}` : ''}` : 'Snapshot', 'Unit']}>
+                  {a.report.rows.map((r) => (
+                    <tr key={r.id}>
+                      <th scope="row" class="mono">{r.id}</th>
+                      <td>{r.name}</td>
+                      <td>{shown(r.now, r.unit)}</td>
+                      <td>{shown(r.otherwise, r.unit)}</td>
+                      <td>{r.snapshot === undefined ? '–' : shown(r.snapshot, r.unit)}</td>
+                      <td>{unitWords(r.unit || null)}</td>
+                    </tr>
+                  ))}
+                </Table>
+              )}
+            </section>
+          ))}
+
+          <h2>Register list</h2>
+          <p>
+            Hash of the mapping: <span class="mono">{w.mappings.hash || 'not told by this gateway'}</span> (registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.
+          </p>
+          <div class="report-registers">
+            <PrintedList rows={w.mappings.rows} known={{ ...plainKnown, axes: names, points: w.points }} hash={w.mappings.hash} />
+          </div>
+
+          <h2>Curves</h2>
+          {w.drawn.length === 0 ? <p>No capture is kept.</p> : null}
+          {w.drawn.map((c) => (
+            <div key={c.name} class="report-curve">
+              <p>
+                <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerWords(c.trigger, c.axes[0]?.unit)}
+                {c.who ? `, by ${c.who}` : ''}
+              </p>
+              <Overlay captures={[c]} />
+            </div>
+          ))}
+
+          <h2>Loss of command</h2>
+          {w.rehearsal.report ? (
+            <>
+              <p>
+                Rehearsed {dateTime(w.rehearsal.report.ended_at)} by {w.rehearsal.report.who}, revision {w.rehearsal.report.site_revision} of the site, on {w.rehearsal.report.on}
+                {String(w.rehearsal.report.site_revision) === String(store.siteRevision.value) ? '' : '. The site has changed since: rehearse again'}.
+              </p>
+              <Table head={['Axis', 'Cause', 'Action', 'Gateway acted', 'Motor slower', 'Stood', 'Way']}>
+                {w.rehearsal.report.cells.map((c) => {
+                  const r = cellRow(c, store.axis(c.axis)?.peek()?.data.unit ?? '');
+                  return (
+                    <tr key={r.key}>
+                      <th scope="row">{r.axis}</th>
+                      <td>{r.cause}</td>
+                      <td>{r.action}</td>
+                      <td class="num">{r.acted}</td>
+                      <td class="num">{r.slower}</td>
+                      <td class="num">{r.stood}</td>
+                      <td class="num">{r.way}</td>
+                    </tr>
+                  );
+                })}
+              </Table>
+            </>
+          ) : (
+            <p>
+              Not rehearsed with this program’s present run. <a href="/site">Rehearse it</a> before this is signed.
+            </p>
+          )}
+
+          <h2>Signatures</h2>
+          <div class="report-signatures">
+            {['Commissioned by', 'Checked by', 'Taken over by'].map((t) => (
+              <p key={t}>
+                <span />
+                {t}, date
+              </p>
+            ))}
+          </div>
+        </article>
+      )}
+    </main>
+  );
+}
+
+const plainKnown = { drafts: new Map(), base: '0' as const, heard: new Map(), parameters: () => null };
+const shown = (v: MaybeValue, unit: string) => (v === null ? '–' : `${valueText(v, { allowed: null })} ${steppedText(v, unit || null)}`.trim());
+
+function Fact({ name, value }: { name: string; value: string }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{value || '–'}</dd>
+    </div>
+  );
+}
+
+function Table({ head, children }: { head: readonly string[]; children: preact.ComponentChildren }) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label={head[0]}>
+      <table class="table report-table">
+        <thead>
+          <tr>
+            {head.map((h) => (
+              <th key={h} scope="col">
+                {h}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>{children}</tbody>
+      </table>
+    </div>
+  );
+}

@@ -1,0 +1,104 @@
+// The recorder's rules on the page: zoom and pan stay within what there is, cursors read across the rows of others, columns are put together
+// without inventing a slope, words say what a capture waits for.
+import { describe, expect, it } from 'vitest';
+import { narrowest_s, panned, readAt, within, zoomed } from '../src/state/plot';
+import { captureParts, joined, trendPart } from '../src/state/recorder';
+import { routeOf, recorderPath } from '../src/router';
+import { bytesWords, freeName, instantText, nameFault, registerWords, sinceText, triggerWords } from '../src/text/recorder';
+import { comparedSentence, parameterReport } from '../src/text/report';
+import type { AxisParameter, CaptureWithRows, Trends } from '../src/api/types';
+
+describe('the part of time that is seen', () => {
+  const whole = [0, 100] as const;
+  it('comes closer about an instant that stays where it is', () => {
+    expect(zoomed([0, 100], 25, 0.5, whole)).toEqual([12.5, 62.5]);
+    expect(zoomed([12.5, 62.5], 25, 2, whole)).toEqual([0, 100]);
+  });
+  it('never leaves what there is, and is never narrower than can be looked at', () => {
+    expect(zoomed([90, 100], 100, 4, whole)).toEqual([60, 100]);
+    const close = zoomed([50, 50.003], 50, 0.01, whole);
+    expect(close[1] - close[0]).toBeCloseTo(narrowest_s, 9);
+    expect(panned([80, 100], 0.5, whole)).toEqual([80, 100]);
+    expect(panned([50, 70], -0.5, whole)).toEqual([40, 60]);
+    expect(within([-10, 10], whole)).toEqual([0, 20]);
+    expect(within([-10, 200], whole)).toEqual([0, 100]);
+  });
+});
+
+describe('a cursor', () => {
+  const at = [0, 1, 2, 3, 4];
+  it('reads between known rows, across the rows of others, and not in a gap', () => {
+    const v = [0, undefined, 20, null, 40];
+    expect(readAt(at, v, 0.5)).toBe(5);
+    expect(readAt(at, v, 1)).toBe(10);
+    expect(readAt(at, v, 3.5)).toBe(null);
+    expect(readAt(at, v, -1)).toBe(null);
+    expect(readAt(at, v, 4.1)).toBe(null);
+    expect(readAt(at, v, 1.5, true)).toBe(0);
+  });
+});
+
+describe('columns put together', () => {
+  it('keep their own rows: another curve leaves a hole, not a gap', () => {
+    expect(joined([{ at: [1, 3], columns: [[10, 30]] }, { at: [2, 3], columns: [[null, 7]] }])).toEqual({ at: [1, 2, 3], columns: [[10, undefined, 30], [undefined, null, 7]] });
+  });
+  const trend = (more: Partial<Trends['axes'][number]>): Trends['axes'][number] => ({ axis: 'a', unit: 'mm', rate_hz: 20, thinned: false, oldest: 0, newest: 10_000, at: [1000, 9000], points: { position: { values: [1, 5] } }, ...more });
+  it('of a rest is no slow drift, and the newest value holds to the end', () => {
+    const p = trendPart(trend({}), ['position'], 20);
+    expect(p.at).toEqual([1, 8.9, 9, 10]);
+    expect(p.columns).toEqual([[1, 1, 5, 5]]);
+  });
+  it('that are thinned go from their least to their greatest', () => {
+    const p = trendPart(trend({ thinned: true, newest: 9000, points: { position: { low: [0, 2], high: [4, 6] } } }), ['position'], 20);
+    expect(p.columns).toEqual([[0, 4, 2, 6]]);
+    expect(p.at).toHaveLength(4);
+  });
+  it('of captures are laid over each other by seconds from the trigger', () => {
+    const capture = (position: number[]) => ({ columns: [{ axis: 'a', unit: 'mm', seconds: [-1, 0, 1], position, velocity: [], demand: [], following_error: [], statusword: [] }] }) as unknown as CaptureWithRows;
+    const d = joined([...captureParts(capture([1, 2, 3]), ['position']), ...captureParts(capture([4, 5, 6]), ['position'])]);
+    expect(d).toEqual({ at: [-1, 0, 1], columns: [[1, 2, 3], [4, 5, 6]] });
+  });
+});
+
+describe('words', () => {
+  it('of triggers', () => {
+    expect(triggerWords({ kind: 'level', axis: 'feeder', point: 'velocity', level: 12.5, edge: 'falling' }, 'mm')).toBe('velocity of feeder falls through 12.500 mm/s');
+    expect(triggerWords({ kind: 'state', axis: 'feeder', state: 'fault', edge: 'rising' })).toBe('“fault” of feeder comes');
+    expect(triggerWords({ kind: 'command', axis: 'feeder' })).toBe('a command that moves feeder');
+    expect(triggerWords({ kind: 'at_once' })).toBe('at once');
+    expect(triggerWords(null)).toBe('not known');
+  });
+  it('of names, sizes, times and registers', () => {
+    expect(freeName('capture', ['capture-1', 'capture-3'])).toBe('capture-2');
+    expect(nameFault('before-tuning_2.1')).toBe(undefined);
+    for (const bad of ['', '.a', 'a b', 'a/b', 'a'.repeat(65)]) expect(nameFault(bad)).not.toBe(undefined);
+    expect(bytesWords(123_456)).toBe('123 kB');
+    expect(sinceText(-0.0123, 0.01)).toBe('−0.0123 s');
+    expect(sinceText(-0.00001, 1)).toBe('0.00 s');
+    expect(instantText(0.1234, 1)).toBe('00:00:00.123');
+    expect(registerWords({ address: 64, words: [0x1627, 1, 0, 0xffff] })).toBe('64: 1627 0001 0000 FFFF');
+  });
+});
+
+describe('addresses', () => {
+  it('lead to a tab, an axis, an instant, and back', () => {
+    expect(routeOf('/recorder')).toEqual({ page: 'recorder', tab: 'trends' });
+    expect(routeOf(recorderPath('recordings'))).toEqual({ page: 'recorder', tab: 'recordings' });
+    expect(routeOf(recorderPath('captures', 'z.1'))).toEqual({ page: 'recorder', tab: 'captures', axis: 'z.1' });
+    expect(routeOf(recorderPath('trends', 'feeder', 1_700_000_000_123.4))).toEqual({ page: 'recorder', tab: 'trends', axis: 'feeder', at_ms: 1_700_000_000_123 });
+    expect(routeOf('/recorder/moon').page).toBe('unknown');
+    expect(routeOf('/recorder/trends/a/x').page).toBe('unknown');
+  });
+});
+
+describe('the commissioning report', () => {
+  const p = (id: string, value: number | null, fallback: number | null, more = {}) => ({ id, name: id, unit: 'mm', access: 'RW', value, stored: null, default: fallback, count: null, ...more }) as unknown as AxisParameter;
+  const snapshot = { n: 3, name: 'first', at: '2026-01-02T00:00:00Z', who: 'anna', parameters: [{ parameter: 'AC', value: 5 }, { parameter: 'DC', value: 7 }] };
+  it('shows what differs from default or snapshot, and counts what nobody has read', () => {
+    const r = parameterReport([p('AC', 5, 5), p('DC', 8, 8), p('SP', 3, 1), p('XX', null, 1), p('PO', 9, 1, { access: 'R' }), p('GO', null, null, { access: 'W' })], snapshot);
+    expect(r.rows.map((x) => [x.id, x.now, x.otherwise, x.snapshot])).toEqual([['DC', 8, 8, 7], ['SP', 3, 1, undefined]]);
+    expect([r.known, r.unknown, r.againstSnapshot]).toEqual([4, 1, 2]);
+    expect(comparedSentence(r, snapshot)).toBe('4 values known, 1 not read and not compared; 2 beside snapshot 3, first. 2 differ:');
+    expect(comparedSentence(parameterReport([], null), null)).toBe('0 values known, all of them read; no snapshot was taken. Nothing differs.');
+  });
+});

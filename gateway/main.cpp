@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.fallthrough(false);
 
-    Common serve_common, check_common, backup_common, restore_common, bundle_common;
+    Common serve_common, check_common, backup_common, restore_common, bundle_common, health_common;
     auto* serve = app.add_subcommand("serve", "run the gateway");
     add_config(*serve, serve_common, true);
 
@@ -114,18 +114,27 @@ int main(int argc, char** argv) {
     auto* check = app.add_subcommand("check", "find all faults of configuration and site");
     add_config(*check, check_common, true);
 
-    std::string backup_file, restore_file, bundle_file;
-    auto* backup = app.add_subcommand("backup", "copy the database into one file; the gateway may run");
+    std::string backup_file, backup_passphrase_file, bundle_file;
+    RestoreOptions restore_options;
+    constexpr const char* passphrase_help = "file with the passphrase that it is sealed with, at least 12 characters; -: standard input";
+    auto* backup = app.add_subcommand("backup", "copy database, certificates and configuration into one file; the gateway may run");
     backup->add_option("file", backup_file)->required()->type_name("FILE");
+    backup->add_option("--passphrase-file", backup_passphrase_file, passphrase_help)->type_name("FILE");
     add_config(*backup, backup_common, false);
-    auto* restore = app.add_subcommand("restore", "put a backup in place of the database; the gateway must not run");
-    restore->add_option("file", restore_file)->required()->type_name("FILE");
+    auto* restore = app.add_subcommand("restore", "put a backup in place of the database and the certificates; the gateway must not run");
+    restore->add_option("file", restore_options.file)->required()->type_name("FILE");
+    restore->add_option("--passphrase-file", restore_options.passphrase_file, passphrase_help)->type_name("FILE");
+    restore->add_flag("--with-config", restore_options.with_config,
+                      "the configuration in the backup takes the place of the file of --config, and its paths hold");
     add_config(*restore, restore_common, false);
 
     auto* bundle =
         app.add_subcommand("bundle", "gather what somebody needs who is to help, without secrets, in one tar; the gateway may run");
     bundle->add_option("file", bundle_file)->required()->type_name("FILE.tar");
     add_config(*bundle, bundle_common, false);
+
+    auto* health = app.add_subcommand("health", "ask the gateway that runs here whether it is well; the exit code says it");
+    add_config(*health, health_common, false);
 
     PkiOptions pki_options;
     auto* pki = app.add_subcommand("pki", "make the certificates of a DDS domain: a folder for each member, for [dds] security");
@@ -182,6 +191,7 @@ int main(int argc, char** argv) {
         ServeOptions o;
         if (!config_of(serve_common, o.config)) return exit_usage;
         o.site_file = serve_common.site_file;
+        o.config_file = serve_common.config_file;
         return command_serve(o);
     }
     Config config;
@@ -190,7 +200,15 @@ int main(int argc, char** argv) {
         bool read = true;
         return command_bundle(sources_of(bundle_common, read), config, bundle_file);
     }
-    if (*backup) return config_of(backup_common, config) ? command_backup(config, backup_file) : exit_usage;
-    if (*restore) return config_of(restore_common, config) ? command_restore(config, restore_file) : exit_usage;
+    if (*health) return config_of(health_common, config) ? command_health(config) : exit_usage;
+    if (*backup) {
+        if (!config_of(backup_common, config)) return exit_usage;
+        return command_backup(config, backup_common.config_file, backup_file, backup_passphrase_file);
+    }
+    if (*restore) {
+        bool read = true;
+        if (!config_of(restore_common, config)) return exit_usage;
+        return command_restore(config, sources_of(restore_common, read), restore_options);
+    }
     return exit_usage;
 }

@@ -1,17 +1,11 @@
 // Bundle: see bundle.hpp. In: files, the database read-only, HTTP on this machine. Out: a tar.
-// Bounds: 10,000 events, the last 1 MiB of the log, 4 MiB of each page; one second for each page.
+// Bounds: 10,000 events, the last 1 MiB of the log; of pages those of own_page.hpp.
 #include "gateway/runtime/bundle.hpp"
 
 #include <fmt/core.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
-#include <boost/asio/connect.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/json/serialize.hpp>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +15,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/core/text.hpp"
 #include "gateway/runtime/clock.hpp"
+#include "gateway/runtime/own_page.hpp"
 #include "gateway/runtime/scrub.hpp"
 #include "gateway/runtime/tar.hpp"
 #include "gateway/services/documents.hpp"
@@ -30,51 +25,7 @@ namespace axisgate {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_events = 10'000, most_log = 1u << 20, most_page = 4u << 20;
-constexpr auto page_limit = std::chrono::seconds(1);
-
-struct Page {
-    std::string body;   ///< of a good answer
-    std::string fault;  ///< empty: good
-};
-
-/// One GET without a sign-in, as from this machine's own browser. Plain HTTP alone.
-Page fetch(const HostPort& where, std::string_view path) {
-    namespace asio = boost::asio;
-    asio::io_context io;
-    asio::ip::tcp::socket socket(io);
-    const std::string host = where.host == "0.0.0.0"     ? "127.0.0.1"
-                             : where.host == "::"        ? "::1"
-                             : where.host == "localhost" ? "127.0.0.1"
-                                                         : where.host;
-    const std::string request = fmt::format("GET {} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n", path);
-    std::string answer;
-    boost::system::error_code fault;
-    bool done = false;
-    const auto address = asio::ip::make_address(host, fault);
-    if (fault) return {{}, fault.message()};
-    const auto end = [&](const boost::system::error_code& ec) {
-        fault = ec == asio::error::eof ? boost::system::error_code() : ec;
-        done = true;
-    };
-    socket.async_connect({address, where.port}, [&](boost::system::error_code ec) {
-        if (ec) return end(ec);
-        asio::async_write(socket, asio::buffer(request), [&](boost::system::error_code sent, std::size_t) {
-            if (sent) return end(sent);
-            asio::async_read(socket, asio::dynamic_buffer(answer, most_page),
-                             [&](boost::system::error_code got, std::size_t) { end(got); });
-        });
-    });
-    io.run_for(page_limit);
-    if (!done) return {{}, "no answer within a second"};
-    if (fault) return {{}, fault.message()};
-    const auto body = answer.find("\r\n\r\n");
-    if (body == std::string::npos || answer.size() < 12) return {{}, "no HTTP answer"};
-    const std::string status = answer.substr(9, 3);
-    if (status != "200" && status != "503")
-        return {{}, status == "401" ? "it asks for a sign-in ([users] local_role)" : "HTTP status " + status};
-    return {answer.substr(body + 4), {}};
-}
+constexpr std::size_t most_events = 10'000, most_log = 1u << 20;
 
 /// The last bytes of a file; files of /proc have no length and are read from their beginning.
 std::string tail_of_file(const std::string& path, std::size_t most = most_log) {
@@ -200,8 +151,6 @@ private:
         add("axisgate.log", tail_of_file(config_.log_file), "the last 1 MiB of the log");
     }
     void pages() {
-        const auto where = parse_host_port(config_.http_bind);
-        const bool tls = config_.http_tls_self_signed || !config_.http_tls_cert.empty();
         for (const auto& [name, path, what] : {std::tuple{"about.json", "/api/v1/about", "doors, versions, families"},
                                                {"readyz.json", "/readyz", "what is not as it should be"},
                                                {"metrics.txt", "/metrics", "every figure"},
@@ -210,9 +159,7 @@ private:
                                                {"axes.json", "/api/v1/axes", "axes as they are"},
                                                {"alarms.json", "/api/v1/alarms", "the list of alarms"},
                                                {"modbus.json", "/api/v1/modbus", "Modbus clients and locks"}}) {
-            const Page page = !where ? Page{{}, "there is no HTTP door"}
-                              : tls  ? Page{{}, "the door speaks TLS: fetch it by hand"}
-                                     : fetch(*where, path);
+            const OwnPage page = own_page(config_, path);
             page.fault.empty() ? add(name, page.body, what) : missing(name, fmt::format("{}: {}", path, page.fault));
         }
     }

@@ -1,4 +1,4 @@
-// Commands: families, catalogue, check, backup, restore.
+// Commands: families, catalogue, check, health, bundle, pki.
 // In: arguments. Out: tables, CSV or JSON on standard output, faults on standard error, the exit code. Never starts a thread.
 #include "gateway/runtime/commands.hpp"
 
@@ -15,11 +15,11 @@
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/runtime/own_page.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/site/options.hpp"
-#include "gateway/store/backup.hpp"
 #include "gateway/store/store.hpp"
 
 namespace axisgate {
@@ -209,13 +209,15 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
     return count == 0 ? exit_good : exit_usage;
 }
 
-int command_backup(const Config& config, const std::string& file) {
-    if (const auto done = backup_database(config.data_dir, file); !done) {
-        complain(done.error().text);
-        return exit_failed;
+int command_health(const Config& config) {
+    const OwnPage page = own_page(config, "/healthz");
+    if (page.status == 200) {
+        fmt::print("{}\n", page.body);
+        return exit_good;
     }
-    fmt::print("{}\n", file);
-    return exit_good;
+    complain(fmt::format("the gateway at {} is not well: {}", config.http_bind.empty() ? "no HTTP door" : config.http_bind,
+                         page.fault.empty() ? page.body : page.fault));
+    return exit_failed;
 }
 
 int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file) {
@@ -234,24 +236,6 @@ int command_pki(const PkiOptions& options) {
     if (made.fault.empty()) return exit_good;
     complain(made.fault);
     return exit_failed;
-}
-
-int command_restore(const Config& config, const std::string& file) {
-    StoreOptions options;
-    options.directory = config.data_dir;
-    const auto migrations = migrations_among(all_assets());
-    if (!migrations) {
-        complain(migrations.error().text);
-        return exit_failed;
-    }
-    options.migrations = *migrations;
-    const auto done = restore_database(file, options);
-    if (!done) {
-        complain(done.error().text);
-        return exit_failed;
-    }
-    fmt::print("restored into {}{}\n", config.data_dir, done->kept.empty() ? "" : "; the database that was there is kept as " + done->kept);
-    return exit_good;
 }
 
 }  // namespace axisgate

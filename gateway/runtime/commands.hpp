@@ -15,7 +15,8 @@ inline constexpr int exit_good = 0, exit_failed = 1, exit_usage = 2;
 
 struct ServeOptions {
     Config config;
-    std::string site_file;  ///< replaces the stored site when it is given
+    std::string site_file;    ///< replaces the stored site when it is given
+    std::string config_file;  ///< that `config` was read from; goes into backups
 };
 [[nodiscard]] int command_serve(const ServeOptions& options);
 
@@ -27,12 +28,21 @@ struct ServeOptions {
 /// Reads configuration and site as `serve` would; prints every fault with file, line and remedy. `all_read` false: a file of the sources
 /// could not be read, which has been said already.
 [[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read = true);
-[[nodiscard]] int command_backup(const Config& config, const std::string& file);
+/// `passphrase_file` empty: not sealed.
+[[nodiscard]] int command_backup(const Config& config, const std::string& config_file, const std::string& file,
+                                 const std::string& passphrase_file);
+/// Asks the gateway of this configuration whether it is well: its word on standard output, and the exit code.
+[[nodiscard]] int command_health(const Config& config);
 /// Writes a support bundle; `sources` are those that `config` was read from.
 [[nodiscard]] int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file);
 /// Makes the certificates of a DDS domain; prints the folders that were made.
 [[nodiscard]] int command_pki(const PkiOptions& options);
-[[nodiscard]] int command_restore(const Config& config, const std::string& file);
+struct RestoreOptions {
+    std::string file, passphrase_file;
+    bool with_config = false;  ///< the configuration of the backup takes the place of this host's, and its paths hold
+};
+/// `sources` are those that `config` was read from.
+[[nodiscard]] int command_restore(Config config, const ConfigSources& sources, const RestoreOptions& options);
 
 struct TwinOptions {
     std::string family;

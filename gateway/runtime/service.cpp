@@ -161,6 +161,7 @@ int Service::open_store() {
     ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
                                std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
+    ports->backup.use(backup_plan(options.config, options.config_file));
     ports->recorder.begin(recorder_settings(options.config));
     ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();

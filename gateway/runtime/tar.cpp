@@ -5,22 +5,27 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <cstring>
 
 namespace axisgate {
 namespace {
-constexpr std::size_t block = 512;
+std::optional<std::uint64_t> octal(std::string_view digits) {
+    std::uint64_t value = 0;
+    const auto [end, ec] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 8);
+    if (ec != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+    return value;
 }
+}  // namespace
 
-void Tar::add(std::string_view name, std::string_view content, std::int64_t at_unix_s) {
-    std::array<char, block> head{};
+std::string tar_header(std::string_view name, std::uint64_t bytes, std::int64_t at_unix_s) {
+    std::string head(tar_block, '\0');
     const auto put = [&head](std::size_t at, std::string_view text) { std::memcpy(head.data() + at, text.data(), text.size()); };
     put(0, name.substr(0, 100));
     put(100, "0000600");
     put(108, "0000000");
     put(116, "0000000");
-    put(124, fmt::format("{:011o}", content.size()));
+    put(124, fmt::format("{:011o}", bytes));
     put(136, fmt::format("{:011o}", std::max<std::int64_t>(0, at_unix_s)));
     put(148, "        ");  // the checksum counts itself as blanks
     put(156, "0");
@@ -31,13 +36,26 @@ void Tar::add(std::string_view name, std::string_view content, std::int64_t at_u
     put(148, std::string_view(fmt::format("{:06o}", sum)));
     head[154] = '\0';
     head[155] = ' ';
-    bytes_.append(head.data(), head.size());
-    bytes_.append(content);
-    bytes_.append((block - content.size() % block) % block, '\0');
+    return head;
+}
+
+std::optional<TarEntry> read_tar_header(std::string_view block) {
+    if (block.size() != tar_block) return std::nullopt;
+    const auto bytes = octal(block.substr(124, 11)), at = octal(block.substr(136, 11));
+    if (!bytes || !at) return std::nullopt;
+    TarEntry e{std::string(block.substr(0, std::min<std::size_t>(block.find('\0'), 100))), *bytes, static_cast<std::int64_t>(*at)};
+    if (block != tar_header(e.name, e.bytes, e.at_unix_s)) return std::nullopt;
+    return e;
+}
+
+void Tar::add(std::string_view name, std::string_view content, std::int64_t at_unix_s) {
+    bytes_ += tar_header(name, content.size(), at_unix_s);
+    bytes_ += content;
+    bytes_.append(tar_padding(content.size()), '\0');
 }
 
 std::string Tar::finish() && {
-    bytes_.append(2 * block, '\0');
+    bytes_.append(2 * tar_block, '\0');
     return std::move(bytes_);
 }
 

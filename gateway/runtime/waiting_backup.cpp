@@ -7,14 +7,14 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <cerrno>
-
 #include <boost/json/object.hpp>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
+#include <cerrno>
 #include <filesystem>
 #include <vector>
 
+#include "gateway/runtime/backup_file.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/files.hpp"
@@ -25,8 +25,12 @@ namespace fs = std::filesystem;
 namespace json = boost::json;
 constexpr std::size_t most_note_bytes = 65536;
 
+constexpr std::string_view check_name = "restore-check";
+
+/// A plain database, or an archive in the open: what was sealed waits as open as the database itself lies here.
 std::string file_in(const std::string& directory) { return directory + "/restore-at-start.db"; }
-std::string check_folder_in(const std::string& directory) { return directory + "/restore-check"; }
+/// A second gateway that is started on the same directory must not meet the folder of the first.
+std::string check_folder_in(const std::string& directory) { return fmt::format("{}/{}-{}", directory, check_name, ::getpid()); }
 std::string note_in(const std::string& directory) { return directory + "/restore-at-start.json"; }
 
 /// With rights for this user alone from its first moment: a backup has the users and their hashes in it.
@@ -61,41 +65,71 @@ std::string words_for(const StoreError& e) {
             return fmt::format("it could not be checked ({})", name_of(e.kind));
     }
 }
+
+BackupOutcome refused(const StoreError& e) {
+    const bool theirs = e.kind == StoreError::Kind::corrupt || e.kind == StoreError::Kind::not_ours || e.kind == StoreError::Kind::newer;
+    return {words_for(e), !theirs, {}};
+}
+BackupOutcome refused(const BackupFault& f) {
+    if (f.kind == BackupFault::Kind::cannot_read || f.kind == BackupFault::Kind::cannot_write)  // its words name files
+        return {"there is no room for it on the gateway's disk, or its data directory cannot be written", true, {}};
+    return {f.text, false, {}};
+}
+
+/// The file in which what was sent lies in the open, and the database in it as one that can be tried.
+tl::expected<std::string, BackupOutcome> spread_out(const std::string& bytes, const std::string& passphrase, const std::string& part,
+                                                    const std::string& folder, std::string& note) {
+    const auto form = backup_form_of(bytes);
+    if (form == BackupForm::none) return tl::unexpected(BackupOutcome{"it is no backup of axisgate", false, {}});
+    if (form == BackupForm::sealed) {
+        if (auto r = unseal_backup(bytes, passphrase, part); !r) return tl::unexpected(refused(r.error()));
+    } else if (!write_durably(part, bytes)) {
+        return tl::unexpected(refused(BackupFault{BackupFault::Kind::cannot_write, {}}));
+    }
+    if (form == BackupForm::database) return part;
+    const auto in_it = open_backup(part, {}, folder);
+    if (!in_it) return tl::unexpected(refused(in_it.error()));
+    std::string left;
+    for (const auto& m : in_it->members) {
+        if (m != database_member && !m.starts_with("http-")) left += (left.empty() ? "" : ", ") + m;
+    }
+    if (!left.empty()) note = fmt::format("files of the host are not taken over the network ({}): `axisgate restore` takes them", left);
+    return fmt::format("{}/{}", folder, database_member);
+}
 }  // namespace
 
-RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns, const StoreOptions& options) {
+BackupOutcome lay_down_backup(const std::string& bytes, const std::string& passphrase, const std::string& who, std::int64_t at_unix_ns,
+                              const StoreOptions& options) {
     // Tried in a folder of its own first: what is laid down is a database that this program opens.
     const std::string folder = check_folder_in(options.directory), part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
-    RestoreFault fault;
+    BackupOutcome outcome;
     json::object note{{"at_unix_ns", at_unix_ns}, {"who", who}};
-    if (!write_durably(part, bytes))
-        fault = {"there is no room for it on the gateway's disk, or its data directory cannot be written", true};
-    if (fault.text.empty()) {
+    if (const auto database = spread_out(bytes, passphrase, part, folder, outcome.note); !database) {
+        outcome = database.error();
+    } else {
         StoreOptions tried = options;
-        tried.directory = folder;
-        if (const auto good = restore_database(part, tried)) {
+        tried.directory = folder + "/trial";
+        if (const auto good = restore_database(*database, tried)) {
             note["version"] = good->version;
             note["site_revision"] = good->site_revision;
         } else {
-            const auto kind = good.error().kind;
-            fault = {words_for(good.error()),
-                     kind != StoreError::Kind::corrupt && kind != StoreError::Kind::not_ours && kind != StoreError::Kind::newer};
+            outcome = refused(good.error());
         }
     }
     fs::remove_all(folder, ec);
-    if (fault.text.empty()) {
+    if (outcome.fault.empty()) {
         // The text first: beside a backup of before it would tell of the wrong one, so that one goes before.
         fs::remove(file_in(options.directory), ec);
         (void)write_durably(note_in(options.directory), json::serialize(note));
         fs::rename(part, file_in(options.directory), ec);
-        if (ec) fault = {"it could not be laid down: " + ec.message(), true};
-        if (fault.text.empty() && !files::sync_directory(options.directory))
-            fault = {"it could not be laid down durably: the disk failed", true};
+        if (ec) outcome = {"it could not be laid down: " + ec.message(), true, {}};
+        if (outcome.fault.empty() && !files::sync_directory(options.directory))
+            outcome = {"it could not be laid down durably: the disk failed", true, {}};
     }
-    if (!fault.text.empty()) fs::remove(part, ec);
-    return fault;
+    if (!outcome.fault.empty()) fs::remove(part, ec);
+    return outcome;
 }
 
 std::optional<WaitingBackup> waiting_backup(const std::string& directory) {
@@ -136,26 +170,44 @@ std::string cancel_waiting_backup(const std::string& directory) {
 
 void remove_backup_leftovers(const std::string& directory) {
     std::error_code ec;
-    fs::remove_all(check_folder_in(directory), ec);
     std::vector<fs::path> gone;
     for (fs::directory_iterator it(directory, ec), end; !ec && it != end; it.increment(ec)) {
         const std::string name = it->path().filename().string();
-        if (name == "restore-at-start.part" || name.starts_with(download_name)) gone.push_back(it->path());
+        if (name == "restore-at-start.part" || name.starts_with(download_name) || name.starts_with(check_name)) gone.push_back(it->path());
     }
     for (const auto& path : gone)
-        fs::remove(path, ec);
+        fs::remove_all(path, ec);
 }
 
 std::string take_waiting_backup(const StoreOptions& options) {
-    const std::string file = file_in(options.directory);
+    const std::string file = file_in(options.directory), folder = check_folder_in(options.directory);
     std::error_code ec;
     if (!fs::exists(file, ec)) return {};
-    const auto done = restore_database(file, options);
+    std::string fault, database = file;
+    bool in_use = false;
+    if (backup_form_of_file(file) != BackupForm::database) {
+        fs::remove_all(folder, ec);
+        database = fmt::format("{}/{}", folder, database_member);
+        if (const auto open = open_backup(file, {}, folder); !open) fault = open.error().text;
+    }
+    if (fault.empty()) {
+        if (const auto done = restore_database(database, options); !done) {
+            fault = done.error().text;
+            in_use = done.error().kind == StoreError::Kind::in_use;
+        }
+    }
+    if (fault.empty() && fs::exists(folder + "/http-key.pem", ec) && fs::exists(folder + "/http-cert.pem", ec)) {
+        // The key first, as where the pair is made: a cut between the two leaves a pair that does not fit, and the door makes another.
+        for (const auto* name : {"/http-key.pem", "/http-cert.pem"})
+            fs::rename(folder + name, options.directory + name, ec);
+    }
+    fs::remove_all(folder, ec);
+    if (in_use) return fault;  // it waits for the gateway that runs here
     fs::remove(note_in(options.directory), ec);
-    if (!done) {
+    if (!fault.empty()) {
         fs::rename(file, file + ".refused", ec);
         return fmt::format("the backup that was laid down cannot be taken: {}; it is kept as {}.refused, start again to go on without it",
-                           done.error().text, file);
+                           fault, file);
     }
     fs::remove(file, ec);
     return {};

@@ -12,13 +12,15 @@
 
 namespace axisgate {
 
-/// Checks the bytes and lays them down in `options.directory`, in the place of what waited there. Empty, or a fault.
-[[nodiscard]] RestoreFault lay_down_backup(const std::string& bytes, const std::string& who, std::int64_t at_unix_ns,
-                                           const StoreOptions& options);
+/// Checks the bytes (a backup file of either form, or a plain database) and lays them down in `options.directory`, in the place of what
+/// waited there.
+[[nodiscard]] BackupOutcome lay_down_backup(const std::string& bytes, const std::string& passphrase, const std::string& who,
+                                            std::int64_t at_unix_ns, const StoreOptions& options);
 [[nodiscard]] std::optional<WaitingBackup> waiting_backup(const std::string& directory);
 /// Empty, or a fault; "none" if nothing waits.
 [[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);
-/// At start, before the database is opened. Empty, or a fault; the file is then kept aside, so that the next start goes on without it.
+/// At start, before the database is opened: the database, and the certificate of the gateway's own making. Empty, or a fault; the file is
+/// then kept aside, so that the next start goes on without it, unless another gateway serves the directory.
 [[nodiscard]] std::string take_waiting_backup(const StoreOptions& options);
 
 /// Name under which a backup is made for a download, in the data directory; more may follow it.

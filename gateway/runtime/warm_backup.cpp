@@ -15,30 +15,33 @@ namespace {
 constexpr std::size_t most_backup_bytes = 64ull << 20;  // a larger one is made with `axisgate backup`
 }  // namespace
 
-void WarmBackup::backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) {
-    threads_.on_cold([this, then = std::move(then)](Store& store) {
+void WarmBackup::backup(std::string passphrase, std::function<void(std::optional<std::string> bytes, BackupOutcome)> then) {
+    threads_.on_cold([this, plan = plan_, passphrase = std::move(passphrase), then = std::move(then)](Store& store) {
         const std::string file = fmt::format("{}/{}", store.directory(), download_name);
-        std::string fault;
+        BackupOutcome outcome;
         std::optional<std::string> bytes;
-        if (const auto made = store.backup(file); !made) {
-            fault = made.error().text;
+        if (const auto made = make_backup(plan, {passphrase, !passphrase.empty()}, file); !made) {
+            outcome = {made.error().text, made.error().kind != BackupFault::Kind::passphrase_unfit, {}};
         } else {
-            bytes = read_file(file, fault, most_backup_bytes);
+            bytes = read_file(file, outcome.fault, most_backup_bytes);
+            outcome.no_room = !bytes;
         }
         std::error_code ec;
         std::filesystem::remove(file, ec);
-        threads_.answer([then, bytes = std::move(bytes), fault = std::move(fault)]() mutable { then(std::move(bytes), std::move(fault)); });
+        threads_.answer(
+            [then, bytes = std::move(bytes), outcome = std::move(outcome)]() mutable { then(std::move(bytes), std::move(outcome)); });
     });
 }
 
-void WarmBackup::restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) {
-    threads_.on_cold([this, bytes = std::move(bytes), origin = std::move(origin), then = std::move(then)](Store& store) {
-        const auto fault = lay_down_backup(bytes, origin.who ? *origin.who : origin.text(), unix_now_ns(), store.options());
-        threads_.answer([this, origin, then, fault] {
-            if (fault.text.empty())
+void WarmBackup::restore(std::string bytes, std::string passphrase, Origin origin, std::function<void(BackupOutcome)> then) {
+    threads_.on_cold([this, bytes = std::move(bytes), passphrase = std::move(passphrase), origin = std::move(origin),
+                      then = std::move(then)](Store& store) {
+        const auto outcome = lay_down_backup(bytes, passphrase, origin.who ? *origin.who : origin.text(), unix_now_ns(), store.options());
+        threads_.answer([this, origin, then, outcome] {
+            if (outcome.fault.empty())
                 events_.note("site", "a backup was laid down: it takes the place of the database at the next start", origin,
                              Severity::warning);
-            then(fault);
+            then(outcome);
         });
     });
 }

@@ -3,6 +3,7 @@
 // Never names a path to who asked.
 #pragma once
 
+#include "gateway/runtime/backup_plan.hpp"
 #include "gateway/runtime/warm_events.hpp"
 #include "gateway/runtime/warm_threads.hpp"
 #include "gateway/services/ports/backup.hpp"
@@ -12,14 +13,17 @@ namespace axisgate {
 class WarmBackup final : public BackupPort {
 public:
     WarmBackup(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
-    void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) override;
-    void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) override;
+    /// Which files belong into a backup; before the first one is asked for.
+    void use(BackupPlan plan) { plan_ = std::move(plan); }
+    void backup(std::string passphrase, std::function<void(std::optional<std::string> bytes, BackupOutcome)> then) override;
+    void restore(std::string bytes, std::string passphrase, Origin origin, std::function<void(BackupOutcome)> then) override;
     void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) override;
     void cancel_restore(Origin origin, std::function<void(std::string fault)> then) override;
 
 private:
     const WarmThreads& threads_;
     WarmEvents& events_;
+    BackupPlan plan_;
 };
 
 }  // namespace axisgate

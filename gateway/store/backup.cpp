@@ -64,6 +64,12 @@ StoreResult<int> check_copy(const std::string& file, std::span<const Migration> 
 
 }  // namespace
 
+StoreResult<> check_backup_target(const std::string& directory, const std::string& target) {
+    const auto to = target_of(target, StoreFiles(directory));
+    if (!to) return fail(to, "no backup made");
+    return {};
+}
+
 StoreResult<> backup_database(const std::string& directory, const std::string& target) {
     const StoreFiles files(directory);
     if (!files::exists(files.database)) {
@@ -74,8 +80,18 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
     if (!to) return fail(to, "no backup made");
     static std::atomic<unsigned> count{0};  // two backups to one name at once must not share their unfinished file
     const std::string part = fmt::format("{}.{}-{}.part", to->file, ::getpid(), ++count);
+    const std::string copied = part + ".source.part";
     const auto made = [&]() -> StoreResult<> {
-        auto db = Db::open(files.database, Db::Mode::read_only);
+        // On a file system that cannot be written SQLite opens no database with a log. Nobody writes there, so a copy of its files is
+        // whole.
+        const bool frozen = files::is_read_only(files.directory) && !files::same(files.directory, to->directory);
+        if (frozen) {
+            for (const char* suffix : {"", "-wal"}) {
+                if (!files::exists(files.database + suffix)) continue;
+                if (auto r = files::copy(files.database + suffix, copied + suffix, to->directory); !r) return r;
+            }
+        }
+        auto db = frozen ? Db::open(copied, Db::Mode::read_write) : Db::open(files.database, Db::Mode::read_only);
         if (!db) return fail(db);
         const auto version = version_of(**db);
         if (!version) return fail(version);
@@ -89,6 +105,7 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
         if (auto r = files::sync(part, to->directory); !r) return r;
         return files::rename(part, to->file, to->directory);
     }();
+    files::remove_database(copied);
     if (!made) {
         files::remove_database(part);
         return fail(made, fmt::format("no backup made to {}", to->file));

@@ -16,6 +16,9 @@ namespace axisgate {
 /// Errors: not_found (no database), invalid (target is part of the data directory's own files), disk_full, corrupt (the source), ...
 [[nodiscard]] StoreResult<> backup_database(const std::string& directory, const std::string& target);
 
+/// Whether a file of that name may be made beside the data directory's own: `invalid` if not.
+[[nodiscard]] StoreResult<> check_backup_target(const std::string& directory, const std::string& target);
+
 struct RestoreReport {
     std::string kept;                 ///< where the replaced database now is; empty if there was none
     int version = 0;                  ///< of the restored file; the next start upgrades it if it is older than the program

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <array>
@@ -222,6 +223,11 @@ bool has_sqlite_header(const std::string& file) noexcept {
 std::int64_t size(const std::string& file) noexcept {
     struct stat st {};
     return ::stat(file.c_str(), &st) == 0 ? static_cast<std::int64_t>(st.st_size) : -1;
+}
+
+bool is_read_only(const std::string& path) noexcept {
+    struct statvfs st {};
+    return ::statvfs(path.c_str(), &st) == 0 && (st.f_flag & ST_RDONLY) != 0;
 }
 
 bool same(const std::string& a, const std::string& b) noexcept {

@@ -57,6 +57,8 @@ void remove_database(const std::string& file) noexcept;
 [[nodiscard]] std::int64_t size(const std::string& file) noexcept;
 /// Whether it begins as every SQLite file does that is not empty.
 [[nodiscard]] bool has_sqlite_header(const std::string& file) noexcept;
+/// Whether the file system that it is on was mounted so that nobody can write.
+[[nodiscard]] bool is_read_only(const std::string& path) noexcept;
 /// The same file under any name (links, "..").
 [[nodiscard]] bool same(const std::string& a, const std::string& b) noexcept;
 

@@ -49,7 +49,19 @@ test('a backup goes out; a restore is asked for twice', async () => {
   assert.equal(first.status(), 200);
   await page.reload();
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Backup of everything' }).click()]);
-  assert.match(download.suggestedFilename(), /\.db$/);
+  assert.match(download.suggestedFilename(), /\.tar$/);
+  // With a passphrase it is sealed, and nobody takes it without.
+  const passphrase = page.getByLabel('Passphrase of the backup');
+  await passphrase.fill('four wörds nobody guesses');
+  const [sealed] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Backup of everything' }).click()]);
+  assert.match(sealed.suggestedFilename(), /\.sealed$/);
+  assert.equal(readFileSync(await sealed.path()).subarray(0, 15).toString(), 'AXISGATE-SEALED');
+  await passphrase.fill('four words nobody guesses');
+  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles(await sealed.path());
+  await page.getByRole('button', { name: 'Replace everything' }).click();
+  await until('the wrong one is refused', async () => /passphrase is wrong/.test(await told('files-told')) || (await told('files-told')));
+  await page.getByRole('button', { name: 'Leave it' }).click();
+  await passphrase.fill('');
   const file = join(program.data, 'copy.db');
   writeFileSync(file, 'no database');
   await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles(file);
@@ -60,7 +72,7 @@ test('a backup goes out; a restore is asked for twice', async () => {
   // What is laid down waits, in sight of every administrator, until the next start; dropped, it does not.
   const pending = page.locator('[data-field=pending]');
   await becomes('nothing waits', () => pending.count(), 0);
-  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles({ name: 'copy.db', mimeType: 'application/octet-stream', buffer: readFileSync(copy) });
+  await page.getByLabel('Restore a backup', { exact: true }).and(page.locator('input')).setInputFiles({ name: 'copy.tar', mimeType: 'application/octet-stream', buffer: readFileSync(copy) });
   await page.getByRole('button', { name: 'Replace everything' }).click();
   await pending.getByText('A restore waits: it takes effect with the next start.').waitFor();
   assert.match(await told('pending-what'), /^Laid down .* by .*anna.*, \d.*It brings site revision \d+ with it, and a database of structure \d+\./);

@@ -101,7 +101,7 @@ def test_the_lines_of_the_page_work_in_their_order(folder):
         assert n == 1 and g.code
         out = run_lines(text, folder, 100)
         assert "node_id" in out and "include_addressing" in out
-        assert (folder / "backup.db").read_bytes().startswith(b"SQLite format 3")
+        assert (folder / "backup.tar").read_bytes().startswith(b"backup.json") and (folder / "backup.sealed").read_bytes().startswith(b"AXISGATE-SEALED")
         assert g.get("/axes/feeder")["unit"] == "cm" and not g.axis()["moving"]
         assert g.request("GET", "/healthz")[0] == 200
 
@@ -117,7 +117,7 @@ def test_the_lines_of_the_readme_work_in_their_order(folder):
 
 HANDBOOK = sorted(p.stem for p in (TOP / "docs/handbook").glob("*.md"))
 # What a block ```console may begin with: it changes the machine itself, or speaks of the installed service.
-INSTALLED = re.compile(r"(sudo|apt|systemctl|journalctl|ip|deploy/package)\b|axisgate .*/etc/axisgate")
+INSTALLED = re.compile(r"(sudo|apt|systemctl|journalctl|ip|podman|deploy/package)\b|axisgate .*/etc/axisgate")
 
 
 def test_what_is_not_run_needs_an_installed_machine():

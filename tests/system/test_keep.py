@@ -278,7 +278,7 @@ def test_a_backup_comes_back_at_the_next_start(folder):
         signed = {"Cookie": headers["Set-Cookie"].split(";")[0], "X-CSRF-Token": session["csrf"]}
         head.update(signed)
         status, data, _ = g.request("GET", "/api/v1/backup", None, signed)
-        assert status == 200 and data[:15] == b"SQLite format 3"
+        assert status == 200 and data[:11] == b"backup.json"
         g.send("PATCH", "/axes/feeder", {"unit": "m"})
         assert g.request("PUT", "/api/v1/backup", b"nothing", head)[0] == 422
         assert g.request("PUT", "/api/v1/backup", data[:100] + b"x" * 20000, head)[0] == 422

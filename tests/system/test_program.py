@@ -16,7 +16,7 @@ from harness import Gateway, Process, run, until
 def test_version_help_and_wrong_usage():
     assert run("version", check=0)[1].startswith("axisgate ")
     text = run("help", check=0)[1]
-    for word in ("serve", "twin", "families", "catalogue", "decode", "check", "backup", "restore", "pki", "version"):
+    for word in ("serve", "twin", "families", "catalogue", "decode", "check", "backup", "restore", "health", "bundle", "pki", "version"):
         assert word in text
     for arguments in ((), ("nonsense",), ("serve", "--nonsense"), ("catalogue",), ("catalogue", "nobody"), ("decode", "nobody"), ("twin", "uim342"),
                       ("twin", "uim342", "--line", "twin"), ("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--address", "4"),
@@ -214,7 +214,7 @@ def test_taken_port_is_said(folder):
 
 
 def test_backup_and_restore(folder):
-    copy = folder / "copy.db"
+    copy = folder / "copy.tar"
     with Gateway(folder) as g:
         g.send("PUT", "/axes/feeder/parameters/AC", {"value": 4321})
         run("backup", str(copy), "--data", str(folder / "data"), check=0)
@@ -225,7 +225,7 @@ def test_backup_and_restore(folder):
     run("restore", str(copy), "--data", str(folder / "data"), check=0)
     with Gateway(folder, None) as g:
         assert g.get("/axes/feeder/parameters/AC")["stored"] == 4321
-    assert sqlite3.connect(copy).execute("pragma integrity_check").fetchone()[0] == "ok"
+    assert sqlite3.connect(folder / "data/axisgate.db").execute("pragma integrity_check").fetchone()[0] == "ok"
 
 
 def test_restart_keeps_the_site_and_starts_quickly(folder):

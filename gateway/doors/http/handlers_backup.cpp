@@ -1,29 +1,48 @@
-// Handlers of backups: the database as one file, one laid down for the next start, what waits, and the way back.
+// Handlers of backups: the gateway as one file, one laid down for the next start, what waits, and the way back.
 // In: calls. Out: the file; what waits; 202 where something will happen later. Never replaces the database while it is served.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/text.hpp"
 #include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 
+namespace {
+/// A header, because it must neither stand in an address, which is logged on the way, nor in a body that is the backup itself.
+constexpr std::string_view passphrase_header = "X-Backup-Passphrase";
+
+/// Empty: none was sent. Nothing: it is not text that was percent-encoded.
+std::optional<std::string> passphrase_of(const Call& c) { return percent_decode(c.request.headers.get(passphrase_header)); }
+Handled not_encoded() {
+    return invalid({{"", fmt::format("the header {} is not percent-encoded", passphrase_header),
+                     "send each byte of the passphrase but letters, digits and -._~ as %XX"}});
+}
+}  // namespace
+
 Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
-    auto note_sent = [&events, who = c.who(), sent = c.request.method == Method::get](std::size_t bytes) {
+    const auto passphrase = passphrase_of(c);
+    if (!passphrase) return not_encoded();
+    auto note_sent = [&events, who = c.who(), sent = c.request.method == Method::get, sealed = !passphrase->empty()](std::size_t bytes) {
         if (!sent) return;  // HEAD: nothing leaves
         Event e;
         e.kind = "site";  // as of a backup that is laid down
-        e.text = fmt::format("a backup was handed out: the whole database, {} bytes, with users, tokens and all that was stored", bytes);
+        e.text = fmt::format("a backup was handed out: the whole database, {} bytes, with users, tokens and all that was stored, {}", bytes,
+                             sealed ? "and private keys, sealed with a passphrase" : "in the open");
         e.who = who;
         e.door = std::string(axisgate::name_of(Door::http));
         events.note(std::move(e));
     };
-    backups.backup([respond = c.respond, note_sent = std::move(note_sent)](std::optional<std::string> bytes, const std::string& fault) {
-        if (!bytes) return respond(problem(507, "not_stored", fault));
+    backups.backup(*passphrase, [respond = c.respond, note_sent = std::move(note_sent), sealed = !passphrase->empty()](
+                                    std::optional<std::string> bytes, const BackupOutcome& outcome) {
+        if (!bytes && !outcome.no_room)
+            return respond(invalid({{"", "no backup is made: " + outcome.fault, "send another passphrase, or none"}}));
+        if (!bytes) return respond(problem(507, "not_stored", outcome.fault));
         note_sent(bytes->size());
         Response r;
         r.headers.set("Content-Type", "application/octet-stream");
-        r.headers.set("Content-Disposition", "attachment; filename=\"axisgate-backup.db\"");
+        r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"axisgate-backup.{}\"", sealed ? "sealed" : "tar"));
         r.body = std::move(*bytes);
         respond(std::move(r));
     });
@@ -31,16 +50,18 @@ Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
 }
 
 Handled put_backup(Call& c, BackupPort& backups) {
-    if (!c.request.body.starts_with(std::string_view("SQLite format 3\0", 16)))
-        return invalid({{"", "this is no backup of axisgate", "send the file that GET /backup gave"}});
-    backups.restore(c.request.body, c.origin(), [respond = c.respond](const RestoreFault& fault) {
-        if (fault.no_room) return respond(problem(507, "not_stored", "the backup is not taken: " + fault.text));
-        if (!fault.text.empty())
-            return respond(invalid({{"", "the backup is not taken: " + fault.text, "send a whole backup of this or an older version"}}));
-        respond(
-            json_response(json::object{{"restart_needed", true},
-                                       {"text", "the backup is whole and laid down: it takes the place of the database at the next start"}},
-                          202));
+    const auto passphrase = passphrase_of(c);
+    if (!passphrase) return not_encoded();
+    backups.restore(c.request.body, *passphrase, c.origin(), [respond = c.respond](const BackupOutcome& outcome) {
+        if (outcome.no_room) return respond(problem(507, "not_stored", "the backup is not taken: " + outcome.fault));
+        if (!outcome.fault.empty())
+            return respond(
+                invalid({{"", "the backup is not taken: " + outcome.fault,
+                          fmt::format("send a whole backup of this or an older version, and the passphrase of a sealed one in {}",
+                                      passphrase_header)}}));
+        std::string text = "the backup is whole and laid down: it takes the place of the database at the next start";
+        if (!outcome.note.empty()) text += "; " + outcome.note;
+        respond(json_response(json::object{{"restart_needed", true}, {"text", text}}, 202));
     });
     return {gateway_limit, problem(504, "time_out", "the backup was not checked in time")};
 }

@@ -1,5 +1,5 @@
-// Backup port: the database as one file: taken out, and laid down for the next start.
-// In: bytes of a backup. Out: bytes, or why not, by callbacks on the service thread.
+// Backup port: the whole gateway as one file: taken out, and laid down for the next start.
+// In: bytes of a backup, a passphrase. Out: bytes, or why not, by callbacks on the service thread.
 // Never replaces the database that is in use.
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace axisgate {
 
-/// Why a backup was not laid down; `text` empty: it was. Faults name no path.
-struct RestoreFault {
-    std::string text;
-    bool no_room = false;  ///< the backup may be good: this machine could not keep it
+/// What came of a backup that was asked for or sent. Faults of what was sent name no path.
+struct BackupOutcome {
+    std::string fault;     ///< empty: done
+    bool no_room = false;  ///< what was sent or asked for may be good: this machine could not keep or make it
+    std::string note;      ///< what of it is not taken; empty: nothing
 };
 
 /// A backup that was laid down and waits for the next start.
@@ -30,10 +31,10 @@ struct WaitingBackup {
 class BackupPort {
 public:
     virtual ~BackupPort() = default;
-    /// A whole, checked copy of the database, or nothing and why.
-    virtual void backup(std::function<void(std::optional<std::string> bytes, std::string fault)> then) = 0;
-    /// Checks a backup and lays it down to be taken at the next start.
-    virtual void restore(std::string bytes, Origin origin, std::function<void(RestoreFault)> then) = 0;
+    /// A whole, checked copy, sealed if there is a passphrase, and then with private keys; or nothing and why.
+    virtual void backup(std::string passphrase, std::function<void(std::optional<std::string> bytes, BackupOutcome)> then) = 0;
+    /// Checks a backup and lays it down to be taken at the next start. The passphrase counts for a sealed one alone.
+    virtual void restore(std::string bytes, std::string passphrase, Origin origin, std::function<void(BackupOutcome)> then) = 0;
     virtual void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) = 0;
     /// Takes it away again: empty, or why not; nothing waits: "none".
     virtual void cancel_restore(Origin origin, std::function<void(std::string fault)> then) = 0;

@@ -83,10 +83,16 @@ class FakeBackup : public BackupPort {
 public:
     explicit FakeBackup(const std::string& keep_fault) : fault_(keep_fault) {}
     std::string bytes = "SQLite", restored;
-    void backup(std::function<void(std::optional<std::string>, std::string)> then) override { then(bytes, ""); }
-    void restore(std::string sent, Origin, std::function<void(RestoreFault)> then) override {
+    std::string passphrase;  ///< that was sent last
+    void backup(std::string with, std::function<void(std::optional<std::string>, BackupOutcome)> then) override {
+        passphrase = std::move(with);
+        if (passphrase == "unfit") return then(std::nullopt, {"a passphrase has 12 to 256 characters", false, {}});
+        then(bytes, {});
+    }
+    void restore(std::string sent, std::string with, Origin, std::function<void(BackupOutcome)> then) override {
         restored = std::move(sent);
-        then({fault_, no_room});
+        passphrase = std::move(with);
+        then({fault_, no_room, {}});
     }
     std::optional<WaitingBackup> waits;
     bool no_room = false;

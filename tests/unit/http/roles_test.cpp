@@ -112,6 +112,32 @@ TEST_F(AccessTest, ABackupThatCannotBeKeptIsNotCalledABadOne) {
     EXPECT_NE(full.text.find("there is no room"), std::string::npos);
 }
 
+TEST_F(AccessTest, TheBackupsPassphraseComesInAHeaderOfItsOwn) {
+    Fields headers = as("administrator");
+    headers.emplace_back("Content-Type", "application/octet-stream");
+    headers.emplace_back("X-Backup-Passphrase", "");
+    const auto with = [&](const char* value, const char* method) {
+        headers.back().second = value;
+        return from(faraway_peer, method, "/api/v1/backup", std::string_view(method) == "PUT" ? "a backup" : "", headers);
+    };
+    const auto sealed = with("a%20b%C3%A4", "GET");
+    EXPECT_EQ(sealed.status, 200u);
+    EXPECT_EQ(gateway.passphrase, "a b\xC3\xA4");
+    EXPECT_NE(gateway.noted.at(0).text.find("sealed"), std::string::npos);
+    EXPECT_EQ(gateway.noted[0].text.find("a b"), std::string::npos) << "it is told to nobody";
+    EXPECT_EQ(with("", "GET").status, 200u);
+    EXPECT_EQ(gateway.passphrase, "");
+    EXPECT_NE(gateway.noted.at(1).text.find("in the open"), std::string::npos);
+    EXPECT_EQ(with("unfit", "GET").status, 422u);
+    EXPECT_EQ(with("50%", "GET").status, 422u);
+    EXPECT_EQ(with("50%", "PUT").status, 422u);
+    EXPECT_EQ(gateway.noted.size(), 2u);
+    EXPECT_EQ(gateway.restored, "");
+    EXPECT_EQ(with("x%2Fy", "PUT").status, 202u);
+    EXPECT_EQ(gateway.passphrase, "x/y");
+    EXPECT_EQ(gateway.restored, "a backup");
+}
+
 /// What the connection asks before it reads a body: the same refusal as with the body, and nothing that changes anything.
 TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
     int with_body = 0, refused = 0;

@@ -60,7 +60,7 @@ TEST(WaitingBackup, TellsWhatItIsAndCanBeTakenAway) {
     const std::string good = content_of(other / "backup");
     EXPECT_FALSE(waiting_backup(dir.path()));
     EXPECT_EQ(cancel_waiting_backup(dir.path()), "none");
-    EXPECT_EQ(lay_down_backup(good, "anna", 1234, options).text, "");
+    EXPECT_EQ(lay_down_backup(good, "", "anna", 1234, options).fault, "");
     auto w = waiting_backup(dir.path());
     ASSERT_TRUE(w);
     EXPECT_EQ(w->who, "anna");
@@ -69,7 +69,7 @@ TEST(WaitingBackup, TellsWhatItIsAndCanBeTakenAway) {
     EXPECT_EQ(w->site_revision, 2u);
     EXPECT_EQ(w->version, static_cast<int>(program_migrations().size()));
     for (const auto& wrong : {good.substr(0, 6000), good.substr(0, 100) + std::string(20000, 'x'), std::string(good.size(), '\0')}) {
-        const auto [fault, no_room] = lay_down_backup(wrong, "bert", 5, options);
+        const auto [fault, no_room, note] = lay_down_backup(wrong, "", "bert", 5, options);
         EXPECT_NE(fault, "");
         EXPECT_FALSE(no_room) << fault;
         EXPECT_EQ(fault.find(dir.path()), std::string::npos) << fault;
@@ -84,7 +84,7 @@ TEST(WaitingBackup, TellsWhatItIsAndCanBeTakenAway) {
     EXPECT_EQ(cancel_waiting_backup(dir.path()), "");
     EXPECT_FALSE(waiting_backup(dir.path()));
     EXPECT_EQ(names_in(dir.path()), std::vector<std::string>{});
-    EXPECT_EQ(lay_down_backup(good, "anna", 1234, options).text, "");
+    EXPECT_EQ(lay_down_backup(good, "", "anna", 1234, options).fault, "");
     EXPECT_EQ(take_waiting_backup(options), "");
     EXPECT_FALSE(waiting_backup(dir.path()));
     EXPECT_EQ(must(open_store(dir)->load_site())->text, "two");

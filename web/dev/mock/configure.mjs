@@ -79,7 +79,7 @@ export class Configuration {
       this.pending = null;
       return { status: 204 };
     }
-    if (method === 'GET') return { type: 'application/octet-stream', text: 'SQLite format 3\0' };
+    if (method === 'GET') return { type: 'application/octet-stream', text: 'backup.json' };
     this.pending = { waiting: true, at: new Date().toISOString(), who, bytes: text.length, version: 4, site_revision: 7 };
     return { status: 202, body: { text: 'the backup is checked and laid down: start the gateway anew to take it', restart_needed: true } };
   }

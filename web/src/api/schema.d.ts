@@ -1262,9 +1262,9 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The whole database as one file */
+        /** The whole gateway as one file, as `axisgate backup` makes it; without private keys unless it is sealed */
         get: operations["getBackup"];
-        /** Checks a backup and lays it down to be taken at the next start; at most 64 MiB */
+        /** Checks a backup and lays it down to be taken at the next start; at most 64 MiB. Configuration and certificates of the host are taken by `axisgate restore` alone */
         put: operations["putBackup"];
         post?: never;
         delete?: never;
@@ -4547,6 +4547,8 @@ export interface components {
         run: number;
         /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
         ifMatch: string;
+        /** @description seals the backup, or opens a sealed one; 12 to 256 characters, percent-encoded (each byte but letters, digits and `-._~` as `%XX`) */
+        backupPassphrase: string;
         /** @description 1 replaces a stage of another client that is not applied yet */
         replaceStage: components["schemas"]["Flag"];
         /** @description the recipe is changed only if it is still the one with this `ETag`, or (`*`) if there is one; else 412 with what is there now */
@@ -8024,13 +8026,16 @@ export interface operations {
     getBackup: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description seals the backup, or opens a sealed one; 12 to 256 characters, percent-encoded (each byte but letters, digits and `-._~` as `%XX`) */
+                "X-Backup-Passphrase"?: components["parameters"]["backupPassphrase"];
+            };
             path?: never;
             cookie?: never;
         };
         requestBody?: never;
         responses: {
-            /** @description an SQLite database */
+            /** @description a tar of the database, the certificates, the configuration and their checksums; with a passphrase sealed with it */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -8039,6 +8044,7 @@ export interface operations {
                     "application/octet-stream": string;
                 };
             };
+            422: components["responses"]["Unprocessable"];
             507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
@@ -8046,7 +8052,10 @@ export interface operations {
     putBackup: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description seals the backup, or opens a sealed one; 12 to 256 characters, percent-encoded (each byte but letters, digits and `-._~` as `%XX`) */
+                "X-Backup-Passphrase"?: components["parameters"]["backupPassphrase"];
+            };
             path?: never;
             cookie?: never;
         };

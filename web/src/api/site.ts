@@ -29,6 +29,8 @@ export interface Stage {
 }
 /** A restore that waits for the next start. */
 export type Pending = components['schemas']['PendingBackup'];
+
+const sealing = (passphrase: string): Record<string, string> => (passphrase === '' ? {} : { 'x-backup-passphrase': encodeURIComponent(passphrase) });
 export interface HistoryEntry {
   revision: number;
   at: string;
@@ -78,9 +80,11 @@ export class SiteDoor {
 
   pending = () => this.client.call<Pending>('/backup/pending');
   dropPending = () => this.client.call<unknown>('/backup/pending', { method: 'DELETE' });
-  backup = () => this.client.bytes('/backup', { timeout_ms: 120_000, headers: { accept: 'application/octet-stream, application/problem+json' } });
-  async restoreBackup(file: Blob): Promise<{ text?: string; restart_needed?: boolean; detail?: string }> {
-    const r = await this.client.whole('/backup', { method: 'PUT', content: { type: 'application/octet-stream', data: file }, timeout_ms: 120_000 });
+  /** With a passphrase it is sealed, and has the private keys in it. */
+  backup = (passphrase: string) =>
+    this.client.bytes('/backup', { timeout_ms: 120_000, headers: { accept: 'application/octet-stream, application/problem+json', ...sealing(passphrase) } });
+  async restoreBackup(file: Blob, passphrase: string): Promise<{ text?: string; restart_needed?: boolean; detail?: string }> {
+    const r = await this.client.whole('/backup', { method: 'PUT', content: { type: 'application/octet-stream', data: file }, timeout_ms: 120_000, headers: sealing(passphrase) });
     try {
       return JSON.parse(r.text) as { text?: string };
     } catch {

@@ -21,6 +21,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
   const noCopy = useBarred('administrator');
   const told = useSignal<Told>(quiet);
   const copy = useSignal<File | null>(null);
+  const passphrase = useSignal('');
   const take = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     input.value = '';
@@ -35,15 +36,15 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
   const backup = async () => {
     told.value = { tone: 'busy', text: 'Copying …' };
     try {
-      const blob = await door.backup();
+      const blob = await door.backup(passphrase.value);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(blob);
-      link.download = `axisgate-${new Date().toISOString().slice(0, 10)}.db`;
+      link.download = `axisgate-${new Date().toISOString().slice(0, 10)}.${passphrase.value === '' ? 'tar' : 'sealed'}`;
       document.body.append(link);
       link.click();
       link.remove();
       setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-      told.value = { tone: 'good', text: `A copy of everything, ${size(blob.size)}.` };
+      told.value = { tone: 'good', text: `A copy of everything, ${size(blob.size)}${passphrase.value === '' ? ', without private keys' : ', sealed'}.` };
     } catch (error) {
       const p = asProblem(error);
       told.value = { tone: 'refused', text: absent(p.status) ? notOffered('a backup through the page') : capital(p.words) };
@@ -54,7 +55,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
     if (!file) return;
     told.value = { tone: 'busy', text: 'Restoring …' };
     try {
-      const r = await door.restoreBackup(file);
+      const r = await door.restoreBackup(file, passphrase.value);
       copy.value = null;
       told.value = { tone: 'good', text: capital(r.text ?? r.detail ?? (r.restart_needed ? 'Taken; it takes effect when the gateway is started anew.' : 'Taken.')) };
       lookAtPending();
@@ -94,6 +95,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
             />
             Restore a backup
           </label>
+          <input type="password" aria-label="Passphrase of the backup" placeholder="passphrase, or none" autocomplete="new-password" maxLength={256} {...noCopy} value={passphrase.value} onInput={(e) => (passphrase.value = e.currentTarget.value)} />
           <Tell told={told.value} field="files-told" />
         </div>
         {copy.value && (

@@ -1,0 +1,265 @@
+// Backup command: `axisgate backup` and `axisgate restore`: the whole gateway as one file, and back into its places on this host.
+// In: arguments. Out: what was made or replaced, on standard output; faults on standard error. Never replaces anything before all of the
+// backup was found good and every file that takes a place lies beside it; never takes a path from a backup without --with-config.
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "gateway/core/assets.hpp"
+#include "gateway/runtime/backup_plan.hpp"
+#include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/files.hpp"
+#include "gateway/runtime/sealed.hpp"
+#include "gateway/store/backup.hpp"
+#include "gateway/store/files.hpp"
+#include "gateway/store/migrate.hpp"
+
+namespace axisgate {
+namespace {
+namespace fs = std::filesystem;
+
+/// What --passphrase-file holds, without the end of its line; nothing: it was said why.
+std::optional<std::string> passphrase_in(const std::string& file) {
+    if (file.empty()) return std::string();
+    std::string fault;
+    auto text = read_file(file, fault, most_passphrase_bytes + 2);
+    if (!text) {
+        complain(fault);
+        return std::nullopt;
+    }
+    while (text->ends_with('\n') || text->ends_with('\r'))
+        text->pop_back();
+    if (!text->empty()) return text;
+    complain(fmt::format("{} is empty: write the passphrase into it", file));
+    return std::nullopt;
+}
+
+/// `what` has not happened.
+int failed(const BackupFault& f, const std::string& what) {
+    switch (f.kind) {
+        case BackupFault::Kind::cannot_read:
+        case BackupFault::Kind::cannot_write:
+            complain(f.text);
+            break;
+        case BackupFault::Kind::passphrase_unfit:
+            complain(f.text + ": write another one into the file of --passphrase-file");
+            break;
+        case BackupFault::Kind::passphrase_needed:
+        case BackupFault::Kind::passphrase_wrong:
+            complain(fmt::format("{}: {}; give the file with it by --passphrase-file", what, f.text));
+            break;
+        default:
+            complain(fmt::format("{}: {}. Name a whole backup of this or an older axisgate", what, f.text));
+    }
+    return exit_failed;
+}
+
+/// A folder in which a backup is spread out, gone with this.
+class Spread {
+public:
+    explicit Spread(const std::string& data_dir) : folder_(fmt::format("{}/restore-check-{}", data_dir, ::getpid())) { clear(); }
+    ~Spread() { clear(); }
+    Spread(const Spread&) = delete;
+    Spread& operator=(const Spread&) = delete;
+    [[nodiscard]] const std::string& folder() const noexcept { return folder_; }
+
+private:
+    void clear() {
+        std::error_code ec;
+        fs::remove_all(folder_, ec);
+    }
+    std::string folder_;
+};
+
+/// Files of the host that take their places together: first each beside its place, then all of them.
+class Places {
+public:
+    ~Places() {
+        std::error_code ec;
+        for (const auto& w : waiting_)
+            fs::remove(w.beside, ec);
+    }
+    /// Empty, or why it cannot be. What is there already with the same bytes stays.
+    [[nodiscard]] std::string prepare(const std::string& from, const std::string& place, const std::string& owner_of) {
+        std::string fault, ignored;
+        const auto bytes = read_file(from, fault, most_file_bytes);
+        if (!bytes) return fault;
+        struct stat st {};
+        const bool there = ::stat(place.c_str(), &st) == 0;
+        if (there && read_file(place, ignored, most_file_bytes) == bytes) return {};
+        std::error_code ec;
+        const auto folder = fs::path(place).parent_path();
+        if (!folder.empty() && !fs::exists(folder, ec)) {
+            if (::mkdir(folder.c_str(), 0700) != 0) return fmt::format("cannot make the folder {}", folder.string());
+            give(folder.string(), owner_of);
+        }
+        const std::string beside = place + ".restored";
+        if (const std::string why = write_secret(beside, *bytes); !why.empty()) return fmt::format("cannot write {}: {}", beside, why);
+        waiting_.push_back({beside, place});
+        if (!there) {
+            give(beside, owner_of);
+            return {};
+        }
+        // As the file that was there: the configuration is for all to read, a key is not.
+        if (::chmod(beside.c_str(), st.st_mode & 07777) != 0) return fmt::format("cannot set the mode of {}", beside);
+        if (::geteuid() == 0) {
+            [[maybe_unused]] const int r = ::chown(beside.c_str(), st.st_uid, st.st_gid);
+        }
+        return {};
+    }
+    /// Each into its place, what was there beside it under the first free number. What could not be done is told.
+    [[nodiscard]] bool take() {
+        bool good = true;
+        for (const auto& w : waiting_) {
+            std::error_code ec;
+            std::string aside;
+            for (int n = 1; fs::exists(w.place, ec) && n <= 99 && aside.empty(); ++n) {
+                const std::string name = fmt::format("{}.replaced-{}", w.place, n);
+                if (!fs::exists(name, ec)) aside = name;
+            }
+            if (!aside.empty()) fs::rename(w.place, aside, ec);
+            if (!ec) fs::rename(w.beside, w.place, ec);
+            if (ec) complain(fmt::format("{} could not be put in its place: {}; restore again", w.place, ec.message()));
+            good = good && !ec;
+            if (!ec) fmt::print("{}{}\n", w.place, aside.empty() ? "" : "; what was there is kept as " + aside);
+        }
+        waiting_.clear();
+        return good;
+    }
+
+private:
+    static constexpr std::size_t most_file_bytes = 1U << 20;
+    struct Waiting {
+        std::string beside, place;
+    };
+    /// A new file is the service's, as the data directory is: `sudo axisgate restore` must not lock it out.
+    static void give(const std::string& path, const std::string& owner_of) {
+        struct stat st {};
+        if (::geteuid() == 0 && ::stat(owner_of.c_str(), &st) == 0) {
+            [[maybe_unused]] const int r = ::chown(path.c_str(), st.st_uid, st.st_gid);
+        }
+    }
+    std::vector<Waiting> waiting_;
+};
+
+/// `shown`: the name of the file for the person who restores.
+int put_database(const std::string& file, const std::string& shown, const Config& config, std::string& kept) {
+    StoreOptions options;
+    options.directory = config.data_dir;
+    const auto migrations = migrations_among(all_assets());
+    if (!migrations) {
+        complain(migrations.error().text);
+        return exit_failed;
+    }
+    options.migrations = *migrations;
+    const auto done = restore_database(file, options);
+    if (!done) {
+        std::string text = done.error().text;
+        for (std::size_t at = text.find(file); file != shown && at != std::string::npos; at = text.find(file, at + shown.size()))
+            text.replace(at, file.size(), shown);
+        complain(text);
+        return exit_failed;
+    }
+    kept = done->kept;
+    return exit_good;
+}
+
+void print_restored(const Config& config, const std::string& kept) {
+    fmt::print("restored into {}{}\n", config.data_dir, kept.empty() ? "" : "; the database that was there is kept as " + kept);
+}
+
+/// The configuration that holds from now on: this host's, or the one of the backup read as this host would.
+bool configuration_of(const RestoreOptions& options, const ConfigSources& sources, const std::string& folder, Config& config) {
+    if (!options.with_config) return true;
+    std::string fault;
+    auto text = read_file(fmt::format("{}/{}", folder, configuration_member), fault, 1U << 20);
+    if (!text) {
+        complain("there is no configuration in this backup: restore it without --with-config");
+        return false;
+    }
+    ConfigSources taken = sources;
+    taken.file_text = std::move(*text);
+    taken.file_name = std::string(configuration_member) + " of the backup";
+    std::vector<ConfigFault> faults;
+    config = read_config(taken, faults);
+    for (const auto& f : faults)
+        complain(f);
+    return faults.empty();
+}
+}  // namespace
+
+int command_backup(const Config& config, const std::string& config_file, const std::string& file, const std::string& passphrase_file) {
+    const auto passphrase = passphrase_in(passphrase_file);
+    if (!passphrase) return exit_usage;
+    const auto made = make_backup(backup_plan(config, config_file), {*passphrase, true}, file);
+    if (!made) return failed(made.error(), "no backup made to " + file);
+    fmt::print("{}\n", file);
+    for (const auto& [what, why] : made->left_out)
+        fmt::print("left out: {}: {}\n", what, why);
+    return exit_good;
+}
+
+int command_restore(Config config, const ConfigSources& sources, const RestoreOptions& options) {
+    const std::string& file = options.file;
+    if (options.with_config && sources.file_name.empty()) {
+        complain("--with-config puts the configuration of the backup in the place of the file of --config: name it");
+        return exit_usage;
+    }
+    const auto passphrase = passphrase_in(options.passphrase_file);
+    if (!passphrase) return exit_usage;
+    std::error_code ec;
+    std::string kept;
+    if (!fs::exists(file, ec) || backup_form_of_file(file) == BackupForm::database || backup_form_of_file(file) == BackupForm::none) {
+        // A plain database, or what the store has the better words for.
+        if (options.with_config) {
+            complain(fmt::format("{} is a database alone: there is no configuration in it", file));
+            return exit_usage;
+        }
+        if (const int code = put_database(file, file, config, kept); code != exit_good) return code;
+        print_restored(config, kept);
+        return exit_good;
+    }
+    if (const auto made = files::make_directory(config.data_dir); !made) {
+        complain(made.error().text);
+        return exit_failed;
+    }
+    const Spread spread(config.data_dir);
+    const auto in_it = open_backup(file, *passphrase, spread.folder());
+    if (!in_it) return failed(in_it.error(), file + " not restored, nothing was replaced");
+    if (!configuration_of(options, sources, spread.folder(), config)) return exit_failed;
+    if (const auto made = files::make_directory(config.data_dir); !made) {  // which may be another one now
+        complain(made.error().text);
+        return exit_failed;
+    }
+    const BackupPlan plan = backup_plan(config, options.with_config ? sources.file_name : "");
+    Places places;
+    std::vector<std::string> not_taken;
+    for (const auto& member : in_it->members) {
+        if (member == database_member) continue;
+        const auto place = place_of(member, plan);
+        if (!place) {
+            not_taken.push_back(member);
+            continue;
+        }
+        const std::string fault = places.prepare(fmt::format("{}/{}", spread.folder(), member), *place, config.data_dir);
+        if (fault.empty()) continue;
+        complain(fmt::format("{} not restored, nothing was replaced: {}", file, fault));
+        return exit_failed;
+    }
+    const int code = put_database(fmt::format("{}/{}", spread.folder(), database_member), file, config, kept);
+    if (code != exit_good) return code;
+    print_restored(config, kept);
+    const bool good = places.take();
+    for (const auto& member : not_taken)
+        fmt::print("not taken: {}: {}\n", member,
+                   member == configuration_member ? "--with-config takes it" : "this host's configuration names no place for it");
+    for (const auto& [what, why] : in_it->left_out)
+        fmt::print("not in it: {}: {}\n", what, why);
+    return good ? exit_good : exit_failed;
+}
+
+}  // namespace axisgate

@@ -31,7 +31,7 @@ struct Names {
     std::vector<Entry> drives, axes;
 };
 /// `former`: drives by their name of now, so that an axis stands where it stood although its drive has another name.
-Names names_in(const json::value& document, const std::map<std::string, std::string>& former) {
+Names named_in(const json::value& document, const std::map<std::string, std::string>& former) {
     Names out;
     std::map<std::string, std::string> family_of_line, family_of_drive;
     each(document, "lines", [&](const json::value& l) { family_of_line[member(l, "name")] = member(l, "family"); });
@@ -72,12 +72,12 @@ std::vector<NameChange> renamed(const std::vector<Entry>& before, const std::vec
 
 SiteChange names_between(const json::value& before, const json::value& after) {
     SiteChange change;
-    change.renamed_drives = renamed(names_in(before, {}).drives, names_in(after, {}).drives);
+    change.renamed_drives = renamed(named_in(before, {}).drives, named_in(after, {}).drives);
     std::map<std::string, std::string> former;
     for (const auto& c : change.renamed_drives)
         former[c.to] = c.from;
-    const Names now = names_in(after, former);
-    change.renamed_axes = renamed(names_in(before, {}).axes, now.axes);
+    const Names now = named_in(after, former);
+    change.renamed_axes = renamed(named_in(before, {}).axes, now.axes);
     change.axes.emplace();
     change.drives.emplace();
     for (const Entry& e : now.axes)

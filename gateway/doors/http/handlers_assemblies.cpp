@@ -53,7 +53,8 @@ json::array values_of(const Site& site, const AssemblySpec& a, const registers::
     }
     std::ranges::sort(in, {}, [](const Mapping* m) { return m->address; });
     for (const Mapping* m : in)
-        out.push_back(value_document(2u * (m->address - std::uint32_t{a.address}), 2u * m->size(), m->point, m->axis, m->type));
+        out.push_back(
+            value_document(2u * (m->address - std::uint32_t{a.address}), 2u * m->size(), m->point, json::value(m->axis), m->type));
     return out;
 }
 }  // namespace

@@ -11,7 +11,7 @@ namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
 
-const AxisId first{1}, second{2};
+const AxisId left{1}, right{2};
 
 PictureRecord at_position(std::int64_t position, std::int64_t behind = 0) {
     PictureRecord p;
@@ -27,8 +27,8 @@ PictureRecord at_position(std::int64_t position, std::int64_t behind = 0) {
 TEST(Trends, GivesBackWhatWasTold) {
     Trends t(1 << 20, 10min);
     for (int i = 0; i < 2000; ++i)
-        t.add(first, at_position(i * i * 1000003LL - 500, i % 7 - 3), Instant(i * 10ms));
-    const auto all = t.read(first, Instant(0s), Instant(100s), 0);
+        t.add(left, at_position(i * i * 1000003LL - 500, i % 7 - 3), Instant(i * 10ms));
+    const auto all = t.read(left, Instant(0s), Instant(100s), 0);
     ASSERT_EQ(all.columns.size(), 2000u);
     EXPECT_FALSE(all.thinned);
     for (int i = 0; i < 2000; ++i) {
@@ -43,12 +43,12 @@ TEST(Trends, GivesBackWhatWasTold) {
 
 TEST(Trends, WhatDoesNotChangeCostsNothing) {
     Trends t(1 << 20, 10min);
-    t.add(first, at_position(5), Instant(1s));
+    t.add(left, at_position(5), Instant(1s));
     const auto before = t.bytes();
     for (int i = 1; i < 5000; ++i)
-        t.add(first, at_position(5), Instant(1s + i * 10ms));
+        t.add(left, at_position(5), Instant(1s + i * 10ms));
     EXPECT_EQ(t.bytes(), before);
-    const auto r = t.read(first, Instant(20s), Instant(30s), 100);
+    const auto r = t.read(left, Instant(20s), Instant(30s), 100);
     ASSERT_EQ(r.columns.size(), 1u);  // the row that holds, as if it were told at the beginning
     EXPECT_EQ(r.columns[0].low.at, Instant(20s));
     EXPECT_EQ(r.columns[0].low.position, 5);
@@ -58,8 +58,8 @@ TEST(Trends, WhatDoesNotChangeCostsNothing) {
 TEST(Trends, ThinnedKeepsEveryPeak) {
     Trends t(1 << 22, 1h);
     for (int i = 0; i < 10'000; ++i)
-        t.add(first, at_position(i == 4321 ? 1'000'000 : i == 7777 ? -1'000'000 : i % 10, i == 5000 ? 99 : 0), Instant(i * 1ms));
-    const auto r = t.read(first, Instant(0s), Instant(10s), 50);
+        t.add(left, at_position(i == 4321 ? 1'000'000 : i == 7777 ? -1'000'000 : i % 10, i == 5000 ? 99 : 0), Instant(i * 1ms));
+    const auto r = t.read(left, Instant(0s), Instant(10s), 50);
     EXPECT_TRUE(r.thinned);
     ASSERT_EQ(r.columns.size(), 50u);
     std::int64_t highest = 0, lowest = 0, error = 0;
@@ -77,38 +77,38 @@ TEST(Trends, ThinnedKeepsEveryPeak) {
 TEST(Trends, StaysWithinItsBoundsAndIsFair) {
     Trends t(100'000, 10min);
     for (int i = 0; i < 100'000; ++i) {
-        t.add(first, at_position(i), Instant(i * 1ms));
-        t.add(second, at_position(-i), Instant(i * 1ms));
+        t.add(left, at_position(i), Instant(i * 1ms));
+        t.add(right, at_position(-i), Instant(i * 1ms));
         ASSERT_LE(t.bytes(), 100'000u + 2 * (Trends::block_bytes + 512));
     }
-    const auto a = t.read(first, Instant(0s), Instant(1h), 10), b = t.read(second, Instant(0s), Instant(1h), 10);
+    const auto a = t.read(left, Instant(0s), Instant(1h), 10), b = t.read(right, Instant(0s), Instant(1h), 10);
     EXPECT_GT(*a.oldest, Instant(50s));
     EXPECT_LT(std::chrono::abs(*a.oldest - *b.oldest), 2s);
     Trends short_one(10 << 20, 1s);
     for (int i = 0; i < 100'000; ++i)
-        short_one.add(first, at_position(i), Instant(i * 1ms));
-    EXPECT_GT(*short_one.read(first, Instant(0s), Instant(1h), 10).oldest, Instant(96s));
+        short_one.add(left, at_position(i), Instant(i * 1ms));
+    EXPECT_GT(*short_one.read(left, Instant(0s), Instant(1h), 10).oldest, Instant(96s));
     // What 64 axes need in 10 minutes when each tells something new 20 times a second.
     Trends many(48u << 20, 10min);
     for (int i = 0; i < 12'000; ++i) {
         for (std::uint16_t axis = 0; axis < 64; ++axis)
             many.add(AxisId{axis}, at_position(i * 37, i % 5), Instant(i * 50ms));
     }
-    EXPECT_EQ(*many.read(first, Instant(0s), Instant(1h), 10).oldest, Instant(0s));
+    EXPECT_EQ(*many.read(left, Instant(0s), Instant(1h), 10).oldest, Instant(0s));
 }
 
 TEST(Trends, NothingIsMadeUp) {
     Trends t(1 << 20, 10min);
-    EXPECT_TRUE(t.read(first, Instant(0s), Instant(1s), 10).columns.empty());
-    t.add(first, PictureRecord{}, Instant(1s));  // never heard
-    EXPECT_TRUE(t.read(first, Instant(0s), Instant(2s), 10).columns.empty());
+    EXPECT_TRUE(t.read(left, Instant(0s), Instant(1s), 10).columns.empty());
+    t.add(left, PictureRecord{}, Instant(1s));  // never heard
+    EXPECT_TRUE(t.read(left, Instant(0s), Instant(2s), 10).columns.empty());
     PictureRecord p = at_position(7);
     p.demand_source = DemandSource::open_loop;
-    t.add(first, p, Instant(2s));
-    const auto r = t.read(first, Instant(0s), Instant(3s), 10);
+    t.add(left, p, Instant(2s));
+    const auto r = t.read(left, Instant(0s), Instant(3s), 10);
     ASSERT_EQ(r.columns.size(), 1u);
     EXPECT_FALSE(r.columns[0].low.demand_known);
-    EXPECT_TRUE(t.read(first, Instant(3s), Instant(1s), 10).columns.empty());
+    EXPECT_TRUE(t.read(left, Instant(3s), Instant(1s), 10).columns.empty());
 }
 
 TEST(Trends, RowsComeBackFromTheDiskAsTheyWere) {
@@ -144,11 +144,11 @@ TEST(Trends, RowsComeBackFromTheDiskAsTheyWere) {
 TEST(Trends, WhatWasKnownBeforeComesBeforeWhatIsTold) {
     Trends t(1 << 20, 10min);
     const std::vector<TrendRow> before{trend_row(at_position(5), Instant(-60s)), trend_row(at_position(9), Instant(-50s))};
-    t.restore(first, before);
-    t.add(first, at_position(20), Instant(2s));
-    t.restore(first, before);  // it is known: nothing happens
-    t.add(second, at_position(1), Instant(2s));
-    const auto r = t.read(first, Instant(-55s), Instant(10s), 0);
+    t.restore(left, before);
+    t.add(left, at_position(20), Instant(2s));
+    t.restore(left, before);  // it is known: nothing happens
+    t.add(right, at_position(1), Instant(2s));
+    const auto r = t.read(left, Instant(-55s), Instant(10s), 0);
     ASSERT_EQ(r.columns.size(), 3u);
     EXPECT_EQ(r.columns[0].low.position, 5);
     EXPECT_EQ(r.columns[1].low.position, 9);

@@ -341,7 +341,6 @@ TEST(ApossSync, TheMarkerFilterHasTheFormulasOfTheManual) {  // [L2490-2602]
         p.start = 6;
         p.filter_time = filtered ? 20'000 : 0;
         p.filter_par = 2;
-        p.offset_time = 5000;
         SyncInput in;
         s.begin(SyncMode::marker, p, in, 0, 0);
         double at = 0, mark = 0;

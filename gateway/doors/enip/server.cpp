@@ -279,7 +279,7 @@ bool Server::Impl::admit() {
 /// Sessions never call by themselves: they live as long as this does.
 void Server::Impl::on_ready(std::span<const epoll_event> events) {
     for (const epoll_event& e : events) {
-        const auto it = sessions_.find(e.data.u64);
+        const auto it = sessions_.find(std::uint64_t{e.data.u64});
         if (it == sessions_.end()) continue;
         const auto session = it->second;  // may be erased meanwhile
         session->on_ready(e.events);

@@ -161,7 +161,7 @@ void LinMotMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     constexpr std::uint16_t edges = acknowledge | home_bit | jog_plus_bit | jog_minus_bit;
     // Freezing ends with a motion to the old target when its bit comes back: here it was back before.
     if (state_ == State::freezing && (*control & no_freeze) != 0) target_known_ = false;
-    control_ |= *control & edges;
+    control_ = static_cast<std::uint16_t>(control_ | (*control & edges));
     take_control(static_cast<std::uint16_t>(*control & ~unsupported), plan);
 }
 

@@ -1,5 +1,6 @@
 // Bus: two participants of one domain on the loopback interface: states for late comers, ends, partitions, optional members.
 #include "gateway/doors/dds/bus.hpp"
+#include "tests/unit/dds/own_domain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +35,7 @@ struct End {
     }
 };
 
-BusSettings domain(std::string partition = "plant") { return {77, std::move(partition), "lo"}; }
+BusSettings domain(std::string partition = "plant") { return {test::own_domain(0), std::move(partition), "lo"}; }
 
 axisgate_GatewayState state_of(const char* name, std::uint32_t axes) {
     axisgate_GatewayState s{};
@@ -113,7 +114,7 @@ TEST(DdsBus, OptionalMembersOfACommandArriveOrAreAbsent) {
 
 TEST(DdsBus, AnInterfaceThatIsNotThereIsAFaultWithAWayOut) {
     End e;
-    const std::string fault = e.bus.open({78, "plant", "nosuch9"}, {Topic::gateway_state}, {});
+    const std::string fault = e.bus.open({test::own_domain(1), "plant", "nosuch9"}, {Topic::gateway_state}, {});
     EXPECT_NE(fault.find("nosuch9"), std::string::npos) << fault;
     EXPECT_NE(fault.find("[dds] interface"), std::string::npos) << fault;
     EXPECT_FALSE(e.bus.is_open());

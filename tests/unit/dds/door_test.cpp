@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "tests/unit/dds/own_domain.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::dds {
@@ -31,7 +32,8 @@ protected:
         gateway.set_picture("feeder", standing(6400));
         door = make("hall", 7);
         ASSERT_EQ(door->start(), "");
-        ASSERT_EQ(peer.open({79, "plant", "lo"}, {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point},
+        ASSERT_EQ(peer.open({test::own_domain(2), "plant", "lo"},
+                            {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point},
                             {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::command_result}),
                   "");
         // Found each other: the door's state has come, and a command that nobody can carry out is answered.
@@ -57,8 +59,12 @@ protected:
     std::unique_ptr<DdsDoor> make(const char* name, std::uint64_t instance) {
         return std::make_unique<DdsDoor>(
             context, gateway.ports(), [this] { return now; },
-            DoorSettings{
-                {79, "plant", "lo"}, name, "0.1", [] { return std::string("http://127.0.0.1:8080/"); }, instance, [this] { ++wanted; }});
+            DoorSettings{{test::own_domain(2), "plant", "lo"},
+                         name,
+                         "0.1",
+                         [] { return std::string("http://127.0.0.1:8080/"); },
+                         instance,
+                         [this] { ++wanted; }});
     }
     /// Runs the door until something holds; false after 10 s.
     bool until(const std::function<bool()>& holds) {
@@ -94,7 +100,7 @@ protected:
     }
 };
 
-TEST_F(DdsDoorTest, SaysWhereItIs) { EXPECT_EQ(door->address(), "hall@plant:79%lo"); }
+TEST_F(DdsDoorTest, SaysWhereItIs) { EXPECT_EQ(door->address(), "hall@plant:" + std::to_string(test::own_domain(2)) + "%lo"); }
 
 TEST_F(DdsDoorTest, TellsTheStateOfTheGatewayAndOfEachAxisAndItsEvents) {
     std::vector<axisgate_GatewayState> gateways;
@@ -252,7 +258,7 @@ TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
 
 TEST_F(DdsDoorTest, ACommanderIsLostWhenTheLastWriterThatItCommandedByIsGone) {
     Bus second([] {});
-    ASSERT_EQ(second.open({79, "plant", "lo"}, {Topic::axis_command, Topic::parameter_write}, {}), "");
+    ASSERT_EQ(second.open({test::own_domain(2), "plant", "lo"}, {Topic::axis_command, Topic::parameter_write}, {}), "");
     auto reset = command("w1", "slide", "reset_fault");
     ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
     ASSERT_TRUE(until([&] { return gateway.submitted.size() == 1; }));
@@ -273,7 +279,7 @@ TEST_F(DdsDoorTest, ACommanderIsLostWhenTheLastWriterThatItCommandedByIsGone) {
 
 TEST_F(DdsDoorTest, ACommanderThatAnotherHasReplacedIsNotMissedNorOneThatWroteParametersAndStays) {
     Bus second([] {});
-    ASSERT_EQ(second.open({79, "plant", "lo"}, {Topic::axis_command}, {}), "");
+    ASSERT_EQ(second.open({test::own_domain(2), "plant", "lo"}, {Topic::axis_command}, {}), "");
     ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));
     ASSERT_TRUE(until([&] { return gateway.submitted.size() == 1; }));
     auto other = command("o1", "feeder", "halt");
@@ -313,7 +319,8 @@ protected:
         DdsDoorTest::SetUp();
         yard_gateway.set_picture("feeder", standing(3200));
         yard = std::make_unique<DdsDoor>(
-            context, yard_gateway.ports(), [this] { return now; }, DoorSettings{{79, "plant", "lo"}, "yard", "0.1", {}, 8});
+            context, yard_gateway.ports(), [this] { return now; },
+            DoorSettings{{test::own_domain(2), "plant", "lo"}, "yard", "0.1", {}, 8});
         ASSERT_EQ(yard->start(), "");
         ASSERT_TRUE(until([this] { return axes_of("yard") == 2 && axes_of("hall") == 2; }));
     }
@@ -375,7 +382,7 @@ TEST_F(DdsFleetTest, TellsHowOldItsWordsAreWhateverTheOtherClockSays) {
     const auto told = [&] { return (void)peer.write(g), far().instance == 9; };
     ASSERT_TRUE(until(told));
     Bus writer([] {});
-    ASSERT_EQ(writer.open({79, "plant", "lo"}, {Topic::axis_state}, {}), "");
+    ASSERT_EQ(writer.open({test::own_domain(2), "plant", "lo"}, {Topic::axis_state}, {}), "");
     ASSERT_TRUE(until([&] { return (void)writer.write(a), told() && !far().axes.empty(); }));
     EXPECT_EQ(far().clock_ahead_ns, 3 * hour_ns);
     EXPECT_EQ(far().axes[0].age_ms, 700);

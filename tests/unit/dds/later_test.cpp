@@ -21,6 +21,7 @@
 #define axisgate_ParameterWrite_desc later_ParameterWrite_desc
 #define axisgate_SetPoint_desc later_SetPoint_desc
 #include "later.h"
+#include "tests/unit/dds/own_domain.hpp"
 #undef axisgate_GatewayState
 #undef axisgate_AxisState
 #undef axisgate_Event
@@ -46,14 +47,14 @@ TEST(LaterTypes, AreReadAndRead) {
     gateway.set_picture("feeder", http::test::standing(6400));
     Instant now = at_ns(1'000'000'000);
     DoorSettings settings;
-    settings.bus.domain = 78;
+    settings.bus.domain = test::own_domain(1);
     settings.name = "hall";
     settings.instance = 7;
     DdsDoor door(
         context, gateway.ports(), [&now] { return now; }, std::move(settings));
     ASSERT_EQ(door.start(), "");
 
-    const dds_entity_t participant = dds_create_participant(78, nullptr, nullptr);
+    const dds_entity_t participant = dds_create_participant(test::own_domain(1), nullptr, nullptr);
     ASSERT_GT(participant, 0);
     dds_qos_t* plant = dds_create_qos();
     dds_qset_partition1(plant, "plant");

@@ -33,10 +33,10 @@ TEST_F(FleetOverHttp, GatewaysAreToldWithTheirAxesInUnits) {
     const auto& g = list.object().at("gateways").as_array().at(0).as_object();
     EXPECT_EQ(g.at("gateway").as_string(), "hall-2");
     EXPECT_EQ(g.at("instance").as_string(), "17");
-    EXPECT_EQ(g.at("axes").as_array().at(0).at("position").as_double(), 12.5);
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("position").to_number<double>(), 12.5);
     EXPECT_EQ(g.at("silent_ms").as_int64(), 450);
     EXPECT_EQ(g.at("axes").as_array().at(0).at("state").as_string(), "operation_enabled");
-    EXPECT_EQ(g.at("axes").as_array().at(0).at("increments_per_unit").as_double(), 100);
+    EXPECT_EQ(g.at("axes").as_array().at(0).at("increments_per_unit").to_number<double>(), 100);
     EXPECT_EQ(g.at("axes").as_array().at(0).at("age_ms").as_int64(), 300);
     gateway.gateways[0].axes[0].age_ms = -1;
     const auto never = call("GET", "/api/v1/fleet");

@@ -33,16 +33,16 @@ TEST_F(RecorderOverHttp, TrendsAreToldInUnitsAndThinnedToColumns) {
     const auto& axis = whole.object().at("axes").as_array().at(0).as_object();
     EXPECT_EQ(axis.at("thinned").as_bool(), false);
     ASSERT_EQ(axis.at("at").as_array().size(), 100u);
-    EXPECT_EQ(axis.at("at").as_array().at(50).as_double(), static_cast<double>(second_ms) + 500);
+    EXPECT_EQ(axis.at("at").as_array().at(50).to_number<double>(), static_cast<double>(second_ms) + 500);
     const auto& points = axis.at("points").as_object();
     EXPECT_EQ(points.size(), 3u);
-    EXPECT_EQ(points.at("position").as_object().at("values").as_array().at(50).as_double(), 50);
-    EXPECT_EQ(points.at("following_error").as_object().at("values").as_array().at(50).as_double(), 0.5);
+    EXPECT_EQ(points.at("position").as_object().at("values").as_array().at(50).to_number<double>(), 50);
+    EXPECT_EQ(points.at("following_error").as_object().at("values").as_array().at(50).to_number<double>(), 0.5);
     EXPECT_EQ(points.at("state").as_object().at("values").as_array().at(50).as_string(), "operation_enabled");
     const auto thin = call("GET", stretch("&columns=10&points=position"));
     const auto& columns = thin.object().at("axes").as_array().at(0).as_object().at("points").as_object().at("position").as_object();
     ASSERT_EQ(columns.at("low").as_array().size(), 10u);
-    EXPECT_EQ(columns.at("high").as_array().at(9).as_double(), 99);
+    EXPECT_EQ(columns.at("high").as_array().at(9).to_number<double>(), 99);
 }
 
 TEST_F(RecorderOverHttp, TrendsComeAsCsv) {
@@ -100,7 +100,7 @@ TEST_F(RecorderOverHttp, ACaptureIsArmedInUnitsAndHandedOutAsBoth) {
     }
     const auto whole = call("GET", path + "/before");
     EXPECT_EQ(whole.at("state"), "triggered");
-    EXPECT_EQ(whole.object().at("columns").as_array().at(0).as_object().at("position").as_array().at(0).as_double(), 5);
+    EXPECT_EQ(whole.object().at("columns").as_array().at(0).as_object().at("position").as_array().at(0).to_number<double>(), 5);
     const auto csv = call("GET", path + "/before", "", {{"Accept", "text/csv"}});
     EXPECT_TRUE(csv.text.starts_with("seconds,axis,unit,position,")) << csv.text;
     EXPECT_EQ(call("PATCH", path + "/before", R"({"name":"tuned"})").at("name"), "tuned");

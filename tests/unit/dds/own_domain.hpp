@@ -1,0 +1,13 @@
+// Own domain: suites run several processes of one program at a time, and whoever has the same domain hears the others.
+// In: which of three. Out: the number of a DDS domain, 20 to 229. Never the same for processes that were started one after the other.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdint>
+
+namespace axisgate::dds::test {
+[[nodiscard]] inline std::uint32_t own_domain(std::uint32_t which = 0) {
+    return 20 + static_cast<std::uint32_t>(::getpid()) % 70 * 3 + which;
+}
+}  // namespace axisgate::dds::test

@@ -14,8 +14,8 @@ const Family& family_remote() {
         [](const Catalogue&, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<remote::LineDecoder>(); },
         mirror::check_address,
         "hall-2/axis-1",
-        12'000'000,
-        "8N1",
+        0,  // the line is in this process: no wire, no bit rate
+        "",
         false,
         true,
     };

@@ -59,7 +59,7 @@ struct Family {
     std::string (*check_address)(std::string_view address);
     /// The address a new drive has; used by `axisgate twin` without --address.
     std::string_view factory_address;
-    /// For a serial line whose URI does not say: "57600 8N1".
+    /// For a serial line whose URI does not say: "57600 8N1". 0: it has no serial line.
     std::uint32_t default_bit_rate;
     std::string_view default_format;
     bool uses_can;    ///< speaks CAN frames

@@ -125,6 +125,7 @@ TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
     if (r->reason == Reason::not_supported) return;
     ASSERT_TRUE(good(*r)) << r->text;
     ASSERT_TRUE(w.run_until_true([&] { return now().position < -500; }, 5s));
+    const bool ends_alone = e.catalogue->document().at("drive_watchdog").as_object().contains("stops_velocity_moves");
     World next(2, w.plant);
     next.now = w.now + 300ms;
     site = next.apply(wanted);
@@ -134,6 +135,7 @@ TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
         << "it goes on at " << next.picture(a1).position;
     next.run_for(500ms);
     EXPECT_LE(std::llabs(next.picture(a1).position), limit + 300);
+    if (ends_alone) return;  // nobody renews it, so it rests before the limit
     EXPECT_GE(std::llabs(next.picture(a1).position), limit - 1'500) << "found is not stopped: it goes on to the limit";
     EXPECT_EQ(std::ranges::count_if(next.events, [](const Event& v) { return v.kind == "limit" && v.severity == Severity::warning; }), 1);
 }

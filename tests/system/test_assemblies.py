@@ -98,7 +98,7 @@ def test_what_is_wrong_is_refused_with_its_place(folder):
         assert "taken by the configuration" in put(199, 409)
         assert "cuts mapping" in put(300, 422, registers=2)
         assert "nothing is mapped" in put(300, 422, unit=41)
-        assert "nothing to write" in put(300, 422, direction="output")
+        assert "nothing to write" in put(300, 422, direction="output", registers=3)
         put(0, 404)
         put(300, 200)
         g.send("PUT", "/profiles/50", {"language": "linmot", "axes": [{"axis": "feeder"}], "input_assembly": 300}, 409)

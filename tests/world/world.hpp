@@ -78,7 +78,8 @@ struct Subject : FamilyEntry {
 inline std::vector<Subject> wires_of(const FamilyEntry& e) {
     std::vector<Subject> list;
     if (e.family->uses_can) list.push_back({e, Wire::can});
-    if (e.family->uses_bytes) list.insert(list.end(), {{e, Wire::serial}, {e, Wire::network}});
+    if (e.family->uses_bytes && e.family->default_bit_rate != 0) list.push_back({e, Wire::serial});
+    if (e.family->uses_bytes) list.push_back({e, Wire::network});
     return list;
 }
 /// Every family on each wire that it has.

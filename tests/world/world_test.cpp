@@ -124,7 +124,8 @@ TEST_P(PresenceStory, AutoTakesTheTwinIfNobodyAnswersAndGivesItBackAtRestAfterCo
             if (again && good(*again) && as_integer(again->value) == other) point = Point{i, 0};
         }
     }
-    ASSERT_TRUE(point);
+    const bool settings = std::ranges::any_of(e.catalogue->parameters(), &Parameter::writable);
+    ASSERT_EQ(point.has_value(), settings);
     const Result* r = w.wait(w.command(a, Enable{}, true), 5s);
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
     Move m;
@@ -142,7 +143,7 @@ TEST_P(PresenceStory, AutoTakesTheTwinIfNobodyAnswersAndGivesItBackAtRestAfterCo
     ASSERT_TRUE(r);
     EXPECT_TRUE(good(*r)) << r->text;
     ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
-    EXPECT_TRUE(told("parameters_differ", e.catalogue->id_of(*point))) << "the difference is told";
+    if (point) EXPECT_TRUE(told("parameters_differ", e.catalogue->id_of(*point))) << "the difference is told";
     w.run_for(1s);
     EXPECT_EQ(w.picture(a).flags & (flag_moving | flag_simulated), 0);
     EXPECT_NE(power_state_of(w.picture(a).statusword), PowerState::operation_enabled) << "nothing is enabled by the change";

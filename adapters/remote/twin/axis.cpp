@@ -118,7 +118,7 @@ Answer Axis::move(const mirror::Order& o, Instant now) {
 mirror::State Axis::state(Instant now) const {
     const auto shaft = shaft_.shaft(now), demand = shaft_.demand(now);
     mirror::State s;
-    s.simulated = true;
+    s.simulated = false;
     s.referenced = referenced_;
     s.moving = shaft_.moves(now);
     s.target_reached = to_target_ && !s.moving && !shaft_.held();

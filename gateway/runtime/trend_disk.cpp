@@ -60,6 +60,7 @@ void put_trends(const std::string& directory, const std::string& name, const std
 }  // namespace
 
 std::string TrendDisk::open(std::int64_t now_unix_ns, std::int64_t unix_offset_ns, Duration keep) {
+    written_ = at_ns(now_unix_ns - unix_offset_ns);
     std::size_t damaged = 0;
     std::string why;
     for (const auto& name : trend_files(directory_)) {
@@ -126,10 +127,6 @@ std::string TrendDisk::packed(const Trends& trends, const SiteState& site, Insta
 }
 
 void TrendDisk::keep(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns) {
-    if (!begun_) {
-        begun_ = true;
-        written_ = now;
-    }
     if (now - written_ < period) return;
     std::string bytes = packed(trends, site, now, unix_offset_ns);
     written_ = now;
@@ -140,7 +137,7 @@ void TrendDisk::keep(const Trends& trends, const SiteState& site, Instant now, s
 }
 
 void TrendDisk::end(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns) {
-    if (!begun_ || site.axis_ids.empty()) return;
+    if (site.axis_ids.empty()) return;
     put_trends(directory_, std::to_string((ns_of(now) + unix_offset_ns) / 1'000'000), packed(trends, site, now, unix_offset_ns), bound_);
 }
 

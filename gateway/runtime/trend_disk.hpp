@@ -34,8 +34,7 @@ private:
     std::string directory_;
     std::uint64_t bound_;
     std::map<std::string, std::vector<TrendRow>> old_;  ///< by name of the axis
-    Instant written_{};                                 ///< up to here
-    bool begun_ = false;
+    Instant written_{};                                 ///< up to here; what comes before open() is in older files
 };
 
 }  // namespace axisgate

@@ -55,6 +55,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FuzzedDataProvider in(data, size);
     static const FamilyEntry entry = fuzz::families().find("remote");
     static const fuzz::FamilyFrames frames{plausible, wrong_frame};
-    fuzz::AdapterRun(entry, frames, in, {"hall-2/a", "hall-2/b", "hall-3/a"}).run();
+    fuzz::run_adapter(entry, frames, in, {"hall-2/a", "hall-2/b", "hall-3/a"});
     return 0;
 }

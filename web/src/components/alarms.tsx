@@ -115,7 +115,7 @@ function AlarmRow(p: RowProps) {
         </span>
         <span class="alarm-buttons">
           {a.axis && (
-            <a class="button quiet" href={recorderPath('trends', a.axis, Date.parse(a.since))} aria-label={`Trends of ${a.axis} when the alarm came: ${a.text}`}>
+            <a class="button quiet" href={recorderPath('trends', a.axis, Date.parse(a.since))} aria-label={`Trends then, when the alarm of ${a.axis} came: ${a.text}`}>
               Trends then
             </a>
           )}

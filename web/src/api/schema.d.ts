@@ -3407,7 +3407,7 @@ export interface components {
             bytes: number;
             /** @description as the EDS calls it */
             name: string;
-            /** @description that it shows */
+            /** @description those that it shows, or commands */
             axes: string[];
             /** @description of an output: the input that the EDS opens with it */
             partner: number | null;

@@ -66,7 +66,7 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
     }
   };
   return (
-    <Section title="Export, import, backup" class="files" help="install#a-spare-box">
+    <Section title="Export, import, backup" class="files" help="backup">
       <div class="card form">
         <Why need="administrator" what="A backup of everything, its restore, and whether one waits for the next start" />
         <div class="form-foot">

@@ -4,16 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import st from "st-ethernet-ip";
+import { until } from "./until.mjs";
 
 const { DEVICE, LOCAL } = process.env;
-
-async function until(condition, what, limit = 10_000) {
-  const end = Date.now() + limit;
-  while (!condition()) {
-    assert.ok(Date.now() < end, what());
-    await sleep(5);
-  }
-}
 
 test("st-ethernet-ip's scanner holds a freely mapped pair and moves an axis by it", async () => {
   const scanner = new st.IO.Scanner(2222, LOCAL);

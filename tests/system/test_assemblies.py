@@ -77,8 +77,7 @@ def test_a_mapped_pair_moves_an_axis_writes_a_parameter_and_is_closed_by_a_chang
             assert seen()[1] != target, "a target alone moves nothing"
             write(0x1F, target, 3200, 12345)
             until(lambda: seen()[1] == target, what="the target")
-            writes = [e for e in g.get("/events?limit=100") if "AC" in str(e)] if isinstance(g.get("/events?limit=100"), list) else str(g.get("/events?limit=100"))
-            assert "ethernet_ip" in str(writes), "who wrote is known"
+            assert [e for e in g.get("/events?axis=feeder&limit=100") if "AC" in e["text"] and e["door"] == "ethernet_ip"], "who wrote is known"
             with Originator(*at) as second:
                 assert second.open(151, 101, serial=2) == (1, (0x0106,)), "one owner of an axis, however it is mapped"
             g.send("PUT", "/assemblies/300", {"direction": "input", "unit": 40, "address": 20, "registers": 3})

@@ -1,0 +1,4 @@
+// German: the page's sentences, by their English ones.
+import type { Table } from './index';
+
+export const table: Table = {};

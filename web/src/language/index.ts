@@ -1,0 +1,50 @@
+// Language: which one the page speaks, and its sentences. The English text is its own key; German and Chinese are tables that are loaded only when
+// chosen, before any other module of the page runs: so a sentence may stand in a constant. A change of the language loads the page again.
+// In: the reader's choice, else the browser's languages. Out: text; the attribute lang of the document.
+import { persisted } from '../state/persisted';
+
+export const languages = { en: 'English', de: 'Deutsch', zh: '中文' } as const;
+export type Language = keyof typeof languages;
+export type Table = Readonly<Record<string, string>>;
+type Values = Readonly<Record<string, string | number>>;
+
+const tables: Record<Exclude<Language, 'en'>, () => Promise<{ table: Table }>> = {
+  de: () => import('./de'),
+  zh: () => import('./zh'),
+};
+const choice = persisted('language', '', 'browser');
+let spoken: Language = 'en';
+let table: Table = {};
+
+const known = (tag: string): Language | undefined => (Object.keys(languages) as Language[]).find((l) => tag.toLowerCase().split('-')[0] === l);
+
+/** The language chosen, or the first of the browser's that there is, or English. */
+export const languageOf = (chosen: string, browser: readonly string[]): Language => known(chosen) ?? browser.map(known).find((l) => l !== undefined) ?? 'en';
+export const language = (): Language => spoken;
+
+/** Loads the table; one that does not come leaves the page English. To be awaited before the rest of the page is loaded. */
+export async function startLanguage(browser: readonly string[] = globalThis.navigator?.languages ?? []): Promise<void> {
+  const wanted = languageOf(choice.value, browser);
+  if (wanted !== 'en') {
+    const loaded = await tables[wanted]().catch(() => undefined);
+    if (loaded) [spoken, table] = [wanted, loaded.table];
+  }
+  document.documentElement.lang = spoken;
+}
+
+/** Keeps the choice in this browser and loads the page again. */
+export function chooseLanguage(l: Language): void {
+  choice.value = l;
+  location.reload();
+}
+
+/** A sentence in the reader's language: the English one with "{name}" where values go. A sentence without a translation stays English. */
+export function t(text: string, values?: Values): string {
+  const said = table[text] ?? text;
+  return values === undefined ? said : said.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
+}
+
+/** For tests: the sentences of a table, or English again. */
+export function speak(l: Language, sentences: Table = {}): void {
+  [spoken, table] = [l, sentences];
+}

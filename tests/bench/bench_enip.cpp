@@ -330,7 +330,8 @@ int main(int argc, char** argv) {
     Address program, io, modbus;
     const auto usage = [] {
         std::fputs(
-            "usage: bench_enip output PROGRAM [COUNT] | explicit HOST:PORT [PID [SESSIONS]] | jitter HOST:PORT HOST:IO_PORT MODBUS_HOST:PORT "
+            "usage: bench_enip output PROGRAM [COUNT] | explicit HOST:PORT [PID [SESSIONS]] | jitter HOST:PORT HOST:IO_PORT "
+            "MODBUS_HOST:PORT "
             "[SECONDS] | lost HOST:PORT HOST:IO_PORT\n",
             stderr);
         return 2;

@@ -107,6 +107,7 @@ Connection* ConnectionManager::place_for(const OpenRequest& request, const Conte
     *free = std::make_unique<Connection>();
     Connection& c = **free;
     c.number = static_cast<std::uint16_t>(free - places_.begin() + 1);
+    used_ = std::max<std::size_t>(used_, c.number);
     c.request = request;
     ++generation_;
     c.ot_id = (std::uint32_t{generation_} << 16) | c.number;

@@ -116,6 +116,7 @@ private:
     Carrier& carrier_;
     std::uint16_t generation_;
     std::array<std::unique_ptr<Connection>, most_connections> places_;
+    std::size_t used_ = 0;  // places from here on have never been taken
     Counters counters_;
     Bytes data_, datagram_;  // kept for their room
 };

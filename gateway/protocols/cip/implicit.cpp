@@ -75,7 +75,7 @@ void ConnectionManager::look(Connection& c, Instant now) {
 }
 
 void ConnectionManager::on_deadline(Instant now) {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
+    for (std::size_t i = 0; i < used_; ++i) {
         Connection* const c = places_[i].get();
         if (!c) continue;
         if (c->expires <= now) {
@@ -97,7 +97,8 @@ void ConnectionManager::on_deadline(Instant now) {
 
 Instant ConnectionManager::deadline() const {
     Instant first = never;
-    for (const auto& c : places_) {
+    for (std::size_t i = 0; i < used_; ++i) {
+        const Connection* const c = places_[i].get();
         if (c) first = std::min({first, c->expires, c->next, c->next_look});
     }
     return first;

@@ -30,8 +30,8 @@ struct Place {
 
 struct Path {
     std::optional<ElectronicKey> key;
-    std::vector<Port> ports;                  ///< the route, before the first logical segment
-    std::optional<std::uint32_t> class_id;    ///< the last one
+    std::vector<Port> ports;                ///< the route, before the first logical segment
+    std::optional<std::uint32_t> class_id;  ///< the last one
     /// Each instance and connection point, with the class before it: one of a request, three of a connection; more are taken, too.
     boost::container::small_vector<Place, 3> places;
     std::optional<std::uint32_t> attribute;   ///< the last one

@@ -13,7 +13,6 @@ LIMIT = 40
 NOT_MENDED = {
     ("adapters/cia402/drive.hpp", "Drive"): 48,
     ("adapters/cia402/drive_axis.hpp", "Axis"): 42,
-    ("adapters/linmot/drive.hpp", "Drive"): 78,
     ("adapters/linmot/twin/drive.hpp", "Drive"): 109,
     ("adapters/mcode/twin/device.hpp", "Device"): 50,
     ("adapters/mcode/twin/motor.hpp", "Motor"): 112,

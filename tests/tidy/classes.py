@@ -16,7 +16,6 @@ NOT_MENDED = {
     ("adapters/mcode/twin/motor.hpp", "Motor"): 112,
     ("adapters/pacontrol/twin/axis.hpp", "Axis"): 93,
     ("adapters/pacontrol/twin/control.hpp", "Control"): 85,
-    ("adapters/uim342/twin/device.hpp", "Device"): 49,
     ("gateway/engine/engine.hpp", "Engine"): 117,
     ("gateway/protocols/cip/connection_manager.hpp", "ConnectionManager"): 41,
     ("gateway/runtime/hot.hpp", "Hot"): 45,

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clients: EtherNet/IP clients of others against the real program, each in a network namespace of its own, because both need UDP 2222.
+# clients: EtherNet/IP and Modbus clients of others against the real program, each in a network namespace of its own, because both need UDP 2222.
 #   tests/clients/run.sh PROGRAM
 # In: the built program, node, the packages of package-lock.json; the right to make network namespaces (root, or user namespaces).
 # Out: a line per test, then "N passed, N failed". Never touches the machine's own network.
@@ -8,7 +8,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 program=$(realpath "${1:?usage: tests/clients/run.sh PROGRAM}")
 if [ "${2:-}" != inside ]; then
     if [ ! -e "$here/node_modules/.package-lock.json" ] || [ "$here/package-lock.json" -nt "$here/node_modules/.package-lock.json" ]; then
-        (cd "$here" && npm ci --silent --ignore-scripts --no-fund --no-audit)
+        (cd "$here" && npm ci --silent --ignore-scripts --omit=optional --no-fund --no-audit)
     fi
     alone=(unshare --net --mount); [ "$(id -u)" = 0 ] || alone=(unshare --user --map-root-user --net --mount)
     exec "${alone[@]}" "${BASH_SOURCE[0]}" "$program" inside
@@ -30,7 +30,7 @@ ip link set gateway up
 "${there[@]}" ip addr add 192.0.2.2/24 dev scanner
 "${there[@]}" ip link set scanner up
 
-"$program" serve --data "$work/data" --site "$here/site.json" --set http.bind=127.0.0.1:0 --set modbus.bind=127.0.0.1:0 \
+"$program" serve --data "$work/data" --site "$here/site.json" --set http.bind=127.0.0.1:0 --set modbus.bind=192.0.2.1:1502 \
     --set enip.bind=192.0.2.1:44818 >"$work/out" 2>"$work/log" &
 gateway=$!
 for _ in $(seq 300); do grep -q '^ready' "$work/out" && break; kill -0 "$gateway" || break; sleep 0.1; done

@@ -1,5 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
+import { t } from '../language';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -16,7 +17,7 @@ import { AxisName, SimulatedMark, useNamed } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
 
-const begun = (n: number) => `Run ${n} has begun.`;
+const begun = (n: number) => t('Run {n} has begun.', { n });
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
 export function RunSection({ name, parameters, saved, typed }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean; typed: Signal<Record<string, string>> }) {
@@ -58,18 +59,18 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
   const given = () => {
     const out: Record<string, Json> = {};
     for (const [key, p] of Object.entries(parameters)) {
-      const t = typed.peek()[key];
-      if (t === undefined || t === '') continue;
-      out[key] = p.type === 'text' || p.type === 'axis' ? t : (valueOf(t) ?? t);
+      const entered = typed.peek()[key];
+      if (entered === undefined || entered === '') continue;
+      out[key] = p.type === 'text' || p.type === 'axis' ? entered : (valueOf(entered) ?? entered);
     }
     return out;
   };
   const start = async (dryRun: boolean) => {
-    result.value = { tone: 'none', text: dryRun ? 'Checking…' : 'Starting…' };
+    result.value = { tone: 'none', text: dryRun ? t('Checking…') : t('Starting…') };
     try {
       if (dryRun) {
         const c = await client.checkRun(name, given());
-        result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.map(named).join(', ') || 'no axis'}.` };
+        result.value = { tone: 'good', text: t('Can run: {steps} steps, commands {n}.', { steps: c.steps, n: c.axes?.map(named).join(', ') || t('no axis') }) };
       } else {
         report.value = await client.runRecipe(name, given());
         result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
@@ -89,9 +90,9 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
   const running = r !== null && !isOver(r.state);
   return (
     <>
-      <Section title="Run">
+      <Section title={t('Run')}>
         <div class="card recipe-run">
-          <Why need="operator" what="Running and cancelling" />
+          <Why need="operator" what={t('Running and cancelling')} />
           <div class="step-fields">
             {Object.entries(parameters).map(([key, p]) => (
               <label class="step-field" key={key}>
@@ -104,7 +105,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
                   type="text"
                   autocomplete="off"
                   spellcheck={false}
-                  aria-label={`Argument ${key}`}
+                  aria-label={t('Argument {key}', { key })}
                   title={p.description}
                   list={p.type === 'axis' ? 'recipe-axes' : undefined}
                   placeholder={p.default === undefined ? 'needed' : typedOf(p.default)}
@@ -116,40 +117,40 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
           </div>
           <div class="recipe-buttons">
             <button type="button" class="button primary" disabled={!saved || running} {...no} onClick={() => void start(false)}>
-              <Icon name="play" /> Run
+              <Icon name="play" />{' '}{t('Run')}
             </button>
             <button type="button" class="button" disabled={!saved || running} {...no} onClick={() => void start(true)}>
-              Check only
+              {t('Check only')}
             </button>
             {running && (
               <button type="button" class="stop" {...no} onClick={() => void cancel(r.n)}>
-                <Icon name="stop" /> Cancel run {r.n}
+                <Icon name="stop" />{' '}{t('Cancel run {n}', { n: r.n })}
               </button>
             )}
           </div>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{saved ? result.value.text : 'Save the recipe to run it.'}</span>
+            <span>{saved ? result.value.text : t('Save the recipe to run it.')}</span>
           </p>
         </div>
       </Section>
       {r && (
-        <Section title={`Report of run ${r.n}`}>
+        <Section title={t('Report of run {n}', { n: r.n })}>
           <Report report={r} />
         </Section>
       )}
       {runs.value.length > 0 && (
-        <Section title="Runs">
-          <ol class="card run-list" aria-label="Runs, newest first">
+        <Section title={t('Runs')}>
+          <ol class="card run-list" aria-label={t('Runs, newest first')}>
             {runs.value.map((x) => (
               <li key={x.n} class="row">
                 <div class="row-head">
                   <button type="button" class="button quiet small" onClick={() => void client.recipeRun(name, x.n).then((w) => (report.value = w), () => undefined)}>
-                    Run {x.n}
+                    {t('Run {n}', { n: x.n })}
                   </button>
                   <span class="where">
                     {clockTime(x.started_at)} · {x.started_by}
                   </span>
-                  <Pill word={runWord(x.state)} label="State" />
+                  <Pill word={runWord(x.state)} label={t('State')} />
                 </div>
                 {x.text && <p class="why">{capital(plain(x.text))}</p>}
               </li>
@@ -167,8 +168,8 @@ export function Report({ report: r }: { report: RecipeReport }) {
     <div class="card recipe-report" data-run={r.n}>
       <div class="row">
         <div class="row-head">
-          <Pill word={runWord(r.state)} label="State of the run" id="run-state" />
-          <progress max={r.of} value={doneOf(r)} aria-label="Steps done" />
+          <Pill word={runWord(r.state)} label={t('State of the run')} id="run-state" />
+          <progress max={r.of} value={doneOf(r)} aria-label={t('Steps done')} />
           <span class="where">
             {clockTime(r.started_at)}
             {took && `, ${took}`} · {r.started_by}
@@ -182,11 +183,11 @@ export function Report({ report: r }: { report: RecipeReport }) {
         )}
         {r.stops.map((s) => (
           <p key={s.axis} class="why">
-            <AxisName name={s.axis} plain />: {s.left_alone ? s.text : `${s.stopped ? 'stopped' : 'NOT stopped'}${s.text && `: ${s.text}`}`}
+            <AxisName name={s.axis} plain />: {s.left_alone ? s.text : `${s.stopped ? t('stopped') : t('NOT stopped')}${s.text && `: ${s.text}`}`}
           </p>
         ))}
       </div>
-      <ol class="report-steps" aria-label="Steps of the run">
+      <ol class="report-steps" aria-label={t('Steps of the run')}>
         {r.steps.map((s) => {
           const word = runWord(s.state);
           return (

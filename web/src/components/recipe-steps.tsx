@@ -1,5 +1,6 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
+import { t } from '../language';
 import { createContext } from 'preact';
 import { useContext } from 'preact/hooks';
 import type { components } from '../api/schema';
@@ -27,7 +28,7 @@ const useEditing = () => useContext(Context) as Editing;
 export function StepEditor(editing: Editing) {
   return (
     <Context.Provider value={editing}>
-      <StepList path={['steps']} name="Steps" />
+      <StepList path={['steps']} name={t('Steps')} />
       <datalist id="recipe-axes">
         {editing.axes.map((a) => (
           <option key={a} value={a} />
@@ -48,7 +49,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
         ))}
       </ol>
       <label class="select step-add">
-        <span class="visually-hidden">Add a step to {name.toLowerCase()}</span>
+        <span class="visually-hidden">{t('Add a step to {n}', { n: name.toLowerCase() })}</span>
         <select
           value=""
           onChange={(e) => {
@@ -57,7 +58,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
             if (word) change(added(document, path, freshStep(word, axes[0] ?? '')));
           }}
         >
-          <option value="">Add a step…</option>
+          <option value="">{t('Add a step…')}</option>
           {stepKinds.map((k) => (
             <option key={k.word} value={k.word}>
               {k.label}
@@ -83,15 +84,15 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
       <div class="step-head">
         <b class="step-title">{title}</b>
-        <span class="step-kind">{kind?.label ?? `Unknown: ${Object.keys(step)[0] ?? 'nothing'}`}</span>
+        <span class="step-kind">{kind?.label ?? t('Unknown: {n}', { n: Object.keys(step)[0] ?? 'nothing' })}</span>
         <span class="group">
-          <button type="button" class="button small square" aria-label={`Move ${title} up`} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
+          <button type="button" class="button small square" aria-label={t('Move {title} up', { title })} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
             <Icon name="up" />
           </button>
-          <button type="button" class="button small square" aria-label={`Move ${title} down`} disabled={last} onClick={() => change(moved(document, list, i, 1))}>
+          <button type="button" class="button small square" aria-label={t('Move {title} down', { title })} disabled={last} onClick={() => change(moved(document, list, i, 1))}>
             <Icon name="down" />
           </button>
-          <button type="button" class="button small square" aria-label={`Delete ${title}`} onClick={() => change(removed(document, list, i))}>
+          <button type="button" class="button small square" aria-label={t('Delete {title}', { title })} onClick={() => change(removed(document, list, i))}>
             <Icon name="remove" />
           </button>
         </span>
@@ -103,8 +104,8 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
         ))}
         {kind?.condition === 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         <label class="step-field is-wide">
-          <span>Comment</span>
-          <Typed aria-label={`${title}: Comment`} placeholder="none" value={typedOf(step['comment'])} onDone={(t) => change(changed(document, [...path, 'comment'], () => t || undefined))} />
+          <span>{t('Comment')}</span>
+          <Typed aria-label={t('{title}: Comment', { title })} placeholder={t('none')} value={typedOf(step['comment'])} onDone={(entered) => change(changed(document, [...path, 'comment'], () => entered || undefined))} />
         </label>
       </div>
       {mine.map((f) => (
@@ -119,7 +120,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
       )}
       {kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
-          {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? 'Then' : 'Else'}</p>}
+          {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? t('Then') : t('Else')}</p>}
           <StepList path={[...path, kind.word, l]} name={`${title}, ${l}`} />
         </div>
       ))}
@@ -151,7 +152,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         >
           {choices.map((c) => (
             <option key={c} value={c}>
-              {c === '' ? 'as mapped' : field.kind === 'command' ? capital(plainWord(c)) : plainWord(c)}
+              {c === '' ? t('as mapped') : field.kind === 'command' ? capital(plainWord(c)) : plainWord(c)}
             </option>
           ))}
         </select>
@@ -187,7 +188,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
   if (kind.condition === 'until' && there === undefined) {
     return (
       <button type="button" class="button small" onClick={() => change(changed(document, place, () => ({ axis: axes[0] ?? '', point: 'target_reached', is: true })))}>
-        Add an end: until…
+        {t('Add an end: until…')}
       </button>
     );
   }
@@ -203,16 +204,16 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
     );
   return (
     <>
-      {kind.condition === 'until' && <span class="step-word">until</span>}
+      {kind.condition === 'until' && <span class="step-word">{t('until')}</span>}
       <label class="step-field">
-        <span>Axis</span>
+        <span>{t('Axis')}</span>
         <AxisMark named={c['axis']} />
-        <Typed list="recipe-axes" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onDone={(t) => set({ axis: t })} />
+        <Typed list="recipe-axes" spellcheck={false} aria-label={t('{title}: Axis', { title })} value={typedOf(c['axis'])} onDone={(entered) => set({ axis: entered })} />
       </label>
       <label class="step-field">
-        <span>What</span>
+        <span>{t('What')}</span>
         <select
-          aria-label={`${title}: What`}
+          aria-label={t('{title}: What', { title })}
           value={'parameter' in c ? '(parameter)' : typedOf(c['point'])}
           onChange={(e) => (e.currentTarget.value === '(parameter)' ? set({ parameter: '' }, ['point']) : set({ point: e.currentTarget.value }, ['parameter']))}
         >
@@ -222,18 +223,18 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
             </option>
           ))}
           {typeof c['point'] === 'string' && !points.includes(c['point']) && <option value={c['point']}>{plainWord(c['point'])}</option>}
-          <option value="(parameter)">a parameter…</option>
+          <option value="(parameter)">{t('a parameter…')}</option>
         </select>
       </label>
       {'parameter' in c && (
         <label class="step-field">
-          <span>Parameter</span>
-          <Typed spellcheck={false} aria-label={`${title}: Parameter`} value={typedOf(c['parameter'])} onDone={(t) => set({ parameter: t })} />
+          <span>{t('Parameter')}</span>
+          <Typed spellcheck={false} aria-label={t('{title}: Parameter', { title })} value={typedOf(c['parameter'])} onDone={(entered) => set({ parameter: entered })} />
         </label>
       )}
       <label class="step-field is-narrow">
-        <span>Comparison</span>
-        <select aria-label={`${title}: Comparison`} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op, ...(takesTolerance(e.currentTarget.value, c[op]) ? [] : ['tolerance'])])}>
+        <span>{t('Comparison')}</span>
+        <select aria-label={t('{title}: Comparison', { title })} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op, ...(takesTolerance(e.currentTarget.value, c[op]) ? [] : ['tolerance'])])}>
           {comparisons.map((x) => (
             <option key={x.key} value={x.key}>
               {x.label}
@@ -242,17 +243,17 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
         </select>
       </label>
       <label class="step-field is-narrow">
-        <span>Value</span>
-        <Typed spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onDone={(t) => set({ [op]: valueOf(t) ?? '' })} />
+        <span>{t('Value')}</span>
+        <Typed spellcheck={false} aria-label={t('{title}: Value', { title })} value={typedOf(c[op])} onDone={(entered) => set({ [op]: valueOf(entered) ?? '' })} />
       </label>
       {('tolerance' in c || takesTolerance(op, c[op])) && (
         <label class="step-field is-narrow">
-          <span>Tolerance ±</span>
+          <span>{t('Tolerance ±')}</span>
           <Typed
             inputMode="decimal"
             spellcheck={false}
-            aria-label={`${title}: Tolerance`}
-            placeholder="exact"
+            aria-label={t('{title}: Tolerance', { title })}
+            placeholder={t('exact')}
             value={typedOf(c['tolerance'])}
             onDone={(typed) => {
               const tolerance = valueOf(typed);

@@ -1,5 +1,6 @@
 // Alarms and events in words: state, subject, how long a shelf lasts, the filter of the events and the files of them.
 // In: documents of the gateway. Out: words. Never asks anything.
+import { t } from '../language';
 import type { Alarm, GatewayEvent } from '../api/types';
 import type { Word } from './axis';
 import { csvOf } from './table-text';
@@ -7,11 +8,11 @@ import { csvOf } from './table-text';
 export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
   const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
   switch (alarm.state) {
-    case 'unacknowledged_active': return { text: 'Active, not acknowledged', icon: 'octagon', tone, long: 'It is wrong now, and nobody has acknowledged it' };
-    case 'acknowledged_active': return { text: 'Active, acknowledged', icon: 'triangle', tone: 'warning', long: 'It is wrong now, and somebody knows' };
-    case 'unacknowledged_cleared': return { text: 'Cleared, not acknowledged', icon: 'circle-dashed', tone: 'neutral', long: 'It is over, but nobody has acknowledged it' };
-    case 'shelved': return { text: 'Shelved', icon: 'shelf', tone: 'muted', long: 'Put aside for a time' };
-    case 'normal': return { text: 'Normal', icon: 'check', tone: 'good', long: 'Over and acknowledged' };
+    case 'unacknowledged_active': return { text: t('Active, not acknowledged'), icon: 'octagon', tone, long: t('It is wrong now, and nobody has acknowledged it') };
+    case 'acknowledged_active': return { text: t('Active, acknowledged'), icon: 'triangle', tone: 'warning', long: t('It is wrong now, and somebody knows') };
+    case 'unacknowledged_cleared': return { text: t('Cleared, not acknowledged'), icon: 'circle-dashed', tone: 'neutral', long: t('It is over, but nobody has acknowledged it') };
+    case 'shelved': return { text: t('Shelved'), icon: 'shelf', tone: 'muted', long: t('Put aside for a time') };
+    case 'normal': return { text: t('Normal'), icon: 'check', tone: 'good', long: t('Over and acknowledged') };
   }
 }
 
@@ -66,7 +67,7 @@ export function eventFile(events: readonly GatewayEvent[], format: 'csv' | 'text
   return rows
     .map((e) => {
       const change = e.parameter ? ` [${e.parameter}: ${e.old ?? ''} -> ${e.new ?? ''}]` : '';
-      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? ` (code ${e.code})` : ''}${e.who ? ` by ${e.who}` : ''}`;
+      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? t(' (code {code})', { code: e.code }) : ''}${e.who ? t(' by {who}', { who: e.who }) : ''}`;
       return `${line.replace(/[\u0000-\u001f\u007f]/g, ' ')}\n`;
     })
     .join('');

@@ -2,18 +2,22 @@
 // The list is the gateway's; nothing is taken off it here before the gateway has said so.
 import { t } from '../language';
 import { useSignal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
-import type { Alarm } from '../api/types';
+import { RecorderDoor } from '../api/recorder';
+import type { Alarm, Recording } from '../api/types';
 import { useGateway } from '../gateway';
-import { linePath, recorderPath } from '../router';
+import { framesPath, linePath, recorderPath } from '../router';
 import { capital } from '../state/commander';
 import { emptied } from '../state/persisted';
-import { alarmWord, canAcknowledge, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
+import { alarmWord, canAcknowledge, recordingOf, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
 import { clockTime } from '../text/time';
+import { ErrorHelp } from './error-help';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
+import { useLoaded } from './loaded';
 import { AxisName, DriveName } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
@@ -25,6 +29,12 @@ export function AlarmSection() {
   const shelving = useSignal<number | null>(null);
   const no = useBarred('operator');
   const list = store.alarms.value;
+  // A fault makes a recording two seconds later: its event says so.
+  const recordings = useSignal<readonly Recording[]>([]);
+  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const times = useSignal(0);
+  useEffect(() => store.onEvent((e) => e.kind === 'recording' && (times.value += 1)), [store]);
+  useLoaded(async () => void (recordings.value = (await door.recordings()).recordings), [door, times.value]);
   const all = list?.alarms ?? [];
   const open = all.filter(canAcknowledge);
   const act = async (what: () => Promise<unknown>, done: string) => {
@@ -75,6 +85,7 @@ export function AlarmSection() {
               <AlarmRow
                 key={a.id}
                 alarm={a}
+                recordings={recordings.value}
                 shelving={shelving.value === a.id}
                 onShelving={(yes) => (shelving.value = yes ? a.id : null)}
                 onAcknowledge={() => void act(() => client.acknowledgeAlarm(a.id, comment.peek().trim()), t('Alarm of {a} acknowledged.', { a: subjectOf(a) }))}
@@ -95,6 +106,7 @@ export function AlarmSection() {
 
 interface RowProps {
   alarm: Alarm;
+  recordings: readonly Recording[];
   shelving: boolean;
   onShelving: (yes: boolean) => void;
   onAcknowledge: () => void;
@@ -106,6 +118,9 @@ function AlarmRow(p: RowProps) {
   const no = useBarred('operator');
   const a = p.alarm;
   const about = subjectOf(a);
+  const { store } = useGateway();
+  const line = a.line ?? (a.axis ? store.axis(a.axis)?.peek()?.data.line : null) ?? (a.drive ? store.drive(a.drive)?.peek()?.data.line : null);
+  const recording = recordingOf(p.recordings, a.since);
   return (
     <li class="row alarm-row" data-alarm={a.id} data-state={a.state}>
       <div class="alarm-line">
@@ -118,6 +133,16 @@ function AlarmRow(p: RowProps) {
           {a.axis && (
             <a class="button quiet" href={recorderPath('trends', a.axis, Date.parse(a.since))} aria-label={t('Trends then, when the alarm of {axis} came: {text}', { axis: a.axis, text: a.text })}>
               {t('Trends then')}
+            </a>
+          )}
+          {line && (
+            <a class="button quiet" href={framesPath(line, Date.parse(a.since))} aria-label={t('Frames then, when the alarm of {about} came: {text}', { about, text: a.text })}>
+              {t('Frames then')}
+            </a>
+          )}
+          {recording && (
+            <a class="button quiet" href={recorderPath('recordings', recording, Date.parse(a.since))} aria-label={t('Recording of it: {recording}', { recording })}>
+              {t('Recording of it')}
             </a>
           )}
           {canAcknowledge(a) && (
@@ -136,6 +161,7 @@ function AlarmRow(p: RowProps) {
           )}
         </span>
       </div>
+      <ErrorHelp axis={a.axis} drive={a.drive} code={a.code} />
       <p class="where">
         {t('Since')}{' '}<time dateTime={a.since}>{clockTime(a.since)}</time>
         {a.count > 1 && ` · ${t('{count} times', { count: a.count })}`}

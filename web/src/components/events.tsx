@@ -8,6 +8,7 @@ import { clockTime } from '../text/time';
 import { useComputed } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { groupsOf, inUnits, type Scale } from '../text/event';
+import { ErrorHelp } from './error-help';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
 import { AxisName, DriveName } from './name';
@@ -41,6 +42,12 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
         <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || plainWord(event.kind)}</span>
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono">{' '}{t('(code {code})', { code: event.code })}</span> : null}
+        {event.code && event.severity !== 'info' ? (
+          <details class="event-help">
+            <summary>{t('what to do')}</summary>
+            <ErrorHelp axis={event.axis} drive={event.drive} code={event.code} />
+          </details>
+        ) : null}
         {event.who && <span class="event-who">{' '}{t('by {who}', { who: event.who })}</span>}
       </span>
     </li>

@@ -39,7 +39,7 @@ interface AxisRow {
   presence: string;
 }
 
-export function PlaybackPart({ name, close }: { name: string; close: () => void }) {
+export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: number | undefined; close: () => void }) {
   const { client } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const whole = useSignal<Playback | null>(null);
@@ -60,7 +60,7 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
       const [from, to] = [Date.parse(doc.from) / 1000, Date.parse(doc.to) / 1000];
       v.whole.value = [from, Math.max(to, from + 0.01)];
       v.all();
-      at.value = to;
+      at.value = at_ms === undefined ? to : Math.min(to, Math.max(from, at_ms / 1000));
       moment.value = doc;
       whole.value = doc;
       axis.value = doc.curves[0]?.axis ?? '';

@@ -9,7 +9,7 @@ import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { plain } from '../text/plain';
-import { doneOf, runWord, stepLabel, typedOf, valueOf, type Json, type RecipeDocument } from '../text/recipe';
+import { doneOf, runWord, stepLabel, stepWhat, tookText, typedOf, valueOf, type Json, type RecipeDocument } from '../text/recipe';
 import { clockTime, duration } from '../text/time';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
@@ -20,9 +20,20 @@ import { Section } from './section';
 const begun = (n: number) => t('Run {n} has begun.', { n });
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
-export function RunSection({ name, parameters, saved, typed }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean; typed: Signal<Record<string, string>> }) {
+export interface Run {
+  parameters: NonNullable<RecipeDocument['parameters']>;
+  typed: Signal<Record<string, string>>;
+  report: Signal<RecipeReport | null>;
+  runs: Signal<RecipeReportHead[]>;
+  result: Signal<{ tone: 'none' | 'good' | 'refused'; text: string }>;
+  start: (dryRun: boolean) => Promise<void>;
+  cancel: (n: number) => Promise<void>;
+  look: (n: number) => void;
+}
+
+/** One recipe's runs: what is under way, those that were, and the ways to begin and to end one. */
+export function useRun(name: string, parameters: NonNullable<RecipeDocument['parameters']>, typed: Signal<Record<string, string>>): Run {
   const gateway = useGateway();
-  const no = useBarred('operator');
   const named = useNamed();
   const { client } = gateway;
   const report: Signal<RecipeReport | null> = useSignal(null);
@@ -86,12 +97,18 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
       result.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
   };
-  const r = report.value;
+  const look = (n: number) => void client.recipeRun(name, n).then((w) => (report.value = w), () => undefined);
+  return { parameters, typed, report, runs, result, start, cancel, look };
+}
+
+/** In the head of the page: what it is run with, the buttons, and how far it is. */
+export function RunHead({ run, saved }: { run: Run; saved: boolean }) {
+  const no = useBarred('operator');
+  const { parameters, typed, result, start, cancel } = run;
+  const r = run.report.value;
   const running = r !== null && !isOver(r.state);
   return (
-    <>
-      <Section title={t('Run')}>
-        <div class="card recipe-run">
+        <section class="card recipe-run" aria-label={t('Run')}>
           <Why need="operator" what={t('Running and cancelling')} />
           <div class="step-fields">
             {Object.entries(parameters).map(([key, p]) => (
@@ -131,10 +148,25 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
           <p class={`result result-${result.value.tone}`} role="status">
             <span>{saved ? result.value.text : t('Save the recipe to run it.')}</span>
           </p>
-        </div>
-      </Section>
+          {r && (
+            <p class="run-now where" data-field="run-now">
+              <Pill word={runWord(r.state)} label={t('State of the newest run')} />
+              {running && <progress max={r.of} value={doneOf(r)} aria-label={t('Steps done')} />}
+              <span>{running && r.at_label ? plain(r.at_label) : t('Run {n}, {at}', { n: r.n, at: clockTime(r.started_at) })}</span>
+              <a href="#report">{t('To its report')}</a>
+            </p>
+          )}
+        </section>
+  );
+}
+
+export function RunReports({ run }: { run: Run }) {
+  const r = run.report.value;
+  const { runs } = run;
+  return (
+    <>
       {r && (
-        <Section title={t('Report of run {n}', { n: r.n })}>
+        <Section title={t('Report of run {n}', { n: r.n })} id="report">
           <Report report={r} />
         </Section>
       )}
@@ -144,7 +176,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
             {runs.value.map((x) => (
               <li key={x.n} class="row">
                 <div class="row-head">
-                  <button type="button" class="button quiet small" onClick={() => void client.recipeRun(name, x.n).then((w) => (report.value = w), () => undefined)}>
+                  <button type="button" class="button quiet small" onClick={() => run.look(x.n)}>
                     {t('Run {n}', { n: x.n })}
                   </button>
                   <span class="where">
@@ -161,6 +193,15 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
     </>
   );
 }
+
+type StepReport = RecipeReport['steps'][number];
+const hasValue = (s: StepReport): boolean => s.value !== null && s.value !== undefined;
+/** What a step read, wrote or looked at: a condition names what it wanted, so what there was is said as such. */
+const valueSaid = (s: StepReport): string => {
+  const value = typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value);
+  if (s.step === 'read_parameter') return `= ${value}`;
+  return s.step === 'set_parameter' ? t('taken as {value}', { value }) : t('it was {value}', { value });
+};
 
 export function Report({ report: r }: { report: RecipeReport }) {
   const took = r.ended_at ? duration(Date.parse(r.ended_at) - Date.parse(r.started_at)) : '';
@@ -195,13 +236,20 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <Icon name={word.icon} size={14} />
               <span class="report-word">{word.text}</span>
               <span class="report-what">
-                <b>{stepLabel(s.step)}</b> {s.axis && <AxisName name={s.axis} plain />}
+                <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span>{plain(stepWhat(s))}</span>
                 {s.times > 1 && ` × ${s.times}`}
-                {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value)}</span>}
+                {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
                 {s.text && <span> {plain(s.text)}</span>}
                 {s.comment && <i> {s.comment}</i>}
               </span>
-              <span class="report-at mono">{s.pointer}</span>
+              <span class="report-at mono">
+                {s.started_at && (
+                  <>
+                    <time dateTime={s.started_at}>{clockTime(s.started_at)}</time>
+                    {s.ended_at && <span data-field="step-took">{' '}{tookText(Date.parse(s.ended_at) - Date.parse(s.started_at))}</span>}
+                  </>
+                )}
+              </span>
             </li>
           );
         })}

@@ -1,10 +1,13 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
 import { t } from '../language';
+import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
-import { useContext } from 'preact/hooks';
+import { useContext, useEffect } from 'preact/hooks';
+import type { HandItem } from '../api/types';
+import { useGateway } from '../gateway';
 import type { components } from '../api/schema';
-import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
+import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, stepSummary, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
 import { capital } from '../state/commander';
 import { plainWord } from '../text/plain';
 import { Icon } from './icon';
@@ -22,12 +25,30 @@ export interface Editing {
   unitOf: (axis: string) => string | null;
   faults: Fault[];
 }
-const Context = createContext<Editing | null>(null);
-const useEditing = () => useContext(Context) as Editing;
+/** Steps that are shown in one line, by their places. */
+type Folded = Signal<ReadonlySet<string>>;
+const Context = createContext<(Editing & { folded: Folded }) | null>(null);
+const useEditing = () => useContext(Context) as Editing & { folded: Folded };
+const placesOf = (document: RecipeDocument, list: Path): string[] =>
+  ((at(document, list) ?? []) as Step[]).flatMap((s, i) => {
+    const kind = kindOf(s);
+    return [pointerOf([...list, i]), ...(kind?.lists ?? []).flatMap((l) => placesOf(document, [...list, i, kind!.word, l]))];
+  });
 
 export function StepEditor(editing: Editing) {
+  const folded: Folded = useSignal<ReadonlySet<string>>(new Set());
   return (
-    <Context.Provider value={editing}>
+    <Context.Provider value={{ ...editing, folded }}>
+      {editing.document.steps.length > 1 && (
+        <div class="recipe-buttons step-folds">
+          <button type="button" class="button small" onClick={() => (folded.value = new Set(placesOf(editing.document, ['steps'])))}>
+            {t('Fold all')}
+          </button>
+          <button type="button" class="button small" onClick={() => (folded.value = new Set())}>
+            {t('Unfold all')}
+          </button>
+        </div>
+      )}
       <StepList path={['steps']} name={t('Steps')} />
       <datalist id="recipe-axes">
         {editing.axes.map((a) => (
@@ -71,7 +92,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
 }
 
 function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; last: boolean }) {
-  const { document, change, faults, unitOf, axes, listed } = useEditing();
+  const { document, change, faults, unitOf, axes, listed, folded } = useEditing();
   const kind = kindOf(step);
   const path = [...list, i];
   const pointer = pointerOf(path);
@@ -80,11 +101,23 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   const title = titleOf(path);
   const nobody = listed ? unknownAxes(document, axes).filter((u) => u.pointer === pointer) : [];
   const body = kind ? step[kind.word] : undefined;
+  // What is wrong is never folded away, nor what is wrong inside.
+  const wrong = faults.some((f) => f.pointer === pointer || f.pointer.startsWith(`${pointer}/`));
+  const open = wrong || !folded.value.has(pointer);
+  const fold = () => {
+    const next = new Set(folded.peek());
+    if (!next.delete(pointer)) next.add(pointer);
+    folded.value = next;
+  };
   return (
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
       <div class="step-head">
+        <button type="button" class="button quiet small square" aria-expanded={open} aria-label={open ? t('Fold {title}', { title }) : t('Unfold {title}', { title })} disabled={wrong} onClick={fold}>
+          <Icon name={open ? 'down' : 'arrow-right'} />
+        </button>
         <b class="step-title">{title}</b>
         <span class="step-kind">{kind?.label ?? t('Unknown: {n}', { n: Object.keys(step)[0] ?? 'nothing' })}</span>
+        {!open && <span class="step-summary" data-field="summary">{stepSummary(step)}</span>}
         <span class="group">
           <button type="button" class="button small square" aria-label={t('Move {title} up', { title })} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
             <Icon name="up" />
@@ -97,7 +130,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           </button>
         </span>
       </div>
-      <div class="step-fields">
+      {open && <div class="step-fields">
         {kind?.condition && kind.condition !== 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         {kind && fieldsOfStep(kind, body).map((f) => (
           <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} unit={kind.word === 'command' ? unitOfField(f.key, unitOf(typedOf((body as { [k: string]: Json } | null)?.['axis']))) : ''} />
@@ -107,7 +140,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           <span>{t('Comment')}</span>
           <Typed aria-label={t('{title}: Comment', { title })} placeholder={t('none')} value={typedOf(step['comment'])} onDone={(entered) => change(changed(document, [...path, 'comment'], () => entered || undefined))} />
         </label>
-      </div>
+      </div>}
       {mine.map((f) => (
         <p key={f.pointer + f.text} class="step-fault">
           {f.text}. {f.remedy}.
@@ -118,7 +151,8 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           {unknownWords(nobody)}
         </p>
       )}
-      {kind?.lists?.map((l) => (
+      {open && kind?.word === 'simulate' && <SimulateWords axis={(body as { axis?: unknown } | null)?.axis} />}
+      {open && kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
           {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? t('Then') : t('Else')}</p>}
           <StepList path={[...path, kind.word, l]} name={`${title}, ${l}`} />
@@ -133,6 +167,47 @@ function AxisMark({ named }: { named: unknown }) {
   const { document } = useEditing();
   const axis = typeof named === 'string' ? axisMeant(named, document.parameters) : null;
   return axis ? <SimulatedMark of={axis} /> : null;
+}
+
+/** The axis that a step means, when it is known. */
+function useMeant(named: unknown): string {
+  const { document } = useEditing();
+  return (typeof named === 'string' ? axisMeant(named, document.parameters) : null) ?? '';
+}
+
+/** What can be simulated on this axis' drive, offered while typing. */
+function InputOffers({ id, named }: { id: string; named: unknown }) {
+  const { client, store } = useGateway();
+  const offers = useSignal<HandItem[]>([]);
+  const axis = useMeant(named);
+  const simulated = store.simulation('axis', axis).value;
+  useEffect(() => {
+    const drive = store.axis(axis)?.peek()?.data.drive;
+    if (!simulated || !drive) return void (offers.value = []);
+    const end = new AbortController();
+    client.hand(drive, end.signal).then((items) => (offers.value = items.filter((i) => i.writable)), () => undefined);
+    return () => end.abort();
+  }, [axis, simulated]);
+  return (
+    <datalist id={id}>
+      {offers.value.map((i) => (
+        <option key={i.name} value={i.name}>
+          {i.description}
+        </option>
+      ))}
+    </datalist>
+  );
+}
+
+function SimulateWords({ axis: named }: { axis: unknown }) {
+  const { store } = useGateway();
+  const axis = useMeant(named);
+  if (axis === '' || store.axis(axis) === undefined || store.simulation('axis', axis).value) return null;
+  return (
+    <p class="step-fault" data-field="not-simulated">
+      {t('{axis} is not simulated now: a run would be refused. A real drive is never told what is not so.', { axis })}
+    </p>
+  );
 }
 
 function StepInput({ field, path, value, title, unit }: { field: StepField; path: Path; value: unknown; title: string; unit: string }) {
@@ -166,14 +241,15 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         {unit && <span class="unit">, {unit}</span>}
       </span>
       {field.kind === 'axis' && <AxisMark named={value} />}
+      {field.kind === 'input' && <InputOffers id={`offers-${pointerOf(path)}`} named={at(document, [...path.slice(0, -1), 'axis'])} />}
       <Typed
         spellcheck={false}
-        list={field.kind === 'axis' ? 'recipe-axes' : undefined}
+        list={field.kind === 'axis' ? 'recipe-axes' : field.kind === 'input' ? `offers-${pointerOf(path)}` : undefined}
         aria-label={label}
         placeholder={field.optional ? 'none' : undefined}
         value={typedOf(value)}
         onDone={(typed) => {
-          if (field.kind === 'text' || field.kind === 'axis') put(typed === '' && field.optional ? undefined : typed);
+          if (field.kind === 'text' || field.kind === 'axis' || field.kind === 'input') put(typed === '' && field.optional ? undefined : typed);
           else put(valueOf(typed));
         }}
       />

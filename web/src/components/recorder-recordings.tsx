@@ -19,12 +19,12 @@ import { PlaybackPart } from './playback';
 import { RenameForm } from './rename-form';
 import { Section } from './section';
 
-export function RecordingsPart() {
+export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
   const { client } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const list = useSignal<RecordingList | null>(null);
   const told = useSignal<Told>(quiet);
-  const open = useSignal('');
+  const open = useSignal(first ?? '');
   const name = useSignal('');
   const why = useSignal('');
   const load = async () => void (list.value = await door.recordings());
@@ -73,7 +73,7 @@ export function RecordingsPart() {
         </Gate>
         <Tell told={told.value} field="recording-told" />
       </Section>
-      {open.value && <PlaybackPart key={open.value} name={open.value} close={() => (open.value = '')} />}
+      {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
       <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(now.disk_bytes), disk_most_bytes: bytesWords(now.disk_most_bytes) })}</span>}>
         {now?.disk_fault && <p class="notice tone-fault">{capital(now.disk_fault)}</p>}
         {recordings.length === 0 ? (

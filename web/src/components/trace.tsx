@@ -5,19 +5,37 @@ import { useComputed, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { bytesOf, idWords, joined, matches, type Frame, type FrameFilter } from '../state/frames';
+import { dateTime } from '../text/time';
 import { Empty } from './lines';
 import { Section } from './section';
 
 /** Rows that are drawn; the filter looks at all that are kept. */
 const mostShown = 300;
+/** Before and after the instant that is asked for. */
+const around_ms = 2_000;
 
-export function Trace({ line }: { line: string }) {
+/** `at_ms`: the frames around that instant, as far as the gateway still has them, held; else those that come. */
+export function Trace({ line, at_ms }: { line: string; at_ms?: number | undefined }) {
   const gateway = useGateway();
   const frames = useSignal<Frame[]>([]);
   const held = useSignal<Frame[] | null>(null);
   const missed = useSignal(0);
   const filter = useSignal<FrameFilter>({ text: '', direction: 'both' });
   const open = useSignal<number | null>(null);
+  const then = useSignal<'' | 'asked' | 'there' | 'gone'>(at_ms === undefined ? '' : 'asked');
+  useEffect(() => {
+    if (at_ms === undefined) return;
+    const end = new AbortController();
+    gateway.client.call<{ frames: Frame[] }>(`/lines/${encodeURIComponent(line)}/trace`, { signal: end.signal }).then(
+      (all) => {
+        const near = all.frames.filter((f) => Math.abs(Date.parse(f.at) - at_ms) <= around_ms);
+        then.value = near.length > 0 ? 'there' : 'gone';
+        if (near.length > 0) held.value = near;
+      },
+      () => !end.signal.aborted && (then.value = 'gone'),
+    );
+    return () => end.abort();
+  }, [gateway, line, at_ms]);
   useEffect(
     () =>
       gateway.follow(`lines/${line}/frames`, 200, (m) => {
@@ -76,6 +94,8 @@ export function Trace({ line }: { line: string }) {
         </>
       }
     >
+      {at_ms !== undefined && then.value === 'there' && <p class="notice" data-field="frames-then">{t('Held: the frames 2 s before and after {at}. Press Paused for those that come now.', { at: dateTime(new Date(at_ms).toISOString()) })}</p>}
+      {at_ms !== undefined && then.value === 'gone' && <p class="notice" data-field="frames-then">{t('The line remembers no frames of {at} any more; a recording of that time has them.', { at: dateTime(new Date(at_ms).toISOString()) })}</p>}
       <p class="where trace-count" role="status">
         {fitting.value.length === source.length ? t('{n} frames', { n: source.length }) : t('{n} of {n2} frames', { n: fitting.value.length, n2: source.length })}
         {fitting.value.length > mostShown && `, ${t('the newest {mostShown} are shown', { mostShown })}`}

@@ -9,7 +9,8 @@ import type { RecipeEntry } from '../api/types';
 import { Empty } from '../components/lines';
 import { useLoaded } from '../components/loaded';
 import { Pill } from '../components/pill';
-import { RunSection } from '../components/recipe-run';
+import { RecordPart } from '../components/recipe-record';
+import { RunHead, RunReports, useRun } from '../components/recipe-run';
 import { StepEditor, type Fault } from '../components/recipe-steps';
 import { RecipeParameters } from '../components/recipe-parameters';
 import { Section } from '../components/section';
@@ -183,6 +184,7 @@ export function RecipePage({ name }: { name: string }) {
   };
   const d = document.value;
   const given: Signal<Record<string, string>> = useSignal({});
+  const run = useRun(name, d?.parameters ?? {}, given);
   const unitMeant = (named: string) => {
     const axis = axisMeant(named, d?.parameters, given.value);
     const entry = axis === null ? undefined : store.axis(axis);
@@ -198,6 +200,7 @@ export function RecipePage({ name }: { name: string }) {
       {!d && why && <Empty text={why} />}
       {d && (
         <>
+          <RunHead run={run} saved={!unsaved && stored.value !== ''} />
           <Gate need="engineer">
             <div class="recipe-bar">
               <Typed
@@ -272,6 +275,7 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
                 <Section title={t('Steps')}>
                   <div class="card recipe-card">
+                    <RecordPart recipe={name} kept={!unsaved || d.steps.length === 0} add={(steps) => put({ ...d, steps: [...d.steps, ...steps] })} />
                     <StepEditor document={d} change={put} axes={store.axisNames.value} listed={store.listed.value} unitOf={unitMeant} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
@@ -307,7 +311,7 @@ export function RecipePage({ name }: { name: string }) {
               </div>
             </Section>
           </div>
-          <RunSection name={name} typed={given} parameters={d.parameters ?? {}} saved={!unsaved && stored.value !== ''} />
+          <RunReports run={run} />
         </>
       )}
     </main>

@@ -20,7 +20,7 @@ export function RecorderPage({ tab, axis, at_ms }: { tab: RecorderTab; axis?: st
       </nav>
       {tab === 'trends' && <TrendsPart at_ms={at_ms} axis={axis} />}
       {tab === 'captures' && <CapturesPart axis={axis} />}
-      {tab === 'recordings' && <RecordingsPart />}
+      {tab === 'recordings' && <RecordingsPart key={`${axis} ${at_ms}`} first={axis} at_ms={at_ms} />}
     </main>
   );
 }

@@ -1,7 +1,7 @@
 // Alarms and events in words: state, subject, how long a shelf lasts, the filter of the events and the files of them.
 // In: documents of the gateway. Out: words. Never asks anything.
 import { t } from '../language';
-import type { Alarm, GatewayEvent } from '../api/types';
+import type { Alarm, GatewayEvent, Recording } from '../api/types';
 import type { Word } from './axis';
 import { csvOf } from './table-text';
 
@@ -19,11 +19,18 @@ export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
 export const subjectOf = (a: Pick<Alarm, 'axis' | 'drive' | 'line'>): string => a.axis ?? a.drive ?? a.line ?? 'gateway';
 export const canAcknowledge = (a: Alarm): boolean => !a.acknowledged && a.state !== 'shelved';
 
+/** The newest recording that shows this instant and can be trusted. */
+export function recordingOf(list: readonly Recording[], at: string): string | null {
+  const ms = Date.parse(at);
+  const covers = (r: Recording) => !r.fault && r.from !== null && r.to !== null && Date.parse(r.from) <= ms && ms <= Date.parse(r.to);
+  return list.filter(covers).sort((a, b) => (b.at ?? '').localeCompare(a.at ?? ''))[0]?.name ?? null;
+}
+
 export const shelfTimes = [
-  { value: '600', text: '10 minutes' },
-  { value: '3600', text: '1 hour' },
-  { value: '28800', text: '8 hours' },
-  { value: '86400', text: '1 day' },
+  { value: '600', text: t('10 minutes') },
+  { value: '3600', text: t('1 hour') },
+  { value: '28800', text: t('8 hours') },
+  { value: '86400', text: t('1 day') },
 ] as const;
 
 /** The gateway's sentences often begin with what they are about; beside its name that is said once. */

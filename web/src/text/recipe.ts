@@ -1,7 +1,8 @@
 // A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
 // Never changes a document in place, and keeps members that it does not know.
 import { t } from '../language';
-import { plainWord } from './plain';
+import { plain, plainWord } from './plain';
+import { duration } from './time';
 import type { Word } from './axis';
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
@@ -23,7 +24,7 @@ export interface RecipeDocument {
   [other: string]: unknown;
 }
 
-export type FieldKind = 'axis' | 'text' | 'value' | 'number' | 'flag' | 'command' | 'register_type';
+export type FieldKind = 'axis' | 'text' | 'value' | 'number' | 'flag' | 'command' | 'register_type' | 'input';
 export interface StepField {
   key: string;
   label: string;
@@ -73,6 +74,12 @@ export const stepKinds: StepKind[] = [
       { key: 'value', label: t('Value'), kind: 'value' },
     ],
     fresh: { unit: 1, address: 34, value: 0 },
+  },
+  {
+    word: 'simulate',
+    label: t('Simulate (rehearse a fault)'),
+    fields: [axis, { key: 'input', label: t('Condition'), kind: 'input' }, { key: 'value', label: t('Value'), kind: 'value' }],
+    fresh: { axis: '', input: 'stall', value: true },
   },
   { word: 'wait_for', label: t('Wait for'), fields: [{ key: 'timeout_s', label: t('At most, s'), kind: 'number', optional: true }], condition: 'own', fresh: { axis: '', point: 'moving', is: false, timeout_s: 30 } },
   { word: 'check', label: t('Check'), fields: [{ key: 'text', label: t('Said if not'), kind: 'text', optional: true }], condition: 'own', fresh: { axis: '', point: 'fault', is: false } },
@@ -268,6 +275,29 @@ export function editable(document: RecipeDocument): RecipeDocument {
   const copy = structuredClone(document);
   for (const key of ['name', 'changed_at', 'changed_by']) delete copy[key];
   return copy;
+}
+
+/** "AC of feeder = 20000": what a step of a report is about, without its number and its word. */
+export function stepWhat(s: { label?: string; step: string }): string {
+  const said = (s.label ?? '').replace(/^Step [^:]*: /, '');
+  return said.startsWith(s.step) ? said.slice(s.step.length).trim() : said;
+}
+/** How long a step took, as exactly as one compares steps: "12 ms", "0.85 s", "2 min". */
+export const tookText = (ms: number): string => (ms < 0 ? '' : ms < 100 ? t('{n} ms', { n: Math.round(ms) }) : ms < 10_000 ? t('{n} s', { n: (ms / 1000).toFixed(2) }) : duration(ms));
+/** A step of the document in one line, for the folded form: "feeder, Move to, 12". */
+export function stepSummary(step: Step): string {
+  const kind = kindOf(step);
+  const body = kind ? step[kind.word] : undefined;
+  const parts: string[] = [];
+  const put = (v: unknown): void => {
+    if (v === null || v === undefined || v === '') return;
+    if (Array.isArray(v)) parts.push(v.length === 1 ? t('1 step') : t('{n} steps', { n: v.length }));
+    else if (typeof v === 'object') for (const [k, x] of Object.entries(v)) put(typeof x === 'number' && comparisons.some((c) => c.key === k) ? `${comparisons.find((c) => c.key === k)?.label} ${x}` : x);
+    else parts.push(plain(String(v)));
+  };
+  put(body);
+  if (typeof step['comment'] === 'string' && step['comment']) parts.push(`“${step['comment']}”`);
+  return parts.join(', ');
 }
 
 /** How much of a run was carried out: the step in which a run ended that is not done was not. */

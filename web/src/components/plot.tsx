@@ -57,6 +57,12 @@ export interface Mark {
   text: string;
 }
 
+/** A value that is drawn across the plot: the level of a trigger. */
+export interface Level {
+  scale: string;
+  value: number;
+  text: string;
+}
 export interface PlotProps {
   label: string;
   curves: readonly Curve[];
@@ -71,6 +77,8 @@ export interface PlotProps {
   zoomable?: boolean;
   /** Instants with a word. */
   marks?: readonly Mark[];
+  /** Values with a word, each on the scale of the curves that it belongs to. */
+  levels?: readonly Level[];
   /** Something to draw has changed. */
   version?: unknown;
   class?: string;
@@ -195,6 +203,22 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
       values: (_u: uPlot, at: number[]) => tickLabels(at),
     };
   };
+  const level = (u: uPlot, l: Level, ink: string) => {
+    if (!u.scales[l.scale]) return;
+    const y = Math.round(u.valToPos(l.value, l.scale, true));
+    if (!(y >= u.bbox.top && y <= u.bbox.top + u.bbox.height)) return;
+    u.ctx.save();
+    u.ctx.strokeStyle = u.ctx.fillStyle = ink;
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.setLineDash([8 * devicePixelRatio, 4 * devicePixelRatio]);
+    u.ctx.beginPath();
+    u.ctx.moveTo(u.bbox.left, y);
+    u.ctx.lineTo(u.bbox.left + u.bbox.width, y);
+    u.ctx.stroke();
+    u.ctx.textAlign = 'right';
+    u.ctx.fillText(l.text, u.bbox.left + u.bbox.width - 4 * devicePixelRatio, y - 5 * devicePixelRatio);
+    u.ctx.restore();
+  };
   const line = (u: uPlot, instant: number, ink: string, text: string, dashed: boolean) => {
     const x = Math.round(u.valToPos(instant, 'x', true));
     if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
@@ -252,6 +276,7 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
       ],
       draw: [
         (u) => {
+          for (const l of latest.current.levels ?? []) level(u, l, inks[1] as string);
           for (const m of latest.current.marks ?? []) line(u, m.at, inks[1] as string, m.text, true);
           view.cursors.forEach((cursor, i) => {
             const instant = cursor.peek();

@@ -12,7 +12,7 @@ import { persisted } from '../state/persisted';
 import { readAt } from '../state/plot';
 import { captureParts, joined } from '../state/recorder';
 import { parseNumber, parseQuantity } from '../text/number';
-import { bytesWords, captureAbout, captureWord, freeName, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
+import { bytesWords, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
 import { dateTime } from '../text/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { Gate, useBarred } from './gate';
@@ -160,6 +160,8 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   );
 }
 
+const scaleOf = (p: TracePoint, unit: string): string => `${p === 'demand' ? 'position' : p} ${unit}`;
+
 export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
   const view = useRef<PlotView>(null as unknown as PlotView);
   view.current ??= new PlotView();
@@ -167,6 +169,12 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
   const seen = points.filter((p) => chosenPoints.value.split(',').includes(p));
   const several = captures.length > 1;
   const key = captures.map((c) => c.name).join() + seen.join();
+  const levels = captures.flatMap((c) => {
+    const trigger = c.trigger;
+    const unit = c.axes.find((a) => a.axis === trigger?.axis)?.unit ?? '';
+    if (trigger?.kind !== 'level' || !trigger.point || !seen.some((p) => scaleOf(p, unit) === scaleOf(trigger.point as TracePoint, unit))) return [];
+    return [{ scale: scaleOf(trigger.point, unit), value: trigger.level ?? 0, text: levelText(trigger, unit) }];
+  });
   const { data, curves } = useMemo(() => {
     let n = 0;
     const list: Curve[] = captures.flatMap((c) =>
@@ -175,7 +183,7 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
           const ink = inks[n % inks.length] as string;
           const round = Math.floor(n / inks.length);
           n += 1;
-          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: `${p === 'demand' ? 'position' : p} ${a.unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
         }),
       ),
     );
@@ -206,10 +214,16 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
           curves={curves}
           data={() => [data.at, ...data.columns] as never}
           version={key}
-          marks={[{ at: 0, text: 'trigger' }]}
+          marks={[{ at: 0, text: t('trigger') }]}
+          levels={levels}
           timeText={(entered, _end, span) => sinceText(entered, span)}
           label={t('Captures {n}, seconds from the trigger. Drag to come closer, 0 shows all. Arrow keys move the cursor {n2}, Delete takes it away.', { n: captures.map((c) => c.name).join(', '), n2: v.active.value === 0 ? 'A' : 'B' })}
         />
+        {levels.length > 0 && (
+          <p class="where" data-field="levels">
+            {t('Level of the trigger, drawn across: {levels}', { levels: levels.map((l) => l.text).join(', ') })}
+          </p>
+        )}
         <ul class="curve-list" aria-label={t('Curves')}>
           {curves.map((c) => (
             <li key={c.id} class={`curve-key ink${c.color}`}>

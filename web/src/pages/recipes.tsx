@@ -200,7 +200,6 @@ export function RecipePage({ name }: { name: string }) {
       {!d && why && <Empty text={why} />}
       {d && (
         <>
-          <RunHead run={run} saved={!unsaved && stored.value !== ''} />
           <Gate need="engineer">
             <div class="recipe-bar">
               <Typed
@@ -265,6 +264,7 @@ export function RecipePage({ name }: { name: string }) {
               </div>
             </div>
           )}
+          <RunHead run={run} saved={!unsaved && stored.value !== ''} />
           <div class="recipe-sides">
             <Gate need="engineer" silent>
               <div>

@@ -36,6 +36,9 @@ export function triggerWords(trigger: CaptureTrigger | null, unit = ''): string 
   return trigger.edge === 'falling' ? t('{point} of {axis} falls through {level}', values) : t('{point} of {axis} rises through {level}', values);
 }
 
+/** "↑ 1.5 mm": the level of a trigger with its edge. */
+export const levelText = (trigger: CaptureTrigger, unit: string): string => `${trigger.edge === 'falling' ? '↓' : '↑'} ${formatNumber(trigger.level ?? 0, 3)} ${pointUnit(trigger.point ?? 'position', unit)}`.trim();
+
 export function captureWord(c: Capture): Word {
   if (c.fault) return { text: t('Damaged'), icon: 'triangle', tone: 'fault', long: c.fault };
   switch (c.state) {

@@ -82,7 +82,7 @@ function Page() {
     case 'overview': return <Overview />;
     case 'axis': return <AxisPage key={r.name} name={r.name} tab={r.tab} />;
     case 'lines': return <LinesPage />;
-    case 'line': return <LinePage key={r.name} name={r.name} />;
+    case 'line': return <LinePage key={`${r.name} ${r.at_ms ?? ''}`} name={r.name} at_ms={r.at_ms} />;
     case 'recipes': return <RecipesPage />;
     case 'recipe': return <RecipePage key={r.name} name={r.name} />;
     case 'recorder': return <RecorderPage tab={r.tab} axis={r.axis} at_ms={r.at_ms} />;

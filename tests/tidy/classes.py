@@ -17,7 +17,6 @@ NOT_MENDED = {
     ("adapters/pacontrol/twin/axis.hpp", "Axis"): 93,
     ("adapters/pacontrol/twin/control.hpp", "Control"): 85,
     ("gateway/engine/engine.hpp", "Engine"): 117,
-    ("gateway/protocols/cip/connection_manager.hpp", "ConnectionManager"): 41,
     ("gateway/runtime/hot.hpp", "Hot"): 45,
 }
 

@@ -11,7 +11,7 @@ LIMIT = 40
 
 # Classes that are not mended yet, with their present number. It may only fall; at the limit the line goes.
 NOT_MENDED = {
-    ("adapters/linmot/twin/drive.hpp", "Drive"): 109,
+    ("adapters/linmot/twin/drive.hpp", "Drive"): 101,
     ("adapters/mcode/twin/device.hpp", "Device"): 50,
     ("adapters/mcode/twin/motor.hpp", "Motor"): 112,
     ("adapters/pacontrol/twin/axis.hpp", "Axis"): 93,

@@ -13,6 +13,9 @@ inline std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
     return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
 }
 inline std::uint32_t at32(std::span<const std::uint8_t> d, std::size_t i) { return at16(d, i) | std::uint32_t{at16(d, i + 2)} << 16; }
+/// The same with a sign, for reckoning.
+inline double signed16(std::span<const std::uint8_t> d, std::size_t i) { return static_cast<std::int16_t>(at16(d, i)); }
+inline double signed32(std::span<const std::uint8_t> d, std::size_t i) { return static_cast<std::int32_t>(at32(d, i)); }
 inline void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i)
         v.push_back(static_cast<std::uint8_t>(value >> 8 * i));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
@@ -100,7 +101,7 @@ void Drive::write_motion_command(std::span<const std::uint8_t> bytes, Instant no
     advance(now);
     if (!running_ || bytes.size() < 2) return;
     std::copy_n(bytes.begin(), std::min(bytes.size(), buffer_.size()), buffer_.begin());
-    const std::uint16_t header = u16(buffer_, 0);
+    const std::uint16_t header = at16(buffer_, 0);
     if ((header & 0x0F) == (echo_ & 0x0F)) return;  // the count alone decides, whatever the rest says [L545-547]
     echo_ = static_cast<std::uint8_t>(header & 0x0F);
     last_header_ = header;
@@ -163,17 +164,17 @@ void Drive::execute(std::uint16_t header, const Bytes& b, bool from_table, Insta
 }
 
 void Drive::general(std::uint8_t sub, const Bytes& b, Instant now) {
-    const auto masked = [&](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~u16(b, 2)) | (u16(b, 4) & u16(b, 2))); };
+    const auto masked = [&](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~at16(b, 2)) | (at16(b, 4) & at16(b, 2))); };
     switch (sub) {
         case 1:
-            interface_word_ = u16(b, 2);
+            interface_word_ = at16(b, 2);
             compute_control_word(now);
             return;
         case 2:
-            if (const auto* f = memory.facts(u16(b, 2)); f && f->live()) {  // others: ignored (choice O-24)
+            if (const auto* f = memory.facts(at16(b, 2)); f && f->live()) {  // others: ignored (choice O-24)
                 follow_step(now);
                 const double here = demand_at(now).position;
-                memory.set_ram(u16(b, 2), u32(b, 4));
+                memory.set_ram(at16(b, 2), at32(b, 4));
                 if (follow_ != Follow::none && !follows()) profile_.rest(here, now);  // "cam enabled" was cleared: it rests there
             }
             return;
@@ -187,8 +188,8 @@ void Drive::general(std::uint8_t sub, const Bytes& b, Instant now) {
             return;
         case 9: {  // homing at the actual position, without state 9 [L1000-1004]
             const double here = actual_at(now).position;
-            const double shift = s32(b, 2) - (here + offset_);
-            memory.set_ram(0x13C7, u32(b, 2));
+            const double shift = signed32(b, 2) - (here + offset_);
+            memory.set_ram(0x13C7, at32(b, 2));
             memory.set_ram(0x13CA, static_cast<std::uint32_t>(static_cast<std::int32_t>(memory.number(0x13CA) + shift)));
             offset_ += shift;
             profile_.rest(here + offset_, now);
@@ -208,10 +209,10 @@ Ramps Drive::predefined() const {
 void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
     const auto master = static_cast<std::uint8_t>(header >> 8);
     auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
-    const auto v32 = [&](std::size_t at) { return u32(b, at) * velocity_count; };
-    const auto a32 = [&](std::size_t at) { return u32(b, at) * acceleration_count; };
-    const auto v16 = [&](std::size_t at) { return u16(b, at) * velocity_count; };  // 16-bit factors are neutral (choice O-19)
-    const auto a16 = [&](std::size_t at) { return u16(b, at) * acceleration_count; };
+    const auto v32 = [&](std::size_t at) { return at32(b, at) * velocity_count; };
+    const auto a32 = [&](std::size_t at) { return at32(b, at) * acceleration_count; };
+    const auto v16 = [&](std::size_t at) { return at16(b, at) * velocity_count; };  // 16-bit factors are neutral (choice O-19)
+    const auto a16 = [&](std::size_t at) { return at16(b, at) * acceleration_count; };
     Order o;
     o.sub = sub;
     o.ramps = predefined();
@@ -223,25 +224,25 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
                 o = {0, static_cast<double>(outside_.analog), {v32(2), a32(6), a32(10)}};
                 break;
             }
-            o.value = s32(b, 2);
+            o.value = signed32(b, 2);
             o.ramps = {v32(6), a32(10), a32(14)};
             break;
         case 0x02:
             if (sub == 7) return stop_motion(quick_deceleration(), now);
             endless = sub >= 0x0E;
-            o.value = s32(b, 2);
+            o.value = signed32(b, 2);
             break;
         case 0x09:
             if (sub == 7) return stop_motion(a16(2), now);
-            o.value = s16(b, 2);
+            o.value = signed16(b, 2);
             o.ramps = {v16(4), a16(6), a16(8)};
             break;
         case 0x0A:
             if (sub == 7) return stop_motion(quick_deceleration(), now);
-            o.value = s16(b, 2);
+            o.value = signed16(b, 2);
             break;
         case 0x0B:
-            o.value = s32(b, 2);
+            o.value = signed32(b, 2);
             o.ramps.velocity = v32(6);
             break;
         case 0x0C:
@@ -250,11 +251,11 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
                 o.ramps = {v32(2), a32(6), a32(6)};
                 break;
             }
-            o.value = s32(b, 2);
+            o.value = signed32(b, 2);
             o.ramps = {v32(6), a32(10), a32(10)};
             press = sub >= 5 && sub <= 7;
             if (press) {
-                const std::uint16_t most = u16(b, 14);
+                const std::uint16_t most = at16(b, 14);
                 if (most == 0) return raise(0x63, now);
                 memory.set_ram(0x13A6, most);  // controller set A is the active one; the value stays [L2687-2750]
                 o.sub = sub == 5 ? 0 : sub == 6 ? 3 : 4;
@@ -262,9 +263,9 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
             break;
         case 0x0D:
             if (sub == 0)
-                o = {0, captured_ + s32(b, 2), {v32(6), a32(10), a32(14)}};
+                o = {0, captured_ + signed32(b, 2), {v32(6), a32(10), a32(14)}};
             else if (sub == 1)
-                o = {0, s16(b, 2), {v16(4), a16(6), a16(6)}};
+                o = {0, signed16(b, 2), {v16(4), a16(6), a16(6)}};
             else if (sub >= 0x0E)
                 o = {0, sub == 0x0E ? setup_.trig_rise : setup_.trig_fall, predefined()};
             else
@@ -273,7 +274,7 @@ void Drive::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
                      {v32(2), a32(6), a32(10)}};
             break;
         case 0x07:
-            o.value = s32(b, 2);
+            o.value = signed32(b, 2);
             if (sub == 0 || sub == 0x0E) o.ramps = {v32(6), a32(10), a32(14)};
             if (sub <= 1) {
                 indexing_ = true;
@@ -379,7 +380,7 @@ void Drive::stop_play(Instant now) {
 
 /// Position indexing: the master encoder's counts are added to the target, one unit per count (choice E-23).
 void Drive::index(Instant now) {
-    target_ = index_base_ + std::nearbyint(master_at(now));
+    target_ = index_base_ + std::nearbyint(master_.count(now));
     last_ramps_ = index_ramps_;
     vai_ever_ = true;
     profile_.move(now, demand_at(now), target_, index_ramps_);
@@ -387,19 +388,19 @@ void Drive::index(Instant now) {
 
 void Drive::force_command(std::uint8_t sub, const Bytes& b, Instant now) {
     if (sub == 2) {
-        if (force_control_) force_target_ = u16(b, 2);
+        if (force_control_) force_target_ = at16(b, 2);
         return;
     }
-    Order o{0, s32(b, 2), {u32(b, 6) * velocity_count, u32(b, 10) * acceleration_count, u32(b, 10) * acceleration_count}};
+    Order o{0, signed32(b, 2), {at32(b, 6) * velocity_count, at32(b, 10) * acceleration_count, at32(b, 10) * acceleration_count}};
     if (sub == 1) {
         o.sub = 3;
-        o.ramps.deceleration = u32(b, 14) * acceleration_count;
+        o.ramps.deceleration = at32(b, 14) * acceleration_count;
         force_watch_ = force_control_ = false;
         return start(o, now);
     }
     force_higher_ = sub == 0 || sub == 3;
-    force_limit_ = u16(b, 14);
-    force_target_ = sub == 3 || sub == 5 ? u16(b, 16) : force_limit_;
+    force_limit_ = at16(b, 14);
+    force_target_ = sub == 3 || sub == 5 ? at16(b, 16) : force_limit_;
     force_watch_ = true;
     force_control_ = false;
     start(o, now);
@@ -440,9 +441,9 @@ void Drive::stream(std::uint8_t sub, const Bytes& b, Instant now) {
     }
     const Duration period = stream_period_ > Duration{} ? stream_period_ : Duration{std::chrono::milliseconds(2)};
     stream_points_.emplace_back(std::max(now + period * 3 / 2, stream_points_.back().first + Duration{1}),
-                                Point{s32(b, 2), sub == 1 ? s32(b, 6) * velocity_count : 0});
+                                Point{signed32(b, 2), sub == 1 ? signed32(b, 6) * velocity_count : 0});
     stream_velocities_ = sub == 1;
-    target_ = s32(b, 2);
+    target_ = signed32(b, 2);
 }
 
 }  // namespace axisgate::linmot::twin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
@@ -24,7 +25,7 @@ void Drive::curve_command(std::uint16_t header, const Bytes& b, Instant now) {
 
 /// 040 defaults, 041 from the set point, 042 to a position, 043 the same in a time, 044 scales, 045 time and amplitude [L1511-1614].
 void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
-    const std::uint16_t id = u16(b, 2);
+    const std::uint16_t id = at16(b, 2);
     const auto it = curves.find(id);
     if (it == curves.end() || it->second.points() < 2) return raise(0x62, now);
     const Curve& c = it->second;
@@ -45,21 +46,21 @@ void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
         case 3: {
             const double span = last - first;
             if (span == 0) return raise(0x89, now);
-            p.scale = (s32(b, 4) - here.position) / span;
+            p.scale = (signed32(b, 4) - here.position) / span;
             p.offset = here.position - first * p.scale;
             if (std::fabs(p.scale) > 20) return raise(0x89, now);  // -2000..2000 % [L1545-1547]
-            if (sub == 3) p.seconds = s32(b, 8) * 1e-5;
+            if (sub == 3) p.seconds = signed32(b, 8) * 1e-5;
             break;
         }
         case 4:
-            p.offset = s32(b, 4);
-            p.seconds *= u16(b, 8) / 10'000.0;
-            p.scale = s16(b, 10) / 1000;
+            p.offset = signed32(b, 4);
+            p.seconds *= at16(b, 8) / 10'000.0;
+            p.scale = signed16(b, 10) / 1000;
             break;
         default:
-            p.offset = s32(b, 4);
-            p.seconds = s32(b, 8) * 1e-5;
-            p.scale = s16(b, 12) / 1000;
+            p.offset = signed32(b, 4);
+            p.seconds = signed32(b, 8) * 1e-5;
+            p.scale = signed16(b, 12) / 1000;
             break;
     }
     p.seconds = std::max(p.seconds, 1e-4);
@@ -69,10 +70,10 @@ void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
 }
 
 void Drive::modify_curve(std::uint8_t sub, const Bytes& b, Instant now) {
-    const std::uint16_t id = u16(b, 2);
+    const std::uint16_t id = at16(b, 2);
     if (id < 1 || id > 100) return raise(0x62, now);
     if (sub == 0) {
-        if (u16(b, 4) == 0x0FFF)
+        if (at16(b, 4) == 0x0FFF)
             curves.erase(id);  // not defined (E-22)
         else
             curves.try_emplace(id);
@@ -81,7 +82,7 @@ void Drive::modify_curve(std::uint8_t sub, const Bytes& b, Instant now) {
     const auto it = curves.find(id);
     if (it == curves.end()) return raise(0x62, now);
     auto& block = sub <= 2 ? it->second.info : it->second.data;
-    const std::size_t at = u16(b, 4), n = sub == 1 ? 2 : sub == 2 || sub == 4 ? 4 : sub == 5 ? 8 : 12;
+    const std::size_t at = at16(b, 4), n = sub == 1 ? 2 : sub == 2 || sub == 4 ? 4 : sub == 5 ? 8 : 12;
     if (at + n > most_block) return;  // wrong offsets are not caught [L1777-1780]; the model's memory ends here
     if (block.size() < at + n) block.resize(at + n);
     std::copy_n(b.begin() + 6, n, block.begin() + static_cast<std::ptrdiff_t>(at));

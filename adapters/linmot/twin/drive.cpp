@@ -25,7 +25,7 @@ void Drive::power_on(Instant now) {
     offset_ = 0;
     x4_outputs_ = x6_outputs_ = 0;
     cams_ = {};
-    count_offset_ = 0;
+    master_.power_on();
     resistor_.settle(memory.number(0x102A) / 10);
     motor_.settle(memory.number(0x102A) / 10);
     warmed_ = now;
@@ -202,7 +202,7 @@ Point Drive::demand_at(Instant now) const {
         }
     }
     if (follows()) {
-        if (const auto f = followed_at(master_at(now))) return {f->position, f->slope * master_speed()};
+        if (const auto f = followed_at(master_.count(now))) return {f->position, f->slope * master_.speed()};
     }
     if (streaming_ && !stream_points_.empty()) {
         const auto& [at, p] = stream_points_.front();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "adapters/linmot/twin/cams.hpp"
+#include "adapters/linmot/twin/master.hpp"
 #include "adapters/linmot/twin/memory.hpp"
 #include "adapters/linmot/twin/profile.hpp"
 #include "adapters/linmot/twin/thermal.hpp"
@@ -68,6 +69,8 @@ public:
     static constexpr Duration ptc_warn = std::chrono::milliseconds(100);  ///< a choice: the times of the PTC inputs have no UPID
 
     explicit Drive(const DriveSetup& setup) : setup_(setup) {}
+    Drive(const Drive&) = delete;
+    Drive& operator=(const Drive&) = delete;
 
     // --- power, software ------------------------------------------------------------------------------------------------
     void power_on(Instant now);
@@ -100,10 +103,10 @@ public:
     [[nodiscard]] std::uint16_t outputs_x6() const noexcept { return x6_outputs_; }
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_done_; }
     /// The master encoder's count as the drive has it [L4403-4470].
-    [[nodiscard]] double master() const { return master_at(now_); }
+    [[nodiscard]] double master() const { return master_.count(now_); }
     /// The force that is held, 0.1 N; nothing: the position is controlled.
     [[nodiscard]] std::optional<double> held_force() const { return force_control_ ? std::optional(force_target_) : std::nullopt; }
-    [[nodiscard]] double encoder_edges() const { return edges_at(now_); }
+    [[nodiscard]] double encoder_edges() const { return master_.edges(now_); }
 
     // --- the tester's hand ----------------------------------------------------------------------------------------------
     struct Outside {
@@ -195,10 +198,6 @@ private:
     [[nodiscard]] bool brakes_on_abort() const noexcept { return memory.ram(0x1717) != 0 && memory.ram(0x1718) != 0; }
 
     // follow.cpp
-    [[nodiscard]] double edges_at(Instant now) const noexcept;
-    [[nodiscard]] double master_at(Instant now) const noexcept;
-    [[nodiscard]] double master_speed() const noexcept;
-    [[nodiscard]] double edge_factor() const noexcept;
     [[nodiscard]] bool follows() const noexcept;
     [[nodiscard]] std::span<const Cam> cams() const noexcept;
     [[nodiscard]] CamRange cam_range() const noexcept { return CamRange::of(cams(), memory.ram(0x1527) != 0); }
@@ -254,11 +253,6 @@ private:
     void start_curve(std::uint8_t sub, const Bytes& b, Instant now);
     void modify_curve(std::uint8_t sub, const Bytes& b, Instant now);
 
-    static std::uint16_t u16(const Bytes& b, std::size_t at) noexcept { return static_cast<std::uint16_t>(b[at] | b[at + 1] << 8); }
-    static std::uint32_t u32(const Bytes& b, std::size_t at) noexcept { return u16(b, at) | std::uint32_t{u16(b, at + 2)} << 16; }
-    static double s16(const Bytes& b, std::size_t at) noexcept { return static_cast<std::int16_t>(u16(b, at)); }
-    static double s32(const Bytes& b, std::size_t at) noexcept { return static_cast<std::int32_t>(u32(b, at)); }
-
     DriveSetup setup_;
     Instant now_{};
     bool on_ = false, running_ = false;
@@ -292,10 +286,8 @@ private:
     bool indexing_ = false;
     double index_base_ = 0;
     Ramps index_ramps_{};
-    // master encoder
-    double edges_ = 0;
-    Instant edges_since_{};
-    double count_offset_ = 0;  ///< by 104xh
+    // what follows the master encoder
+    MasterEncoder master_{memory};
     Follow follow_ = Follow::none;
     std::array<Cam, 3> cams_{};
     double follow_count_ = 0;  ///< at the last look

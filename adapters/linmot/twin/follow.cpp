@@ -5,24 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
-
-// --- the encoder --------------------------------------------------------------------------------------------------------------
-double Drive::edges_at(Instant now) const noexcept {
-    return edges_ + static_cast<double>(outside_.encoder_speed) * std::max(0.0, seconds(now - edges_since_));
-}
-
-/// Counts per edge. Without a source or type nothing is counted; type 3 is none; 4x on step and direction acts as 2x [L4431-4437].
-double Drive::edge_factor() const noexcept {
-    const auto type = memory.ram(0x128E);
-    if (memory.ram(0x172A) == 0 || type == 0 || type == 3 || type > 5) return 0;
-    const auto decoding = std::min<std::uint32_t>(memory.ram(0x128F), type >= 4 ? 1 : 2);
-    return (memory.ram(0x1290) != 0 ? -0.25 : 0.25) * static_cast<double>(1u << decoding);
-}
-double Drive::master_at(Instant now) const noexcept { return count_offset_ + edges_at(now) * edge_factor(); }
-double Drive::master_speed() const noexcept { return static_cast<double>(outside_.encoder_speed) * edge_factor(); }
 
 // --- where the count leads ----------------------------------------------------------------------------------------------------
 bool Drive::follows() const noexcept {
@@ -59,9 +45,9 @@ std::optional<Followed> Drive::followed_at(double count) const {
 
 /// The next instant at which a count matters: the start of a cam on which something waits, the end of one that a trigger started.
 Instant Drive::follow_due() const {
-    const double speed = master_speed();
+    const double speed = master_.speed();
     if (follow_ == Follow::none || follow_ == Follow::winding || speed == 0 || !controlled()) return never;
-    const double here = master_at(now_);
+    const double here = master_.count(now_);
     Instant at = never;
     const auto take = [&](double count) {
         const double wait = (count - here) / speed;
@@ -82,7 +68,7 @@ Instant Drive::follow_due() const {
 
 /// What the way from the last look to now has passed: starts of cams, the end of a triggered one.
 void Drive::follow_step(Instant now) {
-    const double from = follow_count_, to = master_at(now);
+    const double from = follow_count_, to = master_.count(now);
     follow_count_ = to;
     if (follow_ == Follow::none || follow_ == Follow::winding) return;
     if (follow_ == Follow::shot) {
@@ -117,7 +103,7 @@ void Drive::follow_begin(Follow what, Instant now) {
     stop_play(now);
     streaming_ = indexing_ = force_watch_ = false;
     follow_ = what;
-    follow_count_ = master_at(now);
+    follow_count_ = master_.count(now);
     profile_.rest(before.position, now);
     const auto to = follows() ? followed_at(follow_count_) : std::nullopt;
     if (const double limit = memory.number(0x1473); to && limit > 0 && std::fabs(to->position - before.position) > limit) {
@@ -149,13 +135,13 @@ void Drive::cam_command(std::uint16_t header, const Bytes& b, Instant now) {
             return follow_end(now);
         case 2: {  // to the place that belongs to the present count, with the predefined values
             follow_end(now);
-            const auto to = followed_at(master_at(now));
+            const auto to = followed_at(master_.count(now));
             if (!to) return raise(0x62, now);
             return start({0, to->position, predefined()}, now);
         }
         default:
-            count_offset_ += s32(b, 2) - master_at(now);
-            follow_count_ = master_at(now);
+            master_.name(signed32(b, 2), now);
+            follow_count_ = master_.count(now);
             return;
     }
 }
@@ -180,16 +166,16 @@ void Drive::define_cam(Cam& cam, std::uint8_t sub, const Bytes& b, Instant now) 
         return;
     }
     if (sub == 8) {
-        cam.next = std::pair{s16(b, 2) / 1000, counts(s32(b, 4))};
+        cam.next = std::pair{signed16(b, 2) / 1000, counts(signed32(b, 4))};
         return;
     }
-    const Curve* curve = curve_of(u16(b, 2));
+    const Curve* curve = curve_of(at16(b, 2));
     if (!curve) return raise(0x62, now);
     const double here = actual_at(now).position + offset_;
     Cam made;
-    made.curve = u16(b, 2);
-    made.start = s32(b, 4);
-    made.length = counts(sub == 3 ? s32(b, 16) : sub == 4 ? s32(b, 12) : sub == 5 ? s32(b, 10) : curve->x_length());
+    made.curve = at16(b, 2);
+    made.start = signed32(b, 4);
+    made.length = counts(sub == 3 ? signed32(b, 16) : sub == 4 ? signed32(b, 12) : sub == 5 ? signed32(b, 10) : curve->x_length());
     switch (sub) {
         case 0:
             made.defined = true;
@@ -200,13 +186,13 @@ void Drive::define_cam(Cam& cam, std::uint8_t sub, const Bytes& b, Instant now) 
             break;
         case 2:
         case 4:
-            lay(made, *curve, here, s32(b, 8), now);
+            lay(made, *curve, here, signed32(b, 8), now);
             break;
         case 3:
-            lay(made, *curve, s32(b, 8), s32(b, 12), now);
+            lay(made, *curve, signed32(b, 8), signed32(b, 12), now);
             break;
         default:
-            made.scale = s16(b, 8) / 1000;
+            made.scale = signed16(b, 8) / 1000;
             made.defined = true;
             break;
     }
@@ -215,10 +201,10 @@ void Drive::define_cam(Cam& cam, std::uint8_t sub, const Bytes& b, Instant now) 
 
 /// 069, 06A, 06D on rising, 06B, 06C, 06E on falling edges: curve and delay go into their parameters, from where each edge takes them.
 void Drive::arm_cam(std::uint8_t sub, const Bytes& b, Instant now) {
-    if (!curve_of(u16(b, 2))) return raise(0x62, now);
+    if (!curve_of(at16(b, 2))) return raise(0x62, now);
     const bool rising = sub == 9 || sub == 0x0A || sub == 0x0D;
-    memory.set_ram(rising ? 0x154A : 0x154B, u16(b, 2));
-    memory.set_ram(rising ? 0x154C : 0x154D, u32(b, 4));
+    memory.set_ram(rising ? 0x154A : 0x154B, at16(b, 2));
+    memory.set_ram(rising ? 0x154C : 0x154D, at32(b, 4));
     event_ = {};
     event_.kind = rising ? Event::Kind::rising : Event::Kind::falling;
     event_.what = Event::What::cam;
@@ -229,18 +215,18 @@ void Drive::arm_cam(std::uint8_t sub, const Bytes& b, Instant now) {
 void Drive::start_shot(std::uint8_t sub, const Bytes& b, Instant now) {
     const bool rising = sub == 9 || sub == 0x0A || sub == 0x0D, now_at_once = sub == 4;
     Cam made;
-    made.curve = now_at_once ? u16(b, 2) : static_cast<std::uint16_t>(memory.ram(rising ? 0x154A : 0x154B));
+    made.curve = now_at_once ? at16(b, 2) : static_cast<std::uint16_t>(memory.ram(rising ? 0x154A : 0x154B));
     const Curve* curve = curve_of(made.curve);
     if (!curve) return raise(0x62, now);
-    made.start = master_at(now) + (now_at_once ? s32(b, 4) : memory.number(rising ? 0x154C : 0x154D));
+    made.start = master_.count(now) + (now_at_once ? signed32(b, 4) : memory.number(rising ? 0x154C : 0x154D));
     const double here = demand_at(now).position;
     const bool to_target = sub == 0x0A || sub == 0x0C, scaled = sub == 0x0D || sub == 0x0E;
-    made.length = std::max(1.0, std::fabs(to_target ? s32(b, 12) : scaled ? s32(b, 10) : curve->x_length()));
+    made.length = std::max(1.0, std::fabs(to_target ? signed32(b, 12) : scaled ? signed32(b, 10) : curve->x_length()));
     if (to_target)
-        lay(made, *curve, here, s32(b, 8), now);
+        lay(made, *curve, here, signed32(b, 8), now);
     else
         made.defined = true;
-    if (scaled) made.scale = s16(b, 8) / 1000;
+    if (scaled) made.scale = signed16(b, 8) / 1000;
     if (!made.defined) return;
     cams_[shot] = made;
     follow_begin(Follow::shot, now);
@@ -250,7 +236,7 @@ void Drive::start_shot(std::uint8_t sub, const Bytes& b, Instant now) {
 void Drive::winding_command(std::uint16_t header, const Bytes& b, Instant now) {
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
     const bool curve = header >> 8 == 0x31;
-    const double count = master_at(now), turned = count - wound_from_;
+    const double count = master_.count(now), turned = count - wound_from_;
     if (!curve && sub >= 4) {
         if (follow_ != Follow::winding) return;
         if (sub == 4 && !adaptation_held_) adaptation_held_ = turned - adaptation_lost_;
@@ -260,9 +246,9 @@ void Drive::winding_command(std::uint16_t header, const Bytes& b, Instant now) {
         }
         return;
     }
-    wound_curve_ = curve ? u16(b, 2) : std::uint16_t{0};
+    wound_curve_ = curve ? at16(b, 2) : std::uint16_t{0};
     if (curve && !curve_of(wound_curve_)) return raise(0x62, now);
-    const double at = sub == 1 ? s32(b, curve ? 4 : 2) * std::max(1.0, memory.number(0x1291)) : count;
+    const double at = sub == 1 ? signed32(b, curve ? 4 : 2) * std::max(1.0, memory.number(0x1291)) : count;
     wound_from_ = std::max(at, count);
     adaptation_lost_ = 0;
     adaptation_held_.reset();

@@ -100,8 +100,7 @@ void Drive::set_outside(const Outside& outside, Instant now) {
     follow_step(now);
     warm(now);
     if (outside.stall && !outside_.stall) stalled_at_ = actual_at(now).position;
-    edges_ = outside.encoder != outside_.encoder ? value(outside.encoder) : edges_at(now);
-    edges_since_ = now;
+    master_.set(outside.encoder != outside_.encoder ? value(outside.encoder) : master_.edges(now), value(outside.encoder_speed), now);
     const auto since = [&](bool is, Instant& instant) { instant = !is ? never : instant == never ? now : instant; };
     since(outside.ptc1_hot, ptc1_since_);
     since(outside.ptc2_hot, ptc2_since_);

@@ -2,6 +2,7 @@
 // In: entries of 64 bytes, conditions. Out: motion commands one after the other. Never more than one sequence; an entry takes a cycle.
 #include <cmath>
 
+#include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
@@ -21,7 +22,7 @@ void Drive::start_entry(std::uint16_t id, Instant now) {
     for (std::size_t i = 0; i < b.size() && i + 4 < it->second.size(); ++i)
         b[i] = it->second[i + 4];
     const std::uint16_t running = entry_;
-    execute(u16(b, 0), b, true, now);
+    execute(at16(b, 0), b, true, now);
     if (entry_ == running) step_at_ = now + cycle;
 }
 
@@ -57,7 +58,7 @@ bool Drive::wait_over(Instant now) {
     const auto sub = static_cast<std::uint8_t>(waiting_ >> 4 & 0x0F);
     const auto value = watched(sub);
     if (!value) return true;
-    const double level = sub >= 0x0E ? s16(wait_bytes_, 2) : s32(wait_bytes_, 2);
+    const double level = sub >= 0x0E ? signed16(wait_bytes_, 2) : signed32(wait_bytes_, 2);
     return (sub & 1) == 0 ? *value > level : *value < level;
 }
 
@@ -89,7 +90,7 @@ void Drive::table_command(std::uint16_t header, const Bytes& b, bool from_table,
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
     const auto add = [&](std::uint16_t upid, std::uint32_t v) { memory.set_ram(upid, memory.ram(upid) + v); };  // wraps (choice O-17)
     const auto branch = [&](bool holds, std::size_t at) {
-        const std::uint16_t to = u16(b, holds ? at : at + 2);
+        const std::uint16_t to = at16(b, holds ? at : at + 2);
         if (from_table)
             branch_ = to;
         else
@@ -97,16 +98,16 @@ void Drive::table_command(std::uint16_t header, const Bytes& b, bool from_table,
     };
     switch (master) {
         case 0x20:
-            if (sub == 0) return start_entry(u16(b, 2), now);
+            if (sub == 0) return start_entry(at16(b, 2), now);
             if (sub <= 2) {
                 event_ = {};
                 event_.kind = sub == 1 ? Event::Kind::rising : Event::Kind::falling;
                 event_.what = Event::What::table;
-                event_.order.value = u16(b, 2);
+                event_.order.value = at16(b, 2);
                 return;
             }
-            if (const auto it = table.find(u16(b, 2)); it != table.end()) {
-                const std::size_t at = u16(b, 4), n = sub == 8 ? 2 : 4;
+            if (const auto it = table.find(at16(b, 2)); it != table.end()) {
+                const std::size_t at = at16(b, 4), n = sub == 8 ? 2 : 4;
                 for (std::size_t i = 0; i < n && at + i < it->second.size(); ++i)
                     it->second[at + i] = b[6 + i];
             } else {
@@ -121,45 +122,45 @@ void Drive::table_command(std::uint16_t header, const Bytes& b, bool from_table,
             wait_edge_ = false;
             wait_until_ = never;
             if (master == 0x21 && (sub == 0 || sub >= 8)) {
-                const double ticks = sub == 0 ? u32(b, 2) : std::max(0.0, memory.number(sub == 8 ? 0x1E72 : 0x1E73));
+                const double ticks = sub == 0 ? at32(b, 2) : std::max(0.0, memory.number(sub == 8 ? 0x1E72 : 0x1E73));
                 wait_until_ = now + Duration{static_cast<std::int64_t>(ticks * 100'000)};
             }
             return;
         case 0x24:
             switch (sub) {
                 case 0:
-                    return memory.set_ram(0x1E72, u32(b, 2));
+                    return memory.set_ram(0x1E72, at32(b, 2));
                 case 1:
-                    return add(0x1E72, u32(b, 2));
+                    return add(0x1E72, at32(b, 2));
                 case 2:
-                    return memory.set_ram(0x1E73, u32(b, 2));
+                    return memory.set_ram(0x1E73, at32(b, 2));
                 case 3:
-                    return add(0x1E73, u32(b, 2));
+                    return add(0x1E73, at32(b, 2));
                 case 8:
                 case 9:
-                    if (const auto* f = memory.facts(u16(b, 2)); f && f->live())
-                        memory.set_ram(u16(b, 2), memory.ram(sub == 8 ? 0x1E72 : 0x1E73));
+                    if (const auto* f = memory.facts(at16(b, 2)); f && f->live())
+                        memory.set_ram(at16(b, 2), memory.ram(sub == 8 ? 0x1E72 : 0x1E73));
                     return;
                 case 0x0C:
-                    return memory.set_ram(0x1E72, ram(u16(b, 2)));
+                    return memory.set_ram(0x1E72, ram(at16(b, 2)));
                 case 0x0D:
-                    return memory.set_ram(0x1E73, ram(u16(b, 2)));
+                    return memory.set_ram(0x1E73, ram(at16(b, 2)));
                 default:
-                    if (const auto* f = memory.facts(u16(b, 2)); f && f->writable_rom())
-                        return memory.set_rom(u16(b, 2), memory.ram(u16(b, 2)));
+                    if (const auto* f = memory.facts(at16(b, 2)); f && f->writable_rom())
+                        return memory.set_rom(at16(b, 2), memory.ram(at16(b, 2)));
                     return raise(0x58, now);
             }
         case 0x25: {
             const double var = memory.number((sub == 0 || sub == 1 || sub == 6) ? 0x1E72 : 0x1E73);
-            if (sub <= 3) return branch((sub & 1) == 0 ? var < s32(b, 2) : var > s32(b, 2), 6);
-            if (sub <= 7) return branch(var < static_cast<double>(static_cast<std::int32_t>(ram(u16(b, 2)))), 4);
+            if (sub <= 3) return branch((sub & 1) == 0 ? var < signed32(b, 2) : var > signed32(b, 2), 6);
+            if (sub <= 7) return branch(var < static_cast<double>(static_cast<std::int32_t>(ram(at16(b, 2)))), 4);
             const auto value = watched(static_cast<std::uint8_t>(sub < 0x0E ? (sub - 8) / 2 * 2 : 0x0E)).value_or(0);
-            return branch((sub & 1) == 0 ? value < s32(b, 2) : value > s32(b, 2), 6);
+            return branch((sub & 1) == 0 ? value < signed32(b, 2) : value > signed32(b, 2), 6);
         }
         case 0x26: {
-            if (sub == 0) return branch(static_cast<double>(outside_.analog) < s32(b, 2), 6);
+            if (sub == 0) return branch(static_cast<double>(outside_.analog) < signed32(b, 2), 6);
             const std::uint16_t word = sub == 2 ? outside_.x4_inputs : sub == 3 ? std::uint16_t{0} : sub == 4 ? status_word() : warn_word();
-            return branch((word & u16(b, 2)) == u16(b, 4), 6);
+            return branch((word & at16(b, 2)) == at16(b, 4), 6);
         }
         default:
             return;

@@ -222,8 +222,8 @@ test('run stands in the head; steps fold to one line and open where something is
   await becomes('no form is shown', () => page.getByLabel('Step 1: Value').count(), 0);
   assert.match(await page.locator('[data-step="/steps/0"] [data-field=summary]').innerText(), /feeder, AC, 20000/);
   await page.getByRole('button', { name: 'Unfold Step 1' }).click();
-  await page.getByLabel('Step 1: Value').fill('');
-  await page.getByLabel('Step 1: Value').press('Tab');
+  await page.getByLabel('Step 1: Parameter').fill('');
+  await page.getByLabel('Step 1: Parameter').press('Tab');
   await page.getByRole('button', { name: 'Fold all', exact: true }).click();
   await page.locator('[data-step="/steps/0"].is-wrong').waitFor();
   assert.equal(await page.getByLabel('Step 1: Value').count(), 1, 'what is wrong is not folded away');

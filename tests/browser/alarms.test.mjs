@@ -75,6 +75,8 @@ test('an alarm says what to do, and leads to its axis, its frames, its trends an
   await page.getByRole('heading', { level: 1, name: /^Recorder/ }).waitFor();
   await page.goBack();
   await row.getByRole('link', { name: /^Frames then/ }).click();
+  await page.locator('[data-field=frames-then]').waitFor(); // the line may have forgotten them by now
+  await page.goto(`${program.url}/lines/can0/${Date.now() - 1000}`);
   await page.locator('[data-field=frames-then]').getByText(/^Held: the frames/).waitFor();
   assert.ok((await page.locator('.frame-row').count()) > 0);
   await page.goto(`${program.url}/axes/feeder`);

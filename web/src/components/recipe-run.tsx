@@ -83,7 +83,9 @@ export function useRun(name: string, parameters: NonNullable<RecipeDocument['par
         const c = await client.checkRun(name, given());
         result.value = { tone: 'good', text: t('Can run: {steps} steps, commands {n}.', { steps: c.steps, n: c.axes?.map(named).join(', ') || t('no axis') }) };
       } else {
-        report.value = await client.runRecipe(name, given());
+        const first = await client.runRecipe(name, given());
+        // A short run may have ended before its beginning was answered: what the stream has told of it is newer.
+        if ((report.peek()?.n ?? 0) < first.n) report.value = first;
         result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
       }
     } catch (error) {

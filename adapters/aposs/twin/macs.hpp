@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "adapters/aposs/twin/bus_devices.hpp"
 #include "adapters/aposs/twin/coupling.hpp"
 
 namespace axisgate::aposs {
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] const MacsAxis& axis(int channel) const { return axes_[static_cast<std::size_t>(channel - 1)]; }
     [[nodiscard]] Coupling& coupling() noexcept { return coupling_; }
     [[nodiscard]] const Coupling& coupling() const noexcept { return coupling_; }
+    [[nodiscard]] BusDevices& bus() noexcept { return bus_; }
+    [[nodiscard]] const BusDevices& bus() const noexcept { return bus_; }
     [[nodiscard]] const Objects& objects() const noexcept { return objects_; }
     [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
 
@@ -63,7 +66,6 @@ public:
 private:
     void changed(const Key& key, Instant now);
     void save_user();
-    [[nodiscard]] bool guards() const;
     [[nodiscard]] bool ticks() const;
     void check_position_errors(Instant now);
 
@@ -72,6 +74,7 @@ private:
     Terminals terminals_;
     std::deque<MacsAxis> axes_;
     Coupling coupling_;
+    BusDevices bus_;
     std::map<Key, std::int64_t> user_;  ///< EPROM; what is not here is as the firmware has it
     std::int64_t eprom_writes_ = 0;
     bool program_ = false, bus_silent_ = false;

@@ -38,7 +38,7 @@ Macs::Macs(const Objects& objects, canopen::Dictionary& dictionary, double trave
     : objects_(objects), d_(dictionary), coupling_(places(filled(axes_, objects, dictionary, terminals_, travel)), terminals_) {}
 
 void Macs::power_on(Instant now) {
-    program_ = false;
+    program_.reset();
     ticked_ = now;
     ticking_ = false;
     terminals_.outputs = 0;
@@ -105,11 +105,13 @@ void Macs::changed(const Key& key, Instant now) {
 
 void Macs::set_inputs(std::uint32_t mask, Instant now) {
     const auto active = [&](const char* id) { return terminals_.active(axes_[0].value(id)); };
-    const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR");
+    const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR"), starts = active("I_PRGSTART");
     terminals_.inputs = mask;
     for (MacsAxis& a : axes_)
         a.inputs_changed(now);
     if (!breaks && active("I_BREAK") && program_) escape(now);
+    if (!starts && active("I_PRGSTART") && !program_)
+        if (const auto n = chosen_program(mask, axes_[0].value("I_PRGCHOICE"), axes_[0].value("I_PRGSTART"))) start_program(*n);
     if (!clears && active("I_ERRCLR"))
         for (MacsAxis& a : axes_)
             if (a.servo().state() == State::fault) a.clear_error(now);
@@ -265,8 +267,10 @@ void Macs::load(const NonVolatile& memory) {
     }
 }
 
-void Macs::end_program() {
-    program_ = false;
+void Macs::end_program(bool concluded) {
+    const auto next = program_of(axes_[0].value("PRGPAR")).value_or(ProgramCode{}).program;
+    const bool by_input = axes_[0].value("I_PRGSTART") != 0;
+    const bool ran = std::exchange(program_, std::nullopt).has_value();
     for (const auto& [key, row] : objects_.rows()) {
         if (row.storage != "parameter") continue;
         const auto it = user_.find(key);
@@ -274,10 +278,11 @@ void Macs::end_program() {
     }
     for (MacsAxis& a : axes_)
         a.settle(true);
+    if (concluded && ran && next >= 0 && !by_input) start_program(next);
 }
-void Macs::start_program() {
+void Macs::start_program(int number) {
     end_program();
-    program_ = true;
+    program_ = number;
     bus_.forget();  // all of them are made anew, of what is valid now
     for (int k = 0; k < axes; ++k)
         define_bus(bus_, axes_, k);

@@ -42,8 +42,10 @@ public:
             {"inputs", Value{static_cast<std::int64_t>(macs_.terminals().inputs)}, true,
              "digital inputs, bit mask: bit 0 is input 1; also those that parameters give a function or a marker; bits 16 to 31 of 60FDh"},
             {"outputs", Value{static_cast<std::int64_t>(macs_.outputs(at_))}, false, "digital outputs, bit mask: bit 0 is output 1"},
-            {"program", Value{macs_.program_runs()}, true,
+            {"program", Value{macs_.program().has_value()}, true,
              "a program runs; when it begins user values are in force again, when it ends program values die"},
+            {"program_number", Value{std::int64_t{macs_.program().value_or(-1)}}, false,
+             "of the program that runs: 0, or as I_PRGCHOICE or PRGPAR has chosen it; -1: none"},
             {"direct", Value{reply_}, true, "a statement of the direct mode, such as SYNCM x(2); it is shown with its answer"},
             {"gear", Value{std::string(gears[static_cast<std::size_t>(macs_.coupling().of(1).mode())])}, true,
              "the second axis follows the first: none, velocity (SYNCV), position (SYNCP) or marker (SYNCM), as a program would start it"},
@@ -146,8 +148,8 @@ private:
         } else if (name == "silent") {
             node_.set_silent(on);
         } else if (name == "program") {
-            if (on && !macs_.program_runs()) macs_.start_program();
-            if (!on && macs_.program_runs()) macs_.end_program();
+            if (on && !macs_.program()) macs_.start_program(0);
+            if (!on && macs_.program()) macs_.end_program(true);
         } else if (name == "bus_silent") {
             macs_.set_bus_silent(on, now);
         } else if (on) {

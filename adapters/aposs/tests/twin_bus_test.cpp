@@ -49,6 +49,9 @@ TEST(ApossBus, AutomaticObjectsStayUntilAnotherSetOrTheNextStart) {  // [L1552-1
     ASSERT_EQ(b.saveprom(), Abort::none);
     b.off_and_on();
     EXPECT_EQ(shown(b, "can_objects"), "ENCODERTYPE x(1): PDO, SYNC");
+    EXPECT_EQ(seen(b, "nmt0"), 1);
+    b.hand("program", Value{true});
+    EXPECT_EQ(seen(b, "nmt0"), 2) << "a start makes them anew, also those that are the same";
 }
 
 TEST(ApossBus, TheServostarHasItsWords) {  // [L1667-1682]

@@ -132,8 +132,7 @@ Duration LineAdapter::cycle() const {
     });
     if (streams) period = line_.timing.poll_period;  // by which the drive that follows was told to reckon
     if (ready == 0) return Duration::zero();
-    // Two PDOs of each at a SYNC, and one to those that are led: 0.4 ms of a bus at 1 Mbit/s, half of which is for others.
-    const Duration least = ready * 3 * 2 * wire_time(140, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);
+    const Duration least = least_cycle(static_cast<std::uint64_t>(ready), line_.bit_rate);
     const Duration whole = std::max(period, least) + std::chrono::microseconds(999);
     const Duration ms = std::max<Duration>(std::chrono::milliseconds(1), std::chrono::milliseconds(milliseconds_of(whole)));
     return quick ? ms : 4 * ms;

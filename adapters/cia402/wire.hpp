@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gateway/core/catalogue.hpp"
+#include "gateway/core/wire_time.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
 
 namespace axisgate::cia402_drive {
@@ -36,6 +37,17 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
 /// `interpolated`: position by 60C1h, for mode 7.
 [[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated = false);
 inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280, per_axis = 0x200;
+/// Bits that a frame of so many bytes has at most with an identifier of 11 bits: 44 and 8 for each byte, of those up to the checksum one
+/// stuff bit for each four after the first (ISO 11898-1), and 3 between frames.
+[[nodiscard]] constexpr std::uint32_t most_bits(std::uint32_t bytes) noexcept { return 44 + 8 * bytes + (33 + 8 * bytes) / 4 + 3; }
+/// Of one SYNC and what follows it: of each axis status (7 bytes), motion (8) and a target (4).
+[[nodiscard]] constexpr std::uint64_t bits_of_cycle(std::uint64_t axes) noexcept {
+    return most_bits(0) + axes * (most_bits(7) + most_bits(8) + most_bits(4));
+}
+/// So long a cycle is at least, with half of the bus for others.
+[[nodiscard]] constexpr Duration least_cycle(std::uint64_t axes, std::uint32_t bit_rate) noexcept {
+    return 2 * wire_time(bits_of_cycle(axes), bit_rate == 0 ? 1'000'000 : bit_rate);
+}
 inline constexpr int most_axes = 2;  ///< four transmit PDOs in the connection set, two for each
 
 /// Bytes of an object from a whole number, low byte first.

@@ -5,6 +5,7 @@ In: the real program with a servo and a MACS behind one line, tshark. Out: no fr
 import pathlib
 import re
 import subprocess
+import time
 
 from harness import Gateway, run, until
 
@@ -55,3 +56,47 @@ def test_a_dissector_reads_every_frame_as_we_do(folder):
     ours = {(int(node), int(index, 16), int(sub, 16)) for node, index, sub in named}
     assert {(5, 0x6040, 0), (12, 0x6840, 0), (12, 0x2301, 2)} <= objects, sorted(objects)
     assert objects == ours, sorted(objects ^ ours)
+
+
+SHARED = {
+    "lines": [{"name": "can0", "uri": "twin", "family": "cia402", "bitrate": 1000000}],
+    "drives": [{"name": "feeder", "line": "can0", "family": "uim342", "address": 5, "presence": "twin"}, {"name": "macs", "line": "can0", "family": "aposs", "address": 12, "presence": "twin"},
+               {"name": "lift", "line": "can0", "address": 20, "presence": "twin"}, {"name": "turn", "line": "can0", "address": 21, "presence": "twin"}],
+    "axes": [{"name": "feeder", "drive": "feeder", "number": 1}, {"name": "master", "drive": "macs", "channel": 1, "number": 2}, {"name": "slave", "drive": "macs", "channel": 2, "number": 3},
+             {"name": "lift", "drive": "lift", "number": 4}, {"name": "turn", "drive": "turn", "number": 5}],
+}
+
+
+def test_a_drive_that_goes_and_comes_disturbs_no_other_of_its_line(folder):
+    """A UIM342, a MACS and two generic drives: NMT, SYNC and back-off of one are nobody else's."""
+    others = ("feeder", "master", "slave", "turn")
+    with Gateway(folder, SHARED) as g:
+        for axis in (*others, "lift"):
+            until(lambda: g.axis(axis)["online"], 10, axis)
+            assert g.command(axis, {"command": "enable"})["result"] == "done"
+            assert g.command(axis, {"command": "move_velocity", "velocity": 1000})["result"] == "done"
+        since = g.get("/lines/can0/trace?format=json&limit=1")["next"]
+        g.send("PATCH", "/drives/lift/hand", {"power": False})
+        until(lambda: not g.axis("lift")["online"], 10, "it is gone")
+        asked, begin = [], time.monotonic()
+        while time.monotonic() < begin + 4:  # while it is asked again and again
+            asked.append(all(g.axis(a)["online"] and g.axis(a)["moving"] and not g.axis(a)["stale"] for a in others))
+            time.sleep(0.1)
+        g.send("PATCH", "/drives/lift/hand", {"power": True})
+        until(lambda: g.axis("lift")["online"], 20, "it is back")
+        assert not g.axis("lift")["moving"], "nothing moves because it came back"
+        assert all(asked), asked
+        assert all(g.axis(a)["moving"] for a in others)
+        trace = g.get(f"/lines/can0/trace?format=json&since={since}&limit=65536")
+        frames = [f for f in trace["frames"] if not f.get("extended")]
+        nmt = [f["data"] for f in frames if f["id"] == 0]
+        assert nmt, "the drive that came back was started"
+        assert {int(d[2:4], 16) for d in nmt} == {20}, nmt
+        told = {f["id"] for f in frames}
+        assert {0x80, 0x180 + 12, 0x180 + 21, 0x700 + 20} <= told, sorted(told)
+        syncs = [f for f in frames if f["id"] == 0x80 and not f["data"]]
+        assert len(syncs) > 100, len(syncs)
+        status = g.get("/lines/can0")["status"]
+        assert 0 < status["load"] < 0.8, status
+        for axis in others:
+            assert g.command(axis, {"command": "halt"})["result"] == "done"

@@ -352,7 +352,8 @@ TEST(ApossTwin, MastersOfThreeKindsLeadTheSecondAxis) {
     b.pass(1s);
     const auto first = b.position_of(1);
     EXPECT_NEAR(static_cast<double>(first), 1000, 2);
-    ASSERT_EQ(b.set(67, 0, 1), Abort::none);  // another source goes on from there
+    ASSERT_EQ(b.set(108, 1, 1), Abort::none);  // MENCCONTROL: soft change
+    ASSERT_EQ(b.set(67, 0, 1), Abort::none);   // another source goes on from there
     b.pass(1s);
     EXPECT_EQ(b.position_of(1), first);
     b.hand("axis2.encoder", Value{std::int64_t{300}});

@@ -11,7 +11,8 @@ namespace axisgate::aposs {
 namespace {
 using cia402_drive::twin::State;
 constexpr std::int64_t mlong = 1'073'741'823;
-constexpr double lag_of_gain = 60;  ///< ms that the shaft is behind with KPROP 1
+constexpr std::int64_t corrected_readings = 100;  ///< of ENCODERTYPE 3 and 4, one each ms
+constexpr double lag_of_gain = 60;                ///< ms that the shaft is behind with KPROP 1
 double real(std::int64_t v) { return static_cast<double>(v); }
 }  // namespace
 
@@ -44,8 +45,10 @@ void MacsAxis::power_on(Instant now) {
     violated_ = 0;
     homing_.stop();
     current_ = {};
+    jump_.readings = jump_.count = 0;
     settle(true);
     servo_.power_on(now);
+    encoder_zero_ = servo_.units().zero();
 }
 
 void MacsAxis::settle(bool defaults) {
@@ -100,7 +103,10 @@ void MacsAxis::settle(bool defaults) {
     const auto window = value("TESTWIN");
     (void)d_.set({static_cast<std::uint16_t>(0x6067 + base_), 0},
                  Value{window == 0 ? std::int64_t{0xFFFFFFFF} : static_cast<std::int64_t>(std::llround(real(window) * unit))});
-    put(0x6068, 0, real_of("TESTTIM"));
+    put(0x6068, 0, window == 0 ? 0 : real_of("TESTTIM"));
+    // With TESTVAL two readings, TESTTIM apart; without it, as CANopen has it, the time within the window [L2050-2077, L2856-2900].
+    const bool reads = window > 0 && value("TESTTIM") > 0 && value("TESTVAL") > 0;
+    servo_.reach_by_readings(reads ? std::optional(real_of("TESTVAL")) : std::nullopt);
     const auto condition = value("ERRCOND");
     put(0x605E, 0, condition <= 1 ? 0 : condition == 4 ? 1 : 2);
 
@@ -126,6 +132,8 @@ SyncParameters MacsAxis::sync_parameters() const {
     const auto ramps = servo_.units().ramps();  // VEL, ACC, DEC; the form of the ramps is not for SYNCx [L3345]
     p.velocity = ramps.velocity / 1000;
     p.acceleration = ramps.up / 1e6, p.deceleration = ramps.down / 1e6;
+    if (const auto ms = value("JERKMIN"); ms > 0)  // the most acceleration in so many ms [L5640]
+        p.jerk = real(value("ACCMAXQC")) / 65536 / real(ms);
     return p;
 }
 
@@ -273,12 +281,13 @@ void MacsAxis::inputs_changed(Instant now) {
 
 bool MacsAxis::moves(Instant now) const { return servo_.powered() && servo_.shaft().moves(now); }
 bool MacsAxis::ticks(bool led) const {
-    if (homing_.active()) return true;
+    if (homing_.active() || jump_.by != 0) return true;
     if (value("I2TFTIME") > 0 && (servo_.powered() || current_.value() > 0)) return true;
     const bool watched = value("SWNEGLIMACT") != 0 || value("SWPOSLIMACT") != 0;
     return watched && servo_.powered() && (led || (of(0x6060) == 3 && of(0x60FF) != 0));
 }
 void MacsAxis::tick(bool led, Instant at) {
+    if (jump_.by != 0) read_encoder(at);
     if (homing_.active()) homing_order(homing_.step(homing_input(at)), at);
     const auto time = value("I2TFTIME");
     current_.step(servo_.powered() ? load * real(value("AMPMAXCUR")) : 0, time);
@@ -292,6 +301,23 @@ void MacsAxis::tick(bool led, Instant at) {
         ((v > 0 && outside(true, place)) || (v < 0 && outside(false, place))) && violated_ == 0)
         raise(end_limit, at);
     after(at);
+}
+
+void MacsAxis::misread(double by, Instant now) {
+    const auto shaft = servo_.shaft().shaft(now);
+    jump_ = {by, shaft.position, shaft.velocity / 1000, now, 0, jump_.count};
+    servo_.shaft().misread(0);
+    if (by != 0) read_encoder(now);
+}
+/// One reading while the encoder is wrong. A jump of more than half its resolution is told from a way, and then the last velocity says
+/// where it would be, for so many readings; after them, as with any other encoder, it is what it says.
+void MacsAxis::read_encoder(Instant at) {
+    const auto code = encoder_of(value("ENCODERTYPE"), false).value_or(EncoderCode{});
+    const bool told = code.source == Encoder::linear_absolute && std::fabs(jump_.by) > real(value("ENCODER")) / 2;
+    if (told) ++jump_.count;
+    if (!told || ++jump_.readings > corrected_readings) return servo_.shaft().misread(jump_.by);
+    const double artificial = jump_.from + jump_.velocity * seconds(at - jump_.since) * 1000;
+    servo_.shaft().misread(artificial - servo_.shaft().shaft(at).position);
 }
 
 void MacsAxis::define_origin(Instant now) {

@@ -80,6 +80,19 @@ public:
     [[nodiscard]] double place(Instant now) const { return servo_.shaft().shaft(now).position; }
     [[nodiscard]] std::int64_t track_error(Instant now) const;  ///< SYSVAR 4124, percent
     [[nodiscard]] const CurrentWatch& current() const noexcept { return current_; }
+    /// The encoder as the controller counts it: 0 at power-on and where an origin command has set it to 0, whatever the axis' own zero is.
+    [[nodiscard]] double encoder(Instant now) const { return servo_.shaft().read(now) - encoder_zero_; }
+    void reset_encoder(Instant now) { encoder_zero_ += encoder(now); }
+    void shift_origin(double by) { servo_.units().set_zero(servo_.units().zero() + by); }
+    /// The encoder says so many qc too much: ENCODERTYPE 3 and 4 correct it for 100 readings of 1 ms [L2961-2967].
+    void misread(double by, Instant now);
+    struct Misreading {
+        double by = 0, from = 0, velocity = 0;  ///< qc, qc/ms: place and velocity before it
+        Instant since{};
+        std::int64_t readings = 0;
+        std::int64_t count = 0;  ///< SYSVAR 16: those that were wrong since power-on
+    };
+    [[nodiscard]] const Misreading& misreading() const noexcept { return jump_; }
     double load = 0;           ///< of AMPMAXCUR that the motor takes under power, 0 to 1
     bool index_pulses = true;  ///< the encoder gives them
     [[nodiscard]] std::int64_t of(std::uint16_t index, std::uint8_t sub = 0) const {
@@ -94,6 +107,7 @@ private:
     [[nodiscard]] bool outside(bool positive, double place) const;
     void start_positioning(unsigned cw, Instant now);
     [[nodiscard]] std::uint16_t speed_refused(Instant now);
+    void read_encoder(Instant at);
 
     const Objects& objects_;
     canopen::Dictionary& d_;
@@ -107,7 +121,9 @@ private:
     bool homed_ = false;   ///< since power-on, and since a change of a stored parameter (E-72)
     bool braked_ = false;  ///< the brake's output was set because of this error
     bool hot_ = false;     ///< error 99 has been told
-    int violated_ = 0;     ///< a limit whose error came: -1, 1, until the axis is back inside
+    Misreading jump_;
+    double encoder_zero_ = 0;
+    int violated_ = 0;  ///< a limit whose error came: -1, 1, until the axis is back inside
     std::array<bool, 2> at_switch_{};
     std::vector<cia402_drive::twin::Device::Told> told_;
 };

@@ -112,6 +112,12 @@ std::optional<ProgramCode> program_of(std::int64_t v) {
     return ProgramCode{static_cast<int>(program), off};
 }
 
+std::optional<int> chosen_program(std::uint32_t inputs, std::int64_t choice, std::int64_t start) {
+    if (choice < 1 || start <= choice || start > 32) return std::nullopt;
+    const auto number = inputs >> (choice - 1) & ((1u << (start - choice)) - 1);
+    return number <= 89 ? std::optional(static_cast<int>(number)) : std::nullopt;
+}
+
 std::optional<VirtualMasterCode> virtual_master_of(std::int64_t v) {
     if (v < 0 || v >= 200'000) return std::nullopt;
     VirtualMasterCode c{static_cast<int>(v % 100'000 / 100), static_cast<int>(v % 100), v >= 100'000};

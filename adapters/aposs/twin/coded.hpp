@@ -69,6 +69,9 @@ struct ProgramCode {
 };
 [[nodiscard]] std::optional<ProgramCode> program_of(std::int64_t value);
 
+/// I_PRGCHOICE up to the input before I_PRGSTART, as a binary number, the lowest input its lowest bit; nothing: none of 0 to 89 (E-34).
+[[nodiscard]] std::optional<int> chosen_program(std::uint32_t inputs, std::int64_t choice, std::int64_t start);
+
 /// VMENCTYP: where the virtual master's speed comes from.
 struct VirtualMasterCode {
     int axis = 0;  ///< 0: PULSVEL; n: command velocity of axis n

@@ -23,47 +23,103 @@ void Coupling::power_on(Instant now) {
     simulations_ = {};
     virtual_.off();
     for (int k = 0; k < axes; ++k) {
+        Master& m = masters_[place_of(k)];
         simulations_[place_of(k)].since = now;
-        masters_[place_of(k)].seen = raw(Source::encoder, 0, k, now);
+        m.zero = turned(k, now);
+        m.from = source_of(k);
+        m.count = m.before = m.seen = raw(m.from, k, now);
+        forget_markers(k, now);
     }
 }
 
-std::pair<Coupling::Source, int> Coupling::source_of(int axis) const {
+Coupling::Origin Coupling::source_of(int axis) const {
     const auto code = encoder_of(axes_[place_of(axis)]->value("MENCODERTYPE"), true).value_or(EncoderCode{});
     if (code.source == Encoder::simulation) return {Source::simulation, 0};
     if (code.source == Encoder::axis_command) return {Source::command, code.number};
     if (virtual_.drives_masters()) return {Source::virtual_master, 0};
-    return {Source::encoder, 0};
+    return {Source::encoder, code.source == Encoder::incremental ? code.number : 0};
 }
-std::int64_t Coupling::raw(Source source, int of_axis, int axis, Instant now) const {
-    switch (source) {
+std::int64_t Coupling::turned(int axis, Instant now) const {
+    return (axis > 0 ? std::llround(axes_[0]->place(now)) : 0) + by_hand[place_of(axis)];
+}
+std::int64_t Coupling::raw(const Origin& from, int axis, Instant now) const {
+    const bool of_axis = from.number >= 1 && from.number <= axes;
+    switch (from.source) {
         case Source::simulation:
             return simulated(axis, now);
         case Source::command:
-            return of_axis >= 1 && of_axis <= axes ? std::llround(axes_[place_of(of_axis - 1)]->servo().shaft().demand(now).position) : 0;
+            return of_axis ? std::llround(axes_[place_of(from.number - 1)]->servo().shaft().demand(now).position) : 0;
         case Source::virtual_master:
             return virtual_.place();
         case Source::encoder:
             break;
     }
-    return (axis > 0 ? std::llround(axes_[0]->place(now)) : 0) + by_hand[place_of(axis)];
+    if (of_axis) return std::llround(axes_[place_of(from.number - 1)]->encoder(now));
+    return turned(axis, now) - masters_[place_of(axis)].zero;
 }
 std::int64_t Coupling::master(int axis, Instant now) {
     Master& m = masters_[place_of(axis)];
-    const auto [source, of_axis] = source_of(axis);
-    if (source != m.source || of_axis != m.of_axis) {
-        m.source = source;
-        m.of_axis = of_axis;
-        m.seen = raw(source, of_axis, axis, now);
+    const Origin from = source_of(axis);
+    if (from != m.from) {
+        const auto virtual_one = [](const Origin& o) { return o.source == Source::virtual_master; };
+        const bool soft = (axes_[place_of(axis)]->value("MENCCONTROL") & 1) != 0 || from.source == Source::command || virtual_one(from) ||
+                          virtual_one(m.from);
+        m.from = from;
+        m.seen = raw(from, axis, now);
+        if (!soft) m.before = m.count = m.seen;
     }
-    m.count += raw(source, of_axis, axis, now) - m.seen;
-    m.seen = raw(source, of_axis, axis, now);
+    m.count += raw(from, axis, now) - m.seen;
+    m.seen = raw(from, axis, now);
     return m.count;
 }
 void Coupling::define_master_origin(int axis, Instant now) {
-    (void)master(axis, now);
+    const auto was = master(axis, now);
     Master& m = masters_[place_of(axis)];
-    m.before -= std::exchange(m.count, 0);
+    const bool soft = (axes_[place_of(axis)]->value("MENCCONTROL") & 2) != 0;
+    if (!soft && m.from.source == Source::simulation) {
+        simulate(axis, simulations_[place_of(axis)].speed, now);
+        simulations_[place_of(axis)].place = 0;
+    }
+    if (!soft && m.from.source == Source::encoder) {
+        if (m.from.number >= 1 && m.from.number <= axes) {
+            MacsAxis& other = *axes_[place_of(m.from.number - 1)];
+            other.shift_origin(other.encoder(now));  // it stands on the same encoder
+            other.reset_encoder(now);
+        } else {
+            m.zero = turned(axis, now);
+        }
+    }
+    m.count = 0;
+    m.before -= was;
+    m.seen = raw(m.from, axis, now);
+    if (auto& known = known_[place_of(axis)].master) *known -= was;
+    of(axis).shift_master(was);
+}
+void Coupling::define_origin(int axis, Instant now) {
+    MacsAxis& a = *axes_[place_of(axis)];
+    a.define_origin(now);
+    if ((a.value("ENCCONTROL") & 2) == 0) a.reset_encoder(now);
+}
+void Coupling::forget_markers(int axis, Instant now) { known_[place_of(axis)] = {axes_[place_of(axis)]->place(now), {}, {}}; }
+
+double Coupling::master_index(int axis) const {
+    const MacsAxis& a = *axes_[place_of(axis)];
+    return masters_[place_of(axis)].from.source == Source::virtual_master ? static_cast<double>(a.value("VMENCRES"))
+                                                                          : 4 * std::fabs(static_cast<double>(a.value("MENCODER")));
+}
+double Coupling::slave_index(int axis) const {
+    const MacsAxis& a = *axes_[place_of(axis)];
+    return static_cast<double>(a.value("ENCODERTYPE") == 9 ? a.value("ENCODERFREQ") : 4 * a.value("ENCODER"));
+}
+/// Markers that have passed before SYNCM: those that were watched, and index pulses on the way since they were forgotten.
+void Coupling::remember(int axis, SyncInput& here) const {
+    const MacsAxis& slave = *axes_[place_of(axis)];
+    const Known& known = known_[place_of(axis)];
+    here.master_marker = known.master;
+    here.slave_marker = known.slave;
+    const auto kind = marker_of(slave.value("SYNCMTYPS"), false).value_or(MarkerCode{});
+    if (!here.slave_marker && !kind.external && slave.index_pulses)
+        here.slave_marker = index_between(known.from, here.slave, slave_index(axis));
 }
 
 std::string Coupling::synchronise(int axis, SyncMode mode, Instant now) {
@@ -83,6 +139,7 @@ std::string Coupling::synchronise(int axis, SyncMode mode, Instant now) {
     SyncInput here;
     here.master = masters_[place_of(axis)].before;
     here.slave = slave.place(now);
+    remember(axis, here);
     const auto demand = slave.servo().shaft().demand(now);
     of(axis).begin(mode, slave.sync_parameters(), here, demand.position, demand.velocity / 1000);
     return {};
@@ -123,36 +180,34 @@ SyncInput Coupling::input(int axis, Instant at) {
     const int master_input = axis > 0 ? axis : 1;
     if (kind_m.external) {
         if (edge(kind_m, master_input)) in.master_marker = in.master;
-    } else if (m.source != Source::simulation && (kind_m.gate == 0 || terminals_.active(kind_m.gate))) {
-        const double distance = m.source == Source::virtual_master ? static_cast<double>(slave.value("VMENCRES"))
-                                                                   : 4 * std::fabs(static_cast<double>(slave.value("MENCODER")));
-        if (const auto index = index_between(static_cast<double>(m.before), static_cast<double>(in.master), distance))
+    } else if (m.from.source != Source::simulation && (kind_m.gate == 0 || terminals_.active(kind_m.gate))) {
+        if (const auto index = index_between(static_cast<double>(m.before), static_cast<double>(in.master), master_index(axis)))
             in.master_marker = std::llround(*index);
     }
-    const bool simulated = slave.value("ENCODERTYPE") == 9;
     if (kind_s.external) {
         if (edge(kind_s, axis + 1)) in.slave_marker = in.slave;
     } else if (slave.index_pulses) {
-        const double distance = static_cast<double>(simulated ? slave.value("ENCODERFREQ") : 4 * slave.value("ENCODER"));
-        in.slave_marker = index_between(slave_before_[place_of(axis)], in.slave, distance);
+        in.slave_marker = index_between(slave_before_[place_of(axis)], in.slave, slave_index(axis));
     }
+    if (in.master_marker) known_[place_of(axis)].master = in.master_marker;
+    if (in.slave_marker) known_[place_of(axis)].slave = in.slave_marker;
     m.before = in.master;
     slave_before_[place_of(axis)] = in.slave;
     return in;
 }
 
-bool Coupling::ticks() const { return leads(0) || leads(1) || !virtual_.stands(); }
+bool Coupling::watches(int axis) const { return (axes_[place_of(axis)]->value("SYNCMFPAR") & 64) != 0; }
+bool Coupling::ticks() const { return leads(0) || leads(1) || watches(0) || watches(1) || !virtual_.stands(); }
 void Coupling::tick(Instant at) {
     const int source = virtual_.axis();
     virtual_.step(source >= 1 && source <= axes ? axes_[place_of(source - 1)]->servo().shaft().demand(at).velocity : 0);
     for (int k = 0; k < axes; ++k) {
-        if (!leads(k)) continue;
+        if (!leads(k) && !watches(k)) continue;
         MacsAxis& slave = *axes_[place_of(k)];
-        if (!slave.servo().takes_orders()) {
-            end(k);
-            continue;
-        }
+        if (leads(k) && !slave.servo().takes_orders()) end(k);
         const SyncInput in = input(k, at);
+        if (watches(k)) of(k).watch(slave.sync_parameters(), in);
+        if (!leads(k)) continue;
         auto& shaft = slave.servo().shaft();
         const double here = shaft.demand(at).position, there = of(k).step(slave.sync_parameters(), in);
         if (there != here || shaft.demand(at).velocity != 0) shaft.step_to(there, 0.001, at);

@@ -23,10 +23,17 @@ public:
     [[nodiscard]] const Synchronisation& of(int axis) const { return sync_.at(static_cast<std::size_t>(axis)); }
     [[nodiscard]] Synchronisation& of(int axis) { return sync_.at(static_cast<std::size_t>(axis)); }
 
-    /// Counts of the axis' master, whole qc: of the simulation, of another axis' command, of the virtual master while it runs, or of its
-    /// encoder input, which at the second axis counts the first one's shaft. Another source goes on from where the one before was [L4800].
+    /// Counts of the axis' master, whole qc: of the simulation, of another axis' command, of the virtual master while it runs, or of an
+    /// encoder: that of another axis (MENCODERTYPE 10, 20), or its own, which at the second axis is turned by the first one's shaft.
+    /// Another source is what it is, or with MENCCONTROL bit 0 goes on from where the one before was, as a linked command value does
+    /// without [L4800, L5889]; the virtual master takes the encoder's place and does not jump either (E-81).
     [[nodiscard]] std::int64_t master(int axis, Instant now);
+    /// DEFMORIGIN: 0 from here on; without MENCCONTROL bit 1 it is the encoder that is set to 0, for whoever has it too [L5889-5925].
     void define_master_origin(int axis, Instant now);
+    /// DEFORIGIN, likewise by ENCCONTROL bit 1.
+    void define_origin(int axis, Instant now);
+    /// SET ENCODERTYPE: which markers have passed is forgotten [L4438].
+    void forget_markers(int axis, Instant now);
     /// The master's encoder turned by hand, qc, beside what it counts.
     std::array<std::int64_t, axes> by_hand{};
 
@@ -40,19 +47,35 @@ public:
 
 private:
     enum class Source : std::uint8_t { encoder, simulation, command, virtual_master };
-    struct Master {
+    struct Origin {
         Source source = Source::encoder;
-        int of_axis = 0;
+        int number = 0;  ///< of an encoder: that of this axis, 0 or 3: its own input; of a command value: that axis
+        bool operator==(const Origin&) const = default;
+    };
+    struct Master {
+        Origin from;
         std::int64_t count = 0, seen = 0;
         std::int64_t before = 0;  ///< at the step before, for markers
+        std::int64_t zero = 0;    ///< of its own encoder: where it was set to 0
+    };
+    /// What of markers is remembered without SYNCM.
+    struct Known {
+        double from = 0;  ///< place when it was forgotten
+        std::optional<std::int64_t> master;
+        std::optional<double> slave;
     };
     struct Simulation {
         std::int64_t place = 0, speed = 0;  ///< qc, qc per ms
         Instant since{};
     };
-    [[nodiscard]] std::pair<Source, int> source_of(int axis) const;
-    [[nodiscard]] std::int64_t raw(Source source, int of_axis, int axis, Instant now) const;
+    [[nodiscard]] Origin source_of(int axis) const;
+    [[nodiscard]] std::int64_t raw(const Origin& from, int axis, Instant now) const;
+    [[nodiscard]] std::int64_t turned(int axis, Instant now) const;  ///< its own encoder, by the shafts and by hand
     [[nodiscard]] SyncInput input(int axis, Instant at);
+    [[nodiscard]] bool watches(int axis) const;
+    [[nodiscard]] double master_index(int axis) const;
+    [[nodiscard]] double slave_index(int axis) const;
+    void remember(int axis, SyncInput& here) const;
     /// Whether a marker of this kind has passed since the last step on the way between two places; the edge of an input.
     [[nodiscard]] bool edge(const MarkerCode& code, int own_input) const;
 
@@ -62,6 +85,7 @@ private:
     std::array<Master, axes> masters_;
     std::array<Simulation, axes> simulations_;
     std::array<double, axes> slave_before_{};
+    std::array<Known, axes> known_;
     std::uint32_t inputs_before_ = 0;
     VirtualMaster virtual_;
 };

@@ -222,6 +222,13 @@ DirectAnswer Line::run(const std::vector<std::string>& all) {
     }
     const auto among = [&](std::initializer_list<std::string_view> names) { return std::ranges::find(names, word) != names.end(); };
     if (among({"POSA", "POSR", "CVEL", "CSTART", "VEL", "ACC", "DEC", "HOME"})) return motion(word, values);
+    if (word == "OUTDA") {
+        if (values.size() != 1) return {"write OUTDA [x(n)] v", {}};
+        return m_.bus().outda(axis_, values[0]) ? DirectAnswer{}
+                                                : DirectAnswer{"the controller keeps the control word itself: DRIVETYPE +/-100", {}};
+    }
+    if (word == "CANDEL" && values.size() == 1 && values[0] == -1) return m_.bus().candel_all(), DirectAnswer{};
+    if (word == "CANINI" && values.empty()) return m_.bus().canini(), DirectAnswer{};
     if (word == "OUT" || among({"PULSACC", "PULSVEL"})) {
         if (values.size() != (word == "OUT" ? 2u : 1u)) return {word == "OUT" ? "write OUT n v" : "write " + word + " v", {}};
         if (word == "OUT") {
@@ -250,7 +257,7 @@ DirectAnswer Line::run(const std::vector<std::string>& all) {
     if (origin || master_origin) {
         const auto code = encoder_of(axis().value(origin ? "ENCODERTYPE" : "MENCODERTYPE"), master_origin).value_or(EncoderCode{});
         if (code.absolute()) return {word + " is not for absolute encoders", {}};
-        if (origin) axis().define_origin(now_);
+        if (origin) m_.coupling().define_origin(axis_, now_);
         if (master_origin) m_.coupling().define_master_origin(axis_, now_);
         return {};
     }

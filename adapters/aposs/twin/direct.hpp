@@ -14,9 +14,9 @@ struct DirectAnswer {
     std::string text;   ///< of APOS, GET and the like
 };
 /// `SET NAME [x(n)] value`, `SET NAME v1 / v2`, `GET NAME [x(n)]`, `SAVEPROM`, `ERRCLR`, `MOTOR ON|OFF|STOP [x(n)]`, `POSA`, `POSR`,
-/// `CVEL`, `VEL`, `ACC`, `DEC` with `[x(n)] value`, `CSTART`, `HOME`, `DEFORIGIN`, `DEFMORIGIN`, `SYNCV`, `SYNCP`, `SYNCM`, `APOS`, `CPOS`,
-/// `MAPOS`, `SYNCERR`, `SYNCSTAT` with `[x(n)]`, `OUT n v`, `PULSACC v`, `PULSVEL v`, `SYSVAR[n]`, `SYSVAR[n] = v`. Without x(n): axis 1
-/// (E-47).
+/// `CVEL`, `VEL`, `ACC`, `DEC`, `OUTDA` with `[x(n)] value`, `CSTART`, `HOME`, `DEFORIGIN`, `DEFMORIGIN`, `SYNCV`, `SYNCP`, `SYNCM`,
+/// `APOS`, `CPOS`, `MAPOS`, `SYNCERR`, `SYNCSTAT` with `[x(n)]`, `CANINI`, `CANDEL -1`, `OUT n v`, `PULSACC v`, `PULSVEL v`, `SYSVAR[n]`,
+/// `SYSVAR[n] = v`. Without x(n): axis 1 (E-47).
 [[nodiscard]] DirectAnswer direct(Macs& macs, std::string_view line, Instant now);
 
 }  // namespace axisgate::aposs

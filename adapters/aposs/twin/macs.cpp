@@ -18,19 +18,36 @@ std::deque<MacsAxis>& filled(std::deque<MacsAxis>& into, const Objects& objects,
         into.emplace_back(objects, d, t, a, travel);
     return into;
 }
+/// What is guarded stays so when a program ends, though its values die: until another SET or the next start [L1559-1565].
+void define_bus(BusDevices& bus, const std::deque<MacsAxis>& of, int k) {
+    const MacsAxis& a = of[static_cast<std::size_t>(k)];
+    bus.set(k, BusDevices::By::drive, a.value("DRIVETYPE"));
+    bus.set(k, BusDevices::By::encoder, a.value("ENCODERTYPE"));
+    bus.set(k, BusDevices::By::master, a.value("MENCODERTYPE"));
+}
+void tell_drives(BusDevices& bus, const std::deque<MacsAxis>& of) {
+    for (int k = 0; k < axes; ++k) {
+        const MacsAxis& a = of[static_cast<std::size_t>(k)];
+        const State s = a.servo().state();
+        bus.failing(k, s == State::fault || s == State::fault_reaction, a.value("ERRCOND"));
+    }
+}
 }  // namespace
 
 Macs::Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel)
     : objects_(objects), d_(dictionary), coupling_(places(filled(axes_, objects, dictionary, terminals_, travel)), terminals_) {}
 
 void Macs::power_on(Instant now) {
-    program_ = false;
+    program_.reset();
     ticked_ = now;
     ticking_ = false;
     terminals_.outputs = 0;
     for (MacsAxis& a : axes_)
         a.power_on(now);
     coupling_.power_on(now);
+    bus_ = {};
+    for (int k = 0; k < axes; ++k)
+        define_bus(bus_, axes_, k);
     set_inputs(terminals_.inputs, now);
 }
 void Macs::power_off(Instant now) {
@@ -63,6 +80,11 @@ void Macs::written(Address a, Instant now) {
     } else {
         const int k = a.index >= 0x6000 + per_axis ? 1 : 0;
         const bool ends = axis(k + 1).written(a, now);
+        if (a.index == 0x6040 + per_axis * k) {
+            const auto cw = static_cast<unsigned>(axis(k + 1).of(0x6040));
+            if ((cw & 0xFu) == 0xF && axis(k + 1).servo().state() == State::enabled) bus_.motor_on(k);
+            if ((cw & 2u) == 0) bus_.motor_off(k, axis(k + 1).value("ERRCOND"));
+        }
         if (ends || !axis(k + 1).servo().takes_orders()) coupling_.end(k);  // a stop or another motion ends it
         check_position_errors(now);
     }
@@ -76,16 +98,20 @@ void Macs::changed(const Key& key, Instant now) {
         return coupling_.simulate(key.axis, d_.integer(row->address).value_or(0), now);
     if (key.scope != Scope::axis) return;
     axis(key.axis + 1).settle(row->id == "DFLTVEL" || row->id == "DFLTACC");
+    if (row->id == "ENCODERTYPE") coupling_.forget_markers(key.axis, now);
+    define_bus(bus_, axes_, key.axis);
     axis(key.axis + 1).inputs_changed(now);  // another input may have the function
 }
 
 void Macs::set_inputs(std::uint32_t mask, Instant now) {
     const auto active = [&](const char* id) { return terminals_.active(axes_[0].value(id)); };
-    const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR");
+    const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR"), starts = active("I_PRGSTART");
     terminals_.inputs = mask;
     for (MacsAxis& a : axes_)
         a.inputs_changed(now);
     if (!breaks && active("I_BREAK") && program_) escape(now);
+    if (!starts && active("I_PRGSTART") && !program_)
+        if (const auto n = chosen_program(mask, axes_[0].value("I_PRGCHOICE"), axes_[0].value("I_PRGSTART"))) start_program(*n);
     if (!clears && active("I_ERRCLR"))
         for (MacsAxis& a : axes_)
             if (a.servo().state() == State::fault) a.clear_error(now);
@@ -105,13 +131,6 @@ std::uint32_t Macs::outputs(Instant now) const {
     return t.outputs;
 }
 
-bool Macs::guards() const {
-    return std::ranges::any_of(axes_, [](const MacsAxis& a) {
-        const auto e = encoder_of(a.value("ENCODERTYPE"), false), m = encoder_of(a.value("MENCODERTYPE"), true);
-        const auto d = drive_of(a.value("DRIVETYPE"));
-        return (e && e->guarded) || (m && m->guarded) || (d && d->guarded);
-    });
-}
 void Macs::set_bus_silent(bool silent, Instant now) {
     bus_silent_ = silent;
     silent_since_ = now;
@@ -151,19 +170,21 @@ void Macs::refresh(Instant now) {
         a.set("REG_NORMTRACKERR", a.track_error(now));
         if (a.value("HOME_FORCE") != 0) a.set("HOME_FORCE", a.homing_due() ? 1 : 255);
     }
-    axis(1).set("SYSVAR_42", std::llround(axis(2).place(now)));  // encoder 2, whatever its zero is
+    axis(1).set("SYSVAR_42", std::llround(axis(2).encoder(now)));  // encoder 2, whatever its axis' zero is
+    axis(1).set("SYSVAR_16", axis(1).misreading().count + axis(2).misreading().count);
     axis(1).set("AMP_I2TVALUE", std::max(axis(1).current().value(), axis(2).current().value()));
 }
 
 bool Macs::ticks() const { return coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1)); }
 void Macs::begin_ticks(Instant now) {
+    tell_drives(bus_, axes_);
     const bool ticking = ticks();
     if (ticking && !ticking_) ticked_ = now;
     ticking_ = ticking;
 }
 Instant Macs::next_event(Instant now) const {
     Instant next = ticking_ ? ticked_ + one_tick : never;
-    if (bus_silent_ && guards()) next = std::min(next, std::max(now, silent_since_ + guard_life));
+    if (bus_silent_ && bus_.guards()) next = std::min(next, std::max(now, silent_since_ + guard_life));
     for (const MacsAxis& a : axes_)
         next = std::min(next, a.servo().next_event(now));
     return next;
@@ -193,7 +214,7 @@ void Macs::on_event(Instant at) {
         a.after(at);
     }
     check_position_errors(at);
-    if (bus_silent_ && guards() && silent_since_ + guard_life <= at) {
+    if (bus_silent_ && bus_.guards() && silent_since_ + guard_life <= at) {
         silent_since_ = at - (guard_life - guard_period);  // it returns after each ERRCLR as long as the node is guarded
         for (MacsAxis& a : axes_)
             if (a.servo().state() != State::fault && a.servo().state() != State::fault_reaction) a.raise(guarding_failed, at);
@@ -246,8 +267,10 @@ void Macs::load(const NonVolatile& memory) {
     }
 }
 
-void Macs::end_program() {
-    program_ = false;
+void Macs::end_program(bool concluded) {
+    const auto next = program_of(axes_[0].value("PRGPAR")).value_or(ProgramCode{}).program;
+    const bool by_input = axes_[0].value("I_PRGSTART") != 0;
+    const bool ran = std::exchange(program_, std::nullopt).has_value();
     for (const auto& [key, row] : objects_.rows()) {
         if (row.storage != "parameter") continue;
         const auto it = user_.find(key);
@@ -255,10 +278,14 @@ void Macs::end_program() {
     }
     for (MacsAxis& a : axes_)
         a.settle(true);
+    if (concluded && ran && next >= 0 && !by_input) start_program(next);
 }
-void Macs::start_program() {
+void Macs::start_program(int number) {
     end_program();
-    program_ = true;
+    program_ = number;
+    bus_.forget();  // all of them are made anew, of what is valid now
+    for (int k = 0; k < axes; ++k)
+        define_bus(bus_, axes_, k);
 }
 /// ESCCOND: 0 stop with the most deceleration, outputs as they are; 1 all outputs 0; 2 all 1; the brake always, the simulated master only
 /// with 0 [L5111-5150].

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "adapters/aposs/twin/bus_devices.hpp"
 #include "adapters/aposs/twin/coupling.hpp"
 
 namespace axisgate::aposs {
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] const MacsAxis& axis(int channel) const { return axes_[static_cast<std::size_t>(channel - 1)]; }
     [[nodiscard]] Coupling& coupling() noexcept { return coupling_; }
     [[nodiscard]] const Coupling& coupling() const noexcept { return coupling_; }
+    [[nodiscard]] BusDevices& bus() noexcept { return bus_; }
+    [[nodiscard]] const BusDevices& bus() const noexcept { return bus_; }
     [[nodiscard]] const Objects& objects() const noexcept { return objects_; }
     [[nodiscard]] canopen::Dictionary& dictionary() noexcept { return d_; }
 
@@ -51,11 +54,12 @@ public:
     [[nodiscard]] bool bus_silent() const noexcept { return bus_silent_; }
 
     // the programs' side
-    void start_program();      ///< user values are in force again before it begins [L18]
-    void end_program();        ///< program values die [L71-75]
-    void escape(Instant now);  ///< Esc, I_BREAK: it ends as ESCCOND says
-    void reset_parameters();   ///< Controller > Reset: init values [L10]
-    [[nodiscard]] bool program_runs() const noexcept { return program_; }
+    void start_program(int number);  ///< user values are in force again before it begins [L18]
+    /// Program values die [L71-75]. `concluded`: at its own end, and then the one of PRGPAR begins, which is read before it dies (E-06).
+    void end_program(bool concluded = false);
+    void escape(Instant now);                                                       ///< Esc, I_BREAK: it ends as ESCCOND says
+    void reset_parameters();                                                        ///< Controller > Reset: init values [L10]
+    [[nodiscard]] std::optional<int> program() const noexcept { return program_; }  ///< the number of what runs
     [[nodiscard]] std::int64_t eprom_writes() const noexcept { return eprom_writes_; }
     /// After anything that was done beside `written`: whether each millisecond is to be looked at from now on.
     void begin_ticks(Instant now);
@@ -63,7 +67,6 @@ public:
 private:
     void changed(const Key& key, Instant now);
     void save_user();
-    [[nodiscard]] bool guards() const;
     [[nodiscard]] bool ticks() const;
     void check_position_errors(Instant now);
 
@@ -72,9 +75,11 @@ private:
     Terminals terminals_;
     std::deque<MacsAxis> axes_;
     Coupling coupling_;
+    BusDevices bus_;
     std::map<Key, std::int64_t> user_;  ///< EPROM; what is not here is as the firmware has it
     std::int64_t eprom_writes_ = 0;
-    bool program_ = false, bus_silent_ = false;
+    std::optional<int> program_;
+    bool bus_silent_ = false;
     Instant ticked_{}, silent_since_{};
     bool ticking_ = false;
     std::array<bool, axes> in_position_error_{};

@@ -8,12 +8,10 @@
 namespace axisgate::aposs {
 namespace {
 double as_real(std::int64_t v) { return static_cast<double>(v); }
-/// The way to the nearest of places that are `cycle` apart.
-double nearest(double way, double cycle) { return cycle > 0 ? way - cycle * std::round(way / cycle) : way; }
 }  // namespace
 
 void Synchronisation::begin(SyncMode mode, const SyncParameters& p, const SyncInput& here, double command, double velocity) {
-    *this = {};
+    const Synchronisation before = std::exchange(*this, {});
     mode_ = mode;
     master_at_ = here.master;
     wanted_ = command_ = command;
@@ -22,6 +20,60 @@ void Synchronisation::begin(SyncMode mode, const SyncParameters& p, const SyncIn
     master_.average.reset(as_real(p.pulse_m));
     slave_.average.reset(as_real(p.pulse_s));
     offset_allowed_ = mode == SyncMode::position;
+    if (p.always_watches()) {  // what the markers have said until now
+        master_ = before.master_;
+        slave_ = before.slave_;
+        master_.count = slave_.count = 0;
+        marker_velocity_ = before.marker_velocity_;
+        status_.master_window = before.status_.master_window;
+        status_.slave_window = before.status_.slave_window;
+    }
+    if (mode != SyncMode::marker || p.start % 1000 != 7) return;
+    // The one of the known ones that would have been the last: markers are watched from there on.
+    if (here.master_marker)
+        master_.last = as_real(here.master) - within_cycle(as_real(here.master - *here.master_marker), as_real(p.pulse_m));
+    if (here.slave_marker) slave_.last = here.slave - within_cycle(here.slave - *here.slave_marker, as_real(p.pulse_s));
+    approach_.begin();
+}
+
+void Synchronisation::shift_master(std::int64_t by) {
+    master_at_ -= by;
+    if (master_.last) *master_.last -= as_real(by);
+    approach_.shift_master(as_real(by));
+}
+
+void Synchronisation::watch(const SyncParameters& p, const SyncInput& in) {
+    if (!p.always_watches() || mode_ == SyncMode::marker) return;
+    if (mode_ == SyncMode::none) {
+        const auto way = as_real(in.master - std::exchange(master_at_, in.master));
+        marker_velocity_ = p.velocity_time < 0 ? pt(marker_velocity_, way, velocity_filter_us(p.velocity_time, p.resolution) / 1000) : way;
+    }
+    (void)check_markers(p, in);
+}
+
+/// SYNCMSTART 7: where the slave is on its way to the master; at its end it is synchronous, or as 5 has it.
+double Synchronisation::approach(const SyncParameters& p, const SyncInput& in, std::int64_t way) {
+    (void)check_markers(p, in);
+    const double gear = as_real(p.fact_s) / as_real(p.fact_m);
+    offset_seen_ = p.start < 1000 ? p.offset : 0;
+    ApproachInput now{as_real(in.master), as_real(way), master_.last, slave_.last, command_, velocity_};
+    if (now.slave_marker) *now.slave_marker += as_real(offset_seen_);
+    const ApproachMaster to{gear, as_real(p.pulse_m), as_real(p.pulse_s) * as_real(std::max<std::int64_t>(1, p.mark_s)),
+                            std::max(50.0, p.velocity_time < 0 ? velocity_filter_us(p.velocity_time, p.resolution) / 1000 : 0)};
+    const double before = command_;
+    command_ = approach_.step(to, {p.velocity, p.acceleration, p.jerk}, now);
+    velocity_ = command_ - before;
+    if (approach_.active()) return command_;
+    rest_ = 0;
+    wanted_ = command_;
+    offset_allowed_ = offset_seen_ != 0;
+    if (!approach_.arrived()) return command_;
+    synchronous_ = paired_ = true;
+    offset_allowed_ = true;
+    wanted_ = *now.slave_marker + (now.master - *master_.last) * gear;  // exactly; the curve has come to it but for its rounding
+    wanted_ = command_ + nearest(wanted_ - command_, to.cycle);
+    evaluate(p, wanted_ - command_);
+    return command_;
 }
 
 /// SYNCTYPE bit 2: what the master goes back is kept, and as much of what it then goes forth is not followed [L4036-4050].
@@ -48,8 +100,10 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
     if (mode_ == SyncMode::none) return command_;
     const std::int64_t way = forward(in.master - master_at_, p);
     master_at_ = in.master;
-    const auto act = as_real(geared(way, p));
     const double tau = velocity_filter_us(p.velocity_time, p.resolution);
+    marker_velocity_ = p.velocity_time < 0 ? pt(marker_velocity_, as_real(way), tau / 1000) : as_real(way);
+    if (approach_.active()) return approach(p, in, way);
+    const auto act = as_real(geared(way, p));
     const bool filtered = mode_ == SyncMode::velocity || p.velocity_time < 0;
     double ahead = act;
     if (filtered) ahead = filter_.step(act, tau, as_real(p.velocity_limit), mode_ != SyncMode::velocity);
@@ -58,7 +112,6 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
         filter_.forget_error();
     }
     filtered_velocity_ = ahead;
-    marker_velocity_ = p.velocity_time < 0 ? pt(marker_velocity_, as_real(way), tau / 1000) : as_real(way);
 
     if (mode_ == SyncMode::velocity) {
         wanted_ = command_ + ahead;
@@ -119,16 +172,27 @@ bool Synchronisation::accepts(Markers& m, double place, std::int64_t pulse, std:
     if (outside) flag = true;
     if (!outside || distance > as_real(pulse)) m.last = place;
     if (outside) return false;
+    if (filter_time > 0 && m.average.distance() <= 0) m.average.reset(as_real(pulse));
     if (filter_time > 0) m.average.add(distance, as_real(pulse), marker_filter(p.filter_par, filter_time, marker_velocity_, pulse));
     return true;
 }
 
+/// Of the markers that came with this step: whether they count, master's and slave's.
+std::pair<bool, bool> Synchronisation::check_markers(const SyncParameters& p, const SyncInput& in) {
+    const bool master =
+        in.master_marker && accepts(master_, as_real(*in.master_marker), p.pulse_m, p.window_m, status_.master_window, p.filter_time, p);
+    const bool slave =
+        in.slave_marker && accepts(slave_, *in.slave_marker, p.pulse_s, p.window_s, status_.slave_window, p.slave_filter_time, p);
+    return {master, slave};
+}
+
 void Synchronisation::take_markers(const SyncParameters& p, const SyncInput& in) {
-    const std::int64_t kind = p.start % 1000;
+    const std::int64_t kind = p.start % 1000 == 7 ? 5 : p.start % 1000;
     const bool waits = kind >= 2 && kind <= 5 && !paired_ && !synchronous_;
+    const auto [good_m, good_s] = check_markers(p, in);
     if (in.master_marker) {
         const double back = as_real(in.master - *in.master_marker) * as_real(p.fact_s) / as_real(p.fact_m);
-        const bool good = accepts(master_, as_real(*in.master_marker), p.pulse_m, p.window_m, status_.master_window, p.filter_time, p);
+        const bool good = good_m;
         if (!waits && good && (!paired_ ? !master_mark_ || kind == 1 : ++master_.count >= p.mark_m)) {
             master_.count = 0;
             master_mark_ = wanted_ - back;
@@ -139,7 +203,7 @@ void Synchronisation::take_markers(const SyncParameters& p, const SyncInput& in)
         }
     }
     if (in.slave_marker) {
-        const bool good = accepts(slave_, *in.slave_marker, p.pulse_s, p.window_s, status_.slave_window, p.slave_filter_time, p);
+        const bool good = good_s;
         // Leading: the slave's marker that follows the first one of the master [L4466].
         const bool early = !paired_ && kind == 0 && !master_mark_;
         if (!waits && !early && good && (!paired_ ? !slave_mark_ : ++slave_.count >= p.mark_s)) {
@@ -187,7 +251,7 @@ double Synchronisation::first_correction(const SyncParameters& p, double differe
     if (cycle <= 0) return difference;
     if (kind == 3) return near < 0 ? near + cycle : near;  // forward
     if (kind == 4) return near > 0 ? near - cycle : near;  // backward
-    if (kind == 5 || kind == 7) return near;               // 7: E-79
+    if (kind == 5 || kind == 7) return near;               // 7 without its curve (E-79)
     return difference;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "adapters/aposs/twin/approach.hpp"
 #include "adapters/aposs/twin/filters.hpp"
 #include "adapters/aposs/twin/superposition.hpp"
 
@@ -21,6 +22,9 @@ struct SyncParameters {
     std::int64_t resolution = 500;                            ///< MENCODER
     int reverse = 0;                                          ///< REVERS, units: 1: only while the master reverses, 2: never
     double velocity = 0, acceleration = 0, deceleration = 0;  ///< VEL, ACC, DEC: qc/ms, qc/ms^2
+    double jerk = 0;                                          ///< of RAMPMIN and JERKMIN: qc/ms^3; 0: none is set
+    /// SYNCMFPAR & 64: markers are watched and averaged whatever the axis does.
+    [[nodiscard]] bool always_watches() const { return (filter_par & 64) != 0; }
 };
 
 struct SyncInput {
@@ -37,15 +41,22 @@ struct SyncStatus {
 
 class Synchronisation {
 public:
-    /// The slave is at its command position with this speed (qc/ms). The size of the accuracy window is taken now [L4176].
+    /// The slave is at its command position with this speed (qc/ms). The size of the accuracy window is taken now [L4176]. Markers of
+    /// `here` are known places, which may lie far back: SYNCMSTART 7 needs them.
     void begin(SyncMode mode, const SyncParameters& p, const SyncInput& here, double command, double velocity);
     void end() { mode_ = SyncMode::none; }
     [[nodiscard]] SyncMode mode() const noexcept { return mode_; }
     /// One millisecond: the command position at its end.
     double step(const SyncParameters& p, const SyncInput& in);
+    /// One millisecond without SYNCM: markers alone, with SYNCMFPAR & 64 [L2424].
+    void watch(const SyncParameters& p, const SyncInput& in);
+    /// The polynomial of SYNCMSTART 7, or the waiting for it.
+    [[nodiscard]] bool approaches() const noexcept { return approach_.active(); }
 
     /// SYNCERR in qc: with a sign if SYNCACCURACY is below 0.
     [[nodiscard]] double error() const { return accuracy_ < 0 ? error_ : std::fabs(error_); }
+    /// DEFMORIGIN under way: what was this place of the master is 0 now. The slave does not move for it.
+    void shift_master(std::int64_t by);
     [[nodiscard]] const SyncStatus& status() const noexcept { return status_; }
     void clear_window_flags() { status_.master_window = status_.slave_window = false; }
     [[nodiscard]] std::int64_t negative_buffer() const noexcept { return negative_; }             ///< SYSVAR 4315
@@ -65,6 +76,8 @@ private:
     [[nodiscard]] bool accepts(Markers& m, double place, std::int64_t pulse, std::int64_t window, bool& flag, std::int64_t filter_time,
                                const SyncParameters& p);
     void take_markers(const SyncParameters& p, const SyncInput& in);
+    [[nodiscard]] std::pair<bool, bool> check_markers(const SyncParameters& p, const SyncInput& in);
+    [[nodiscard]] double approach(const SyncParameters& p, const SyncInput& in, std::int64_t way);
     void pair(const SyncParameters& p, double wanted_at_master_marker, double slave_place);
     [[nodiscard]] double first_correction(const SyncParameters& p, double difference, double cycle) const;
     void correct(const SyncParameters& p, double difference);
@@ -75,6 +88,7 @@ private:
     std::int64_t master_at_ = 0, rest_ = 0, negative_ = 0, accuracy_ = 1000, offset_seen_ = 0;
     double wanted_ = 0, command_ = 0, velocity_ = 0, filtered_velocity_ = 0, error_ = 0;
     VelocityFilter filter_;
+    Approach approach_;
     double marker_velocity_ = 0;  ///< Oldmfiltvel
     Superposition offset_, correction_;
     double per_ms_ = 0, per_ms_left_ = 0;  ///< KORRVAL: what is added each ms, and how much of the correction is left

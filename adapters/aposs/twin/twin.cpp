@@ -42,12 +42,16 @@ public:
             {"inputs", Value{static_cast<std::int64_t>(macs_.terminals().inputs)}, true,
              "digital inputs, bit mask: bit 0 is input 1; also those that parameters give a function or a marker; bits 16 to 31 of 60FDh"},
             {"outputs", Value{static_cast<std::int64_t>(macs_.outputs(at_))}, false, "digital outputs, bit mask: bit 0 is output 1"},
-            {"program", Value{macs_.program_runs()}, true,
+            {"program", Value{macs_.program().has_value()}, true,
              "a program runs; when it begins user values are in force again, when it ends program values die"},
+            {"program_number", Value{std::int64_t{macs_.program().value_or(-1)}}, false,
+             "of the program that runs: 0, or as I_PRGCHOICE or PRGPAR has chosen it; -1: none"},
             {"direct", Value{reply_}, true, "a statement of the direct mode, such as SYNCM x(2); it is shown with its answer"},
             {"gear", Value{std::string(gears[static_cast<std::size_t>(macs_.coupling().of(1).mode())])}, true,
              "the second axis follows the first: none, velocity (SYNCV), position (SYNCP) or marker (SYNCM), as a program would start it"},
             {"bus_silent", Value{macs_.bus_silent()}, true, "devices on the controller's own bus answer no guarding (error 88)"},
+            {"can_objects", Value{macs_.bus().objects()}, false, "objects that there are on the controller's own bus"},
+            {"nmt0", Value{macs_.bus().initialised()}, false, "how often the controller has initialised a device on its own bus"},
             {"reset_parameters", Value{false}, true, "Controller > Reset: all parameters as the firmware has them"},
             {"eprom_writes", Value{macs_.eprom_writes()}, false, "how often SAVEPROM has written; an EPROM lasts for about 10000"}};
         for (int n = 1; n <= axes; ++n) {
@@ -59,6 +63,14 @@ public:
             items.push_back({p + "encoder", Value{macs_.coupling().by_hand[static_cast<std::size_t>(n - 1)]}, true,
                              "master encoder turned by hand, qc"});
             items.push_back({p + "index", Value{a.index_pulses}, true, "the encoder gives index pulses"});
+            if (const auto word = macs_.bus().control_word(n - 1)) {
+                items.push_back({p + "drive_word", Value{std::int64_t{*word}}, false, "control word that the bus drive was sent"});
+                items.push_back({p + "drive_enabled", Value{macs_.bus().drive_enabled(n - 1)}, false, "the bus drive is enabled by it"});
+            }
+            items.push_back(
+                {p + "misread", Value{static_cast<std::int64_t>(a.misreading().by)}, true, "the encoder says so many qc too much"});
+            items.push_back({p + "swing", Value{static_cast<std::int64_t>(s.shaft().swings())}, true,
+                             "the shaft swings by so many qc to both sides in 7 ms"});
             items.push_back({p + "limit_positive", Value{s.limit_positive}, true, "the positive limit switch"});
             items.push_back({p + "limit_negative", Value{s.limit_negative}, true, "the negative limit switch"});
             items.push_back({p + "home_switch", Value{s.home_switch}, true, "the reference switch"});
@@ -136,8 +148,8 @@ private:
         } else if (name == "silent") {
             node_.set_silent(on);
         } else if (name == "program") {
-            if (on && !macs_.program_runs()) macs_.start_program();
-            if (!on && macs_.program_runs()) macs_.end_program();
+            if (on && !macs_.program()) macs_.start_program(0);
+            if (!on && macs_.program()) macs_.end_program(true);
         } else if (name == "bus_silent") {
             macs_.set_bus_silent(on, now);
         } else if (on) {
@@ -155,6 +167,17 @@ private:
             macs_.coupling().by_hand[static_cast<std::size_t>(k - 1)] = n;
             return {};
         }
+        if (name == "misread" || name == "swing") {
+            if (n < INT32_MIN || n > INT32_MAX) return name + ": write quad counts of 32 bits";
+            if (name == "swing" && (n < 0 || n > 100'000)) return "swing: write 0 to 100000";
+            if (name == "swing") {
+                s.shaft().swing(static_cast<double>(n));
+            } else {
+                a.misread(static_cast<double>(n), now);
+            }
+            macs_.begin_ticks(now);
+            return {};
+        }
         if (name == "inject_error") {
             static constexpr std::int64_t numbers[] = {0, 6, 88, 89, 98, 99};
             if (std::ranges::find(numbers, n) == std::end(numbers)) return "inject_error: write 6, 88, 89, 98 or 99, or 0";
@@ -162,6 +185,7 @@ private:
             const auto code = static_cast<std::uint16_t>(n == 0 ? 0 : error_base + n);
             s.set_cause(code);
             if (on) a.raise(code, now);
+            macs_.begin_ticks(now);
             return {};
         }
         if (n < 0 || n > 1) return name + ": write true or false";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace axisgate::cia402_drive::twin {
 
@@ -22,6 +23,12 @@ Motion Mechanics::shaft(Instant now) const {
     m.position -= lag_ * m.velocity;
     m.velocity -= lag_ * m.acceleration;
     return m;
+}
+
+double Mechanics::read(Instant now) const {
+    constexpr double swings_per_s = 1 / 0.007;
+    const double swing = swing_ == 0 ? 0 : swing_ * std::sin(2 * std::numbers::pi * swings_per_s * seconds(now - Instant{}));
+    return shaft(now).position + misread_ + swing;
 }
 
 void Mechanics::begin(Instant now) {

@@ -26,8 +26,16 @@ public:
     void set_lag(double seconds) { lag_ = seconds; }
     [[nodiscard]] bool lags() const noexcept { return lag_ > 0; }
 
+    /// What the encoder says beside where the shaft is, from now on; a swing of so many increments to both sides in 7 ms.
+    void misread(double by) { misread_ = by; }
+    void swing(double size) { swing_ = size; }
+    [[nodiscard]] double swings() const noexcept { return swing_; }
+    [[nodiscard]] bool misreads() const noexcept { return misread_ != 0 || swing_ != 0; }
+
     [[nodiscard]] Motion demand(Instant now) const;
     [[nodiscard]] Motion shaft(Instant now) const;
+    /// As the encoder has it.
+    [[nodiscard]] double read(Instant now) const;
     [[nodiscard]] bool held() const noexcept { return held_; }
     /// When the demand comes to rest, or to its last speed.
     [[nodiscard]] Instant end() const;
@@ -48,7 +56,7 @@ private:
     std::vector<Piece> pieces_{{0, {}, {}}};
     Instant since_{};
     Motion at_;
-    double end_ = 0, held_at_ = 0, step_velocity_ = 0, lag_ = 0;
+    double end_ = 0, held_at_ = 0, step_velocity_ = 0, lag_ = 0, misread_ = 0, swing_ = 0;
     double push_from_ = 0, push_to_ = 0, push_slope_ = 0;
     bool held_ = false;
 };

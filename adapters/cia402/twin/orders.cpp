@@ -13,6 +13,7 @@ void Orders::reset(int mode) {
     forget();
 }
 void Orders::forget() {
+    reading_.reset();
     target_.reset();
     buffered_.reset();
 }
@@ -82,6 +83,7 @@ void Orders::set_point(bool relative, bool at_once, Instant now) {
     if (low < high) to = std::clamp(to, low, high);
     acknowledged_ = true;
     reached_ = false;
+    reading_.reset();
     if (!at_once && target_ && m_.moves(now)) {
         buffered_ = to;
         return;
@@ -106,11 +108,17 @@ void Orders::halt(bool on, Instant now) {
 
 std::optional<Instant> Orders::arrival() const {
     // A halted positioning waits for its halt to be taken back, and for nothing of its own.
-    if (!target_ || reached_ || halted_ || !settles()) return std::nullopt;
+    if (!target_ || reached_ || halted_) return std::nullopt;
+    if (readings_within && !buffered_) {  // one that is held outside the window needs no look
+        if (reading_) return reading_at_ + window_time();
+        if (settles() || m_.misreads()) return std::max(m_.end(), reading_at_ + std::chrono::milliseconds(1));
+    }
+    if (!settles()) return std::nullopt;
     return m_.end() + (buffered_ ? Duration{} : window_time());
 }
 void Orders::arrive(unsigned cw, Instant at) {
     if (halted_) return;
+    if (readings_within && target_ && !reached_ && !buffered_ && m_.demand(at).position == *target_) return take_reading(at);
     if (target_ && !reached_ && settles() && m_.demand(at).position == *target_) {
         if (buffered_) {
             target_ = std::exchange(buffered_, std::nullopt);
@@ -121,6 +129,18 @@ void Orders::arrive(unsigned cw, Instant at) {
     } else if (target_ && !reached_ && !m_.held() && settles()) {
         target_.reset();  // stopped before it: halted, or the speed is 0
     }
+}
+
+void Orders::take_reading(Instant at) {
+    if (reading_ && at < reading_at_ + window_time()) return;
+    const double here = m_.read(at);
+    reached_ = reading_ && in_window(at) && std::fabs(here - *reading_) < *readings_within;
+    reading_ = !reached_ && in_window(at) ? std::optional(here) : std::nullopt;
+    reading_at_ = at;
+}
+bool Orders::in_window(Instant at) const {
+    const auto window = o_.get(0x6067);
+    return window == 0xFFFFFFFF || std::fabs(m_.read(at) - m_.demand(at).position) <= u_.way_of(0x6067);
 }
 
 /// At the end of its way the shaft stands within the position window (6067h; FFFFFFFFh: there is none).

@@ -44,6 +44,10 @@ public:
     [[nodiscard]] bool acknowledged() const noexcept { return acknowledged_; }
     [[nodiscard]] bool limited() const noexcept { return limited_; }
     [[nodiscard]] bool reached() const { return reached_ && (!m_.held() || settles()); }
+    /// Reached is what two readings say that are the window's time (6068h) apart and differ by less than this, increments; nothing: what
+    /// has been within the window for that time, as CiA 402 has it.
+    std::optional<double> readings_within;
+    [[nodiscard]] bool reads() const noexcept { return reading_.has_value(); }
     void set_reached(bool reached) noexcept { reached_ = reached; }
     /// 1/1000 of the rated torque that the drive pushes with.
     [[nodiscard]] double torque(Instant now) const { return m_.pushed(now) / per_mille; }
@@ -52,6 +56,8 @@ private:
     static constexpr double per_mille = 50;  ///< increments/s^2 that 1/1000 of the rated torque gives this load
     void go(Instant now);
     [[nodiscard]] bool settles() const;
+    [[nodiscard]] bool in_window(Instant at) const;
+    void take_reading(Instant at);
     [[nodiscard]] Duration window_time() const { return std::chrono::milliseconds(o_.get(0x6068)); }
     AxisObjects& o_;
     UserUnits& u_;
@@ -60,6 +66,8 @@ private:
     bool halted_ = false, reached_ = false, acknowledged_ = false, limited_ = false;
     std::optional<double> target_;    ///< of the positioning under way, mechanical
     std::optional<double> buffered_;  ///< the next one, mechanical
+    std::optional<double> reading_;   ///< the first of two
+    Instant reading_at_{};
 };
 
 }  // namespace axisgate::cia402_drive::twin

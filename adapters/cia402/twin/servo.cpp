@@ -223,9 +223,11 @@ void Servo::connection_lost(Instant now) {
     if (option == 3) command(0x0A, now);
 }
 
-/// Only what can be behind is looked at: a shaft that is held, or one that lags so far at the speed that it has.
+/// Only what can be behind is looked at: a shaft that is held, or whose encoder does not say where it is, or one that lags so far at the
+/// speed that it has.
 bool Servo::watches() const {
     if (!powered()) return false;
+    if (m_.misreads()) return true;
     if (m_.held()) return m_.moves(checked_) || behind_ > 0;
     return m_.lags() && (m_.moves(checked_) || behind_ > 0);
 }
@@ -239,7 +241,8 @@ Instant Servo::next_event(Instant now) const {
 
 void Servo::watch(Instant at) {
     checked_ = at;
-    const double behind = std::fabs(m_.demand(at).position - m_.shaft(at).position);
+    if (orders_.reads()) return;  // between two readings of a target window it is not looked at
+    const double behind = std::fabs(m_.demand(at).position - m_.read(at));
     const auto window = o_.get(0x6065);
     behind_ = window == 0xFFFFFFFF || behind <= units_.way_of(0x6065) ? 0 : behind_ + 1;
     if (behind_ <= std::chrono::milliseconds(o_.get(0x6066)) / watch_every_) return;
@@ -303,14 +306,15 @@ void Servo::refresh(Instant now) {
     o_.put(0x6041, statusword(now));
     o_.put(0x6061, mode);
     o_.put(0x6062, std::llround(units_.in_units(demand.position)));
-    o_.put(0x6063, std::llround(shaft.position));
-    o_.put(0x6064, std::llround(units_.in_units(shaft.position)));
+    const double read = m_.read(now);
+    o_.put(0x6063, std::llround(read));
+    o_.put(0x6064, std::llround(units_.in_units(read)));
     o_.put(0x606B, std::llround(units_.speed_in_units(demand.velocity)));
     o_.put(0x606C, std::llround(units_.speed_in_units(shaft.velocity)));
     const auto torque = (mode == 4 || mode == 10) && powered() ? std::llround(orders_.torque(now)) : 0;
     o_.put(0x6074, torque);
     o_.put(0x6077, torque);
-    o_.put(0x60F4, std::llround(units_.way_in_units(demand.position - shaft.position)));
+    o_.put(0x60F4, std::llround(units_.way_in_units(demand.position - read)));
     o_.put(0x60B9, probes_.status());
     // A switch is pressed by the hand, or by the shaft where the travel has switches.
     const bool low = limit_negative || (travel_ > 0 && shaft.position < -travel_),

@@ -57,6 +57,8 @@ public:
     // a controller that leads it beside the bus
     [[nodiscard]] Mechanics& shaft() noexcept { return m_; }
     [[nodiscard]] const Mechanics& shaft() const noexcept { return m_; }
+    /// Reached by two readings that differ by less than so many increments (Orders); nothing: by CiA 402.
+    void reach_by_readings(std::optional<double> within) { orders_.readings_within = within; }
     [[nodiscard]] UserUnits& units() noexcept { return units_; }
     [[nodiscard]] const UserUnits& units() const noexcept { return units_; }
     /// Following errors are looked for that often, and only so many that are found one after the other are one: 6066h by that time.

@@ -1,0 +1,58 @@
+// Approach of SYNCMSTART 7: a polynomial of fifth order that brings the slave to its marker when the master is at one [L4425-4446].
+// In: markers that are known, both velocities, one step each ms. Out: command positions of the slave; whether it has arrived, or whether
+// SYNCMSTART 5 has to do it. Never faster than VEL nor harder than ACC and the jerk that are given. Units: qc, ms.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace axisgate::aposs {
+
+/// The way to the nearest of places that are `cycle` apart; 0: there is one alone.
+[[nodiscard]] inline double nearest(double way, double cycle) { return cycle > 0 ? way - cycle * std::round(way / cycle) : way; }
+/// What is left of a way after whole cycles, with its sign.
+[[nodiscard]] inline double within_cycle(double way, double cycle) { return cycle > 0 ? std::fmod(way, cycle) : way; }
+
+struct ApproachMaster {
+    double gear = 1;        ///< SYNCFACTS / SYNCFACTM
+    double pulse = 500;     ///< SYNCMPULSM, qc of the master
+    double cycle = 500;     ///< between two places of the slave that are as good: SYNCMPULSS times SYNCMARKS
+    double filter_ms = 50;  ///< of the master's velocity: SYNCVFTIME, at least 50 ms
+};
+struct ApproachLimits {
+    double velocity = 0, acceleration = 0;  ///< VEL, ACC
+    double jerk = 0;                        ///< 0: none is set
+};
+struct ApproachInput {
+    double master = 0, way = 0;                         ///< place, and what it went in this ms
+    std::optional<double> master_marker, slave_marker;  ///< the last ones known; the slave's with SYNCPOSOFFS
+    double command = 0, velocity = 0;                   ///< of the slave before this ms
+};
+
+class Approach {
+public:
+    void begin() {
+        *this = {};
+        phase_ = Phase::waits;
+    }
+    void shift_master(double by) { begun_at_ -= by; }
+    [[nodiscard]] bool active() const noexcept { return phase_ == Phase::waits || phase_ == Phase::runs; }
+    [[nodiscard]] bool arrived() const noexcept { return phase_ == Phase::arrived; }
+    /// One millisecond; it is for SYNCMSTART 5 if it is neither active nor arrived then.
+    double step(const ApproachMaster& to, const ApproachLimits& limits, const ApproachInput& in);
+
+private:
+    enum class Phase : std::uint8_t { none, waits, runs, arrived, given_up };
+    void start(const ApproachMaster& to, const ApproachLimits& limits, const ApproachInput& in);
+    [[nodiscard]] double along(double share) const;
+
+    Phase phase_ = Phase::none;
+    double speed_ = 0, waited_ = 0;  ///< of the master, filtered; ms
+    bool seen_ = false;
+    // the curve: by the master's way, so that a master that is a little slower or faster is met at its marker all the same
+    double begun_speed_ = 0, begun_at_ = 0, master_way_ = 0, from_ = 0, time_ = 0, from_velocity_ = 0, gain_ = 0, rest_ = 0;
+};
+
+}  // namespace axisgate::aposs

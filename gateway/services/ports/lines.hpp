@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
-#include "gateway/core/system_port.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/core/scan.hpp"
+#include "gateway/core/system_port.hpp"
 #include "gateway/engine/report.hpp"
 
 namespace axisgate {

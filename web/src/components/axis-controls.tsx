@@ -4,6 +4,7 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import type { Commander } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { setPositionWords, unitOf } from '../text/axis';
@@ -12,6 +13,7 @@ import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
 import { useBarred, Why } from './gate';
+import { HelpButton } from './help-button';
 import { JogButton } from './jog-button';
 
 type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
@@ -174,7 +176,10 @@ export function FullControls({ axis }: { axis: Axis }) {
         <button type="button" class="button" title="Homing, by the drive's own method" {...no} onClick={c.simple('home', 'Home')}>Home</button>
       </div>
       <p class="where stops-told">
-        <b>Halt</b> slows down on the profile ramp and stays enabled. <b>Quick stop</b>, STOP and Esc slow down on the quick-stop ramp; enable to go on. <b>Disable</b> takes the power off at once.
+        {t('Halt slows down on the profile ramp and stays enabled. Quick stop, STOP and Esc slow down on the quick-stop ramp; enable to go on. Disable takes the power off at once.')}{' '}
+        <HelpButton of={t('the controls')}>
+          {t('Enable gives power: the axis holds its place and follows commands. Reset fault clears a fault whose cause is gone. Home looks for the zero by the method of the drive. Move to goes to the target, the buttons by go that far from here, Jog moves while it is held. Speed, acceleration and deceleration that are left empty are as the drive has them. Set position gives the present place another name; nothing moves.')}
+        </HelpButton>
       </p>
       <div class="control-rows">
         <Field label="Target" unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />

@@ -3,6 +3,7 @@
 import type { ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { axisPath } from '../router';
 import { tick } from '../state/clock';
 import type { AxisEntry } from '../state/store';
@@ -10,6 +11,7 @@ import { markOf, motionWord, noticeOf, positionText, stateWord, targetText, unit
 import { duration } from '../text/time';
 import { offlineReason } from '../text/errors';
 import { ResultLine, resultId, TileControls } from './axis-controls';
+import { SelectBox } from './axis-selection';
 import { HolderLine } from './authority';
 import { Icon } from './icon';
 import { memo } from './memo';
@@ -82,31 +84,30 @@ export function StatePills({ entry }: { entry: EntrySignal }) {
   );
 }
 
-function TileHead({ entry }: { entry: EntrySignal }) {
+function TileHead({ entry, selectable }: { entry: EntrySignal; selectable: boolean }) {
   const axis = entry.value.data;
   return (
     <header class="tile-head">
       <h3>
+        {selectable && <SelectBox names={[axis.name]} label={t('Select {axis}', { axis: axis.name })} />}
         <a href={axisPath(axis.name)}>{axis.name}</a>
       </h3>
       <p class="where">
         <Mark mark={markOf(axis)} />
-        <span title={`Axis number ${axis.number}, family ${axis.family}, line ${axis.line}, drive ${axis.drive}`}>
-          no. {axis.number} · {axis.family} · {axis.line}
-        </span>
       </p>
       <StopButton axis={axis.name} urgent={axis.moving} />
     </header>
   );
 }
 
-export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
+/** `selectable`: it stands among others, and a command can be meant for several. */
+export function AxisTile({ name, bare, selectable = false }: { name: string; bare: boolean; selectable?: boolean }) {
   const { store } = useGateway();
   const entry = store.axis(name);
   if (!entry) return null;
   return (
     <TileFrame entry={entry}>
-      <TileHead entry={entry} />
+      <TileHead entry={entry} selectable={selectable} />
       <div class="tile-live">
         <Readout entry={entry} />
         <Sparkline axis={name} />
@@ -117,6 +118,7 @@ export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
         <Notice entry={entry} />
         <TileHolder entry={entry} />
         <ResultLine axis={name} id={resultId(name)} />
+        <TileWhere entry={entry} />
       </footer>
     </TileFrame>
   );
@@ -124,6 +126,16 @@ export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
 
 function TileHolder({ entry }: { entry: EntrySignal }) {
   return <HolderLine entry={entry.value} />;
+}
+
+/** Where nothing else is to be said: which axis it is to other machines. */
+function TileWhere({ entry }: { entry: EntrySignal }) {
+  const axis = entry.value.data;
+  return (
+    <p class="tile-where" title={t('Axis number {number}, family {family}, line {line}, drive {drive}', { number: axis.number, family: axis.family, line: axis.line, drive: axis.drive })}>
+      {t('no. {number} · {family} · {line}', { number: axis.number, family: axis.family, line: axis.line })}
+    </p>
+  );
 }
 
 /** The frame tells the condition too; it is drawn anew only when the condition changes. */

@@ -4,10 +4,11 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
-import { addressingWords, editText, fieldLines, fieldValue, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
+import { addressingWords, editText, fieldLines, fieldValue, helpText, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
 import { isApart, isChanged } from '../text/transfer';
 import { Ask } from './ask';
 import { useBarred } from './gate';
+import { HelpButton } from './help-button';
 import { Icon } from './icon';
 import { memo } from './memo';
 import { Written } from './parameter-history';
@@ -40,10 +41,12 @@ function RowView({ axis, row, since, read, write, open }: RowProps) {
   const p = row.data.peek(); // id, name and description never change
   return (
     <tr data-parameter={p.id}>
-      <th scope="row" title={p.description.replaceAll('_', ' ')}>
+      <th scope="row">
         <span class="both">
           <span class="mono id">{p.id}</span>
-          <span class="name">{p.name.replaceAll('_', ' ')}</span>
+          <span class="name">
+            {p.name.replaceAll('_', ' ')} <HelpButton of={p.id}>{helpText(p)}</HelpButton>
+          </span>
         </span>
       </th>
       <LiveCell row={row} since={since} />

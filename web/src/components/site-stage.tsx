@@ -1,6 +1,6 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
-import { useSignal } from '@preact/signals';
+import { useSignal, type Signal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { stagerOf, type SiteDraft } from '../state/site-draft';
 import { persisted } from '../state/persisted';
@@ -14,7 +14,7 @@ import { Icon } from './icon';
 import { keepBarred, useTrialRest } from './trial';
 import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
 
-const within = persisted('site.within_s', '60');
+const usual = persisted('site.within_s', '60');
 const mostShown = 200;
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
@@ -30,7 +30,8 @@ export function DifferenceList({ list, label }: { list: readonly (Difference | S
   );
 }
 
-export function SiteStage({ draft }: { draft: SiteDraft }) {
+/** `within`: the field's own text, where another time is usual. */
+export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?: Signal<string> }) {
   const { session, tab } = useGateway();
   const no = useBarred('engineer');
   const stage = draft.stage.value;

@@ -5,14 +5,20 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
+import { t } from '../language';
+import { barred } from '../state/session';
 import { persisted } from '../state/persisted';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../text/site';
+import { lineNameFor, numbered } from '../text/ports';
 import { quiet, Tell } from './form';
 import { AxisTile } from './axis-tile';
+import { Icon } from './icon';
 import { ScanPanel } from './site-scan';
 import { EntryField } from './site-entries';
+import { ReadFromHmi } from './site-hmi';
 import { SiteStage } from './site-stage';
+import { keepBarred, useTrialRest } from './trial';
 
 const kinds = [
   { id: 'twin', text: 'No drive yet: simulate it', uri: 'twin' },
@@ -26,6 +32,8 @@ const step = persisted('wizard.step', '0');
 const chosen = { lines: persisted('wizard.line'), drives: persisted('wizard.drive'), axes: persisted('wizard.axis') };
 /** What stands in the fields of a step that is not finished, as JSON. */
 const typed = { lines: persisted('wizard.typed.line'), drives: persisted('wizard.typed.drive'), axes: persisted('wizard.typed.axis') };
+/** Long enough to go to the machine, enable and move before the question whether it stays. */
+const trial = persisted('wizard.within_s', '300');
 const order: Room[] = ['lines', 'drives', 'axes'];
 
 export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: SiteDoor; leave: () => void }) {
@@ -97,7 +105,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       {at === 1 && ((lineFirst.value === 'shown' && !line) || (onTrial && lineFirst.value !== 'applying')) && <SiteStage draft={draft} />}
       {at === 3 && (
         <>
-          <SiteStage draft={draft} />
+          <SiteStage draft={draft} within={trial} />
           <div class="form-foot">
             <button type="button" class="button" onClick={() => go(2)}>
               Back
@@ -111,11 +119,12 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       )}
       {at === 4 && (
         <>
-          {onTrial && <SiteStage draft={draft} />}
+          {onTrial && <KeepAfterMove draft={draft} axis={axis} />}
           {applied ? (
             <>
               <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
               <AxisTile name={axis} bare={false} />
+              <ReadFromHmi axis={axis} />
             </>
           ) : (
             <p class="empty" role="status" data-field="not-there">
@@ -157,6 +166,36 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
   );
 }
 
+/** The question whether the site stays, asked when the axis has moved for the first time; before that it can be answered, too. */
+function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
+  const { session, store, tab } = useGateway();
+  const entry = store.axis(axis)?.value.data;
+  const moved = useSignal(false);
+  const rest = useTrialRest(draft);
+  if (entry?.moving) moved.value = true;
+  const asks = moved.value && entry?.moving === false;
+  const busy = draft.told.value.tone === 'busy';
+  const no = barred(session.mayNot('engineer'));
+  const keep = barred(keepBarred(draft, session, tab.name.value));
+  return (
+    <section class={`card stage is-applied${asks ? ' is-asking' : ''}`} aria-label={t('Keep the site?')} data-field="keep-after-move" data-asks={asks}>
+      <p class="stage-count" role="status">
+        <Icon name="clock" />
+        {asks ? t('{axis} has moved. Was it right? Then keep the site; else it is rolled back by itself in {n} s.', { axis, n: rest }) : t('The site is on trial, for {n} s more: move {axis} first, then you are asked whether it stays.', { axis, n: rest })}
+      </p>
+      <div class="form-foot">
+        <button type="button" class={`button${asks ? ' primary' : ''}`} disabled={busy} {...keep} onClick={() => void draft.confirm()}>
+          {t('Keep')}
+        </button>
+        <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
+          {t('Roll back now')}
+        </button>
+        <Tell told={draft.told.value} field="stage-told" />
+      </div>
+    </section>
+  );
+}
+
 const nouns: Record<Room, string> = { lines: 'line', drives: 'drive', axes: 'axis' };
 const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
 
@@ -174,9 +213,13 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek()) use.value = fitting[0]!.name;
   }, [fitting.length]);
   const { entry, faults } = checkEntry(room, texts.value, site, null);
-  const set = (key: string) => (t: string) => {
-    texts.value = { ...texts.value, [key]: t };
-    typed[room].value = JSON.stringify(texts.value);
+  const set = (key: string) => (text: string) => {
+    const before = texts.peek();
+    const next = { ...before, [key]: text };
+    // A name that nobody has typed goes with the line.
+    if (room === 'lines' && key === 'uri' && before.name === lineNameFor(before.uri ?? '', site.lines)) next.name = lineNameFor(text, site.lines);
+    texts.value = next;
+    typed[room].value = JSON.stringify(next);
   };
   const word = nouns[room];
   const submit = () => {
@@ -265,7 +308,7 @@ const kindOf = (uri: string) => uri.split(':')[0] ?? '';
 
 function first(room: Room, draft: SiteDraft): Texts {
   const site = draft.draft.peek();
-  if (room === 'lines') return { name: freeName(site.lines, 'line'), uri: 'twin', family: '' };
-  if (room === 'drives') return { name: freeName(site.drives, 'drive'), line: chosen.lines.peek(), presence: 'auto' };
+  if (room === 'lines') return { name: lineNameFor('twin', site.lines), uri: 'twin', family: '' };
+  if (room === 'drives') return { name: numbered(site.drives, 'feeder'), line: chosen.lines.peek(), presence: 'auto' };
   return { name: freeName(site.axes, chosen.drives.peek() || 'axis'), drive: chosen.drives.peek(), number: String(freeNumber(site)), unit: 'mm', increments_per_unit: '', channel: '1' };
 }

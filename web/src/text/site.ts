@@ -1,5 +1,6 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
+import { t } from '../language';
 import { parseNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 
@@ -32,66 +33,70 @@ export interface FieldSpec {
   more?: boolean;
 }
 
-const timing = (key: string, label: string, min: number, max: number): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: "the family's" });
+const timing = (key: string, label: string, min: number, max: number, hint: string): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: t("the family's"), hint });
 export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive', 'dds'];
 
 const presences = [
-  { value: 'auto', text: 'auto: the real one if it answers, else the twin' },
-  { value: 'device', text: 'device: the real one only; on a line dds: the other gateway’s axis' },
-  { value: 'twin', text: 'twin: the model only' },
+  { value: 'auto', text: t('real, else simulated') },
+  { value: 'device', text: t('real only') },
+  { value: 'twin', text: t('simulated only') },
 ];
 
+/** The default is told once, beside the first of them. */
+const failSafeHint = t('the default halts a velocity move and lets a move to a target end; what is chosen holds for every motion');
 const failSafeActions = [
-  { value: '', text: 'halt a velocity move, let a move to a target end' },
-  { value: 'nothing', text: 'nothing' },
-  { value: 'halt', text: 'halt every motion' },
-  { value: 'quick_stop', text: 'quick stop every motion' },
-  { value: 'disable', text: 'switch the axis off' },
+  { value: '', text: t('the default') },
+  { value: 'nothing', text: t('nothing') },
+  { value: 'halt', text: t('halt') },
+  { value: 'quick_stop', text: t('quick stop') },
+  { value: 'disable', text: t('switch off') },
 ];
 
+const nameHint = t('letters, digits, - _ and .; it is in addresses, registers’ lists and recipes');
 export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
+    { key: 'name', label: 'Name', kind: 'name', required: true, hint: nameHint },
     { key: 'family', label: 'Family', kind: 'family', hint: 'of its drives; may be empty on a CAN line whose drives each name theirs' },
-    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)' },
+    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: t('where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)') },
     { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
-    timing('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
-    timing('poll_period_ms', 'Poll period, ms', 0, 60000),
-    timing('pause_ms', 'Pause, ms', 0, 10000),
-    timing('stale_after_ms', 'Stale after, ms', 0, 600000),
-    timing('retries', 'Retries', -1, 20),
-    timing('silent_limit', 'Silent limit', 1, 1000),
-    timing('retry_pause_min_ms', 'First retry pause, ms', 1, 600000),
-    timing('retry_pause_max_ms', 'Longest retry pause, ms', 1, 600000),
+    timing('reply_timeout_ms', t('Reply time-out, ms'), 0, 60000, t('how long an answer is waited for')),
+    timing('poll_period_ms', t('Poll period, ms'), 0, 60000, t('how often each drive is asked')),
+    timing('pause_ms', t('Pause, ms'), 0, 10000, t('silence of the line between two exchanges')),
+    timing('stale_after_ms', t('Stale after, ms'), 0, 600000, t('data older than this is told as stale')),
+    timing('retries', t('Retries'), -1, 20, t('how often an exchange without an answer is repeated; −1: as the family has it')),
+    timing('silent_limit', t('Silent limit'), 1, 1000, t('after so many exchanges without an answer a drive is offline')),
+    timing('retry_pause_min_ms', t('First retry pause, ms'), 1, 600000, t('until an offline drive is asked again')),
+    timing('retry_pause_max_ms', t('Longest retry pause, ms'), 1, 600000, t('the pauses grow up to this')),
   ],
   drives: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'line', label: 'Line', kind: 'line', required: true },
+    { key: 'name', label: 'Name', kind: 'name', required: true, hint: nameHint },
+    { key: 'line', label: 'Line', kind: 'line', required: true, hint: t('that it hangs on') },
     { key: 'family', label: 'Family', kind: 'family', hint: 'empty: the line’s; several can share a CAN line', more: true },
     { key: 'address', label: 'Address', kind: 'address', hint: 'empty: the factory address' },
-    { key: 'presence', label: 'Presence', kind: 'choice', choices: presences },
+    { key: 'presence', label: 'Presence', kind: 'choice', choices: presences, hint: t('who serves its axes: the drive if it answers and else its model (auto), the drive alone (device), the model alone (twin); on a line dds the drive is the other gateway’s axis') },
   ],
   axes: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'drive', label: 'Drive', kind: 'drive', required: true },
-    { key: 'channel', label: 'Channel', kind: 'integer', min: 1, max: 256, placeholder: '1' },
+    { key: 'name', label: 'Name', kind: 'name', required: true, hint: nameHint },
+    { key: 'drive', label: 'Drive', kind: 'drive', required: true, hint: t('that moves it') },
+    { key: 'channel', label: 'Channel', kind: 'integer', min: 1, max: 256, placeholder: '1', hint: t('which axis of the drive; most drives have one') },
     { key: 'number', label: 'Number', kind: 'integer', required: true, min: 1, max: 1024, hint: 'place in the register map' },
+    { key: 'group', label: 'Machine part', kind: 'text', hint: 'axes of one part stand together; empty: none' },
     { key: 'unit', label: 'Unit', kind: 'text', placeholder: 'increments', hint: 'such as mm or deg' },
     { key: 'increments_per_unit', label: 'Increments per unit', kind: 'number', above: 0, hint: 'how many increments of the drive make one unit' },
     { key: 'position_min', label: 'Lowest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'position_max', label: 'Highest position', kind: 'number', hint: 'software limit, in unit' },
     { key: 'velocity_max', label: 'Highest speed', kind: 'number', above: 0, hint: 'unit/s' },
     { key: 'acceleration_max', label: 'Highest acceleration', kind: 'number', above: 0, hint: 'unit/s²' },
-    { key: 'fail_safe.modbus_closed', label: 'When its Modbus client has closed', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.modbus_silent', label: 'When its Modbus client is silent', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.set_points_silent', label: 'When its streamed set-points stop', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.lease_ended', label: 'When the lease of who moves it expires', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_closed', label: 'When its EtherNet/IP connection is closed', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_timed_out', label: 'When its EtherNet/IP connection times out', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_idle', label: 'When its EtherNet/IP scanner is idle', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.dds_deadline', label: 'When its DDS client misses a deadline or is gone', kind: 'choice', more: true, choices: failSafeActions },
+    { key: 'fail_safe.modbus_closed', label: 'When its Modbus client has closed', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.modbus_silent', label: 'When its Modbus client is silent', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.set_points_silent', label: 'When its streamed set-points stop', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.lease_ended', label: 'When the lease of who moves it expires', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_closed', label: 'When its EtherNet/IP connection is closed', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_timed_out', label: 'When its EtherNet/IP connection times out', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_idle', label: 'When its EtherNet/IP scanner is idle', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.dds_deadline', label: 'When its DDS client misses a deadline or is gone', kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
     {
       key: 'stored_parameters',
@@ -101,7 +106,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
       hint: 'when the drive answers: compared with what was written through the gateway, or written where they differ',
       choices: [{ value: '', text: 'not looked at' }, { value: 'compare', text: 'compared' }, { value: 'write', text: 'compared and written' }],
     },
-    { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
+    { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, hint: t('free: a command needs no lease; lease: a command takes the axis for a while, and others are refused'), choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
   ],
 };
 

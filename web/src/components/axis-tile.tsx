@@ -33,7 +33,7 @@ export function Notice({ entry }: { entry: EntrySignal }) {
   const axis = entry.value.data;
   const trust = store.trustOf(entry.value);
   const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
-  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || 'some time' : '');
+  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || t('some time') : '');
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
       <Icon name={word.icon} size={14} />
@@ -51,19 +51,19 @@ export function Readout({ entry, large = false }: { entry: EntrySignal; large?: 
   return (
     <div class={`readout${large ? ' readout-large' : ''}${trust === 'live' ? '' : ' is-old'}`} data-trust={trust}>
       <p class="position" data-field="position" data-value={axis.position ?? ''} data-live={trust === 'live'}>
-        <span class="visually-hidden">{trust === 'live' ? 'Position' : 'Last known position, not live'}: </span>
+        <span class="visually-hidden">{trust === 'live' ? t('Position') : t('Last known position, not live')}: </span>
         <span class="figure">{positionText(axis)}</span>
         <span class="unit">{unit}</span>
       </p>
       <dl class="minor">
         <div>
-          <dt>Velocity</dt>
+          <dt>{t('Velocity')}</dt>
           <dd data-field="velocity">
             {velocityText(axis)} <span class="unit">{unit}/s</span>
           </dd>
         </div>
         <div>
-          <dt>Target</dt>
+          <dt>{t('Target')}</dt>
           <dd data-field="target">
             {targetText(axis)} <span class="unit">{unit}</span>
           </dd>
@@ -78,8 +78,8 @@ export function StatePills({ entry }: { entry: EntrySignal }) {
   const trust = store.trustOf(entry.value);
   return (
     <p class="pills">
-      <Pill label="State" id="state" word={stateWord(entry.value.data, trust)} />
-      <Pill label="Motion" id="motion" word={motionWord(entry.value.data, trust)} />
+      <Pill label={t('State')} id="state" word={stateWord(entry.value.data, trust)} />
+      <Pill label={t('Motion')} id="motion" word={motionWord(entry.value.data, trust)} />
     </p>
   );
 }
@@ -144,7 +144,7 @@ function TileFrame({ entry, children }: { entry: EntrySignal; children: Componen
   const axis = entry.value.data;
   const condition = axis.fault && store.trustOf(entry.value) === 'live' ? 'fault' : store.trustOf(entry.value);
   return (
-    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={`Axis ${axis.name}`}>
+    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={t('Axis {name}', { name: axis.name })}>
       {children}
     </article>
   );

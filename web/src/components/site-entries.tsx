@@ -1,12 +1,13 @@
 // Site entries: the form of a line, a drive or an axis of the draft. In: the draft, which form is open. Out: the draft, changed; nothing is sent from here.
 // Faults of the gateway's last check stand beside their field. What is typed in an open form stays while the page is elsewhere.
+import { t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { familyOf, incrementHint, optionsFor } from '../text/options';
 import type { SiteDraft } from '../state/site-draft';
 import { portKind } from '../text/ports';
-import { checkEntry, fieldsOf, freeNumber, oneOf, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../text/site';
+import { checkEntry, fieldsOf, freeNumber, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../text/site';
 import { Choice, TextField } from './form';
 import { Increments } from './increments';
 import { OptionFields } from './option-fields';
@@ -23,6 +24,13 @@ export function openForm(room: Room, site: Site, entry: Entry | null, preset: Te
   if (!entry && room === 'axes' && !texts.number) texts.number = String(freeNumber(site));
   forms[room].value = { own: entry?.name ?? null, texts };
 }
+
+const changeWords: Record<Room, (name: string) => string> = {
+  lines: (name) => t('Change line {name}', { name }),
+  drives: (name) => t('Change drive {name}', { name }),
+  axes: (name) => t('Change axis {name}', { name }),
+};
+const addWords: Record<Room, string> = { lines: t('Add a line'), drives: t('Add a drive'), axes: t('Add an axis') };
 
 interface FormProps {
   room: Room;
@@ -60,7 +68,7 @@ export function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       ref={form}
       class="form entry-form"
       noValidate
-      aria-label={own ? `Change ${oneOf[room]} ${own.name}` : `Add ${room === 'axes' ? 'an' : 'a'} ${oneOf[room]}`}
+      aria-label={own ? changeWords[room](own.name) : addWords[room]}
       onSubmit={(e) => {
         e.preventDefault();
         touched.value = true;
@@ -76,16 +84,16 @@ export function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       {room !== 'axes' && <OptionFields room={room} family={family} specs={options} texts={texts} onText={set} fault={(key) => gateway.find((g) => g.key === key)?.text} />}
       {more.length > 0 && (
         <details open={(moreOpen.current ||= more.some((f) => fault(f) !== undefined)) || undefined}>
-          <summary>{room === 'lines' ? 'Timing: times and retries' : 'More'}</summary>
+          <summary>{room === 'lines' ? t('Timing: times and retries') : t('More')}</summary>
           <div class="form-grid">{more.map(field)}</div>
         </details>
       )}
       <div class="form-foot">
         <button type="submit" class="button primary">
-          Save to draft
+          {t('Save to draft')}
         </button>
         <button type="button" class="button quiet" onClick={close}>
-          Cancel
+          {t('Cancel')}
         </button>
       </div>
     </form>
@@ -104,12 +112,12 @@ export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
   const { store } = useGateway();
   const text = texts[f.key] ?? '';
   const hint = f.key === 'increments_per_unit' ? incrementHint(store.families.value.get(familyOf('axes', texts, site)), texts.unit ?? '') : f.hint;
-  const names = (list: readonly { name: string }[] | undefined) => [{ value: '', text: 'choose' }, ...(list ?? []).map((e) => ({ value: e.name, text: e.name }))];
+  const names = (list: readonly { name: string }[] | undefined) => [{ value: '', text: t('choose') }, ...(list ?? []).map((e) => ({ value: e.name, text: e.name }))];
   const common = { label: f.label, fault, ...(hint === undefined ? {} : { hint }) };
   switch (f.kind) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
-    case 'family': return <Choice {...common} value={text} onChoice={onText} choices={[{ value: '', text: 'choose' }, ...(store.about.value?.families ?? []).map((n) => ({ value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
+    case 'family': return <Choice {...common} value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default: {
       const field = (

@@ -21,13 +21,13 @@ import { SiteStage } from './site-stage';
 import { keepBarred, useTrialRest } from './trial';
 
 const kinds = [
-  { id: 'twin', text: 'No drive yet: simulate it', uri: 'twin' },
-  { id: 'can', text: 'CAN', uri: 'can:can0' },
-  { id: 'serial', text: 'Serial port, RS-485', uri: 'serial:/dev/ttyUSB0?baud=9600&rs485=1' },
-  { id: 'tcp', text: 'Network, TCP', uri: 'tcp:192.0.2.10:8888' },
-  { id: 'udp', text: 'Network, UDP', uri: 'udp:192.0.2.10:503' },
+  { id: 'twin', text: t('No drive yet: simulate it'), uri: 'twin' },
+  { id: 'can', text: t('CAN'), uri: 'can:can0' },
+  { id: 'serial', text: t('Serial port, RS-485'), uri: 'serial:/dev/ttyUSB0?baud=9600&rs485=1' },
+  { id: 'tcp', text: t('Network, TCP'), uri: 'tcp:192.0.2.10:8888' },
+  { id: 'udp', text: t('Network, UDP'), uri: 'udp:192.0.2.10:503' },
 ];
-const steps = ['Line', 'Drive', 'Axis', 'Apply', 'Move'] as const;
+const steps = [t('Line'), t('Drive'), t('Axis'), t('Apply'), t('Move')] as const;
 const step = persisted('wizard.step', '0');
 const chosen = { lines: persisted('wizard.line'), drives: persisted('wizard.drive'), axes: persisted('wizard.axis') };
 /** What stands in the fields of a step that is not finished, as JSON. */
@@ -63,9 +63,9 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
     <section class="card wizard" aria-labelledby="wizard-head" data-step={at + 1}>
       <header class="wizard-head">
         <h2 id="wizard-head" ref={head} tabIndex={-1}>
-          Step {at + 1} of {steps.length}: {['Where is the line?', 'Which drive is on it?', 'What does it move?', 'Check and apply', 'Move it'][at]}
+          {t('Step {step} of {n}: {title}', { step: at + 1, n: steps.length, title: [t('Where is the line?'), t('Which drive is on it?'), t('What does it move?'), t('Check and apply'), t('Move it')][at] ?? '' })}
         </h2>
-        <ol class="wizard-steps" aria-label="Steps">
+        <ol class="wizard-steps" aria-label={t('Steps')}>
           {steps.map((s, i) => (
             <li key={s} class={i < at ? 'is-done' : i === at ? 'is-now' : ''} aria-current={i === at ? 'step' : undefined}>
               {s}
@@ -73,12 +73,12 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
           ))}
         </ol>
         <button type="button" class="button quiet" onClick={leave}>
-          Leave the wizard
+          {t('Leave the wizard')}
         </button>
       </header>
       {at < wanted && (
         <p class="where" role="status" data-field="wizard-back">
-          {chosen[order[at] as Room].value || `The ${nouns[order[at] as Room]}`} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.
+          {t('{what} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.', { what: chosen[order[at] as Room].value || theWords[order[at] as Room] })}
         </p>
       )}
       {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
@@ -86,17 +86,16 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       {at === 1 && meant && meant.uri !== 'twin' && (!line || lineFirst.value === 'applying') && (
         <div class="form-foot" data-field="scan-later">
           <p class="where">
-            Scanning asks the line itself, so {meant.name} must be in force first.{' '}
-            {alone || lineFirst.value === 'applying' ? `One click checks it, applies it, keeps it and begins to scan; nothing else is changed.` : 'More than this line is changed: look at all of it, apply it, then scan here.'} Or describe the drive above without a scan: its address
-            stands in the drive's papers.
+            {t('Scanning asks the line itself, so {name} must be in force first.', { name: meant.name })}{' '}
+            {alone || lineFirst.value === 'applying' ? t('One click checks it, applies it, keeps it and begins to scan; nothing else is changed.') : t('More than this line is changed: look at all of it, apply it, then scan here.')}{' '}{t('Or describe the drive above without a scan: its address stands in the drive\'s papers.')}
           </p>
           {alone || lineFirst.value === 'applying' ? (
             <button type="button" class="button" disabled={lineFirst.value === 'applying'} onClick={() => void applyLine()}>
-              Apply {meant.name} and scan it
+              {t('Apply {name} and scan it', { name: meant.name })}
             </button>
           ) : (
             <button type="button" class="button" aria-expanded={lineFirst.value === 'shown'} onClick={() => (lineFirst.value = lineFirst.value === 'shown' ? '' : 'shown')}>
-              Look at all changes
+              {t('Look at all changes')}
             </button>
           )}
           {lineFirst.value === 'applying' && <Tell told={draft.told.value} field="wizard-told" />}
@@ -108,12 +107,12 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
           <SiteStage draft={draft} within={trial} />
           <div class="form-foot">
             <button type="button" class="button" onClick={() => go(2)}>
-              Back
+              {t('Back')}
             </button>
             <button type="button" class="button primary" disabled={!applied} onClick={() => go(4)}>
-              Go on to moving {axis}
+              {t('Go on to moving {axis}', { axis })}
             </button>
-            {!applied && <span class="where">Apply first: {axis || 'the axis'} is not in force yet.</span>}
+            {!applied && <span class="where">{t('Apply first: {axis} is not in force yet.', { axis: axis || t('the axis') })}</span>}
           </div>
         </>
       )}
@@ -122,18 +121,18 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
           {onTrial && <KeepAfterMove draft={draft} axis={axis} />}
           {applied ? (
             <>
-              <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
+              <p class="where">{t('Enable the axis, then move it: a short distance first. Escape stops all axes.')}</p>
               <AxisTile name={axis} bare={false} />
               <ReadFromHmi axis={axis} />
             </>
           ) : (
             <p class="empty" role="status" data-field="not-there">
-              {draft.rolledBack.value ? `The change was rolled back because nobody pressed Keep in time, so ${axis} is not in force. What you typed can be applied again.` : `${axis || 'The axis'} is not in force: go back and apply it.`}
+              {draft.rolledBack.value ? t('The change was rolled back because nobody pressed Keep in time, so {axis} is not in force. What you typed can be applied again.', { axis }) : t('{axis} is not in force: go back and apply it.', { axis: axis || t('The axis') })}
             </p>
           )}
           <div class="form-foot">
             <button type="button" class="button" onClick={() => go(3)}>
-              Back
+              {t('Back')}
             </button>
             {!applied && draft.rolledBack.value && (
               <button
@@ -144,7 +143,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
                   go(3);
                 }}
               >
-                Apply again
+                {t('Apply again')}
               </button>
             )}
             <button
@@ -157,7 +156,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
                 leave();
               }}
             >
-              Done
+              {t('Done')}
             </button>
           </div>
         </>
@@ -196,7 +195,9 @@ function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
   );
 }
 
-const nouns: Record<Room, string> = { lines: 'line', drives: 'drive', axes: 'axis' };
+const nouns: Record<Room, string> = { lines: t('line'), drives: t('drive'), axes: t('axis') };
+const theWords: Record<Room, string> = { lines: t('The line'), drives: t('The drive'), axes: t('The axis') };
+const newWords: Record<Room, string> = { lines: t('a new line'), drives: t('a new drive'), axes: t('a new axis') };
 const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
 
 function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; back: (() => void) | null; next: () => void }) {
@@ -239,7 +240,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
       ref={form}
       class="form"
       noValidate
-      aria-label={`Wizard: ${word}`}
+      aria-label={t('Wizard: {word}', { word })}
       onSubmit={(e) => {
         e.preventDefault();
         submit();
@@ -247,20 +248,20 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     >
       {fitting.length > 0 && (
         <fieldset class="choices">
-          <legend>Take one that is there, or describe a new one</legend>
+          <legend>{t('Take one that is there, or describe a new one')}</legend>
           {fitting.map((e) => (
             <label key={e.name} class="check">
               <input type="radio" name={`wizard-${room}`} checked={use.value === e.name} onChange={() => (use.value = e.name)} /> {e.name}
             </label>
           ))}
           <label class="check">
-            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} /> a new {word}
+            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} />{' '}{newWords[room]}
           </label>
         </fieldset>
       )}
       {use.value === '' && room === 'lines' && (
         <fieldset class="choices">
-          <legend>What kind of line is it?</legend>
+          <legend>{t('What kind of line is it?')}</legend>
           {kinds.map((k) => (
             <label key={k.id} class="check">
               <input type="radio" name="wizard-kind" checked={kindOf(texts.value.uri ?? '') === k.id} onChange={() => set('uri')(k.uri)} /> {k.text}
@@ -281,11 +282,11 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
       <div class="form-foot">
         {back && (
           <button type="button" class="button" onClick={back}>
-            Back
+            {t('Back')}
           </button>
         )}
         <button type="submit" class="button primary">
-          Next
+          {t('Next')}
         </button>
       </div>
     </form>

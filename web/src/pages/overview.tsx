@@ -47,23 +47,23 @@ export function Overview() {
   return (
     <main class="page overview">
       <h1 class="visually-hidden" tabIndex={-1}>
-        Overview
+        {t('Overview')}
       </h1>
       <div class="overview-main">
         <ErrorList />
         <Axes />
         <div class="side-by-side">
-          <Section title="Lines">
+          <Section title={t('Lines')}>
             <LineList />
           </Section>
-          <Section title="Drives">
+          <Section title={t('Drives')}>
             <DriveList />
           </Section>
         </div>
       </div>
       <aside class="overview-side">
-        <Section title="Events" beside={<a href="/events">All events</a>}>
-          <div class="card scroll" tabIndex={0} role="region" aria-label="Newest events">
+        <Section title={t('Events')} beside={<a href="/events">{t('All events')}</a>}>
+          <div class="card scroll" tabIndex={0} role="region" aria-label={t('Newest events')}>
             <EventList events={store.events.value} limit={60} />
           </div>
         </Section>
@@ -98,11 +98,11 @@ function Axes() {
 
   return (
     <Section
-      title="Axes"
+      title={t('Axes')}
       id="axes"
       beside={
         <>
-          <input class="search" type="search" placeholder="Filter" aria-label="Filter axes by name, family, line, drive or state" value={axesFilter.value} onInput={(e) => (axesFilter.value = e.currentTarget.value)} />
+          <input class="search" type="search" placeholder={t('Filter')} aria-label={t('Filter axes by name, family, line, drive or state')} value={axesFilter.value} onInput={(e) => (axesFilter.value = e.currentTarget.value)} />
           {names.length > 1 && (
             <label class="select">
               <span>{t('Order')}</span>
@@ -121,24 +121,24 @@ function Axes() {
             </button>
           )}
           <button type="button" class="button quiet" aria-pressed={rows} onClick={() => (view.value = rows ? 'tiles' : 'rows')}>
-            List
+            {t('List')}
           </button>
           {!rows && (
             <button type="button" class="button quiet" aria-pressed={!hidden} onClick={() => (bare.value = hidden ? 'shown' : 'hidden')}>
-              Motion controls
+              {t('Motion controls')}
             </button>
           )}
         </>
       }
     >
-      <Why need="operator" what="Every command but a stop" />
+      <Why need="operator" what={t('Every command but a stop')} />
       {filtered && (
         <p class="filtered" role="status" data-field="filtered">
           <span>
-            {names.length === 0 ? `No axis matches “${axesFilter.value.trim()}”; ${all.length} in all.` : `${names.length} of ${all.length} axes shown, filter: ${axesFilter.value.trim()}`}
+            {names.length === 0 ? t('No axis matches “{text}”; {n} in all.', { text: axesFilter.value.trim(), n: all.length }) : t('{n} of {all} axes shown, filter: {text}', { n: names.length, all: all.length, text: axesFilter.value.trim() })}
           </span>
           <button type="button" class="button small" onClick={() => (axesFilter.value = '')}>
-            Show all
+            {t('Show all')}
           </button>
         </p>
       )}
@@ -164,7 +164,7 @@ function Axes() {
       ) : filtered ? null : store.listed.value ? (
         <NoAxis />
       ) : (
-        <Empty text="Waiting for the gateway." />
+        <Empty text={t('Waiting for the gateway.')} />
       )}
     </Section>
   );
@@ -173,15 +173,15 @@ function Axes() {
 /** An empty site, and the way out of it for who may go it. */
 function NoAxis() {
   const { session } = useGateway();
-  const why = session.mayNot('engineer', 'Setting up lines, drives and axes');
+  const why = session.mayNot('engineer', t('Setting up lines, drives and axes'));
   return (
     <p class="empty" data-field="no-axis">
-      No axis is configured.{' '}
+      {t('No axis is configured.')}{' '}
       {why ? (
         why
       ) : (
         <a href="/site" onClick={() => (persisted('site.wizard').value = 'open')}>
-          Begin with the wizard: from a line to a moving axis
+          {t('Begin with the wizard: from a line to a moving axis')}
         </a>
       )}
     </p>

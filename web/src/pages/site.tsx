@@ -55,10 +55,10 @@ export function SitePage() {
   return (
     <main class="page site-page">
       <div class="site-head">
-        <h1 tabIndex={-1}>Site</h1>
+        <h1 tabIndex={-1}>{t('Site')}</h1>
         {!guided && draft.state.value === 'there' && (
           <button type="button" class="button" {...barred(session.mayNot('engineer'))} onClick={() => (wizard.value = 'open')}>
-            Wizard: to a moving axis
+            {t('Wizard: to a moving axis')}
           </button>
         )}
       </div>
@@ -69,7 +69,7 @@ export function SitePage() {
         <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
       ) : (
         <>
-          <Why need="engineer" what="Changing the site" />
+          <Why need="engineer" what={t('Changing the site')} />
           <SiteStage draft={draft} />
           <SiteTree
             draft={draft}

@@ -184,7 +184,7 @@ test('increments per unit are worked out from motor, gear and pitch', async () =
   await form.getByText('8000 increments per mm').waitFor();
   await form.getByRole('button', { name: 'Take this number' }).click();
   await becomes('it is taken', () => form.getByLabel('Increments per unit', { exact: true }).inputValue(), '8000');
-  await form.getByLabel('The drive counts').selectOption('counts');
+  await form.getByLabel('Counted in').selectOption('counts');
   await form.getByText('5120 increments per mm').waitFor();
   await shot(page, 'shape-increments', { fullPage: true });
   await form.getByRole('button', { name: 'Cancel' }).click();

@@ -14,7 +14,7 @@ import { AxisName, DriveName } from './name';
 const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
   info: { icon: 'info', text: 'Info', tone: 'muted' },
   warning: { icon: 'triangle', text: 'Warning', tone: 'warning' },
-  alarm: { icon: 'octagon', text: 'Alarm', tone: 'fault' },
+  alarm: { icon: 'bell', text: 'Alarm', tone: 'fault' },
 };
 
 function subject(e: GatewayEvent) {

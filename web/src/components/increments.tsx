@@ -24,7 +24,7 @@ export function Increments({ unit, onTake }: { unit: string; onTake: (text: stri
       <summary>{t('Work it out from motor, gear and screw')}</summary>
       <div class="form-grid">
         <Choice
-          label={t('The drive counts')}
+          label={t('Counted in')}
           hint={t('one increment is one of these')}
           value={by.value}
           onChoice={(v) => {

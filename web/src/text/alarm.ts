@@ -7,7 +7,7 @@ import { csvOf } from './table-text';
 export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
   const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
   switch (alarm.state) {
-    case 'unacknowledged_active': return { text: 'Active, not acknowledged', icon: 'octagon', tone, long: 'It is wrong now, and nobody has acknowledged it' };
+    case 'unacknowledged_active': return { text: 'Active, not acknowledged', icon: 'bell', tone, long: 'It is wrong now, and nobody has acknowledged it' };
     case 'acknowledged_active': return { text: 'Active, acknowledged', icon: 'triangle', tone: 'warning', long: 'It is wrong now, and somebody knows' };
     case 'unacknowledged_cleared': return { text: 'Cleared, not acknowledged', icon: 'circle-dashed', tone: 'neutral', long: 'It is over, but nobody has acknowledged it' };
     case 'shelved': return { text: 'Shelved', icon: 'shelf', tone: 'muted', long: 'Put aside for a time' };

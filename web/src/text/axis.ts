@@ -21,7 +21,7 @@ const states: Record<AxisStateName, Word> = {
   ready_to_switch_on: { text: t('Ready'), icon: 'circle', tone: 'neutral', long: t('Ready to switch on') },
   switched_on: { text: t('Switched on'), icon: 'circle-half', tone: 'neutral', long: t('Switched on, operation not enabled') },
   operation_enabled: { text: t('Enabled'), icon: 'check', tone: 'good', long: t('Operation enabled: the axis follows commands') },
-  quick_stop_active: { text: t('Quick stop'), icon: 'octagon', tone: 'warning', long: t('Quick stop active: enable the axis to go on') },
+  quick_stop_active: { text: t('Quick stop'), icon: 'pause', tone: 'warning', long: t('Quick stop active: enable the axis to go on') },
   fault_reaction_active: { text: t('Fault reaction'), icon: 'triangle', tone: 'fault', long: t('Fault reaction active: the drive is stopping') },
   fault: { text: t('Fault'), icon: 'triangle', tone: 'fault', long: t('Fault: reset it when its cause is gone') },
 };

@@ -282,6 +282,20 @@ RecorderState WarmRecorder::recorder_state() {
     return s;
 }
 
+void WarmRecorder::read_stretch(Instant from, std::function<void(const FlightRecord&)> each, std::function<void()> then) {
+    empty();
+    auto chunks = stretch_ ? stretch_->chunks() : FlightLog::Chunks{};
+    boost::asio::post(disk_, [this, from, chunks = std::move(chunks), each = std::move(each), then = std::move(then)]() mutable {
+        for (const auto& chunk : chunks) {
+            if (chunk->last < from) continue;
+            FlightReader reader(chunk->bytes);
+            while (const auto r = reader.next())
+                if (r->at >= from) each(*r);
+        }
+        threads_.answer(std::move(then));
+    });
+}
+
 void WarmRecorder::freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) {
     freeze_this(std::move(name), std::move(why), std::move(who), false, std::move(then));
 }

@@ -63,6 +63,7 @@ public:
     [[nodiscard]] RecorderState recorder_state() override;
     [[nodiscard]] std::vector<RecordingInfo> recordings() const override { return shelf_.newest_first(); }
     void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) override;
+    void read_stretch(Instant from, std::function<void(const FlightRecord&)> each, std::function<void()> then) override;
     void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) override {
         shelf_.load(name, std::move(then));
     }

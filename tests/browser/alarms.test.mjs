@@ -61,6 +61,30 @@ test('light and dark, two widths: pictures for people, nothing serious for axe-c
   }
 });
 
+test('an alarm says what to do, and leads to its axis, its frames, its trends and its recording', async () => {
+  const page = await open(browser, `${program.url}/events`);
+  const row = page.locator('[data-alarm]').filter({ has: page.locator('[data-field=error-help]') }).first();
+  await row.waitFor();
+  assert.match(await row.locator('[data-field=error-help]').innerText(), /What to do: \w+[\s\S]*Cause: \w+/);
+  const recording = row.getByRole('link', { name: /^Recording of it/ });
+  await recording.waitFor(); // two seconds after the fault
+  await recording.click();
+  await page.locator('[data-field=playback]').getByRole('slider').waitFor();
+  await page.goBack();
+  await row.getByRole('link', { name: /^Trends then/ }).click();
+  await page.getByRole('heading', { level: 1, name: /^Recorder/ }).waitFor();
+  await page.goBack();
+  await row.getByRole('link', { name: /^Frames then/ }).click();
+  await page.locator('[data-field=frames-then]').getByText(/^Held: the frames/).waitFor();
+  assert.ok((await page.locator('.frame-row').count()) > 0);
+  await page.goto(`${program.url}/axes/feeder`);
+  await page.locator('[data-field=error-help]').first().waitFor();
+  await page.goto(`${program.url}/lines/can0/1000`);
+  await page.locator('[data-field=frames-then]').getByText(/remembers no frames/).waitFor();
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
 test('an alarm is shelved with a reason, taken back, acknowledged, and leaves when it is cleared', async () => {
   const page = await open(browser, `${program.url}/events`);
   const row = page.locator('[data-alarm][data-state=unacknowledged_active]').first();

@@ -153,6 +153,80 @@ test('progress is live, and cancel stops the axis', async () => {
   await page.context().close();
 });
 
+test('run stands in the head; steps fold to one line and open where something is wrong; the report has values and times', async () => {
+  await program.call('PUT', '/recipes/folded', { steps: [{ set_parameter: { axis: 'feeder', parameter: 'AC', value: 20000 } }, { read_parameter: { axis: 'feeder', parameter: 'AC' } }, { wait_s: 0.3 }] });
+  const page = await open(browser, `${program.url}/recipes/folded`);
+  const run = page.getByRole('button', { name: 'Run', exact: true });
+  await run.waitFor();
+  assert.ok((await run.boundingBox()).y < (await page.locator('[data-step="/steps/0"]').boundingBox()).y, 'the button stands above the steps');
+  await page.getByRole('button', { name: 'Fold all' }).click();
+  await becomes('no form is shown', () => page.getByLabel('Step 1: Value').count(), 0);
+  assert.match(await page.locator('[data-step="/steps/0"] [data-field=summary]').innerText(), /feeder, AC, 20000/);
+  await page.getByRole('button', { name: 'Unfold Step 1' }).click();
+  await page.getByLabel('Step 1: Value').fill('');
+  await page.getByLabel('Step 1: Value').press('Tab');
+  await page.getByRole('button', { name: 'Fold all' }).click();
+  await page.locator('[data-step="/steps/0"].is-wrong').waitFor();
+  assert.equal(await page.getByLabel('Step 1: Value').count(), 1, 'what is wrong is not folded away');
+  await page.reload();
+  await run.click();
+  await page.locator('[data-report="/steps/2"][data-state=done]').waitFor();
+  const row = (n) => page.locator(`[data-report="/steps/${n}"]`).innerText();
+  assert.match(await row(0), /AC of feeder = 20000[\s\S]*taken as 20000/);
+  assert.match(await row(1), /= 20000/);
+  assert.match(await page.locator('[data-report="/steps/2"] [data-field=step-took]').innerText(), /0\.[34]\d s/);
+  await page.locator('[data-field=run-now]').getByText('Done').waitFor();
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('what is done by hand is recorded over two pages and a door, becomes steps, and does the same when it is run', async () => {
+  const page = await open(browser, `${program.url}/recipes/by-hand`);
+  await page.getByText('Record what is done by hand').click();
+  await page.getByRole('button', { name: 'Record', exact: true }).click();
+  await page.getByRole('group', { name: 'Recording' }).waitFor();
+  await page.goto(`${program.url}/axes/feeder`); // the recording outlives the page
+  await program.command('feeder', { command: 'enable' });
+  await program.command('feeder', { command: 'set_position', position: 0 });
+  const at = (await program.axis('feeder')).position;
+  await program.call('POST', '/axes/feeder/commands?wait=10', { command: 'move_relative', position: 3, velocity: 30 });
+  await until('it stands', async () => !(await program.axis('feeder')).moving && Math.abs((await program.axis('feeder')).position - at - 3) < 0.1);
+  await program.call('PATCH', '/drives/feeder/hand', { load: 0.5 });
+  await page.goto(`${program.url}/recipes/by-hand`);
+  await until('the steps are shown as they come', async () => (await page.getByRole('list', { name: 'Steps so far' }).innerText().catch(() => '')).includes('Simulate'));
+  await page.getByRole('button', { name: 'End and add the steps' }).click();
+  const json = page.getByLabel('The recipe as JSON');
+  const words = async () => JSON.parse(await json.inputValue()).steps.map((s) => Object.keys(s)[0] + (s.command ? ` ${s.command.command}` : ''));
+  await until('they are in the recipe', async () => JSON.stringify(await words()) === JSON.stringify(['enable', 'command set_position', 'command move_relative', 'simulate']) || (await words()));
+  const move = JSON.parse(await json.inputValue()).steps[2].command;
+  assert.equal(move.position, 3);
+  assert.ok(move.wait_s >= 10, 'the move was waited for');
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.locator('[data-report="/steps/3"][data-state=done]').waitFor();
+  assert.equal((await program.call('GET', '/drives/feeder/hand')).body.load, 0.5);
+  await program.call('PATCH', '/drives/feeder/hand', { load: 0 });
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
+test('a fault is rehearsed by a step: the recipe stalls the model, waits for its fault, and lets go', async () => {
+  const page = await open(browser, `${program.url}/recipes/rehearsal`);
+  await page.getByRole('heading', { level: 1, name: 'rehearsal' }).waitFor();
+  await page.getByLabel('Add a step to steps').selectOption('simulate');
+  await becomes('the conditions of its drive are offered', () => page.locator('datalist[id^="offers-"] option[value="stall"]').count(), 1);
+  await page.getByLabel('Step 1: Condition').fill('load');
+  await page.getByLabel('Step 1: Value').fill('0.25');
+  await page.getByLabel('Step 1: Value').press('Tab');
+  await page.getByRole('button', { name: 'Save' }).click();
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.locator('[data-report="/steps/0"][data-state=done]').waitFor();
+  assert.equal((await program.call('GET', '/drives/feeder/hand')).body.load, 0.25);
+  await program.call('PATCH', '/drives/feeder/hand', { load: 0 });
+  assert.deepEqual(page.faults(), []);
+  await page.context().close();
+});
+
 test('a line is searched for drives', async () => {
   const page = await open(browser, `${program.url}/lines/can0`);
   await page.getByLabel('First address').fill('5');

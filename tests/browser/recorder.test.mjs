@@ -98,6 +98,15 @@ test('captures: armed by a command, drawn with the trigger, a second one laid ov
   await form.getByLabel(/^Level/).fill('1,5');
   assert.match(await form.innerText(), /decimal sign as a point/);
   assert.equal(await form.getByRole('button', { name: 'Arm' }).isDisabled(), true);
+  await form.getByLabel('Name').fill('through');
+  await form.getByLabel(/^Level/).fill('2');
+  const here = (await program.axis('feeder')).position;
+  await form.getByLabel(/^Level/).fill(String(here + 2));
+  await form.getByRole('button', { name: 'Arm' }).click();
+  await becomes('it waits', () => page.locator('[data-capture="through"]').getAttribute('data-state'), 'armed');
+  await move(5);
+  await becomes('the level has come', () => page.locator('[data-capture="through"]').getAttribute('data-state'), 'done');
+  await until('its level is drawn', async () => /drawn across: ↑/.test(await overlay.locator('[data-field=levels]').innerText().catch(() => '')));
   await page.getByRole('button', { name: 'Rename before' }).click();
   await page.getByRole('form', { name: 'New name of before' }).getByLabel('Name').fill('kept');
   await page.keyboard.press('Enter');

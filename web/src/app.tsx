@@ -17,33 +17,34 @@ import { SitePage } from './pages/site';
 import { SignInPage } from './pages/sign-in';
 import { UsersPage } from './pages/users';
 import { useGateway } from './gateway';
+import { rich, t } from './language';
 
 const titles = {
-  overview: 'Axes',
-  lines: 'Lines and drives',
-  mappings: 'Mappings',
-  recipes: 'Recipes',
-  site: 'Site',
-  events: 'Events',
-  recorder: 'Recorder',
-  gateway: 'Gateway',
-  report: 'Commissioning report',
-  fleet: 'Fleet',
-  users: 'Users',
-  'sign-in': 'Sign in',
-  unknown: 'No such page',
+  overview: t('Axes'),
+  lines: t('Lines and drives'),
+  mappings: t('Mappings'),
+  recipes: t('Recipes'),
+  site: t('Site'),
+  events: t('Events'),
+  recorder: t('Recorder'),
+  gateway: t('Gateway'),
+  report: t('Commissioning report'),
+  fleet: t('Fleet'),
+  users: t('Users'),
+  'sign-in': t('Sign in'),
+  unknown: t('No such page'),
 };
 
 export function App() {
   const r = route.value;
-  const title = r.page === 'parameters' ? `Parameters of ${r.name}` : r.page === 'axis' ? headingOf(r.name, r.tab) : r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
+  const title = r.page === 'parameters' ? t('Parameters of {name}', { name: r.name }) : r.page === 'axis' ? headingOf(r.name, r.tab) : r.page === 'line' || r.page === 'recipe' ? r.name : titles[r.page];
   useEffect(() => {
     document.title = `${title} · axisgate`;
   }, [title]);
   return (
     <>
       <a class="skip" href="#content">
-        To the content
+        {t('To the content')}
       </a>
       <div class="top">
         <Head />
@@ -81,7 +82,7 @@ function Page() {
     case 'overview': return <Overview />;
     case 'axis': return <AxisPage key={r.name} name={r.name} tab={r.tab} />;
     case 'lines': return <LinesPage />;
-    case 'line': return <LinePage key={r.name} name={r.name} />;
+    case 'line': return <LinePage key={`${r.name} ${r.at_ms ?? ''}`} name={r.name} at_ms={r.at_ms} />;
     case 'recipes': return <RecipesPage />;
     case 'recipe': return <RecipePage key={r.name} name={r.name} />;
     case 'recorder': return <RecorderPage tab={r.tab} axis={r.axis} at_ms={r.at_ms} />;
@@ -97,9 +98,9 @@ function Page() {
     case 'unknown':
       return (
         <main class="page narrow">
-          <h1 tabIndex={-1}>There is no such page</h1>
+          <h1 tabIndex={-1}>{t('There is no such page')}</h1>
           <p>
-            <span class="mono">{r.path}</span> names no page. <a href="/">All axes</a>
+            {rich('{path} names no page.', { path: <span class="mono">{r.path}</span> })} <a href="/">{t('All axes')}</a>
           </p>
         </main>
       );

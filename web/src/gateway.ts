@@ -6,6 +6,7 @@ import { useContext } from 'preact/hooks';
 import { Client } from './api/client';
 import { Stream, type StreamMessage } from './api/stream';
 import type { Axis } from './api/types';
+import { t } from './language';
 import { Commander } from './state/commander';
 import { Jog } from './state/jog';
 import { Session } from './state/session';
@@ -35,7 +36,7 @@ export class Gateway {
     this.tab = new Tab(persisted('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
     this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
-    const blocked = () => (this.store.connected.peek() ? this.session.mayNot('operator') : 'The page is not connected to the gateway.');
+    const blocked = () => (this.store.connected.peek() ? this.session.mayNot('operator') : t('The page is not connected to the gateway.'));
     this.commander = new Commander(
       this.client,
       blocked,

@@ -6,7 +6,7 @@ export type Route =
   | { page: 'overview' }
   | { page: 'axis'; name: string; tab: AxisTab }
   | { page: 'lines' }
-  | { page: 'line'; name: string }
+  | { page: 'line'; name: string; at_ms?: number }
   | { page: 'recipes' }
   | { page: 'recipe'; name: string }
   | { page: 'events' }
@@ -26,7 +26,8 @@ export const axisTabs = ['move', 'scope', 'drive', 'simulation', 'events'] as co
 export type AxisTab = (typeof axisTabs)[number];
 const tabOf = (s: string | undefined): AxisTab | undefined => axisTabs.find((t) => t === s && t !== 'move');
 
-/** The tabs of the recorder. `/recorder/trends/AXIS/MS` is an axis around an instant, `/recorder/captures/AXIS` a capture of it. */
+/** The tabs of the recorder. `/recorder/trends/AXIS/MS` is an axis around an instant, `/recorder/captures/AXIS` a capture of it,
+ *  `/recorder/recordings/NAME/MS` a recording played back at an instant. */
 export const recorderTabs = ['trends', 'captures', 'recordings'] as const;
 export type RecorderTab = (typeof recorderTabs)[number];
 
@@ -43,6 +44,8 @@ export function routeOf(path: string): Route {
     if (first === 'lines') return { page: 'line', name: second };
     if (first === 'recipes') return { page: 'recipe', name: second };
   }
+  const at_line = Number(rest[0]);
+  if (first === 'lines' && second !== undefined && rest.length === 1 && Number.isSafeInteger(at_line) && at_line > 0) return { page: 'line', name: second, at_ms: at_line };
   if (first === 'axes' && second !== undefined && rest.length === 1 && rest[0] === 'parameters') return { page: 'parameters', name: second };
   const tab = tabOf(rest[0]);
   if (first === 'axes' && second !== undefined && rest.length === 1 && tab) return { page: 'axis', name: second, tab };
@@ -62,6 +65,8 @@ export const axisPath = (name: string): string => pathOf('axes', name);
 export const axisTabPath = (name: string, tab: AxisTab): string => (tab === 'move' ? axisPath(name) : `/axes/${encodeURIComponent(name)}/${tab}`);
 export const parametersPath = (name: string): string => `/axes/${encodeURIComponent(name)}/parameters`;
 export const linePath = (name: string): string => pathOf('lines', name);
+/** A line's page with the frames around an instant, ms since 1970. */
+export const framesPath = (line: string, at_ms: number): string => `/lines/${encodeURIComponent(line)}/${Math.round(at_ms)}`;
 
 export const recorderPath = (tab: RecorderTab, axis?: string, at_ms?: number): string =>
   `/recorder/${tab}${axis === undefined ? '' : `/${encodeURIComponent(axis)}`}${at_ms === undefined ? '/' : `/${Math.round(at_ms)}`}`;

@@ -9,6 +9,7 @@ import { applyTheme } from './state/theme';
 import './styles/tokens.css';
 import './styles/base.css';
 import './styles/frame.css';
+import './styles/language.css';
 import './styles/controls.css';
 import './styles/tile.css';
 import './styles/lists.css';

@@ -59,7 +59,7 @@ describe('what a person is asked before it is sent', () => {
 
 describe('one argument', () => {
   it.each([
-    ['12.5', ''], ['12,5', ''], ['-214748.3648', ''], ['214748.3648', '-214748.3648 to 214748.3647.'], ['', 'A value is needed.'], ['x', 'A number.'],
+    ['12.5', ''], ['12,5', 'Write the decimal sign as a point: 1.5'], ['-214748.3648', ''], ['214748.3648', '-214748.3648 to 214748.3647.'], ['', 'A value is needed.'], ['x', '“x” is not a number.'],
   ])('a position of %j: %j', (text, why) => expect(argumentFault(argument({}), text)).toBe(why));
   it.each([['1', ''], ['1.5', 'A whole number.'], ['0', '1 to 100.'], ['101', '1 to 100.']])('a curve of %j: %j', (text, why) =>
     expect(argumentFault(argument({ name: 'curve', type: 'u16', unit: null, scale: 1, min: 1, max: 100 }), text)).toBe(why));
@@ -68,7 +68,7 @@ describe('one argument', () => {
 
 it('what is sent has numbers as numbers; what stayed empty has its default; a recipe has the same as one text', () => {
   const c: CatalogueCommand = { id: 'go', name: 'go', description: null, completes: 'acknowledged', confirm: null, arguments: [argument({}), argument({ name: 'times', type: 'u16', unit: null, scale: 1, default: 1 }), argument({ name: 'note', type: 'text', unit: null, default: '' })] };
-  expect(bodyOf(c, { position: '12,5', times: '', note: '' })).toEqual({ name: 'go', arguments: { position: 12.5 } });
+  expect(bodyOf(c, { position: '12.5', times: '', note: '' })).toEqual({ name: 'go', arguments: { position: 12.5 } });
   expect(recipeText(c, { position: '12.5', times: '3', note: 'a' })).toBe('position=12.5 times=3 note=a');
   expect(recipeText(c, { position: '1', note: 'two words' }), 'that form carries no blanks').toBe('');
   expect(bodyOf({ ...c, arguments: [] }, {}, ' 5')).toEqual({ name: 'go', argument: ' 5' });

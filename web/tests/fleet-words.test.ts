@@ -18,7 +18,7 @@ it('a gateway is alive, silent, gone or this one; without a connection nothing i
 });
 
 it('a clock is told when it is another one by a second', () => {
-  expect([clockWords(900), clockWords(7_200_000), clockWords(-3000)]).toEqual(['', "its clock is 2 h ahead of this one's", "its clock is 3 s behind this one's"]);
+  expect([clockWords(900), clockWords(7_200_000), clockWords(-3000)]).toEqual(['', "its clock is 2 h ahead of this one", "its clock is 3 s behind this one"]);
 });
 
 it('what is old says its age, and is not trusted', () => {

@@ -207,6 +207,7 @@ Handled add_description(Call&, const ClockPort&, DescriptionPort&, EventPort&, c
 Handled remove_description(Call&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
 // --- handlers_recorder.cpp --------------------------------------------------------------------------------------------
 Handled get_trends(Call&, const ClockPort&, RecorderPort&, const SitePort&);
+Handled get_recorded_steps(Call&, const ClockPort&, RecorderPort&, const SitePort&);
 Handled list_recordings(Call&, const ClockPort&, RecorderPort&);
 Handled make_recording(Call&, EventPort&, RecorderPort&);
 Handled get_recording(Call&, RecorderPort&);
@@ -226,7 +227,7 @@ Handled list_recipes(Call&, const DocumentPort&);
 Handled get_recipe(Call&, const DocumentPort&);
 Handled put_recipe(Call&, const ClockPort&, DocumentPort&, EventPort&);
 Handled remove_recipe(Call&, DocumentPort&, EventPort&);
-Handled run_recipe(Call&, const DocumentPort&, const SitePort&);
+Handled run_recipe(Call&, const AxisPort&, const DocumentPort&, const SitePort&);
 Handled list_recipe_runs(Call&, const DocumentPort&);
 Handled get_recipe_run(Call&);
 Handled cancel_recipe_run(Call&);

@@ -218,7 +218,7 @@ Handled remove_recipe(Call& c, DocumentPort& documents, EventPort& events) {
     return {gateway_limit, problem(504, "no_answer", "the store has not answered")};
 }
 
-Handled run_recipe(Call& c, const DocumentPort& documents, const SitePort& sites) {
+Handled run_recipe(Call& c, const AxisPort& axes, const DocumentPort& documents, const SitePort& sites) {
     auto found = find_recipe(c, documents);
     if (!found) return nothing_named("recipe", c.names[0]);
     std::vector<SiteFault> faults;
@@ -238,6 +238,7 @@ Handled run_recipe(Call& c, const DocumentPort& documents, const SitePort& sites
     }
     auto recipe = read_recipe(found->second, &arguments, faults);
     if (recipe) check_recipe(*recipe, sites, faults);
+    if (recipe) check_simulated(*recipe, sites, axes, faults);
     if (!faults.empty()) {
         std::vector<Fault> list;
         for (const auto& f : faults)
@@ -246,10 +247,11 @@ Handled run_recipe(Call& c, const DocumentPort& documents, const SitePort& sites
     }
     const auto whole = whole_arguments(found->second, arguments);
     if (dry_run) {
-        json::array axes;
+        json::array commanded;
         for (const auto& a : commanded_axes(*recipe))
-            axes.emplace_back(a);
-        return json_response(json::object{{"dry_run", true}, {"arguments", whole}, {"axes", std::move(axes)}, {"steps", recipe->count}});
+            commanded.emplace_back(a);
+        return json_response(
+            json::object{{"dry_run", true}, {"arguments", whole}, {"axes", std::move(commanded)}, {"steps", recipe->count}});
     }
     auto started = c.context.recipes->start(c.names[0], std::move(*recipe), whole, c.origin());
     if (const auto* p = std::get_if<RunRefusal>(&started)) return problem_of(*p);

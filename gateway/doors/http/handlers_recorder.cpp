@@ -8,6 +8,7 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/recipes/recipe_record.hpp"
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/trend_document.hpp"
 
@@ -25,6 +26,22 @@ std::vector<std::string> comma_list(std::string_view text) {
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return out;
+}
+
+/// The axes that are asked for, else all, the first of them.
+std::vector<std::string> asked_axes(Call& c, const SiteState& site) {
+    std::vector<std::string> names = comma_list(c.target.query.get("axes").value_or(""));
+    if (!names.empty()) return names;
+    for (const auto& a : site.site.axes)
+        if (names.size() < most_trend_axes) names.push_back(a.name);
+    return names;
+}
+
+/// Two instants, ms since 1970; left out: now, and a minute before the end.
+std::pair<std::int64_t, std::int64_t> asked_stretch(Call& c, const ClockPort& clock, std::optional<Response>& fault) {
+    constexpr std::int64_t ms_limit = INT64_MAX / 1'000'000;
+    const std::int64_t to = query_whole(c, "to", 0, ms_limit, clock.now_unix_ns() / 1'000'000, fault);
+    return {query_whole(c, "from", 0, ms_limit, std::max<std::int64_t>(0, to - 60'000), fault), to};
 }
 
 json::object recording_document(const RecordingInfo& i) {
@@ -82,11 +99,7 @@ Response kept_refusal(std::string_view kind, const RecordingFault& fault, std::s
 
 Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, const SitePort& sites) {
     const auto site = sites.site();
-    std::vector<std::string> names = comma_list(c.target.query.get("axes").value_or(""));
-    if (names.empty()) {
-        for (const auto& a : site->site.axes)
-            if (names.size() < most_trend_axes) names.push_back(a.name);
-    }
+    const std::vector<std::string> names = asked_axes(c, *site);
     if (names.size() > most_trend_axes) return bad_query("axes", fmt::format("at most {} axes", most_trend_axes));
     std::vector<std::string> points = comma_list(c.target.query.get("points").value_or(""));
     if (points.empty()) points.assign(trend_points.begin(), trend_points.end());
@@ -95,10 +108,7 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
             return bad_query("points", "some of position, velocity, demand, following_error, state");
     }
     std::optional<Response> fault;
-    constexpr std::int64_t ms_limit = INT64_MAX / 1'000'000;
-    const std::int64_t now_ms = clock.now_unix_ns() / 1'000'000;
-    const std::int64_t to = query_whole(c, "to", 0, ms_limit, now_ms, fault);
-    const std::int64_t from = query_whole(c, "from", 0, ms_limit, std::max<std::int64_t>(0, to - 60'000), fault);
+    const auto [from, to] = asked_stretch(c, clock, fault);
     const std::int64_t columns = query_whole(c, "columns", 1, most_columns, 1000, fault);
     if (fault) return *fault;
     static constexpr std::string_view media[] = {"application/json", "text/csv"};
@@ -128,6 +138,36 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
     Response r = json_response(json::object{{"from", from}, {"to", to}, {"axes", std::move(list)}});
     r.headers.set("Vary", "Accept");
     return r;
+}
+
+Handled get_recorded_steps(Call& c, const ClockPort& clock, RecorderPort& recorder, const SitePort& sites) {
+    const auto site = sites.site();
+    const std::vector<std::string> names = asked_axes(c, *site);
+    if (names.size() > most_trend_axes) return bad_query("axes", fmt::format("at most {} axes", most_trend_axes));
+    std::optional<Response> fault;
+    const auto [from, to] = asked_stretch(c, clock, fault);
+    if (fault) return *fault;
+    std::vector<AxisPlace> places;
+    for (const auto& name : names) {
+        auto place = find_axis(sites, name);
+        if (!place) return nothing_named("axis", name);
+        places.push_back(std::move(*place));
+    }
+    const std::int64_t offset = clock.to_unix_ns(at_ns(0));
+    const Instant begin = at_ns(from * 1'000'000 - offset);
+    // The last word of `to` counts whole.
+    auto record = std::make_shared<RecipeRecord>(std::move(places), begin, at_ns((to + 1) * 1'000'000 - offset - 1));
+    const auto begins = recorder.recorder_state().from;
+    recorder.read_stretch(
+        begin, [record](const FlightRecord& r) { record->take(r); },
+        [record, from = from, to = to, respond = c.respond,
+         begins = begins ? json::value(format_time(clock.to_unix_ns(*begins))) : json::value(nullptr)] {
+            json::object o{{"from", from}, {"to", to}, {"begins", begins}};
+            for (auto& [key, value] : record->document())
+                o[key] = std::move(value);
+            respond(json_response(std::move(o)));
+        });
+    return {gateway_limit, problem(504, "no_answer", "the recorder has not answered")};
 }
 
 Handled list_recordings(Call&, const ClockPort& clock, RecorderPort& recorder) {

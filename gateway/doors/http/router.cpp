@@ -109,6 +109,7 @@ constexpr std::array routes{
     Route{"/api/v1/backup/pending", Method::get, take<get_waiting_backup>}.needs(Role::administrator),
     Route{"/api/v1/backup/pending", Method::remove, take<cancel_waiting_backup>, Takes::nothing, Gives::nothing}.needs(Role::administrator),
     Route{"/api/v1/recorder/trends", Method::get, take<get_trends>, Takes::nothing, Gives::own}.asks("axes points from to columns"),
+    Route{"/api/v1/recorder/steps", Method::get, take<get_recorded_steps>}.asks("axes from to"),
     Route{"/api/v1/recorder/captures", Method::get, take<list_captures>},
     Route{"/api/v1/recorder/captures", Method::post, take<arm_capture>, Takes::json}.needs(Role::operating),
     Route{"/api/v1/recorder/captures/{capture}", Method::get, take<get_capture>, Takes::nothing, Gives::own},

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/engine/flight_record.hpp"
 #include "gateway/services/recorder/playback.hpp"
 #include "gateway/services/recorder/trends.hpp"
 
@@ -49,6 +50,8 @@ public:
     [[nodiscard]] virtual std::vector<RecordingInfo> recordings() const = 0;  ///< newest first
     /// The stretch up to now becomes a file.
     virtual void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) = 0;
+    /// Every record of the stretch from an instant on, in order, on a thread of the recorder's own; then `then`, on the service thread.
+    virtual void read_stretch(Instant from, std::function<void(const FlightRecord&)> each, std::function<void()> then) = 0;
     virtual void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) = 0;
     /// What it shows of an instant, as a document (playback.hpp).
     virtual void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) = 0;

@@ -51,6 +51,7 @@ struct RecipeStep {
         command,
         action,
         write_register,
+        simulate,  ///< an outside condition of a simulated drive: a fault, a switch, a load
         wait_for,
         check,
         wait,

@@ -60,6 +60,8 @@ std::string what_of(const RecipeStep& s) {
             return fmt::format("{} {} of {}{}", word, member(s, "name"), s.axis, others(s, " axis name wait_s "));
         case Kind::write_register:
             return fmt::format("{} {} of unit {} = {}", word, member(s, "address"), member(s, "unit"), member(s, "value"));
+        case Kind::simulate:
+            return fmt::format("{} {} of {} = {}", word, member(s, "input"), s.axis, member(s, "value"));
         case Kind::enable:
         case Kind::disable:
         case Kind::home:

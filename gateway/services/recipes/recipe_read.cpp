@@ -404,6 +404,11 @@ public:
                 (void)text(o, "argument", in, false);
                 wait(0);
                 break;
+            case Kind::simulate:
+                (void)text(o, "input", in, true);
+                require(o, "value", in);
+                s.limit = seconds_of(default_timeout_s);
+                break;
             case Kind::wait_for:
                 s.condition = condition(o, in);
                 s.limit = seconds_of(number(o, "timeout_s", in, default_timeout_s, 0, most_recipe_seconds));

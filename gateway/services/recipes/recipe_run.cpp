@@ -201,6 +201,7 @@ void RecipeRun::begin(const RecipeStep& s, Instant now, std::vector<RecipeReques
         case Kind::command:
         case Kind::action:
         case Kind::write_register:
+        case Kind::simulate:
             if (s.kind == Kind::message) step_limit_ = now + std::chrono::seconds(30);
             ask(RecipeRequest::What::step, s, now, requests);
             return;

@@ -26,6 +26,11 @@ std::optional<Value> scalar(const json::value& v) {
     return std::nullopt;
 }
 
+std::string text_of(const RecipeStep& s, std::string_view key) {
+    const auto* v = s.body.if_contains(key);
+    return v && v->is_string() ? std::string(v->get_string()) : std::string();
+}
+
 std::string pointer_in(const RecipeStep& s, std::string_view member) {
     return fmt::format("{}/{}{}{}", s.pointer, name_of(s.kind), member.empty() ? "" : "/", member);
 }
@@ -171,10 +176,7 @@ std::optional<Command> command_of(RecipeStep& s, const SitePort& sites, std::vec
     Command c;
     c.axis = place->id();
     c.until_done = s.until_done;
-    const auto text = [&](std::string_view key) {
-        const auto* v = s.body.if_contains(key);
-        return v && v->is_string() ? std::string(v->get_string()) : std::string();
-    };
+    const auto text = [&](std::string_view key) { return text_of(s, key); };
     switch (s.kind) {
         case Kind::set_parameter: {
             const auto value = scalar(s.body.at("value"));
@@ -217,6 +219,16 @@ std::optional<Command> command_of(RecipeStep& s, const SitePort& sites, std::vec
             c.body = std::move(action);
             return c;
         }
+        case Kind::simulate: {
+            auto value = scalar(s.body.at("value"));
+            if (!value) {
+                faults.push_back({pointer_in(s, "value"), "value must be a number, a text, true or false",
+                                  "see what GET /api/v1/drives/{drive}/hand?describe=1 offers", false});
+                return std::nullopt;
+            }
+            c.body = Hand{text("input"), std::move(*value)};
+            return c;
+        }
         default:
             return std::nullopt;
     }
@@ -247,6 +259,20 @@ void check_recipe(Recipe& recipe, const SitePort& sites, std::vector<SiteFault>&
         } else if (s.kind != Kind::wait && s.kind != Kind::message && s.kind != Kind::repeat && s.kind != Kind::branch) {
             (void)command_of(s, sites, faults);
         }
+    });
+}
+
+void check_simulated(const Recipe& recipe, const SitePort& sites, const AxisPort& axes, std::vector<SiteFault>& faults) {
+    for_each_step(recipe.steps, [&](const RecipeStep& s) {
+        if (s.kind != Kind::simulate || faults.size() >= 100) return;
+        const auto place = find_axis(sites, s.axis);
+        const auto presence = place ? axes.picture(place->id()).presence : Presence::twin;
+        if (presence == Presence::twin) return;
+        faults.push_back({pointer_in(s, "axis"),
+                          presence == Presence::device
+                              ? fmt::format("{} is a real drive now: {} cannot be simulated on it", s.axis, text_of(s, "input"))
+                              : fmt::format("{} is not simulated now: nobody answers for it", s.axis),
+                          "simulate the drive in the site, or take the step out", false});
     });
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/site.hpp"
 #include "gateway/services/recipes/recipe.hpp"
 
@@ -19,6 +20,8 @@ namespace axisgate {
 [[nodiscard]] std::optional<Command> read_of(const RecipeStep& step, const SitePort& sites, std::vector<SiteFault>& faults);
 /// Every step against the site: axes, parameters, values, registers.
 void check_recipe(Recipe& recipe, const SitePort& sites, std::vector<SiteFault>& faults);
+/// Whether the axes that `simulate` steps speak of are simulated now: a real drive is never told what is not so.
+void check_simulated(const Recipe& recipe, const SitePort& sites, const AxisPort& axes, std::vector<SiteFault>& faults);
 /// The form of the commands alone, for a document without arguments and perhaps of another site.
 void check_recipe_form(const Recipe& recipe, std::vector<SiteFault>& faults);
 /// Every axis that it can command or looks at; those that it commands first.

@@ -25,6 +25,7 @@ inline constexpr std::array recipe_words{
     RecipeWord{RecipeStep::Kind::command, "command", " axis command position velocity acceleration deceleration method prepare wait_s "},
     RecipeWord{RecipeStep::Kind::action, "action", " axis name argument wait_s "},
     RecipeWord{RecipeStep::Kind::write_register, "write_register", " unit address type value "},
+    RecipeWord{RecipeStep::Kind::simulate, "simulate", " axis input value "},
     RecipeWord{RecipeStep::Kind::wait_for, "wait_for", " axis point parameter is is_not at_least at_most above below tolerance timeout_s "},
     RecipeWord{RecipeStep::Kind::check, "check", " axis point parameter is is_not at_least at_most above below tolerance text "},
     RecipeWord{RecipeStep::Kind::wait, "wait_s", ""},

@@ -67,6 +67,36 @@ protected:
 constexpr auto moving_recipe = R"({"steps":[{"command":{"axis":"feeder","command":"move_absolute","position":1,"wait_s":9}}]})";
 constexpr auto running_away = R"({"steps":[{"command":{"axis":"feeder","command":"move_velocity","velocity":1}},{"wait_s":100}]})";
 
+TEST_F(Recipes, ARehearsalOfAFaultReachesTheTwinAndNeverARealDrive) {
+    const auto step = [](std::string_view inside) { return fmt::format(R"({{"steps":[{{"simulate":{{"axis":"feeder"{}}}}}]}})", inside); };
+    for (const auto* wrong : {"", R"(,"input":"stall")", R"(,"input":"","value":true)", R"(,"input":"stall","value":true,"wait_s":1)"})
+        EXPECT_EQ(call("PUT", "/api/v1/recipes/wrong", step(wrong)).status, 422u) << wrong;
+    put("stall", step(R"(,"input":"stall","value":true)"));
+    AxisPicture& p = gateway.pictures[gateway.axis("feeder")];
+    for (const auto presence : {Presence::device, Presence::offline}) {
+        p.presence = presence;
+        for (const auto* body : {"{}", R"({"dry_run":true})"}) {
+            const auto no = call("POST", "/api/v1/recipes/stall/run", body);
+            EXPECT_EQ(no.status, 422u) << no.text;
+            EXPECT_NE(no.text.find("/steps/0/simulate/axis"), std::string::npos) << no.text;
+            EXPECT_NE(no.text.find(presence == Presence::device ? "feeder is a real drive now: stall cannot be simulated on it"
+                                                                : "feeder is not simulated now"),
+                      std::string::npos)
+                << no.text;
+        }
+    }
+    p.presence = Presence::twin;
+    EXPECT_EQ(call("POST", "/api/v1/recipes/stall/run", R"({"dry_run":true})").status, 200u);
+    ASSERT_EQ(run("stall").status, 202u);
+    ASSERT_EQ(gateway.submitted.size(), 1u);
+    const auto* hand = std::get_if<Hand>(&gateway.submitted[0].body);
+    ASSERT_TRUE(hand);
+    EXPECT_EQ(hand->name, "stall");
+    EXPECT_EQ(hand->value, Value{true});
+    answer_oldest();
+    EXPECT_EQ(state("stall"), "done");
+}
+
 TEST_F(Recipes, ADocumentIsKeptAsItWasPut) {
     auto a = call("PUT", "/api/v1/recipes/warm-up", simple);
     EXPECT_EQ(a.status, 201u);

@@ -2,6 +2,7 @@
 // A browser opens at most six connections to one host. Ordinary requests use at most four at once and wait here for their turn;
 // urgent ones (stop, halt, disable) never wait behind them. At most 200 wait; beyond that a call is refused in words.
 // Never retries a command: a move that was perhaps taken must not be said twice. Only what is urgent and was refused for its token goes again, once.
+import { t } from '../language';
 import type { CatalogueCommand } from '../text/action';
 import type { Family } from '../text/options';
 import { asProblem, Problem, problemOf } from './problem';
@@ -175,7 +176,7 @@ export class Client {
       return Promise.resolve();
     }
     if (this.waiting.length >= mostWaiting) {
-      return Promise.reject(new Problem('crowded', 'too many requests of this page wait for an answer: try again in a moment'));
+      return Promise.reject(new Problem('crowded', t('too many requests of this page wait for an answer: try again in a moment')));
     }
     return new Promise((resolve, reject) => {
       this.waiting.push({ start: resolve, giveUp: reject, reads });
@@ -231,10 +232,10 @@ export class Client {
       return await read(response);
     } catch (error) {
       if (error instanceof Problem) throw error;
-      if (timedOut) throw new Problem('timed_out', `the gateway did not answer within ${limit / 1000} s`);
-      if (options.signal?.aborted) throw new Problem('cancelled', 'given up');
-      if (error instanceof SyntaxError) throw new Problem('answered', 'the answer of the gateway cannot be read');
-      throw asProblem(new Problem('unreachable', 'the gateway cannot be reached'));
+      if (timedOut) throw new Problem('timed_out', t('the gateway did not answer within {n} s', { n: limit / 1000 }));
+      if (options.signal?.aborted) throw new Problem('cancelled', t('given up'));
+      if (error instanceof SyntaxError) throw new Problem('answered', t('the answer of the gateway cannot be read'));
+      throw asProblem(new Problem('unreachable', t('the gateway cannot be reached')));
     } finally {
       clearTimeout(timer);
       options.signal?.removeEventListener('abort', given);

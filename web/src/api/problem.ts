@@ -1,6 +1,8 @@
 // Problem: what went wrong with a request, always with a sentence for people.
 // In: a response that is not good, or what fetch threw. Out: a Problem. Never shows a status number where the gateway gave words.
+import { language, t } from '../language';
 import { plain } from '../text/plain';
+import { reasonWord } from '../text/reason';
 import type { ProblemDocument } from './types';
 
 export type ProblemKind =
@@ -37,7 +39,11 @@ export class Problem extends Error {
   get words(): string {
     const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));
     const code = this.document.code;
-    return [this.message, ...faults.map(plain)].join('; ') + (code !== null && code !== undefined ? ` (drive's code ${code})` : '');
+    const said = [this.message, ...faults.map(plain)].join('; ');
+    // The gateway speaks English; what kind of refusal it is stands before its own words in the reader's language.
+    const kind = language() === 'en' || this.kind !== 'answered' ? '' : reasonWord(this.reason);
+    const words = kind ? `${kind}: ${said}` : said;
+    return code !== null && code !== undefined ? t("{words} (drive's code {code})", { words, code }) : words;
   }
 }
 
@@ -56,7 +62,7 @@ export async function problemOf(response: Response): Promise<Problem> {
       // Half a document says nothing: the status has to do.
     }
   }
-  return new Problem('answered', `the gateway answered ${response.status} ${response.statusText}`.trim(), response.status, {}, retryAfter_s);
+  return new Problem('answered', t('the gateway answered {status}', { status: `${response.status} ${response.statusText}`.trim() }), response.status, {}, retryAfter_s);
 }
 
 export function asProblem(error: unknown): Problem {

@@ -1,6 +1,6 @@
 // The recorder at the HTTP door: trends, captures, recordings. In: a client. Out: documents.
 import type { Client } from './client';
-import type { Capture, CaptureList, CaptureWish, CaptureWithRows, Playback, Recording, RecordingList, Trends } from './types';
+import type { Capture, CaptureList, CaptureWish, CaptureWithRows, Playback, Recording, RecordedSteps, RecordingList, Trends } from './types';
 
 const part = encodeURIComponent;
 export interface TrendQuery {
@@ -16,6 +16,8 @@ export class RecorderDoor {
   constructor(private readonly client: Client) {}
   trends = (q: TrendQuery, signal?: AbortSignal) => this.client.call<Trends>(`/recorder/trends?${queryOf(q)}`, signal ? { signal } : {});
   trendsCsv = async (q: TrendQuery) => (await this.client.whole(`/recorder/trends?${queryOf(q)}`, { headers: { accept: 'text/csv' } })).text;
+  /** What was done to these axes, as steps of a recipe; without `from_ms` of the last minute. Times are the gateway's. */
+  steps = (axes: readonly string[], from_ms?: number) => this.client.call<RecordedSteps>(`/recorder/steps?${new URLSearchParams({ axes: axes.join(','), ...(from_ms === undefined ? {} : { from: String(from_ms) }) })}`);
   captures = () => this.client.call<CaptureList>('/recorder/captures');
   arm = (wish: CaptureWish) => this.client.call<Capture>('/recorder/captures', { method: 'POST', body: wish });
   capture = (name: string) => this.client.call<CaptureWithRows>(`/recorder/captures/${part(name)}`, { timeout_ms: 60_000 });

@@ -1381,6 +1381,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/recorder/steps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * What was done to axes lately, as steps of a recipe
+         * @description Commands, actions, parameter writes, set-points and simulated conditions that people and panels gave over any door, in their order, as far
+         *     as the recorder's stretch reaches. A motion that had ended before the next step waits for its end; other pauses become `wait_s`. A jog
+         *     becomes `move_velocity`, the time it was held, and `halt`. What has no step, or was refused, stands in `left_out`. Steps of recipes and
+         *     what the gateway did by itself are none.
+         */
+        get: operations["getRecordedSteps"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/recorder/captures": {
         parameters: {
             query?: never;
@@ -3984,6 +4007,20 @@ export interface components {
             /** @description for is and is_not with numbers */
             tolerance?: number;
         };
+        RecordedSteps: {
+            /** @description ms since 1970 */
+            from: number;
+            /** @description ms since 1970 */
+            to: number;
+            /**
+             * Format: date-time
+             * @description where the recorder's stretch begins; what was before is not known
+             */
+            begins: string | null;
+            steps: components["schemas"]["RecipeStep"][];
+            /** @description what was done and is no step */
+            left_out: string[];
+        };
         /**
          * @description One member says what is done; `comment` may stand beside it. Any value may be "${name}" of a parameter. `wait_s` of a command: the step
          *     ends when the drive is done, and fails after so many seconds; 0 or none: it ends when the drive has acknowledged. `if` holds `condition`,
@@ -4055,6 +4092,15 @@ export interface components {
              *     }
              */
             write_register?: Record<string, never>;
+            /**
+             * @description axis, input, value: an outside condition of a simulated drive (stall, load, inject_error ...), as PATCH /drives/{drive}/hand sets it; a run that reaches a real drive with it is refused
+             * @example {
+             *       "axis": "feeder",
+             *       "input": "stall",
+             *       "value": true
+             *     }
+             */
+            simulate?: Record<string, never>;
             /** @description ends when the condition holds; the run fails if it does not within timeout_s (30) */
             wait_for?: components["schemas"]["RecipeCondition"] & {
                 timeout_s?: number;
@@ -8313,6 +8359,36 @@ export interface operations {
             400: components["responses"]["BadRequest"];
             404: components["responses"]["NotFound"];
             406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    getRecordedSteps: {
+        parameters: {
+            query?: {
+                /** @description names with commas, at most 64; left out - all, the first 64 */
+                axes?: string;
+                /** @description ms since 1970; left out - a minute before `to` */
+                from?: number;
+                /** @description ms since 1970; left out - now */
+                to?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the steps */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordedSteps"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            404: components["responses"]["NotFound"];
             default: components["responses"]["Problem"];
         };
     };

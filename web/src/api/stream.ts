@@ -3,6 +3,7 @@
 // `quiet_ms` is asked for a sign of life; after `answer_ms` without one it is "silent", not live any more, and live again with the next word; after
 // `lost_ms` without a word it is given up: a dead cable closes no socket by itself.
 // Never keeps messages: they go to the reader at once. Never reports "live" before the gateway has spoken.
+import { t } from '../language';
 
 /** `silent`: it was live, the socket is open, but nobody answers. */
 export type Phase = 'connecting' | 'live' | 'silent' | 'waiting';
@@ -43,7 +44,7 @@ export interface StreamOptions {
 
 const steady_ms = 5_000;
 const mostLate_ms = 300;
-const silence = 'the gateway has fallen silent';
+const silence = t('the gateway has fallen silent');
 /** Asking for `site` anew is answered at once: that is the sign of life. */
 const signOfLife = JSON.stringify({ subscribe: ['site'] });
 
@@ -122,10 +123,10 @@ export class Stream {
     try {
       socket = this.o.open(this.o.url);
     } catch (error) {
-      return this.lost(error instanceof Error ? error.message : 'the address cannot be opened');
+      return this.lost(error instanceof Error ? error.message : t('the address cannot be opened'));
     }
     this.socket = socket;
-    this.timer = setTimeout(() => this.lost('the gateway does not answer'), this.o.connectLimit_ms);
+    this.timer = setTimeout(() => this.lost(t('the gateway does not answer')), this.o.connectLimit_ms);
     socket.onopen = () => {
       if (socket !== this.socket) return;
       // Live only after the first answer: an open socket alone says nothing about the gateway behind it.
@@ -234,9 +235,9 @@ export class Stream {
 function closeWords(event: CloseEvent): string {
   if (event.reason) return event.reason;
   switch (event.code) {
-    case 1001: return 'the gateway has stopped';
-    case 1008: return 'the gateway refused the connection';
-    case 1013: return 'this page read too slowly';
-    default: return 'the gateway cannot be reached';
+    case 1001: return t('the gateway has stopped');
+    case 1008: return t('the gateway refused the connection');
+    case 1013: return t('this page read too slowly');
+    default: return t('the gateway cannot be reached');
   }
 }

@@ -56,6 +56,7 @@ export type CaptureWish = Schemas['CaptureWish'];
 export type CaptureWithRows = Schemas['CaptureWithRows'];
 export type CaptureList = Schemas['CaptureList'];
 export type Recording = Schemas['Recording'];
+export type RecordedSteps = Schemas['RecordedSteps'];
 export type RecordingList = Schemas['RecordingList'];
 export type Playback = Schemas['Playback'];
 export type Trends = Schemas['Trends'];

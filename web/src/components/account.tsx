@@ -2,6 +2,7 @@
 import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { passwordFault, signInWords } from '../state/session';
 import { quiet, Tell, TextField, type Told } from './form';
 
@@ -13,12 +14,12 @@ export function Account({ user }: { user: string }) {
   const [told, setTold] = useState<Told>(quiet);
   const send = async (event: Event) => {
     event.preventDefault();
-    const fault = old ? passwordFault(fresh, second) : 'The old password is missing.';
+    const fault = old ? passwordFault(fresh, second) : t('The old password is missing.');
     if (fault) return setTold({ tone: 'refused', text: fault });
-    setTold({ tone: 'busy', text: 'Changing …' });
+    setTold({ tone: 'busy', text: t('Changing …') });
     try {
       await client.call(`/users/${encodeURIComponent(user)}/password`, { method: 'PUT', body: { old, new: fresh } });
-      setTold({ tone: 'good', text: 'Changed. Sign in with the new password.' });
+      setTold({ tone: 'good', text: t('Changed. Sign in with the new password.') });
       for (const clear of [setOld, setFresh, setSecond]) clear('');
       void session.ask();
     } catch (error) {
@@ -26,15 +27,15 @@ export function Account({ user }: { user: string }) {
     }
   };
   return (
-    <form class="form card" aria-label="Your password" onSubmit={(e) => void send(e)}>
+    <form class="form card" aria-label={t('Your password')} onSubmit={(e) => void send(e)}>
       <div class="form-grid">
-        <TextField label="Old password" password fill="current-password" value={old} onText={setOld} />
-        <TextField label="New password" password fill="new-password" value={fresh} onText={setFresh} hint="At least 12 characters. All your sessions end." />
-        <TextField label="New password again" password fill="new-password" value={second} onText={setSecond} />
+        <TextField label={t('Old password')} password fill="current-password" value={old} onText={setOld} />
+        <TextField label={t('New password')} password fill="new-password" value={fresh} onText={setFresh} hint={t('At least 12 characters. All your sessions end.')} />
+        <TextField label={t('New password again')} password fill="new-password" value={second} onText={setSecond} />
       </div>
       <div class="form-foot">
         <button type="submit" class="button">
-          Change the password
+          {t('Change the password')}
         </button>
         <Tell told={told} field="password-told" />
       </div>

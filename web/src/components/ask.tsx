@@ -1,6 +1,7 @@
 // Ask: a question before what cannot be taken back: one sentence, and two answers. In: the sentence and what yes does. Out: the answer.
 // The keyboard goes to the answer that changes nothing, so that a second Enter is no yes. Never answers by itself.
 import { useEffect, useRef } from 'preact/hooks';
+import { t } from '../language';
 
 export function Ask({ words, yes, field, onYes, onNo }: { words: string; yes: string; field: string; onYes: () => void; onNo: () => void }) {
   const no = useRef<HTMLButtonElement>(null);
@@ -12,7 +13,7 @@ export function Ask({ words, yes, field, onYes, onNo }: { words: string; yes: st
         {yes}
       </button>
       <button type="button" class="button small quiet" ref={no} onClick={onNo}>
-        Leave it
+        {t('Leave it')}
       </button>
     </p>
   );

@@ -5,6 +5,7 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { Authority } from '../api/types';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { tick } from '../state/clock';
 import { barred } from '../state/session';
 import type { AxisEntry } from '../state/store';
@@ -41,15 +42,16 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
       await work();
       told.value = { tone: 'good', text: `${words}.` };
     } catch (error) {
-      told.value = { tone: 'refused', text: `${words}: refused. ${asProblem(error).words}` };
+      told.value = { tone: 'refused', text: t('{what}: refused. {why}', { what: words, why: asProblem(error).words }) };
     }
   };
   const take = (take_over: boolean) => client.call<Authority>(path, { method: 'PUT', body: { ttl_s, take_over } });
   const mine = held.mine;
   const was = useRef(false);
+  const taken = useRef<Told | null>(null);
   useEffect(() => {
     // "Taken." is true only as long as nobody else has taken it.
-    if (was.current && !mine && /^Taken/.test(told.peek().text)) told.value = held.holder ? { tone: 'refused', text: `${holderName(held.holder)} has it now.` } : quiet;
+    if (was.current && !mine && told.peek().tone === 'good' && taken.current === told.peek()) told.value = held.holder ? { tone: 'refused', text: t('{holder} has it now.', { holder: holderName(held.holder) }) } : quiet;
     was.current = mine;
   }, [mine, held.holder]);
   const giving = useSignal(false);
@@ -57,32 +59,32 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
     if (!mine) return;
     const timer = setInterval(() => {
       if (document.hidden || !store.connected.peek()) return;
-      take(false).catch((error) => (told.value = { tone: 'refused', text: `Not renewed: ${asProblem(error).words}` }));
+      take(false).catch((error) => (told.value = { tone: 'refused', text: t('Not renewed: {why}', { why: asProblem(error).words }) }));
     }, renew_ms);
     return () => clearInterval(timer);
   }, [mine, name]);
 
   return (
-    <div class="authority" role="group" aria-label={`Authority over ${name}`}>
+    <div class="authority" role="group" aria-label={t('Authority over {name}', { name })}>
       <span data-field="authority">{heldWords(held)}</span>
       {!held.holder && (
-        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act('Taken', () => take(false))}>
-          Take
+        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act(t('Taken'), () => take(false)).then(() => (taken.current = told.peek()))}>
+          {t('Take')}
         </button>
       )}
       {mine && (
-        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act('Released', () => client.call(path, { method: 'DELETE' }))}>
-          Release
+        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act(t('Released'), () => client.call(path, { method: 'DELETE' }))}>
+          {t('Release')}
         </button>
       )}
       {mine && (
         <button type="button" class="button small" aria-expanded={giving.value} {...barred(session.mayNot('operator'))} onClick={() => (giving.value = !giving.value)}>
-          Hand over …
+          {t('Hand over …')}
         </button>
       )}
       {held.holder !== '' && !mine && (
-        <button type="button" class="button small" {...barred(session.mayNot('engineer'))} onClick={() => void act('Taken over', () => take(true))}>
-          Take over
+        <button type="button" class="button small" {...barred(session.mayNot('engineer'))} onClick={() => void act(t('Taken over'), () => take(true)).then(() => (taken.current = told.peek()))}>
+          {t('Take over')}
         </button>
       )}
       <Tell told={told.value} field="authority-told" />
@@ -90,7 +92,7 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
         <HandOver
           name={name}
           give={async (to) => {
-            await act(`Handed over to ${to}`, () => client.call(`${path}/hand-over`, { method: 'POST', body: { to } }));
+            await act(t('Handed over to {to}', { to }), () => client.call(`${path}/hand-over`, { method: 'POST', body: { to } }));
             if (told.peek().tone === 'good') giving.value = false;
           }}
         />
@@ -113,20 +115,20 @@ function HandOver({ name, give }: { name: string; give: (to: string) => Promise<
   return (
     <form
       class="form-foot hand-over"
-      aria-label={`Hand ${name} over`}
+      aria-label={t('Hand {name} over', { name })}
       onSubmit={(e) => {
         e.preventDefault();
         if (to.peek().trim()) void give(to.peek().trim());
       }}
     >
-      <TextField label="To" value={to.value} onText={(t) => (to.value = t)} offers={offers.value.map((value) => ({ value }))} placeholder="modbus 192.0.2.7" hint="a door and its client: modbus, http, ethernet_ip or dds, and the address, user or name" />
+      <TextField label={t('To')} value={to.value} onText={(text) => (to.value = text)} offers={offers.value.map((value) => ({ value }))} placeholder="modbus 192.0.2.7" hint={t('a door and its client: modbus, http, ethernet_ip or dds, and the address, user or name')} />
       {offers.value.slice(0, 6).map((o) => (
         <button key={o} type="button" class="button small quiet" onClick={() => (to.value = o)}>
           {o}
         </button>
       ))}
       <button type="submit" class="button small" disabled={to.value.trim() === ''}>
-        Hand over
+        {t('Hand over')}
       </button>
     </form>
   );

@@ -1,5 +1,6 @@
 // Console: one line in the drive's own language, and its reply. In: what is typed (text or hex pairs). Out: a log, newest last.
 // Keeps the last 200 exchanges of the visit; arrow up and down bring back what was sent. Never sends by itself.
+import { t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -50,7 +51,7 @@ export function Console({ drive }: { drive: string }) {
     typed.value = '';
     try {
       const r = await client.native(drive, asHex.peek() ? { send_hex: text } : { send: text });
-      put({ reply: r.reply === '' ? '(no text)' : r.reply, hex: r.reply_hex, took_ms: r.took_ms, tone: 'good' });
+      put({ reply: r.reply === '' ? t('(no text)') : r.reply, hex: r.reply_hex, took_ms: r.took_ms, tone: 'good' });
     } catch (error) {
       put({ reply: capital(asProblem(error).words), tone: 'refused' });
       if (typed.peek() === '') typed.value = text; // what was typed stays when it was refused
@@ -66,16 +67,16 @@ export function Console({ drive }: { drive: string }) {
 
   return (
     <div class="console card">
-      <div class="console-log" ref={view} tabIndex={0} role="log" aria-label={`Exchanges with ${drive}`}>
+      <div class="console-log" ref={view} tabIndex={0} role="log" aria-label={t('Exchanges with {drive}', { drive })}>
       <ol class="mono">
-        {log.value.length === 0 && <li class="where">Nothing has been sent yet. Type a line in the drive's own language.</li>}
+        {log.value.length === 0 && <li class="where">{t('Nothing has been sent yet. Type a line in the drive\'s own language.')}</li>}
         {log.value.map((x) => (
           <li key={x.id} class={`result-${x.tone}`}>
             <span class="sent">{x.sent}</span>
             <span class="reply" title={x.hex ? x.hex.replace(/(..)/g, '$1 ') : ''}>
               {x.reply}
             </span>
-            <span class="took">{x.took_ms === null ? '' : `${x.took_ms} ms`}</span>
+            <span class="took">{x.took_ms === null ? '' : t('{took_ms} ms', { took_ms: x.took_ms })}</span>
           </li>
         ))}
       </ol>
@@ -93,8 +94,8 @@ export function Console({ drive }: { drive: string }) {
           autocomplete="off"
           autocapitalize="off"
           spellcheck={false}
-          aria-label={`Line to send to ${drive}`}
-          placeholder={asHex.value ? '95 00' : 'a line to send'}
+          aria-label={t('Line to send to {drive}', { drive })}
+          placeholder={asHex.value ? '95 00' : t('a line to send')}
           value={typed.value}
           onInput={(e) => (typed.value = e.currentTarget.value)}
           onKeyDown={(e) => {
@@ -104,10 +105,10 @@ export function Console({ drive }: { drive: string }) {
           }}
         />
         <button type="button" class="button" aria-pressed={asHex.value} onClick={() => (asHex.value = !asHex.value)}>
-          Hex
+          {t('Hex')}
         </button>
         <button type="submit" class="button primary">
-          Send
+          {t('Send')}
         </button>
       </form>
     </div>

@@ -1,5 +1,6 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
+import { t } from '../language';
 import type { GatewayEvent, Severity } from '../api/types';
 import { withoutSubject } from '../text/alarm';
 import { plainWord } from '../text/plain';
@@ -7,14 +8,15 @@ import { clockTime } from '../text/time';
 import { useComputed } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { groupsOf, inUnits, type Scale } from '../text/event';
+import { ErrorHelp } from './error-help';
 import { Icon, type IconName } from './icon';
 import { memo } from './memo';
 import { AxisName, DriveName } from './name';
 
 const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
-  info: { icon: 'info', text: 'Info', tone: 'muted' },
-  warning: { icon: 'triangle', text: 'Warning', tone: 'warning' },
-  alarm: { icon: 'bell', text: 'Alarm', tone: 'fault' },
+  info: { icon: 'info', text: t('Info'), tone: 'muted' },
+  warning: { icon: 'triangle', text: t('Warning'), tone: 'warning' },
+  alarm: { icon: 'bell', text: t('Alarm'), tone: 'fault' },
 };
 
 function subject(e: GatewayEvent) {
@@ -25,7 +27,7 @@ function subject(e: GatewayEvent) {
 function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undefined }) {
   const m = marks[event.severity];
   const about = subject(event);
-  const change = event.parameter ? `${event.parameter}: ${event.old ?? 'not known'} → ${event.new ?? ''}` : '';
+  const change = event.parameter ? `${event.parameter}: ${event.old ?? t('not known')} → ${event.new ?? ''}` : '';
   return (
     <li class={`event tone-${m.tone}`} data-severity={event.severity}>
       <span class="event-mark" title={m.text}>
@@ -39,8 +41,14 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
         {about && <b>{about} </b>}
         <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || plainWord(event.kind)}</span>
         {event.text && change && <span class="event-change mono"> {change}</span>}
-        {event.code ? <span class="mono"> (code {event.code})</span> : null}
-        {event.who && <span class="event-who"> by {event.who}</span>}
+        {event.code ? <span class="mono">{' '}{t('(code {code})', { code: event.code })}</span> : null}
+        {event.code && event.severity !== 'info' ? (
+          <details class="event-help">
+            <summary>{t('what to do')}</summary>
+            <ErrorHelp axis={event.axis} drive={event.drive} code={event.code} />
+          </details>
+        ) : null}
+        {event.who && <span class="event-who">{' '}{t('by {who}', { who: event.who })}</span>}
       </span>
     </li>
   );
@@ -54,19 +62,19 @@ function EventGroup({ events, scale }: { events: GatewayEvent[]; scale?: Scale |
   const newest = events[0] as GatewayEvent;
   return (
     <li class="event tone-muted" data-severity="info" data-field="event-group">
-      <span class="event-mark" title="Info">
+      <span class="event-mark" title={t('Info')}>
         <Icon name="info" size={14} />
-        <span class="visually-hidden">Info</span>
+        <span class="visually-hidden">{t('Info')}</span>
       </span>
       <time dateTime={newest.at} title={newest.at}>
         {clockTime(newest.at)}
       </time>
       <div class="event-what">
         <b>{subject(newest)} </b>
-        {events.length} parameters written
-        <span class="event-who"> by {newest.who}</span>
+        {t('{n} parameters written', { n: events.length })}
+        <span class="event-who">{' '}{t('by {who}', { who: newest.who ?? '' })}</span>
         <details>
-          <summary>each of them</summary>
+          <summary>{t('each of them')}</summary>
           <ol class="events">
             {events.map((e) => (
               <EventItem key={e.id} event={e} scale={scale} />
@@ -83,7 +91,7 @@ export function EventList({ events, limit }: { events: GatewayEvent[]; limit: nu
   // As text: it is another only when a unit is, not with every reading.
   const told = useComputed(() => JSON.stringify(store.axisNames.value.map((n) => { const a = store.axis(n)?.value.data; return [n, { unit: a?.unit ?? '', increments_per_unit: a?.increments_per_unit ?? 0 }]; })));
   const scales = new Map(JSON.parse(told.value) as [string, Scale][]);
-  if (events.length === 0) return <p class="empty"><Icon name="info" /> Nothing has happened yet.</p>;
+  if (events.length === 0) return <p class="empty"><Icon name="info" />{' '}{t('Nothing has happened yet.')}</p>;
   return (
     <ol class="events">
       {groupsOf(events.slice(0, limit)).map((g) => {

@@ -1,5 +1,6 @@
 // Fail-safe: what happens to each axis when who commands it is lost, by cause; and the rehearsal on models, with its report. In: the HTTP door.
 // Out: a section. One change at a time, in force at once. Never moves anything: the rehearsal plays on models of the drives.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -29,31 +30,30 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const told = useSignal<Told>(quiet);
   const no = useBarred('engineer');
   const load = async () => void (matrix.value = await door.matrix());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered('fail-safe actions') : p.words));
-  if (!matrix.value) return why ? <Section title="When who commands is lost">{<p class="where">{why}</p>}</Section> : null;
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.words));
+  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{why}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
   const put = async (row: FailSafeRow, choice: Wish, what: string) => {
-    told.value = { tone: 'busy', text: 'Changing …' };
+    told.value = { tone: 'busy', text: t('Changing …') };
     try {
       await door.put(row.axis, choice);
       await load();
-      told.value = { tone: 'good', text: `${row.axis}: ${what} is in force as chosen.` };
+      told.value = { tone: 'good', text: t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }) };
     } catch (error) {
       told.value = { tone: 'refused', text: asProblem(error).words };
     }
   };
   return (
-    <Section title="When who commands is lost" class="fail-safe" id="fail-safe" help="fail-safe">
+    <Section title={t('When who commands is lost')} class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
-        What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without
-        supply, need the drive's own watchdog and the safety circuit.
+        {t('What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.')}
       </p>
       <Tell told={told.value} field="fail-safe-told" />
       {axes.map((row) => (
         <details key={row.axis} class="card profile" data-fail-safe={row.axis}>
           <summary>
             <strong>{row.axis}</strong>: {namedWords(row)}
-            {row.last_cause && <span class="where"> stopped last: {causeText(row.last_cause).toLowerCase()}</span>}
+            {row.last_cause && <span class="where">{' '}{t('stopped last: {n}', { n: causeText(row.last_cause).toLowerCase() })}</span>}
           </summary>
           <div class="form-grid">
             {causes.map((c) => (
@@ -63,7 +63,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
           <p class="where" data-field="drive-watchdog">
             {watchdogWords(row)}
           </p>
-          <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, 'the time of a silent Modbus client')} />
+          <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, t('the time of a silent Modbus client'))} />
         </details>
       ))}
       <RehearsalPart door={door} />
@@ -82,7 +82,7 @@ function Watchdog({ row, put }: { row: FailSafeRow; put: (value: number | null) 
     <form
       class="form-grid"
       noValidate
-      aria-label={`Silent Modbus client of ${row.axis}`}
+      aria-label={t('Silent Modbus client of {axis}', { axis: row.axis })}
       onSubmit={(e) => {
         e.preventDefault();
         if (typed.value === null || !read.good) return;
@@ -91,18 +91,18 @@ function Watchdog({ row, put }: { row: FailSafeRow; put: (value: number | null) 
       }}
     >
       <TextField
-        label="Silent after, ms"
+        label={t('Silent after, ms')}
         number
         disabled={Boolean(no.disabled)}
         value={typed.value ?? (own === null ? '' : String(own))}
-        placeholder={`default: ${inForce}`}
-        onText={(t) => (typed.value = t)}
+        placeholder={t('default: {inForce}', { inForce })}
+        onText={(entered) => (typed.value = entered)}
         fault={read.good ? undefined : read.why}
-        hint={inForce === 0 ? 'Modbus clients are not watched now.' : `In force: ${inForce} ms. 0: never; empty: as the gateway is set.`}
+        hint={inForce === 0 ? t('Modbus clients are not watched now.') : t('In force: {inForce} ms. 0: never; empty: as the gateway is set.', { inForce })}
       />
       <div class="form-foot">
         <button type="submit" class="button" disabled={Boolean(no.disabled) || typed.value === null || !read.good} title={no.title}>
-          Set
+          {t('Set')}
         </button>
       </div>
     </form>
@@ -135,36 +135,35 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
     <div class="card form rehearsal">
       <div class="form-foot">
         <button type="button" class="button" disabled={Boolean(no.disabled) || running} title={no.title} onClick={() => void start()}>
-          Rehearse on models
+          {t('Rehearse on models')}
         </button>
         <span class="where" role="status" data-field="rehearsal-state">
-          {running ? `Playing ${now.value!.done} of ${now.value!.total} …` : 'Plays every cause for every axis on models of the drives, and measures. No machine moves.'}
+          {running ? t('Playing {done} of {total} …', { done: now.value!.done, total: now.value!.total }) : t('Plays every cause for every axis on models of the drives, and measures. No machine moves.')}
         </span>
         {report && (
           <button type="button" class="button" onClick={printReport}>
-            Print the report
+            {t('Print the report')}
           </button>
         )}
         <Tell told={told.value} field="rehearsal-told" />
       </div>
       {report && (
         <>
-          <h3 class="print-only">Fail-safe rehearsal</h3>
+          <h3 class="print-only">{t('Fail-safe rehearsal')}</h3>
           <p data-field="rehearsal-report">
-            Rehearsed {dateTime(report.ended_at)} by {report.who}, revision {report.site_revision} of the site, on {report.on}. {report.cells.length} cells
-            {report.without_figures > 0 ? `, ${report.without_figures} without figures` : ''}.{report.without_set_points.length > 0 && ` Follow no streamed set-points: ${report.without_set_points.join(', ')}.`}
+            {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}. {n} cells{n2}.', { ended_at: dateTime(report.ended_at), who: report.who, site_revision: report.site_revision, on: report.on, n: report.cells.length, n2: report.without_figures > 0 ? t(', {without_figures} without figures', { without_figures: report.without_figures }) : '' })}{report.without_set_points.length > 0 && t(' Follow no streamed set-points: {n}.', { n: report.without_set_points.join(', ') })}
           </p>
-          <div class="table-scroll" tabIndex={0} role="region" aria-label="Report of the rehearsal">
+          <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Report of the rehearsal')}>
             <table class="table">
               <thead>
                 <tr>
-                  <th scope="col">Axis</th>
-                  <th scope="col">Cause</th>
-                  <th scope="col">Action</th>
-                  <th scope="col" class="num">Gateway acted</th>
-                  <th scope="col" class="num">Motor slower</th>
-                  <th scope="col" class="num">Stood</th>
-                  <th scope="col" class="num">Way</th>
+                  <th scope="col">{t('Axis')}</th>
+                  <th scope="col">{t('Cause')}</th>
+                  <th scope="col">{t('Action')}</th>
+                  <th scope="col" class="num">{t('Gateway acted')}</th>
+                  <th scope="col" class="num">{t('Motor slower')}</th>
+                  <th scope="col" class="num">{t('Stood')}</th>
+                  <th scope="col" class="num">{t('Way')}</th>
                 </tr>
               </thead>
               <tbody>

@@ -2,6 +2,7 @@
 // Enter does what the button beside it does. What was typed stays, whatever becomes of the command.
 import type { Signal } from '@preact/signals';
 import { useId } from 'preact/hooks';
+import { t } from '../language';
 
 export interface FieldProps {
   label: string;
@@ -29,7 +30,7 @@ export function Field({ label, longLabel, unit, text, wrong, describedBy, placeh
           spellcheck={false}
           value={text.value}
           placeholder={placeholder}
-          title={placeholder === 'as is' ? 'Empty: as the drive has it' : undefined}
+          title={placeholder === t('as is') ? t('Empty: as the drive has it') : undefined}
           aria-label={longLabel}
           aria-invalid={wrong || undefined}
           aria-describedby={describedBy}

@@ -2,6 +2,7 @@
 // The fault is bound to its field for screen readers; what was typed is never changed here.
 import type { ComponentChildren } from 'preact';
 import { useId } from 'preact/hooks';
+import { t } from '../language';
 import type { Outcome } from '../state/mappings';
 
 interface Common {
@@ -78,7 +79,7 @@ export function Choice(p: ChoiceProps) {
     <div class={`form-field ${p.class ?? ''}`}>
       <label for={id}>{p.label}</label>
       <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
-        {!known && <option value={p.value}>{p.value || 'choose'}</option>}
+        {!known && <option value={p.value}>{p.value || t('choose')}</option>}
         {p.choices.map((c) => (
           <option key={c.value} value={c.value} disabled={c.disabled}>
             {c.text}
@@ -123,4 +124,4 @@ export function Tell({ told, field }: { told: Told; field?: string }) {
 }
 
 /** What a gateway that is older than the page does not do. */
-export const notOffered = (what: string): string => `This gateway does not offer ${what}.`;
+export const notOffered = (what: string): string => t('This gateway does not offer {what}.', { what });

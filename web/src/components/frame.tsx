@@ -3,6 +3,7 @@
 import { useEffect } from 'preact/hooks';
 import { signal } from '@preact/signals';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { route, type Route } from '../router';
 import { axesFilter } from '../state/axes-filter';
 import { tick } from '../state/clock';
@@ -10,23 +11,24 @@ import { dark, nextTheme } from '../state/theme';
 import { helpOfPage } from '../text/help';
 import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
+import { LanguageChoice } from './language';
 import { lastKnownWords } from './axis-tile';
 import { StopAll } from './stop';
 import { Trial } from './trial';
 import { Who } from './who';
 
 const places: { path: string; text: string; icon: IconName; pages: Route['page'][] }[] = [
-  { path: '/', text: 'Axes', icon: 'axis', pages: ['overview', 'axis', 'parameters'] },
-  { path: '/lines', text: 'Lines', icon: 'lines', pages: ['lines', 'line'] },
-  { path: '/mappings', text: 'Mappings', icon: 'table', pages: ['mappings'] },
-  { path: '/site', text: 'Site', icon: 'site', pages: ['site'] },
-  { path: '/recipes', text: 'Recipes', icon: 'play', pages: ['recipes', 'recipe'] },
-  { path: '/recorder', text: 'Recorder', icon: 'clock', pages: ['recorder'] },
-  { path: '/events', text: 'Events', icon: 'list', pages: ['events'] },
-  { path: '/gateway', text: 'Gateway', icon: 'box', pages: ['gateway', 'report'] },
+  { path: '/', text: t('Axes'), icon: 'axis', pages: ['overview', 'axis', 'parameters'] },
+  { path: '/lines', text: t('Lines'), icon: 'lines', pages: ['lines', 'line'] },
+  { path: '/mappings', text: t('Mappings'), icon: 'table', pages: ['mappings'] },
+  { path: '/site', text: t('Site'), icon: 'site', pages: ['site'] },
+  { path: '/recipes', text: t('Recipes'), icon: 'play', pages: ['recipes', 'recipe'] },
+  { path: '/recorder', text: t('Recorder'), icon: 'clock', pages: ['recorder'] },
+  { path: '/events', text: t('Events'), icon: 'list', pages: ['events'] },
+  { path: '/gateway', text: t('Gateway'), icon: 'box', pages: ['gateway', 'report'] },
 ];
 /** Where the gateway is in a domain with others. */
-const fleet: (typeof places)[number] = { path: '/fleet', text: 'Fleet', icon: 'site', pages: ['fleet'] };
+const fleet: (typeof places)[number] = { path: '/fleet', text: t('Fleet'), icon: 'site', pages: ['fleet'] };
 
 /** How many alarms nobody has acknowledged; nothing when there are none. */
 function AlarmBadge() {
@@ -34,8 +36,8 @@ function AlarmBadge() {
   if (n === 0) return null;
   return (
     <span class="alarm-badge" data-field="alarm-badge">
-      {n > 99 ? '99+' : n}
-      <span class="visually-hidden"> unacknowledged alarms</span>
+      <span aria-hidden="true">{n > 99 ? '99+' : n}</span>
+      <span class="visually-hidden">{n === 1 ? t('1 unacknowledged alarm') : t('{n} unacknowledged alarms', { n })}</span>
     </span>
   );
 }
@@ -44,7 +46,7 @@ export function Navigation() {
   const page = route.value.page;
   const inFleet = useGateway().store.about.value?.doors?.some((d) => d.name === 'dds') ?? false;
   return (
-    <nav class={`nav${inFleet ? ' with-fleet' : ''}`} aria-label="Pages">
+    <nav class={`nav${inFleet ? ' with-fleet' : ''}`} aria-label={t('Pages')}>
       {(inFleet ? [...places, fleet] : places).map((p) => (
         <a key={p.path} href={p.path} aria-current={p.pages.includes(page) ? 'page' : undefined}>
           <Icon name={p.icon} />
@@ -60,9 +62,9 @@ function Connection() {
   const { store, session } = useGateway();
   const out = session.needed.value;
   const phase = out ? 'connecting' : store.connection.value.phase;
-  const words = out ? 'Not signed in' : phase === 'live' ? 'Live' : phase === 'connecting' ? 'Connecting' : phase === 'silent' ? 'No answer' : 'Not connected';
+  const words = out ? t('Not signed in') : phase === 'live' ? t('Live') : phase === 'connecting' ? t('Connecting') : phase === 'silent' ? t('No answer') : t('Not connected');
   return (
-    <span class={`connection is-${phase}`} role="status" aria-label={`Connection to the gateway: ${words}`} data-field="connection">
+    <span class={`connection is-${phase}`} role="status" aria-label={t('Connection to the gateway: {words}', { words })} data-field="connection">
       <Icon name={phase === 'live' ? 'check' : phase === 'connecting' ? 'clock' : 'unplugged'} size={14} />
       <span>{words}</span>
     </span>
@@ -72,7 +74,7 @@ function Connection() {
 function ThemeButton() {
   const toDark = !dark.value;
   return (
-    <button type="button" class="button quiet square" aria-label={toDark ? 'Dark theme' : 'Light theme'} title={toDark ? 'Dark theme' : 'Light theme'} onClick={nextTheme}>
+    <button type="button" class="button quiet square" aria-label={toDark ? t('Dark theme') : t('Light theme')} title={toDark ? t('Dark theme') : t('Light theme')} onClick={nextTheme}>
       <Icon name={toDark ? 'moon' : 'sun'} />
     </button>
   );
@@ -82,7 +84,7 @@ function ThemeButton() {
 function HelpLink() {
   return (
     <a class="help-link" href={helpOfPage(route.value.page)} target="axisgate-help" data-field="help">
-      Help
+      {t('Help')}
     </a>
   );
 }
@@ -90,7 +92,7 @@ function HelpLink() {
 export function Head() {
   return (
     <header class="head">
-      <a class="brand" href="/" aria-label="axisgate, overview">
+      <a class="brand" href="/" aria-label={t('axisgate, overview')}>
         <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
           <path d="M4 20V4h3v13h13v3z" fill="currentColor" />
           <path d="M11 13V9h4V5h5v8z" class="brand-accent" />
@@ -100,6 +102,7 @@ export function Head() {
       <Navigation />
       <Connection />
       <Who />
+      <LanguageChoice />
       <ThemeButton />
       <StopAll />
     </header>
@@ -107,11 +110,11 @@ export function Head() {
 }
 
 /** `filter`: what the axes are filtered by when the count is pressed; nothing to show, nothing to press. */
-function Counted({ n, one, many, tone, filter }: { n: number; one: string; many: string; tone?: string; filter: string }) {
+function Counted({ n, words: what, tone, filter }: { n: number; words: string; tone?: string; filter: string }) {
   const look = `counted${n > 0 && tone ? ` tone-${tone}` : ''}`;
   const words = (
     <>
-      <b>{n}</b> {n === 1 ? one : many}
+      <b>{n}</b> {what}
     </>
   );
   if (n === 0) return <span class={look}>{words}</span>;
@@ -121,7 +124,7 @@ function Counted({ n, one, many, tone, filter }: { n: number; one: string; many:
     setTimeout(() => document.getElementById('axes')?.scrollIntoView(), 60);
   };
   return (
-    <a class={look} href="/" title={filter ? `Show the axes that match “${filter}”` : 'Show all axes'} onClick={show}>
+    <a class={look} href="/" title={filter ? t('Show the axes that match “{filter}”', { filter }) : t('Show all axes')} onClick={show}>
       {words}
     </a>
   );
@@ -134,7 +137,7 @@ export function Strip() {
     const said = commander.stopReport.value;
     return (
       <div class="strip" data-field="strip">
-        <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? 'Your session has ended: no values are shown until you sign in again.' : 'Not signed in: no values are shown. This gateway serves nobody without a sign-in.'}</span>
+        <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? t('Your session has ended: no values are shown until you sign in again.') : t('Not signed in: no values are shown. This gateway serves nobody without a sign-in.')}</span>
         <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
         <HelpLink />
       </div>
@@ -146,13 +149,13 @@ export function Strip() {
     const since = lastKnownWords(store);
     const first = c.lastLiveAt === 0;
     const silent = c.phase === 'silent';
-    const next = silent ? 'Waiting for its next word.' : c.phase === 'waiting' ? `Next try in ${duration(Math.max(0, c.retryAt - tick.value))}.` : 'Trying now.';
+    const next = silent ? t('Waiting for its next word.') : c.phase === 'waiting' ? t('Next try in {time}.', { time: duration(Math.max(0, c.retryAt - tick.value)) }) : t('Trying now.');
     return (
       <div class="strip is-lost" data-field="strip">
         <Icon name="unplugged" />
         <span class="strip-text">
-          <b>{first ? 'No connection to the gateway yet.' : silent ? 'No answer from the gateway.' : 'Connection lost.'}</b>{' '}
-          {first ? '' : `All values are the last known ones, from ${since} ago. `}
+          <b>{first ? t('No connection to the gateway yet.') : silent ? t('No answer from the gateway.') : t('Connection lost.')}</b>{' '}
+          {first ? '' : t('All values are the last known ones, from {since} ago.', { since })}{' '}
           <span class="strip-more">
             {c.why && `${c.why.charAt(0).toUpperCase()}${c.why.slice(1)}. `}
             {next}
@@ -161,7 +164,7 @@ export function Strip() {
         </span>
         {!silent && (
           <button type="button" class="button" onClick={() => gateway.stream.retryNow()}>
-            Try now
+            {t('Try now')}
           </button>
         )}
         <HelpLink />
@@ -172,11 +175,11 @@ export function Strip() {
   return (
     <div class="strip" data-field="strip">
       <span class="strip-text">
-        <Counted n={n.axes} one="axis" many="axes" filter="" />
-        <Counted n={n.moving} one="moving" many="moving" tone="active" filter="moving" />
-        <Counted n={n.fault} one="in fault" many="in fault" tone="fault" filter="in fault" />
-        <Counted n={n.simulated} one="simulated" many="simulated" filter="simulated" />
-        <Counted n={n.offline} one="offline" many="offline" tone="warning" filter="offline" />
+        <Counted n={n.axes} words={n.axes === 1 ? t('axis') : t('axes')} filter="" />
+        <Counted n={n.moving} words={t('moving')} tone="active" filter={t('moving')} />
+        <Counted n={n.fault} words={t('in fault')} tone="fault" filter={t('in fault')} />
+        <Counted n={n.simulated} words={t('simulated')} filter={t('simulated')} />
+        <Counted n={n.offline} words={t('offline')} tone="warning" filter={t('offline')} />
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
       <Trial />
@@ -200,16 +203,16 @@ export function Spoken() {
       spoken.value = text;
       waiting = 0;
       setTimeout(() => {
-        if (waiting > 0) spoken.value = `${waiting} more alarms`;
+        if (waiting > 0) spoken.value = waiting === 1 ? t('1 more alarm') : t('{n} more alarms', { n: waiting });
         waiting = 0;
       }, 2000);
     };
     return store.onEvent((e) => {
-      if (e.severity === 'alarm') say(`Alarm. ${e.axis ?? e.drive ?? e.line ?? ''}: ${e.text}`);
+      if (e.severity === 'alarm') say(t('Alarm. {subject}: {text}', { subject: e.axis ?? e.drive ?? e.line ?? t('gateway'), text: e.text }));
     });
   }, [store]);
   const phase = store.connection.value.phase;
-  const lost = phase === 'waiting' || phase === 'silent' ? 'Connection to the gateway lost. Values are not live.' : '';
+  const lost = phase === 'waiting' || phase === 'silent' ? t('Connection to the gateway lost. Values are not live.') : '';
   return (
     <>
       <div class="visually-hidden" role="alert" data-field="spoken">

@@ -6,15 +6,16 @@ import { useEffect } from 'preact/hooks';
 import { asProblem, type Problem } from '../api/problem';
 import type { StreamState } from '../api/stream';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { capital } from '../state/commander';
 
 const again_ms = 2_000;
-export const waiting = 'Waiting for the gateway.';
+export const waiting = t('Waiting for the gateway.');
 
 /** Why nothing can be asked now; empty: it can, or the first connection is still being made. */
 export function awayWords({ phase, attempts, why }: Pick<StreamState, 'phase' | 'attempts' | 'why'>): string {
   if (phase === 'live' || (phase === 'connecting' && attempts === 0)) return '';
-  return `Not connected: ${why || 'the gateway cannot be reached'}. This is loaded by itself when the gateway is back.`;
+  return t('Not connected: {why}. This is loaded by itself when the gateway is back.', { why: why || t('the gateway cannot be reached') });
 }
 
 export function useLoaded(load: () => Promise<unknown>, when: readonly unknown[] = [], words: (p: Problem) => string = (p) => p.words): string {

@@ -2,10 +2,11 @@
 // there is a page, the mark. Every place that names an axis uses it, so that nothing simulated is taken for real anywhere. Follows only that one
 // thing, not the readings: a list of a thousand names is not drawn anew by a moving axis.
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { axisPath } from '../router';
 
 type Kind = 'axis' | 'drive';
-const long: Record<Kind, string> = { axis: 'Simulated: the embedded model of the drive answers; nothing real moves', drive: 'Simulated: the embedded model answers in place of this drive' };
+const long: Record<Kind, string> = { axis: t('Simulated: the embedded model of the drive answers; nothing real moves'), drive: t('Simulated: the embedded model answers in place of this drive') };
 
 /** The mark alone; nothing while the real one answers, or nobody does. `short`: "SIM" to the eye; to a screen reader it is the whole word. */
 export function SimulatedMark({ of, kind = 'axis', short = true, lead = '' }: { of: string; kind?: Kind; short?: boolean; lead?: string }) {
@@ -14,8 +15,8 @@ export function SimulatedMark({ of, kind = 'axis', short = true, lead = '' }: { 
   return (
     <>
       {lead}
-      <span class="mark mark-simulated sim-mark" role="img" aria-label="simulated" title={long[kind]} data-field="sim">
-        {short ? 'SIM' : 'SIMULATED'}
+      <span class="mark mark-simulated sim-mark" role="img" aria-label={t('simulated')} title={long[kind]} data-field="sim">
+        {short ? t('SIM') : t('SIMULATED')}
       </span>
     </>
   );
@@ -49,5 +50,5 @@ export function DriveName({ name, short = true }: Omit<NameProps, 'plain'>) {
 /** For a choice or a sentence, where only text can stand: "feeder (simulated)". */
 export function useNamed(): (axis: string) => string {
   const { store } = useGateway();
-  return (axis) => (store.simulation('axis', axis).value ? `${axis} (simulated)` : axis);
+  return (axis) => (store.simulation('axis', axis).value ? t('{axis} (simulated)', { axis }) : axis);
 }

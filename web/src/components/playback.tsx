@@ -1,6 +1,7 @@
 // Playback: a recording at one instant: a slider over its time, the curves of its axes with that instant as cursor A, the axes as they were,
 // their registers, the frames before it in words, and what had happened. In: GET .../playback, 100 ms after the slider rests, or four times a
 // second while it plays. Out: a part of the page. Nothing in it can be commanded.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -38,7 +39,7 @@ interface AxisRow {
   presence: string;
 }
 
-export function PlaybackPart({ name, close }: { name: string; close: () => void }) {
+export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: number | undefined; close: () => void }) {
   const { client } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const whole = useSignal<Playback | null>(null);
@@ -59,7 +60,7 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
       const [from, to] = [Date.parse(doc.from) / 1000, Date.parse(doc.to) / 1000];
       v.whole.value = [from, Math.max(to, from + 0.01)];
       v.all();
-      at.value = to;
+      at.value = at_ms === undefined ? to : Math.min(to, Math.max(from, at_ms / 1000));
       moment.value = doc;
       whole.value = doc;
       axis.value = doc.curves[0]?.axis ?? '';
@@ -67,18 +68,18 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
     return () => void (here = false);
   }, [name, door]);
   useEffect(() => {
-    const t = at.value;
-    if (t === null || !whole.value) return;
-    v.cursors[0].value = t;
+    const instant = at.value;
+    if (instant === null || !whole.value) return;
+    v.cursors[0].value = instant;
     let here = true;
-    const timer = setTimeout(() => void door.playback(name, { at_ms: t * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), told), playing.peek() ? 0 : rest_ms);
+    const timer = setTimeout(() => void door.playback(name, { at_ms: instant * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), told), playing.peek() ? 0 : rest_ms);
     return () => {
       here = false;
       clearTimeout(timer);
     };
   }, [at.value]);
   // A click into the plot is an instant, too.
-  useEffect(() => v.cursors[0].subscribe((t) => void (t !== null && whole.peek() && t !== at.peek() && (at.value = t))), [v]);
+  useEffect(() => v.cursors[0].subscribe((instant) => void (instant !== null && whole.peek() && instant !== at.peek() && (at.value = instant))), [v]);
   useEffect(() => {
     if (!playing.value) return;
     const timer = setInterval(() => {
@@ -99,16 +100,16 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
   const [low, high] = v.whole.value;
   return (
     <Section
-      title={`Playback of ${name}`}
+      title={t('Playback of {name}', { name })}
       beside={
         <button type="button" class="button" onClick={close}>
-          Close
+          {t('Close')}
         </button>
       }
     >
       <div class="card form playback" data-field="playback" data-at={now?.at}>
         {fault.value && <p class="notice tone-fault" role="status">{fault.value}</p>}
-        {!doc && !fault.value && <p class="where">Reading the recording.</p>}
+        {!doc && !fault.value && <p class="where">{t('Reading the recording.')}</p>}
         {doc && now && (
           <>
             <div class="playback-time">
@@ -116,7 +117,7 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
                 if (!playing.peek() && (at.peek() ?? 0) >= high) at.value = low;
                 playing.value = !playing.peek();
               }}>
-                {playing.value ? 'Pause' : 'Play'}
+                {playing.value ? t('Pause') : t('Play')}
               </button>
               <input
                 type="range"
@@ -124,7 +125,7 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
                 max={high}
                 step={0.01}
                 value={at.value ?? high}
-                aria-label="Instant of the recording"
+                aria-label={t('Instant of the recording')}
                 aria-valuetext={instantText(at.value ?? high, 1)}
                 onInput={(e) => {
                   playing.value = false;
@@ -136,7 +137,7 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
             {curve && (
               <div class="scope recorder-plot">
                 <div class="scope-head">
-                  <div class="group scope-channels" role="group" aria-label="Axis of the curves">
+                  <div class="group scope-channels" role="group" aria-label={t('Axis of the curves')}>
                     {doc.curves.map((c) => (
                       <button key={c.axis} type="button" class="button small" aria-pressed={axis.value === c.axis} onClick={() => (axis.value = c.axis)}>
                         {c.axis}
@@ -145,21 +146,21 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
                   </div>
                   <PlotButtons view={v} />
                 </div>
-                <Plot zoomable view={v} curves={curves} data={() => [drawn.at, ...drawn.columns] as never} version={`${axis.value} ${drawn.at.length}`} timeText={(t, _e, s) => instantText(t, s)} label={`Curves of ${axis.value} in ${name}. Cursor A is the instant that is shown below.`} />
-                <CursorTable view={v} curves={curves} read={(c, t) => readAt(drawn.at, drawn.columns[curves.indexOf(c)] ?? [], t)} clock={(t) => instantText(t, 1)} />
+                <Plot zoomable view={v} curves={curves} data={() => [drawn.at, ...drawn.columns] as never} version={`${axis.value} ${drawn.at.length}`} timeText={(instant, _e, s) => instantText(instant, s)} label={t('Curves of {n} in {name}. Cursor A is the instant that is shown below.', { n: axis.value, name })} />
+                <CursorTable view={v} curves={curves} read={(c, instant) => readAt(drawn.at, drawn.columns[curves.indexOf(c)] ?? [], instant)} clock={(instant) => instantText(instant, 1)} />
               </div>
             )}
-            <div class="table-scroll" tabIndex={0} role="region" aria-label="Axes at that instant">
+            <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Axes at that instant')}>
               <table class="table">
                 <thead>
                   <tr>
-                    <th scope="col">Axis</th>
-                    <th scope="col">State</th>
-                    <th scope="col" class="num">Position</th>
-                    <th scope="col" class="num">Velocity</th>
-                    <th scope="col" class="num">Following error</th>
-                    <th scope="col" class="num">Error</th>
-                    <th scope="col">Registers</th>
+                    <th scope="col">{t('Axis')}</th>
+                    <th scope="col">{t('State')}</th>
+                    <th scope="col" class="num">{t('Position')}</th>
+                    <th scope="col" class="num">{t('Velocity')}</th>
+                    <th scope="col" class="num">{t('Following error')}</th>
+                    <th scope="col" class="num">{t('Error')}</th>
+                    <th scope="col">{t('Registers')}</th>
                   </tr>
                 </thead>
                 <tbody>
@@ -177,8 +178,8 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
                 </tbody>
               </table>
             </div>
-            <h3>Frames before it</h3>
-            <div class="card scroll frames" tabIndex={0} role="region" aria-label="Frames before that instant, newest first">
+            <h3>{t('Frames before it')}</h3>
+            <div class="card scroll frames" tabIndex={0} role="region" aria-label={t('Frames before that instant, newest first')}>
               <ol class="frame-list mono">
                 {(now.frames as unknown as FrameRow[]).toReversed().map((f, i) => (
                   <li key={i} class="frame-row">
@@ -191,8 +192,8 @@ export function PlaybackPart({ name, close }: { name: string; close: () => void 
                 ))}
               </ol>
             </div>
-            <h3>What had happened</h3>
-            <div class="card scroll playback-happened" tabIndex={0} role="region" aria-label="What had happened, newest first">
+            <h3>{t('What had happened')}</h3>
+            <div class="card scroll playback-happened" tabIndex={0} role="region" aria-label={t('What had happened, newest first')}>
               <ol class="frame-list mono">
                 {now.happened.toReversed().map((h, i) => (
                   <li key={i}>

@@ -1,6 +1,7 @@
 // Plot: curves over time with two cursors; the one plot of the page (uPlot draws). In: curves, columns on one time axis, the part of time that
 // is seen. Out: a canvas; cursors by click and arrow keys; where it may be zoomed, by a drag, by + and -, by keys, and by a double click back.
 // Never asks for data: who owns it draws again when there are more. A browser that forbids canvases shows no plot.
+import { t } from '../language';
 import { signal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import uPlot from 'uplot';
@@ -35,9 +36,9 @@ export class PlotView {
   /** What there is; the range stays within it. */
   readonly whole = signal<Range>([0, 1]);
 
-  put(t: number): void {
+  put(instant: number): void {
     const [low, high] = this.range.peek();
-    this.cursors[this.active.peek()].value = Math.min(high, Math.max(low, t));
+    this.cursors[this.active.peek()].value = Math.min(high, Math.max(low, instant));
   }
   zoom(factor: number, about?: number): void {
     const r = this.range.peek();
@@ -56,6 +57,12 @@ export interface Mark {
   text: string;
 }
 
+/** A value that is drawn across the plot: the level of a trigger. */
+export interface Level {
+  scale: string;
+  value: number;
+  text: string;
+}
 export interface PlotProps {
   label: string;
   curves: readonly Curve[];
@@ -63,13 +70,15 @@ export interface PlotProps {
   /** Asked for each picture; sets view.range itself where time runs. */
   data: () => uPlot.AlignedData;
   /** Words at the time axis. */
-  timeText: (t: number, end: number, span: number) => string;
+  timeText: (instant: number, end: number, span: number) => string;
   /** Time runs: drawn anew 20 times a second. */
   live?: boolean;
   /** May be zoomed and moved. */
   zoomable?: boolean;
   /** Instants with a word. */
   marks?: readonly Mark[];
+  /** Values with a word, each on the scale of the curves that it belongs to. */
+  levels?: readonly Level[];
   /** Something to draw has changed. */
   version?: unknown;
   class?: string;
@@ -182,7 +191,7 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
     return {
       ...axisStyle,
       stroke: color(own[0]!.color),
-      label: `${names.length > 3 ? `${names.length} curves` : names.join(', ')}, ${own[0]!.unit}`,
+      label: `${names.length > 3 ? t('{n} curves', { n: names.length }) : names.join(', ')}, ${own[0]!.unit}`,
       labelSize: 16,
       labelGap: 0,
       labelFont: axisStyle.font,
@@ -194,8 +203,24 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
       values: (_u: uPlot, at: number[]) => tickLabels(at),
     };
   };
-  const line = (u: uPlot, t: number, ink: string, text: string, dashed: boolean) => {
-    const x = Math.round(u.valToPos(t, 'x', true));
+  const level = (u: uPlot, l: Level, ink: string) => {
+    if (!u.scales[l.scale]) return;
+    const y = Math.round(u.valToPos(l.value, l.scale, true));
+    if (!(y >= u.bbox.top && y <= u.bbox.top + u.bbox.height)) return;
+    u.ctx.save();
+    u.ctx.strokeStyle = u.ctx.fillStyle = ink;
+    u.ctx.lineWidth = devicePixelRatio;
+    u.ctx.setLineDash([8 * devicePixelRatio, 4 * devicePixelRatio]);
+    u.ctx.beginPath();
+    u.ctx.moveTo(u.bbox.left, y);
+    u.ctx.lineTo(u.bbox.left + u.bbox.width, y);
+    u.ctx.stroke();
+    u.ctx.textAlign = 'right';
+    u.ctx.fillText(l.text, u.bbox.left + u.bbox.width - 4 * devicePixelRatio, y - 5 * devicePixelRatio);
+    u.ctx.restore();
+  };
+  const line = (u: uPlot, instant: number, ink: string, text: string, dashed: boolean) => {
+    const x = Math.round(u.valToPos(instant, 'x', true));
     if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) return;
     u.ctx.save();
     u.ctx.strokeStyle = u.ctx.fillStyle = ink;
@@ -236,7 +261,7 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
           const parts = u.width < 500 ? 2 : 5; // on a phone more of them would lie upon each other
           return Array.from({ length: parts + 1 }, (_, i) => max - ((max - min) * (parts - i)) / parts);
         },
-        values: (u, at) => at.map((t) => latest.current.timeText(t, u.scales.x?.max ?? t, (u.scales.x?.max ?? t) - (u.scales.x?.min ?? t))),
+        values: (u, at) => at.map((instant) => latest.current.timeText(instant, u.scales.x?.max ?? instant, (u.scales.x?.max ?? instant) - (u.scales.x?.min ?? instant))),
       },
       ...scales.map(side),
     ],
@@ -251,10 +276,11 @@ function optionsFor(host: HTMLElement, latest: { current: PlotProps }): uPlot.Op
       ],
       draw: [
         (u) => {
+          for (const l of latest.current.levels ?? []) level(u, l, inks[1] as string);
           for (const m of latest.current.marks ?? []) line(u, m.at, inks[1] as string, m.text, true);
           view.cursors.forEach((cursor, i) => {
-            const t = cursor.peek();
-            if (t !== null) line(u, t, inks[i] as string, i === 0 ? 'A' : 'B', false);
+            const instant = cursor.peek();
+            if (instant !== null) line(u, instant, inks[i] as string, i === 0 ? 'A' : 'B', false);
           });
         },
       ],
@@ -272,31 +298,31 @@ function wideEnough(): (u: uPlot, figures: string[] | null, axis: number, cycle:
 }
 
 /** What the two cursors read, and the difference. */
-export function CursorTable({ view, curves, read, clock }: { view: PlotView; curves: readonly Curve[]; read: (curve: Curve, t: number) => number | null; clock: (t: number) => string }) {
+export function CursorTable({ view, curves, read, clock }: { view: PlotView; curves: readonly Curve[]; read: (curve: Curve, instant: number) => number | null; clock: (instant: number) => string }) {
   const [a, b] = [view.cursors[0].value, view.cursors[1].value];
   const title = (c: Curve) => `${c.name}, ${c.unit}`;
-  const value = (c: Curve, t: number | null) => (t === null ? null : read(c, t));
+  const value = (c: Curve, instant: number | null) => (instant === null ? null : read(c, instant));
   return (
     <div class="scope-cursors">
-      <div class="group" role="group" aria-label="Cursor that a click or the arrow keys place">
+      <div class="group" role="group" aria-label={t('Cursor that a click or the arrow keys place')}>
         {(['A', 'B'] as const).map((name, i) => (
           <button key={name} type="button" class="button small" aria-pressed={view.active.value === i} onClick={() => (view.active.value = i as 0 | 1)}>
             {name}
           </button>
         ))}
         <button type="button" class="button small" onClick={() => view.cursors.forEach((c) => (c.value = null))} disabled={a === null && b === null}>
-          None
+          {t('None')}
         </button>
       </div>
       {a === null && b === null ? (
-        <span class="where">Click into the plot to place cursor {view.active.value === 0 ? 'A' : 'B'}.</span>
+        <span class="where">{t('Click into the plot to place cursor {n}.', { n: view.active.value === 0 ? 'A' : 'B' })}</span>
       ) : (
         <div class="scroll">
           <table class="cursor-table">
             <thead>
               <tr>
-                <th scope="col">Cursor</th>
-                <th scope="col">Time</th>
+                <th scope="col">{t('Cursor')}</th>
+                <th scope="col">{t('Time')}</th>
                 {curves.map((c) => (
                   <th key={c.id} scope="col">
                     {title(c)}
@@ -305,15 +331,15 @@ export function CursorTable({ view, curves, read, clock }: { view: PlotView; cur
               </tr>
             </thead>
             <tbody>
-              {[a, b].map((t, i) => (
+              {[a, b].map((instant, i) => (
                 <tr key={i}>
                   <th scope="row">{i === 0 ? 'A' : 'B'}</th>
                   <td class="mono" data-label="Time">
-                    {t === null ? '–' : clock(t)}
+                    {instant === null ? '–' : clock(instant)}
                   </td>
                   {curves.map((c) => (
                     <td key={c.id} class="mono" data-label={title(c)}>
-                      {formatNumber(value(c, t), 3)}
+                      {formatNumber(value(c, instant), 3)}
                     </td>
                   ))}
                 </tr>
@@ -347,20 +373,20 @@ export function PlotButtons({ view }: { view: PlotView }) {
   const [r, w] = [view.range.value, view.whole.value];
   const all = r[1] - r[0] >= w[1] - w[0] - 1e-9;
   return (
-    <div class="group" role="group" aria-label="Part of time">
-      <button type="button" class="button small" onClick={() => view.pan(-0.5)} disabled={r[0] <= w[0]} aria-label="Earlier" title="Earlier (Page up)">
+    <div class="group" role="group" aria-label={t('Part of time')}>
+      <button type="button" class="button small" onClick={() => view.pan(-0.5)} disabled={r[0] <= w[0]} aria-label={t('Earlier')} title={t('Earlier (Page up)')}>
         ←
       </button>
-      <button type="button" class="button small" onClick={() => view.zoom(0.5)} title="Closer (+); or drag over a part of the plot">
-        Closer
+      <button type="button" class="button small" onClick={() => view.zoom(0.5)} title={t('Closer (+); or drag over a part of the plot')}>
+        {t('Closer')}
       </button>
-      <button type="button" class="button small" onClick={() => view.zoom(2)} disabled={all} title="Further (-)">
-        Further
+      <button type="button" class="button small" onClick={() => view.zoom(2)} disabled={all} title={t('Further (-)')}>
+        {t('Further')}
       </button>
-      <button type="button" class="button small" onClick={() => view.all()} disabled={all} title="All of it (0, or a double click)">
-        All
+      <button type="button" class="button small" onClick={() => view.all()} disabled={all} title={t('All of it (0, or a double click)')}>
+        {t('All')}
       </button>
-      <button type="button" class="button small" onClick={() => view.pan(0.5)} disabled={r[1] >= w[1]} aria-label="Later" title="Later (Page down)">
+      <button type="button" class="button small" onClick={() => view.pan(0.5)} disabled={r[1] >= w[1]} aria-label={t('Later')} title={t('Later (Page down)')}>
         →
       </button>
     </div>

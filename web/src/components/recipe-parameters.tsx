@@ -1,7 +1,8 @@
 // Parameters of a recipe as a form: name, type, default, bounds, unit, what each is for. In: the document and the faults found in it.
 // Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
-import { defaultOf, parameterFault, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
+import { defaultOf, parameterFault, parameterTypeName, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
 import { Icon } from './icon';
 import type { Fault } from './recipe-steps';
 import { Typed } from './typed';
@@ -24,22 +25,22 @@ export function RecipeParameters({ document, change, faults }: RecipeParametersP
     change(withParameter(document, name, { type: 'number' }));
   };
   return (
-    <div class="recipe-parameters" role="group" aria-label="Parameters of the recipe">
-      {names.length === 0 && <p class="where">None: every run does the same. A step uses one as {'${name}'}.</p>}
+    <div class="recipe-parameters" role="group" aria-label={t('Parameters of the recipe')}>
+      {names.length === 0 && <p class="where">{t('None: every run does the same. A step uses one as {n}.', { n: '${name}' })}</p>}
       {names.map((name) => (
         <ParameterRow key={name} name={name} document={document} change={change} faults={faults.filter((f) => f.pointer === `/parameters/${name}` || f.pointer.startsWith(`/parameters/${name}/`))} />
       ))}
       <form
         class="recipe-buttons"
-        aria-label="Add a parameter"
+        aria-label={t('Add a parameter')}
         onSubmit={(e) => {
           e.preventDefault();
           add();
         }}
       >
-        <input class="search" type="text" aria-label="Name of the new parameter" placeholder="name" autocomplete="off" spellcheck={false} value={fresh.value} aria-invalid={wrong.value !== '' || undefined} onInput={(e) => (fresh.value = e.currentTarget.value)} />
+        <input class="search" type="text" aria-label={t('Name of the new parameter')} placeholder={t('name')} autocomplete="off" spellcheck={false} value={fresh.value} aria-invalid={wrong.value !== '' || undefined} onInput={(e) => (fresh.value = e.currentTarget.value)} />
         <button type="submit" class="button">
-          Add a parameter
+          {t('Add a parameter')}
         </button>
         {wrong.value && (
           <span class="step-fault" role="status">
@@ -55,12 +56,12 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
   const wrong = useSignal('');
   const p = document.parameters?.[name] as RecipeParameter;
   const set = (more: Partial<Record<keyof RecipeParameter, Json | undefined>>) => change(withParameter(document, name, more));
-  const label = (what: string) => `Parameter ${name}: ${what}`;
+  const label = (what: string) => t('Parameter {name}: {what}', { name, what });
   const isNumber = p.type === 'number' || p.type === 'integer';
   const field = (what: string, value: unknown, put: (typed: string) => void, more: { wide?: boolean; list?: string } = {}) => (
     <label class={`step-field${more.wide ? ' is-wide' : ' is-narrow'}`}>
       <span>{what}</span>
-      <Typed spellcheck={false} aria-label={label(what)} list={more.list} placeholder="none" value={typedOf(value)} onDone={put} />
+      <Typed spellcheck={false} aria-label={label(what)} list={more.list} placeholder={t('none')} value={typedOf(value)} onDone={put} />
     </label>
   );
   return (
@@ -68,11 +69,11 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
       <div class="parameter-row">
         <div class="step-fields">
           <label class="step-field">
-            <span>Name</span>
+            <span>{t('Name')}</span>
             <Typed
               class="mono"
               spellcheck={false}
-              aria-label={label('Name')}
+              aria-label={label(t('Name'))}
               aria-invalid={wrong.value !== '' || undefined}
               value={name}
               onDone={(text) => {
@@ -83,9 +84,9 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
             />
           </label>
           <label class="step-field">
-            <span>Type</span>
+            <span>{t('Type')}</span>
             <select
-              aria-label={label('Type')}
+              aria-label={label(t('Type'))}
               value={p.type}
               onChange={(e) => {
                 const type = e.currentTarget.value;
@@ -93,20 +94,20 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
                 set({ type, default: defaultOf(type, typedOf(p.default)), ...(numeric ? {} : { min: undefined, max: undefined }) });
               }}
             >
-              {parameterTypes.map((t) => (
-                <option key={t} value={t}>
-                  {t}
+              {parameterTypes.map((type) => (
+                <option key={type} value={type}>
+                  {parameterTypeName(type)}
                 </option>
               ))}
             </select>
           </label>
-          {field('Default', p.default, (t) => set({ default: defaultOf(p.type, t) }), p.type === 'axis' ? { list: 'recipe-axes' } : {})}
-          {isNumber && field('Least', p.min, (t) => set({ min: valueOf(t) }))}
-          {isNumber && field('Most', p.max, (t) => set({ max: valueOf(t) }))}
-          {isNumber && field('Unit', p.unit, (t) => set({ unit: t.trim() || undefined }))}
-          {field('What it is for', p.description, (t) => set({ description: t || undefined }), { wide: true })}
+          {field(t('Default'), p.default, (entered) => set({ default: defaultOf(p.type, entered) }), p.type === 'axis' ? { list: 'recipe-axes' } : {})}
+          {isNumber && field(t('Least'), p.min, (entered) => set({ min: valueOf(entered) }))}
+          {isNumber && field(t('Most'), p.max, (entered) => set({ max: valueOf(entered) }))}
+          {isNumber && field(t('Unit'), p.unit, (entered) => set({ unit: entered.trim() || undefined }))}
+          {field(t('What it is for'), p.description, (entered) => set({ description: entered || undefined }), { wide: true })}
         </div>
-        <button type="button" class="button small square" aria-label={`Remove parameter ${name}`} title="Remove" onClick={() => change(withoutParameter(document, name))}>
+        <button type="button" class="button small square" aria-label={t('Remove parameter {name}', { name })} title={t('Remove')} onClick={() => change(withoutParameter(document, name))}>
           <Icon name="remove" />
         </button>
       </div>

@@ -1,5 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
+import { t } from '../language';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -8,7 +9,7 @@ import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { plain } from '../text/plain';
-import { doneOf, runWord, stepLabel, typedOf, valueOf, type Json, type RecipeDocument } from '../text/recipe';
+import { doneOf, runWord, stepLabel, stepWhat, tookText, typedOf, valueOf, type Json, type RecipeDocument } from '../text/recipe';
 import { clockTime, duration } from '../text/time';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
@@ -16,12 +17,23 @@ import { AxisName, SimulatedMark, useNamed } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
 
-const begun = (n: number) => `Run ${n} has begun.`;
+const begun = (n: number) => t('Run {n} has begun.', { n });
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
 
-export function RunSection({ name, parameters, saved, typed }: { name: string; parameters: NonNullable<RecipeDocument['parameters']>; saved: boolean; typed: Signal<Record<string, string>> }) {
+export interface Run {
+  parameters: NonNullable<RecipeDocument['parameters']>;
+  typed: Signal<Record<string, string>>;
+  report: Signal<RecipeReport | null>;
+  runs: Signal<RecipeReportHead[]>;
+  result: Signal<{ tone: 'none' | 'good' | 'refused'; text: string }>;
+  start: (dryRun: boolean) => Promise<void>;
+  cancel: (n: number) => Promise<void>;
+  look: (n: number) => void;
+}
+
+/** One recipe's runs: what is under way, those that were, and the ways to begin and to end one. */
+export function useRun(name: string, parameters: NonNullable<RecipeDocument['parameters']>, typed: Signal<Record<string, string>>): Run {
   const gateway = useGateway();
-  const no = useBarred('operator');
   const named = useNamed();
   const { client } = gateway;
   const report: Signal<RecipeReport | null> = useSignal(null);
@@ -58,18 +70,18 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
   const given = () => {
     const out: Record<string, Json> = {};
     for (const [key, p] of Object.entries(parameters)) {
-      const t = typed.peek()[key];
-      if (t === undefined || t === '') continue;
-      out[key] = p.type === 'text' || p.type === 'axis' ? t : (valueOf(t) ?? t);
+      const entered = typed.peek()[key];
+      if (entered === undefined || entered === '') continue;
+      out[key] = p.type === 'text' || p.type === 'axis' ? entered : (valueOf(entered) ?? entered);
     }
     return out;
   };
   const start = async (dryRun: boolean) => {
-    result.value = { tone: 'none', text: dryRun ? 'Checking…' : 'Starting…' };
+    result.value = { tone: 'none', text: dryRun ? t('Checking…') : t('Starting…') };
     try {
       if (dryRun) {
         const c = await client.checkRun(name, given());
-        result.value = { tone: 'good', text: `Can run: ${c.steps} steps, commands ${c.axes?.map(named).join(', ') || 'no axis'}.` };
+        result.value = { tone: 'good', text: t('Can run: {steps} steps, commands {n}.', { steps: c.steps, n: c.axes?.map(named).join(', ') || t('no axis') }) };
       } else {
         report.value = await client.runRecipe(name, given());
         result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
@@ -85,13 +97,19 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
       result.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
   };
-  const r = report.value;
+  const look = (n: number) => void client.recipeRun(name, n).then((w) => (report.value = w), () => undefined);
+  return { parameters, typed, report, runs, result, start, cancel, look };
+}
+
+/** In the head of the page: what it is run with, the buttons, and how far it is. */
+export function RunHead({ run, saved }: { run: Run; saved: boolean }) {
+  const no = useBarred('operator');
+  const { parameters, typed, result, start, cancel } = run;
+  const r = run.report.value;
   const running = r !== null && !isOver(r.state);
   return (
-    <>
-      <Section title="Run">
-        <div class="card recipe-run">
-          <Why need="operator" what="Running and cancelling" />
+        <section class="card recipe-run" aria-label={t('Run')}>
+          <Why need="operator" what={t('Running and cancelling')} />
           <div class="step-fields">
             {Object.entries(parameters).map(([key, p]) => (
               <label class="step-field" key={key}>
@@ -104,7 +122,7 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
                   type="text"
                   autocomplete="off"
                   spellcheck={false}
-                  aria-label={`Argument ${key}`}
+                  aria-label={t('Argument {key}', { key })}
                   title={p.description}
                   list={p.type === 'axis' ? 'recipe-axes' : undefined}
                   placeholder={p.default === undefined ? 'needed' : typedOf(p.default)}
@@ -116,40 +134,55 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
           </div>
           <div class="recipe-buttons">
             <button type="button" class="button primary" disabled={!saved || running} {...no} onClick={() => void start(false)}>
-              <Icon name="play" /> Run
+              <Icon name="play" />{' '}{t('Run')}
             </button>
             <button type="button" class="button" disabled={!saved || running} {...no} onClick={() => void start(true)}>
-              Check only
+              {t('Check only')}
             </button>
             {running && (
               <button type="button" class="stop" {...no} onClick={() => void cancel(r.n)}>
-                <Icon name="stop" /> Cancel run {r.n}
+                <Icon name="stop" />{' '}{t('Cancel run {n}', { n: r.n })}
               </button>
             )}
           </div>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{saved ? result.value.text : 'Save the recipe to run it.'}</span>
+            <span>{saved ? result.value.text : t('Save the recipe to run it.')}</span>
           </p>
-        </div>
-      </Section>
+          {r && (
+            <p class="run-now where" data-field="run-now">
+              <Pill word={runWord(r.state)} label={t('State of the newest run')} />
+              {running && <progress max={r.of} value={doneOf(r)} aria-label={t('Steps done')} />}
+              <span>{running && r.at_label ? plain(r.at_label) : t('Run {n}, {at}', { n: r.n, at: clockTime(r.started_at) })}</span>
+              <a href="#report">{t('To its report')}</a>
+            </p>
+          )}
+        </section>
+  );
+}
+
+export function RunReports({ run }: { run: Run }) {
+  const r = run.report.value;
+  const { runs } = run;
+  return (
+    <>
       {r && (
-        <Section title={`Report of run ${r.n}`}>
+        <Section title={t('Report of run {n}', { n: r.n })} id="report">
           <Report report={r} />
         </Section>
       )}
       {runs.value.length > 0 && (
-        <Section title="Runs">
-          <ol class="card run-list" aria-label="Runs, newest first">
+        <Section title={t('Runs')}>
+          <ol class="card run-list" aria-label={t('Runs, newest first')}>
             {runs.value.map((x) => (
               <li key={x.n} class="row">
                 <div class="row-head">
-                  <button type="button" class="button quiet small" onClick={() => void client.recipeRun(name, x.n).then((w) => (report.value = w), () => undefined)}>
-                    Run {x.n}
+                  <button type="button" class="button quiet small" onClick={() => run.look(x.n)}>
+                    {t('Run {n}', { n: x.n })}
                   </button>
                   <span class="where">
                     {clockTime(x.started_at)} · {x.started_by}
                   </span>
-                  <Pill word={runWord(x.state)} label="State" />
+                  <Pill word={runWord(x.state)} label={t('State')} />
                 </div>
                 {x.text && <p class="why">{capital(plain(x.text))}</p>}
               </li>
@@ -161,14 +194,23 @@ export function RunSection({ name, parameters, saved, typed }: { name: string; p
   );
 }
 
+type StepReport = RecipeReport['steps'][number];
+const hasValue = (s: StepReport): boolean => s.value !== null && s.value !== undefined;
+/** What a step read, wrote or looked at: a condition names what it wanted, so what there was is said as such. */
+const valueSaid = (s: StepReport): string => {
+  const value = typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value);
+  if (s.step === 'read_parameter') return `= ${value}`;
+  return s.step === 'set_parameter' ? t('taken as {value}', { value }) : t('it was {value}', { value });
+};
+
 export function Report({ report: r }: { report: RecipeReport }) {
   const took = r.ended_at ? duration(Date.parse(r.ended_at) - Date.parse(r.started_at)) : '';
   return (
     <div class="card recipe-report" data-run={r.n}>
       <div class="row">
         <div class="row-head">
-          <Pill word={runWord(r.state)} label="State of the run" id="run-state" />
-          <progress max={r.of} value={doneOf(r)} aria-label="Steps done" />
+          <Pill word={runWord(r.state)} label={t('State of the run')} id="run-state" />
+          <progress max={r.of} value={doneOf(r)} aria-label={t('Steps done')} />
           <span class="where">
             {clockTime(r.started_at)}
             {took && `, ${took}`} · {r.started_by}
@@ -182,11 +224,11 @@ export function Report({ report: r }: { report: RecipeReport }) {
         )}
         {r.stops.map((s) => (
           <p key={s.axis} class="why">
-            <AxisName name={s.axis} plain />: {s.left_alone ? s.text : `${s.stopped ? 'stopped' : 'NOT stopped'}${s.text && `: ${s.text}`}`}
+            <AxisName name={s.axis} plain />: {s.left_alone ? s.text : `${s.stopped ? t('stopped') : t('NOT stopped')}${s.text && `: ${s.text}`}`}
           </p>
         ))}
       </div>
-      <ol class="report-steps" aria-label="Steps of the run">
+      <ol class="report-steps" aria-label={t('Steps of the run')}>
         {r.steps.map((s) => {
           const word = runWord(s.state);
           return (
@@ -194,13 +236,20 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <Icon name={word.icon} size={14} />
               <span class="report-word">{word.text}</span>
               <span class="report-what">
-                <b>{stepLabel(s.step)}</b> {s.axis && <AxisName name={s.axis} plain />}
+                <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span>{plain(stepWhat(s))}</span>
                 {s.times > 1 && ` × ${s.times}`}
-                {s.value !== null && s.value !== undefined && <span class="mono"> = {typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value)}</span>}
+                {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
                 {s.text && <span> {plain(s.text)}</span>}
                 {s.comment && <i> {s.comment}</i>}
               </span>
-              <span class="report-at mono">{s.pointer}</span>
+              <span class="report-at mono">
+                {s.started_at && (
+                  <>
+                    <time dateTime={s.started_at}>{clockTime(s.started_at)}</time>
+                    {s.ended_at && <span data-field="step-took">{' '}{tookText(Date.parse(s.ended_at) - Date.parse(s.started_at))}</span>}
+                  </>
+                )}
+              </span>
             </li>
           );
         })}

@@ -1,9 +1,13 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
+import { t } from '../language';
+import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
-import { useContext } from 'preact/hooks';
+import { useContext, useEffect } from 'preact/hooks';
+import type { HandItem } from '../api/types';
+import { useGateway } from '../gateway';
 import type { components } from '../api/schema';
-import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
+import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, stepSummary, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
 import { capital } from '../state/commander';
 import { plainWord } from '../text/plain';
 import { Icon } from './icon';
@@ -21,13 +25,31 @@ export interface Editing {
   unitOf: (axis: string) => string | null;
   faults: Fault[];
 }
-const Context = createContext<Editing | null>(null);
-const useEditing = () => useContext(Context) as Editing;
+/** Steps that are shown in one line, by their places. */
+type Folded = Signal<ReadonlySet<string>>;
+const Context = createContext<(Editing & { folded: Folded }) | null>(null);
+const useEditing = () => useContext(Context) as Editing & { folded: Folded };
+const placesOf = (document: RecipeDocument, list: Path): string[] =>
+  ((at(document, list) ?? []) as Step[]).flatMap((s, i) => {
+    const kind = kindOf(s);
+    return [pointerOf([...list, i]), ...(kind?.lists ?? []).flatMap((l) => placesOf(document, [...list, i, kind!.word, l]))];
+  });
 
 export function StepEditor(editing: Editing) {
+  const folded: Folded = useSignal<ReadonlySet<string>>(new Set());
   return (
-    <Context.Provider value={editing}>
-      <StepList path={['steps']} name="Steps" />
+    <Context.Provider value={{ ...editing, folded }}>
+      {editing.document.steps.length > 1 && (
+        <div class="recipe-buttons step-folds">
+          <button type="button" class="button small" onClick={() => (folded.value = new Set(placesOf(editing.document, ['steps'])))}>
+            {t('Fold all')}
+          </button>
+          <button type="button" class="button small" onClick={() => (folded.value = new Set())}>
+            {t('Unfold all')}
+          </button>
+        </div>
+      )}
+      <StepList path={['steps']} name={t('Steps')} />
       <datalist id="recipe-axes">
         {editing.axes.map((a) => (
           <option key={a} value={a} />
@@ -48,7 +70,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
         ))}
       </ol>
       <label class="select step-add">
-        <span class="visually-hidden">Add a step to {name.toLowerCase()}</span>
+        <span class="visually-hidden">{t('Add a step to {n}', { n: name.toLowerCase() })}</span>
         <select
           value=""
           onChange={(e) => {
@@ -57,7 +79,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
             if (word) change(added(document, path, freshStep(word, axes[0] ?? '')));
           }}
         >
-          <option value="">Add a step…</option>
+          <option value="">{t('Add a step…')}</option>
           {stepKinds.map((k) => (
             <option key={k.word} value={k.word}>
               {k.label}
@@ -70,7 +92,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
 }
 
 function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; last: boolean }) {
-  const { document, change, faults, unitOf, axes, listed } = useEditing();
+  const { document, change, faults, unitOf, axes, listed, folded } = useEditing();
   const kind = kindOf(step);
   const path = [...list, i];
   const pointer = pointerOf(path);
@@ -79,34 +101,46 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   const title = titleOf(path);
   const nobody = listed ? unknownAxes(document, axes).filter((u) => u.pointer === pointer) : [];
   const body = kind ? step[kind.word] : undefined;
+  // What is wrong is never folded away, nor what is wrong inside.
+  const wrong = faults.some((f) => f.pointer === pointer || f.pointer.startsWith(`${pointer}/`));
+  const open = wrong || !folded.value.has(pointer);
+  const fold = () => {
+    const next = new Set(folded.peek());
+    if (!next.delete(pointer)) next.add(pointer);
+    folded.value = next;
+  };
   return (
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
       <div class="step-head">
+        <button type="button" class="button quiet small square" aria-expanded={open} aria-label={open ? t('Fold {title}', { title }) : t('Unfold {title}', { title })} disabled={wrong} onClick={fold}>
+          <Icon name={open ? 'down' : 'arrow-right'} />
+        </button>
         <b class="step-title">{title}</b>
-        <span class="step-kind">{kind?.label ?? `Unknown: ${Object.keys(step)[0] ?? 'nothing'}`}</span>
+        <span class="step-kind">{kind?.label ?? t('Unknown: {n}', { n: Object.keys(step)[0] ?? 'nothing' })}</span>
+        {!open && <span class="step-summary" data-field="summary">{stepSummary(step)}</span>}
         <span class="group">
-          <button type="button" class="button small square" aria-label={`Move ${title} up`} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
+          <button type="button" class="button small square" aria-label={t('Move {title} up', { title })} disabled={i === 0} onClick={() => change(moved(document, list, i, -1))}>
             <Icon name="up" />
           </button>
-          <button type="button" class="button small square" aria-label={`Move ${title} down`} disabled={last} onClick={() => change(moved(document, list, i, 1))}>
+          <button type="button" class="button small square" aria-label={t('Move {title} down', { title })} disabled={last} onClick={() => change(moved(document, list, i, 1))}>
             <Icon name="down" />
           </button>
-          <button type="button" class="button small square" aria-label={`Delete ${title}`} onClick={() => change(removed(document, list, i))}>
+          <button type="button" class="button small square" aria-label={t('Delete {title}', { title })} onClick={() => change(removed(document, list, i))}>
             <Icon name="remove" />
           </button>
         </span>
       </div>
-      <div class="step-fields">
+      {open && <div class="step-fields">
         {kind?.condition && kind.condition !== 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         {kind && fieldsOfStep(kind, body).map((f) => (
           <StepInput key={f.key} field={f} path={f.key === '' ? [...path, kind.word] : [...path, kind.word, f.key]} value={f.key === '' ? body : (body as { [k: string]: Json } | null)?.[f.key]} title={title} unit={kind.word === 'command' ? unitOfField(f.key, unitOf(typedOf((body as { [k: string]: Json } | null)?.['axis']))) : ''} />
         ))}
         {kind?.condition === 'until' && <ConditionFields kind={kind} path={path} title={title} />}
         <label class="step-field is-wide">
-          <span>Comment</span>
-          <Typed aria-label={`${title}: Comment`} placeholder="none" value={typedOf(step['comment'])} onDone={(t) => change(changed(document, [...path, 'comment'], () => t || undefined))} />
+          <span>{t('Comment')}</span>
+          <Typed aria-label={t('{title}: Comment', { title })} placeholder={t('none')} value={typedOf(step['comment'])} onDone={(entered) => change(changed(document, [...path, 'comment'], () => entered || undefined))} />
         </label>
-      </div>
+      </div>}
       {mine.map((f) => (
         <p key={f.pointer + f.text} class="step-fault">
           {f.text}. {f.remedy}.
@@ -117,9 +151,10 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
           {unknownWords(nobody)}
         </p>
       )}
-      {kind?.lists?.map((l) => (
+      {open && kind?.word === 'simulate' && <SimulateWords axis={(body as { axis?: unknown } | null)?.axis} />}
+      {open && kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
-          {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? 'Then' : 'Else'}</p>}
+          {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? t('Then') : t('Else')}</p>}
           <StepList path={[...path, kind.word, l]} name={`${title}, ${l}`} />
         </div>
       ))}
@@ -132,6 +167,47 @@ function AxisMark({ named }: { named: unknown }) {
   const { document } = useEditing();
   const axis = typeof named === 'string' ? axisMeant(named, document.parameters) : null;
   return axis ? <SimulatedMark of={axis} /> : null;
+}
+
+/** The axis that a step means, when it is known. */
+function useMeant(named: unknown): string {
+  const { document } = useEditing();
+  return (typeof named === 'string' ? axisMeant(named, document.parameters) : null) ?? '';
+}
+
+/** What can be simulated on this axis' drive, offered while typing. */
+function InputOffers({ id, named }: { id: string; named: unknown }) {
+  const { client, store } = useGateway();
+  const offers = useSignal<HandItem[]>([]);
+  const axis = useMeant(named);
+  const simulated = store.simulation('axis', axis).value;
+  useEffect(() => {
+    const drive = store.axis(axis)?.peek()?.data.drive;
+    if (!simulated || !drive) return void (offers.value = []);
+    const end = new AbortController();
+    client.hand(drive, end.signal).then((items) => (offers.value = items.filter((i) => i.writable)), () => undefined);
+    return () => end.abort();
+  }, [axis, simulated]);
+  return (
+    <datalist id={id}>
+      {offers.value.map((i) => (
+        <option key={i.name} value={i.name}>
+          {i.description}
+        </option>
+      ))}
+    </datalist>
+  );
+}
+
+function SimulateWords({ axis: named }: { axis: unknown }) {
+  const { store } = useGateway();
+  const axis = useMeant(named);
+  if (axis === '' || store.axis(axis) === undefined || store.simulation('axis', axis).value) return null;
+  return (
+    <p class="step-fault" data-field="not-simulated">
+      {t('{axis} is not simulated now: a run would be refused. A real drive is never told what is not so.', { axis })}
+    </p>
+  );
 }
 
 function StepInput({ field, path, value, title, unit }: { field: StepField; path: Path; value: unknown; title: string; unit: string }) {
@@ -151,7 +227,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         >
           {choices.map((c) => (
             <option key={c} value={c}>
-              {c === '' ? 'as mapped' : field.kind === 'command' ? capital(plainWord(c)) : plainWord(c)}
+              {c === '' ? t('as mapped') : field.kind === 'command' ? capital(plainWord(c)) : plainWord(c)}
             </option>
           ))}
         </select>
@@ -165,14 +241,15 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         {unit && <span class="unit">, {unit}</span>}
       </span>
       {field.kind === 'axis' && <AxisMark named={value} />}
+      {field.kind === 'input' && <InputOffers id={`offers-${pointerOf(path)}`} named={at(document, [...path.slice(0, -1), 'axis'])} />}
       <Typed
         spellcheck={false}
-        list={field.kind === 'axis' ? 'recipe-axes' : undefined}
+        list={field.kind === 'axis' ? 'recipe-axes' : field.kind === 'input' ? `offers-${pointerOf(path)}` : undefined}
         aria-label={label}
         placeholder={field.optional ? 'none' : undefined}
         value={typedOf(value)}
         onDone={(typed) => {
-          if (field.kind === 'text' || field.kind === 'axis') put(typed === '' && field.optional ? undefined : typed);
+          if (field.kind === 'text' || field.kind === 'axis' || field.kind === 'input') put(typed === '' && field.optional ? undefined : typed);
           else put(valueOf(typed));
         }}
       />
@@ -187,7 +264,7 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
   if (kind.condition === 'until' && there === undefined) {
     return (
       <button type="button" class="button small" onClick={() => change(changed(document, place, () => ({ axis: axes[0] ?? '', point: 'target_reached', is: true })))}>
-        Add an end: until…
+        {t('Add an end: until…')}
       </button>
     );
   }
@@ -203,16 +280,16 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
     );
   return (
     <>
-      {kind.condition === 'until' && <span class="step-word">until</span>}
+      {kind.condition === 'until' && <span class="step-word">{t('until')}</span>}
       <label class="step-field">
-        <span>Axis</span>
+        <span>{t('Axis')}</span>
         <AxisMark named={c['axis']} />
-        <Typed list="recipe-axes" spellcheck={false} aria-label={`${title}: Axis`} value={typedOf(c['axis'])} onDone={(t) => set({ axis: t })} />
+        <Typed list="recipe-axes" spellcheck={false} aria-label={t('{title}: Axis', { title })} value={typedOf(c['axis'])} onDone={(entered) => set({ axis: entered })} />
       </label>
       <label class="step-field">
-        <span>What</span>
+        <span>{t('What')}</span>
         <select
-          aria-label={`${title}: What`}
+          aria-label={t('{title}: What', { title })}
           value={'parameter' in c ? '(parameter)' : typedOf(c['point'])}
           onChange={(e) => (e.currentTarget.value === '(parameter)' ? set({ parameter: '' }, ['point']) : set({ point: e.currentTarget.value }, ['parameter']))}
         >
@@ -222,18 +299,18 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
             </option>
           ))}
           {typeof c['point'] === 'string' && !points.includes(c['point']) && <option value={c['point']}>{plainWord(c['point'])}</option>}
-          <option value="(parameter)">a parameter…</option>
+          <option value="(parameter)">{t('a parameter…')}</option>
         </select>
       </label>
       {'parameter' in c && (
         <label class="step-field">
-          <span>Parameter</span>
-          <Typed spellcheck={false} aria-label={`${title}: Parameter`} value={typedOf(c['parameter'])} onDone={(t) => set({ parameter: t })} />
+          <span>{t('Parameter')}</span>
+          <Typed spellcheck={false} aria-label={t('{title}: Parameter', { title })} value={typedOf(c['parameter'])} onDone={(entered) => set({ parameter: entered })} />
         </label>
       )}
       <label class="step-field is-narrow">
-        <span>Comparison</span>
-        <select aria-label={`${title}: Comparison`} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op, ...(takesTolerance(e.currentTarget.value, c[op]) ? [] : ['tolerance'])])}>
+        <span>{t('Comparison')}</span>
+        <select aria-label={t('{title}: Comparison', { title })} value={op} onChange={(e) => set({ [e.currentTarget.value]: c[op] as Json }, e.currentTarget.value === op ? [] : [op, ...(takesTolerance(e.currentTarget.value, c[op]) ? [] : ['tolerance'])])}>
           {comparisons.map((x) => (
             <option key={x.key} value={x.key}>
               {x.label}
@@ -242,17 +319,17 @@ function ConditionFields({ kind, path, title }: { kind: StepKind; path: Path; ti
         </select>
       </label>
       <label class="step-field is-narrow">
-        <span>Value</span>
-        <Typed spellcheck={false} aria-label={`${title}: Value`} value={typedOf(c[op])} onDone={(t) => set({ [op]: valueOf(t) ?? '' })} />
+        <span>{t('Value')}</span>
+        <Typed spellcheck={false} aria-label={t('{title}: Value', { title })} value={typedOf(c[op])} onDone={(entered) => set({ [op]: valueOf(entered) ?? '' })} />
       </label>
       {('tolerance' in c || takesTolerance(op, c[op])) && (
         <label class="step-field is-narrow">
-          <span>Tolerance ±</span>
+          <span>{t('Tolerance ±')}</span>
           <Typed
             inputMode="decimal"
             spellcheck={false}
-            aria-label={`${title}: Tolerance`}
-            placeholder="exact"
+            aria-label={t('{title}: Tolerance', { title })}
+            placeholder={t('exact')}
             value={typedOf(c['tolerance'])}
             onDone={(typed) => {
               const tolerance = valueOf(typed);

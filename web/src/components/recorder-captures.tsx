@@ -1,5 +1,6 @@
 // Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
 // triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -11,7 +12,7 @@ import { persisted } from '../state/persisted';
 import { readAt } from '../state/plot';
 import { captureParts, joined } from '../state/recorder';
 import { parseNumber, parseQuantity } from '../text/number';
-import { bytesWords, captureAbout, captureWord, freeName, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
+import { bytesWords, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
 import { dateTime } from '../text/time';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 import { Gate, useBarred } from './gate';
@@ -73,26 +74,26 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
   const captures = list.value?.captures ?? [];
   return (
     <>
-      <Section title="New capture">
+      <Section title={t('New capture')}>
         <Gate need="operator">
           <ArmForm
             first={axis ?? store.axisNames.value[0] ?? ''}
             taken={captures.map((c) => c.name)}
             arm={(wish) => {
               mine.current = wish.name;
-              return act(() => door.arm(wish), `${wish.name} is armed.`);
+              return act(() => door.arm(wish), t('{name} is armed.', { name: wish.name }));
             }}
           />
         </Gate>
         <Tell told={told.value} field="capture-told" />
       </Section>
       {drawn.value.length > 0 && <Overlay captures={drawn.value} />}
-      <Section title={`Captures${captures.length > 0 ? `, ${captures.length}` : ''}`} beside={list.value && <span class="where">{`${bytesWords(list.value.disk_bytes)} of ${bytesWords(list.value.disk_most_bytes)}`}</span>}>
+      <Section title={captures.length > 0 ? t('Captures, {n}', { n: captures.length }) : t('Captures')} beside={list.value && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(list.value.disk_bytes), disk_most_bytes: bytesWords(list.value.disk_most_bytes) })}</span>}>
         {list.value?.disk_fault && <p class="notice tone-fault">{capital(list.value.disk_fault)}</p>}
         {captures.length === 0 ? (
-          <Empty text={waiting || 'No capture yet.'} />
+          <Empty text={waiting || t('No capture yet.')} />
         ) : (
-          <ul class="card rows" aria-label="Captures">
+          <ul class="card rows" aria-label={t('Captures')}>
             {captures.map((c) => (
               <CaptureRow key={c.name} capture={c} drawn={drawn.value.some((d) => d.name === c.name)} show={() => void show(c.name)} door={door} act={act} gone={(name) => (drawn.value = drawn.peek().filter((d) => d.name !== name))} />
             ))}
@@ -108,10 +109,10 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   const renaming = useSignal(false);
   const runs = c.state === 'armed' || c.state === 'triggered';
   const unit = c.axes.find((a) => a.axis === c.trigger?.axis)?.unit ?? '';
-  const csv = () => void act(async () => saveText(`${c.name}.csv`, 'text/csv', await door.captureCsv(c.name)), `${c.name}.csv is saved.`);
+  const csv = () => void act(async () => saveText(`${c.name}.csv`, 'text/csv', await door.captureCsv(c.name)), t('{name}.csv is saved.', { name: c.name }));
   return (
     <li class="row recorder-row" data-capture={c.name} data-state={c.state}>
-      <Pill word={captureWord(c)} label="State" />
+      <Pill word={captureWord(c)} label={t('State')} />
       <span class="recorder-what">
         <b>{c.name}</b>
         <span class="where">
@@ -123,14 +124,14 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
       <span class="recorder-buttons">
         {c.state === 'done' && !c.fault && (
           <>
-            <button type="button" class="button" aria-pressed={drawn} aria-label={`Draw ${c.name}`} onClick={show}>
-              {drawn ? 'Drawn' : 'Draw'}
+            <button type="button" class="button" aria-pressed={drawn} aria-label={t('Draw {name}', { name: c.name })} onClick={show}>
+              {drawn ? t('Drawn') : t('Draw')}
             </button>
-            <button type="button" class="button" aria-label={`CSV of ${c.name}`} onClick={csv}>
-              CSV
+            <button type="button" class="button" aria-label={t('CSV of {name}', { name: c.name })} onClick={csv}>
+              {t('CSV')}
             </button>
-            <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={`Rename ${c.name}`} onClick={() => (renaming.value = !renaming.value)}>
-              Rename
+            <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={t('Rename {name}', { name: c.name })} onClick={() => (renaming.value = !renaming.value)}>
+              {t('Rename')}
             </button>
           </>
         )}
@@ -138,17 +139,17 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
           type="button"
           class="button quiet"
           {...no}
-          aria-label={`${runs ? 'Cancel' : 'Delete'} ${c.name}`}
-          onClick={() => void act(() => door.remove('captures', c.name), runs ? `${c.name} is cancelled.` : `${c.name} is deleted.`).then((good) => good && gone(c.name))}
+          aria-label={runs ? t('Cancel {name}', { name: c.name }) : t('Delete {name}', { name: c.name })}
+          onClick={() => void act(() => door.remove('captures', c.name), runs ? t('{name} is cancelled.', { name: c.name }) : t('{name} is deleted.', { name: c.name })).then((good) => good && gone(c.name))}
         >
-          {runs ? 'Cancel' : 'Delete'}
+          {runs ? t('Cancel') : t('Delete')}
         </button>
       </span>
       {renaming.value && (
         <RenameForm
           name={c.name}
           rename={(to) =>
-            void act(() => door.rename('captures', c.name, to), `${c.name} is called ${to} now.`).then((good) => {
+            void act(() => door.rename('captures', c.name, to), t('{name} is called {to} now.', { name: c.name, to })).then((good) => {
               if (good) renaming.value = false;
               if (good) gone(c.name);
             })
@@ -159,6 +160,8 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   );
 }
 
+const scaleOf = (p: TracePoint, unit: string): string => `${p === 'demand' ? 'position' : p} ${unit}`;
+
 export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
   const view = useRef<PlotView>(null as unknown as PlotView);
   view.current ??= new PlotView();
@@ -166,6 +169,12 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
   const seen = points.filter((p) => chosenPoints.value.split(',').includes(p));
   const several = captures.length > 1;
   const key = captures.map((c) => c.name).join() + seen.join();
+  const levels = captures.flatMap((c) => {
+    const trigger = c.trigger;
+    const unit = c.axes.find((a) => a.axis === trigger?.axis)?.unit ?? '';
+    if (trigger?.kind !== 'level' || !trigger.point || !seen.some((p) => scaleOf(p, unit) === scaleOf(trigger.point as TracePoint, unit))) return [];
+    return [{ scale: scaleOf(trigger.point, unit), value: trigger.level ?? 0, text: levelText(trigger, unit) }];
+  });
   const { data, curves } = useMemo(() => {
     let n = 0;
     const list: Curve[] = captures.flatMap((c) =>
@@ -174,7 +183,7 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
           const ink = inks[n % inks.length] as string;
           const round = Math.floor(n / inks.length);
           n += 1;
-          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: `${p === 'demand' ? 'position' : p} ${a.unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
         }),
       ),
     );
@@ -187,10 +196,10 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
     v.all();
   }, [captures.map((c) => c.name).join()]);
   return (
-    <Section title={several ? 'Laid over each other at their triggers' : `Capture ${captures[0]?.name ?? ''}`}>
+    <Section title={several ? t('Laid over each other at their triggers') : t('Capture {n}', { n: captures[0]?.name ?? '' })}>
       <div class="scope card recorder-plot" data-field="overlay">
         <div class="scope-head">
-          <div class="group scope-channels" role="group" aria-label="Points of the captures">
+          <div class="group scope-channels" role="group" aria-label={t('Points of the captures')}>
             {points.map((p) => (
               <button key={p} type="button" class="button small" aria-pressed={seen.includes(p)} onClick={() => (chosenPoints.value = flip(seen, p))}>
                 {pointNames[p]}
@@ -205,18 +214,24 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
           curves={curves}
           data={() => [data.at, ...data.columns] as never}
           version={key}
-          marks={[{ at: 0, text: 'trigger' }]}
-          timeText={(t, _end, span) => sinceText(t, span)}
-          label={`Captures ${captures.map((c) => c.name).join(', ')}, seconds from the trigger. Drag to come closer, 0 shows all. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away.`}
+          marks={[{ at: 0, text: t('trigger') }]}
+          levels={levels}
+          timeText={(entered, _end, span) => sinceText(entered, span)}
+          label={t('Captures {n}, seconds from the trigger. Drag to come closer, 0 shows all. Arrow keys move the cursor {n2}, Delete takes it away.', { n: captures.map((c) => c.name).join(', '), n2: v.active.value === 0 ? 'A' : 'B' })}
         />
-        <ul class="curve-list" aria-label="Curves">
+        {levels.length > 0 && (
+          <p class="where" data-field="levels">
+            {t('Level of the trigger, drawn across: {levels}', { levels: levels.map((l) => l.text).join(', ') })}
+          </p>
+        )}
+        <ul class="curve-list" aria-label={t('Curves')}>
           {curves.map((c) => (
             <li key={c.id} class={`curve-key ink${c.color}`}>
               {c.name}
             </li>
           ))}
         </ul>
-        <CursorTable view={v} curves={curves} read={(c, t) => readAt(data.at, data.columns[curves.indexOf(c)] ?? [], t)} clock={(t) => sinceText(t, 0.1)} />
+        <CursorTable view={v} curves={curves} read={(c, entered) => readAt(data.at, data.columns[curves.indexOf(c)] ?? [], entered)} clock={(entered) => sinceText(entered, 0.1)} />
       </div>
     </Section>
   );
@@ -249,14 +264,14 @@ function ArmForm({ first, taken, arm }: { first: string; taken: readonly string[
   const read = (text: string, low: number, high: number, what: string) => {
     const p = parseQuantity(text);
     if (!p.good) return { value: 0, fault: p.why };
-    return p.value >= low && p.value <= high ? { value: p.value, fault: undefined } : { value: p.value, fault: `${what} is ${low} to ${high}.` };
+    return p.value >= low && p.value <= high ? { value: p.value, fault: undefined } : { value: p.value, fault: t('{what} is {low} to {high}.', { what, low, high }) };
   };
-  const rate = read(f.rate.value, 1, 1000, 'The rate');
-  const before = read(f.before.value, 0, 120_000, 'The time before');
-  const after = read(f.after.value, 1, 120_000, 'The time after');
-  const wait = read(f.wait.value, 0.1, 300, 'The wait');
+  const rate = read(f.rate.value, 1, 1000, t('The rate'));
+  const before = read(f.before.value, 0, 120_000, t('The time before'));
+  const after = read(f.after.value, 1, 120_000, t('The time after'));
+  const wait = read(f.wait.value, 0.1, 300, t('The wait'));
   const level = f.kind.value === 'level' ? parseNumber(f.level.value) : { good: true as const, value: 0 };
-  const wrongName = nameFault(name) ?? (taken.includes(name) ? 'There is one of this name.' : undefined);
+  const wrongName = nameFault(name) ?? (taken.includes(name) ? t('There is one of this name.') : undefined);
   const good = !wrongName && level.good && [rate, before, after, wait].every((x) => x.fault === undefined) && axis !== '';
   const unit = entry?.unit ?? '';
   const submit = () => {
@@ -271,44 +286,44 @@ function ArmForm({ first, taken, arm }: { first: string; taken: readonly string[
     <form
       class="card form form-grid capture-form"
       noValidate
-      aria-label="New capture"
+      aria-label={t('New capture')}
       onSubmit={(e) => {
         e.preventDefault();
         submit();
       }}
     >
-      <TextField label="Name" value={f.name.value} placeholder={name} onText={(t) => (f.name.value = t)} fault={wrongName} />
-      <Choice label="Axis" value={axis} onChoice={(x) => (f.axis.value = x)} choices={names.map((n) => ({ value: n, text: n }))} />
+      <TextField label={t('Name')} value={f.name.value} placeholder={name} onText={(entered) => (f.name.value = entered)} fault={wrongName} />
+      <Choice label={t('Axis')} value={axis} onChoice={(x) => (f.axis.value = x)} choices={names.map((n) => ({ value: n, text: n }))} />
       <Choice
-        label="Begins with"
+        label={t('Begins with')}
         value={f.kind.value}
         onChoice={(x) => (f.kind.value = x as CaptureTrigger['kind'])}
         choices={[
-          { value: 'command', text: 'a command that moves it' },
-          { value: 'level', text: 'a level' },
-          { value: 'state', text: 'a state' },
-          { value: 'at_once', text: 'now' },
+          { value: 'command', text: t('a command that moves it') },
+          { value: 'level', text: t('a level') },
+          { value: 'state', text: t('a state') },
+          { value: 'at_once', text: t('now') },
         ]}
       />
       {f.kind.value === 'level' && (
         <>
-          <Choice label="Point" value={f.point.value} onChoice={(x) => (f.point.value = x as TracePoint)} choices={points.map((p) => ({ value: p, text: pointNames[p] }))} />
-          <Choice label="Edge" value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: 'rises through' }, { value: 'falling', text: 'falls through' }]} />
-          <TextField label={`Level, ${pointUnit(f.point.value, unit)}`} number value={f.level.value} onText={(t) => (f.level.value = t)} fault={level.good ? undefined : level.why} />
+          <Choice label={t('Point')} value={f.point.value} onChoice={(x) => (f.point.value = x as TracePoint)} choices={points.map((p) => ({ value: p, text: pointNames[p] }))} />
+          <Choice label={t('Edge')} value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: t('rises through') }, { value: 'falling', text: t('falls through') }]} />
+          <TextField label={t('Level, {n}', { n: pointUnit(f.point.value, unit) })} number value={f.level.value} onText={(entered) => (f.level.value = entered)} fault={level.good ? undefined : level.why} />
         </>
       )}
       {f.kind.value === 'state' && (
         <>
-          <Choice label="State" value={f.state.value} onChoice={(x) => (f.state.value = x as 'moving')} choices={Object.entries(stateNames).map(([value, text]) => ({ value, text }))} />
-          <Choice label="Edge" value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: 'comes' }, { value: 'falling', text: 'goes' }]} />
+          <Choice label={t('State')} value={f.state.value} onChoice={(x) => (f.state.value = x as 'moving')} choices={Object.entries(stateNames).map(([value, text]) => ({ value, text }))} />
+          <Choice label={t('Edge')} value={f.edge.value} onChoice={(x) => (f.edge.value = x as 'rising')} choices={[{ value: 'rising', text: t('comes') }, { value: 'falling', text: t('goes') }]} />
         </>
       )}
-      <TextField label="Before it, ms" number value={f.before.value} onText={(t) => (f.before.value = t)} fault={before.fault} />
-      <TextField label="After it, ms" number value={f.after.value} onText={(t) => (f.after.value = t)} fault={after.fault} />
-      <TextField label="Rate, Hz" number value={f.rate.value} onText={(t) => (f.rate.value = t)} fault={rate.fault} hint="The line may have room for less; the others on it are asked as before." />
-      <TextField label="Wait for it at most, s" number value={f.wait.value} onText={(t) => (f.wait.value = t)} fault={wait.fault} />
+      <TextField label={t('Before it, ms')} number value={f.before.value} onText={(entered) => (f.before.value = entered)} fault={before.fault} />
+      <TextField label={t('After it, ms')} number value={f.after.value} onText={(entered) => (f.after.value = entered)} fault={after.fault} />
+      <TextField label={t('Rate, Hz')} number value={f.rate.value} onText={(entered) => (f.rate.value = entered)} fault={rate.fault} hint={t('The line may have room for less; the others on it are asked as before.')} />
+      <TextField label={t('Wait for it at most, s')} number value={f.wait.value} onText={(entered) => (f.wait.value = entered)} fault={wait.fault} />
       {others.length > 0 && (
-        <div class="group recorder-axes" role="group" aria-label="More axes of this line">
+        <div class="group recorder-axes" role="group" aria-label={t('More axes of this line')}>
           {others.slice(0, 30).map((n) => (
             <button key={n} type="button" class="button small" aria-pressed={more.includes(n)} disabled={!more.includes(n) && more.length >= 7} onClick={() => (f.more.value = more.includes(n) ? more.filter((x) => x !== n) : [...more, n])}>
               {n}
@@ -318,7 +333,7 @@ function ArmForm({ first, taken, arm }: { first: string; taken: readonly string[
       )}
       <div class="form-foot">
         <button type="submit" class="button primary" disabled={!good}>
-          Arm
+          {t('Arm')}
         </button>
       </div>
     </form>

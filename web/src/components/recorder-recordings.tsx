@@ -1,5 +1,6 @@
 // Recordings: what is being recorded, a button that freezes it, the files that there are, and one of them played back.
 // In: GET /recorder/recordings, with each connection and after each change. Out: requests, downloads.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -18,18 +19,18 @@ import { PlaybackPart } from './playback';
 import { RenameForm } from './rename-form';
 import { Section } from './section';
 
-export function RecordingsPart() {
+export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
   const { client } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const list = useSignal<RecordingList | null>(null);
   const told = useSignal<Told>(quiet);
-  const open = useSignal('');
+  const open = useSignal(first ?? '');
   const name = useSignal('');
   const why = useSignal('');
   const load = async () => void (list.value = await door.recordings());
   const waiting = useLoaded(load, [door]);
   const act = async (what: () => Promise<unknown>, done: string) => {
-    told.value = { tone: 'busy', text: 'Asking the gateway.' };
+    told.value = { tone: 'busy', text: t('Asking the gateway.') };
     try {
       await what();
       told.value = { tone: 'good', text: done };
@@ -46,39 +47,39 @@ export function RecordingsPart() {
   const now = list.value;
   return (
     <>
-      <Section title="Record what happened">
+      <Section title={t('Record what happened')}>
         <Gate need="operator">
           <form
             class="card form form-grid"
             noValidate
-            aria-label="New recording"
+            aria-label={t('New recording')}
             onSubmit={(e) => {
               e.preventDefault();
               if (!fault)
-                void act(() => door.record(wanted, why.value.trim()), `${wanted} is written.`).then((good) => {
+                void act(() => door.record(wanted, why.value.trim()), t('{wanted} is written.', { wanted })).then((good) => {
                   if (good) name.value = why.value = '';
                 });
             }}
           >
-            <TextField label="Name" value={name.value} placeholder={wanted} onText={(t) => (name.value = t)} fault={fault} />
-            <TextField label="Why" value={why.value} onText={(t) => (why.value = t)} />
+            <TextField label={t('Name')} value={name.value} placeholder={wanted} onText={(entered) => (name.value = entered)} fault={fault} />
+            <TextField label={t('Why')} value={why.value} onText={(entered) => (why.value = entered)} />
             <div class="form-foot">
               <button type="submit" class="button primary" disabled={fault !== undefined}>
-                Freeze the last minutes
+                {t('Freeze the last minutes')}
               </button>
-              <span class="where">{now ? `${now.from ? `since ${dateTime(now.from)}, ` : ''}${bytesWords(now.bytes)}${now.not_replayable ? ` · to be read, not replayed: ${now.not_replayable}` : ' · replayable'}` : waiting}</span>
+              <span class="where">{now ? `${now.from ? `${t('since {from}', { from: dateTime(now.from) })}, ` : ''}${bytesWords(now.bytes)}${now.not_replayable ? ` · ${t('to be read, not replayed: {why}', { why: now.not_replayable })}` : ` · ${t('replayable')}`}` : waiting}</span>
             </div>
           </form>
         </Gate>
         <Tell told={told.value} field="recording-told" />
       </Section>
-      {open.value && <PlaybackPart key={open.value} name={open.value} close={() => (open.value = '')} />}
-      <Section title={`Recordings${recordings.length > 0 ? `, ${recordings.length}` : ''}`} beside={now && <span class="where">{`${bytesWords(now.disk_bytes)} of ${bytesWords(now.disk_most_bytes)}`}</span>}>
+      {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
+      <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(now.disk_bytes), disk_most_bytes: bytesWords(now.disk_most_bytes) })}</span>}>
         {now?.disk_fault && <p class="notice tone-fault">{capital(now.disk_fault)}</p>}
         {recordings.length === 0 ? (
-          <Empty text={waiting || 'No recording yet. An alarm makes one by itself.'} />
+          <Empty text={waiting || t('No recording yet. An alarm makes one by itself.')} />
         ) : (
-          <ul class="card rows" aria-label="Recordings">
+          <ul class="card rows" aria-label={t('Recordings')}>
             {recordings.map((r) => (
               <RecordingRow key={r.name} recording={r} open={open.value === r.name} play={() => (open.value = open.peek() === r.name ? '' : r.name)} door={door} act={act} />
             ))}
@@ -94,13 +95,13 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
   const renaming = useSignal(false);
   return (
     <li class="row recorder-row" data-recording={r.name}>
-      <Pill word={recordingWord(r)} label="State" />
+      <Pill word={recordingWord(r)} label={t('State')} />
       <span class="recorder-what">
         <b>{r.name}</b>
         <span class="where">
           {' '}
           {r.at ? dateTime(r.at) : ''} {bytesWords(r.bytes)}
-          {r.automatic ? ' · by an alarm' : ''}
+          {r.automatic ? ` · ${t('by an alarm')}` : ''}
           {r.why ? ` · ${r.why}` : ''}
           {r.who ? ` · ${r.who}` : ''}
           {r.fault ? ` · ${r.fault}` : ''}
@@ -108,21 +109,21 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
       </span>
       <span class="recorder-buttons">
         {!r.fault && (
-          <button type="button" class="button" aria-pressed={open} aria-label={`Play back ${r.name}`} onClick={play}>
-            Play back
+          <button type="button" class="button" aria-pressed={open} aria-label={t('Play back {name}', { name: r.name })} onClick={play}>
+            {t('Play back')}
           </button>
         )}
-        <a class="button" href={recordingFile(r.name)} download={`${r.name}.axr`} aria-label={`Download ${r.name}`}>
-          Download
+        <a class="button" href={recordingFile(r.name)} download={`${r.name}.axr`} aria-label={t('Download {name}', { name: r.name })}>
+          {t('Download')}
         </a>
-        <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={`Rename ${r.name}`} onClick={() => (renaming.value = !renaming.value)}>
-          Rename
+        <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={t('Rename {name}', { name: r.name })} onClick={() => (renaming.value = !renaming.value)}>
+          {t('Rename')}
         </button>
-        <button type="button" class="button quiet" {...no} aria-label={`Delete ${r.name}`} onClick={() => void act(() => door.remove('recordings', r.name), `${r.name} is deleted.`)}>
-          Delete
+        <button type="button" class="button quiet" {...no} aria-label={t('Delete {name}', { name: r.name })} onClick={() => void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }))}>
+          {t('Delete')}
         </button>
       </span>
-      {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), `${r.name} is called ${to} now.`).then((good) => good && (renaming.value = false))} />}
+      {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), t('{name} is called {to} now.', { name: r.name, to })).then((good) => good && (renaming.value = false))} />}
     </li>
   );
 }

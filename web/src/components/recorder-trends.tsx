@@ -1,5 +1,6 @@
 // Trends: what the gateway remembers of the last minutes of any axes, in one plot: axes and points to choose, zoom, cursors, a table as CSV.
 // In: GET /recorder/trends, asked for what is seen, at most every second and soon after each zoom. Out: a plot that a reload does not empty.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -86,17 +87,17 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
     };
     const turn = () => {
       if (document.hidden) return;
-      const t = now();
-      v.whole.value = [t - minutes.peek() * 60, t];
+      const instant = now();
+      v.whole.value = [instant - minutes.peek() * 60, instant];
       if (!follow.peek()) return;
       own = true;
-      v.range.value = [t - span, t];
+      v.range.value = [instant - span, instant];
       own = false;
       void load();
     };
     if (!follow.peek() && at_ms !== undefined) {
-      const t = now();
-      v.whole.value = [t - minutes.peek() * 60, t];
+      const instant = now();
+      v.whole.value = [instant - minutes.peek() * 60, instant];
       v.range.value = [at_ms / 1000 - span / 2, at_ms / 1000 + span / 2];
     }
     turn();
@@ -125,18 +126,18 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
     const [from, to] = v.range.peek();
     void door.trendsCsv({ axes, points: [...seen, 'state'], from_ms: from * 1000, to_ms: to * 1000, columns: 5000 }).then((text) => saveText('trends.csv', 'text/csv', text), (e: unknown) => (fault.value = capital(asProblem(e).words)));
   };
-  if (names.length === 0) return <Empty text={store.listed.value ? 'There is no axis yet.' : 'Waiting for the gateway.'} />;
+  if (names.length === 0) return <Empty text={store.listed.value ? t('There is no axis yet.') : t('Waiting for the gateway.')} />;
   return (
     <div class="scope card recorder-plot">
       <div class="scope-head">
-        <div class="group scope-channels" role="group" aria-label="Points">
+        <div class="group scope-channels" role="group" aria-label={t('Points')}>
           {points.map((p) => (
             <button key={p} type="button" class="button small" aria-pressed={seen.includes(p)} onClick={() => (chosenPoints.value = toggled(seen, p).join(',') || p)}>
               {pointNames[p]}
             </button>
           ))}
         </div>
-        <div class="group" role="group" aria-label="Time shown">
+        <div class="group" role="group" aria-label={t('Time shown')}>
           {spans.map((s) => (
             <button
               key={s}
@@ -148,16 +149,16 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
                 follow.value = true;
               }}
             >
-              {s < 60 ? `${s} s` : `${s / 60} min`}
+              {s < 60 ? `${s} s` : t('{n} min', { n: s / 60 })}
             </button>
           ))}
         </div>
         <PlotButtons view={v} />
-        <button type="button" class="button small" onClick={save} title="What is seen now, as a table">
-          CSV
+        <button type="button" class="button small" onClick={save} title={t('What is seen now, as a table')}>
+          {t('CSV')}
         </button>
       </div>
-      <div class="group recorder-axes" role="group" aria-label={`Axes, at most ${mostAxes}`}>
+      <div class="group recorder-axes" role="group" aria-label={t('Axes, at most {mostAxes}', { mostAxes })}>
         {names.map((n) => (
           <button key={n} type="button" class="button small" aria-pressed={axes.includes(n)} disabled={!axes.includes(n) && axes.length >= mostAxes} onClick={() => (chosenAxes.value = toggled(axes, n).join(','))}>
             {n}
@@ -171,10 +172,10 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         data={() => (drawn.current.columns.length === curves.length ? ([drawn.current.at, ...drawn.current.columns] as never) : ([[]] as never))}
         version={version.value}
         marks={at_ms === undefined ? [] : [{ at: at_ms / 1000, text: 'alarm' }]}
-        timeText={(t, _end, s) => instantText(t, s)}
-        label={`Trends of ${axes.join(', ')}. Drag to come closer, 0 shows all. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away, plus and minus zoom, page keys move.`}
+        timeText={(instant, _end, s) => instantText(instant, s)}
+        label={t('Trends of {n}. Drag to come closer, 0 shows all. Arrow keys move the cursor {n2}, Delete takes it away, plus and minus zoom, page keys move.', { n: axes.join(', '), n2: v.active.value === 0 ? 'A' : 'B' })}
       />
-      <ul class="curve-list" aria-label="Curves" data-version={version.value}>
+      <ul class="curve-list" aria-label={t('Curves')} data-version={version.value}>
         {curves.map((c) => (
           <li key={c.id} class={`curve-key ink${c.color}`}>
             {c.name}
@@ -182,10 +183,10 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         ))}
       </ul>
       <p class="where" role="status" data-field="trend-rate">
-        {fault.value || (doc ? doc.axes.map((a) => `${a.axis} ${rateWords(a.rate_hz)}`).join(' · ') : 'Waiting for the gateway.')}
-        {!follow.value && !fault.value && ' · held: choose a time to follow again'}
+        {fault.value || (doc ? doc.axes.map((a) => `${a.axis} ${rateWords(a.rate_hz)}`).join(' · ') : t('Waiting for the gateway.'))}
+        {!follow.value && !fault.value && ` · ${t('held: choose a time to follow again')}`}
       </p>
-      <CursorTable view={v} curves={curves} read={(c, t) => readAt(drawn.current.at, drawn.current.columns[curves.indexOf(c)] ?? [], t)} clock={(t) => instantText(t, 1)} />
+      <CursorTable view={v} curves={curves} read={(c, instant) => readAt(drawn.current.at, drawn.current.columns[curves.indexOf(c)] ?? [], instant)} clock={(instant) => instantText(instant, 1)} />
     </div>
   );
 }

@@ -1,5 +1,6 @@
 // Rename form: another name for a capture or a recording. In: the name it has. Out: the new one, if it is one.
 import { useSignal } from '@preact/signals';
+import { t } from '../language';
 import { nameFault } from '../text/recorder';
 import { TextField } from './form';
 
@@ -10,16 +11,16 @@ export function RenameForm({ name, rename }: { name: string; rename: (to: string
     <form
       class="form-grid recorder-rename"
       noValidate
-      aria-label={`New name of ${name}`}
+      aria-label={t('New name of {name}', { name })}
       onSubmit={(e) => {
         e.preventDefault();
         if (!fault) rename(typed.value);
       }}
     >
-      <TextField label="Name" value={typed.value} onText={(t) => (typed.value = t)} fault={fault} />
+      <TextField label={t('Name')} value={typed.value} onText={(text) => (typed.value = text)} fault={fault} />
       <div class="form-foot">
         <button type="submit" class="button" disabled={fault !== undefined || typed.value === name}>
-          Rename
+          {t('Rename')}
         </button>
       </div>
     </form>

@@ -1,6 +1,7 @@
 // Scope: position, demand, velocity, following error and target over time. In: the axis' history. Out: plots on one time axis, newest at the
 // right; two cursors with their readings; a trigger; the picture as CSV. Follows the gateway's clock; holds still when told to, or when the
 // trigger has fired; a gap stays a gap. Redrawn at most 20 times a second (once with reduced motion), with at most two rows per pixel.
+import { t } from '../language';
 import { useEffect, useRef } from 'preact/hooks';
 import { computed, signal, useComputed } from '@preact/signals';
 import type uPlot from 'uplot';
@@ -20,7 +21,7 @@ const visible = computed(() => new Set(shown.value.split(',')));
 /** Enough for two minutes at 1 kHz. */
 const closeCapacity = 131_072;
 
-const names: Record<Channel, string> = { position: 'Position', demand: 'Demand', velocity: 'Velocity', error: 'Following error', target: 'Target' };
+const names: Record<Channel, string> = { position: t('Position'), demand: t('Demand'), velocity: t('Velocity'), error: t('Following error'), target: t('Target') };
 const scaleOf: Record<Channel, string> = { position: 'p', demand: 'p', target: 'p', velocity: 'v', error: 'e' };
 const colorOf: Record<Channel, string> = { position: '--series-1', velocity: '--series-2', target: '--series-3', demand: '--series-4', error: '--series-5' };
 /** From the bottom up: what matters most is drawn last. */
@@ -77,10 +78,10 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
     const now_s = now();
     const [from, to] = v.look(store.history(axis), now_s, seconds());
     v.range.value = [from, to];
-    const t = store.history(axis).seen(from * 1000, to * 1000, Math.max(200, globalThis.innerWidth));
+    const instant = store.history(axis).seen(from * 1000, to * 1000, Math.max(200, globalThis.innerWidth));
     const entry = store.axis(axis)?.peek();
-    if (entry && store.trustOf(entry) === 'live' && t.at.length > 0 && to >= now_s) extend(t, now_s);
-    return [t.at, ...curves.map((c) => columnOf(t, c.id as Channel))] as uPlot.AlignedData;
+    if (entry && store.trustOf(entry) === 'live' && instant.at.length > 0 && to >= now_s) extend(instant, now_s);
+    return [instant.at, ...curves.map((c) => columnOf(instant, c.id as Channel))] as uPlot.AlignedData;
   };
 
   const hold = () => {
@@ -96,25 +97,25 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
   return (
     <div class="scope card">
       <div class="scope-head">
-        <div class="group scope-channels" role="group" aria-label="Channels">
+        <div class="group scope-channels" role="group" aria-label={t('Channels')}>
           {channels.map((c) => (
             <button key={c} type="button" class={`button small key key-${c}`} aria-pressed={seen.has(c)} onClick={() => toggle(c)}>
               {names[c]}
             </button>
           ))}
         </div>
-        <div class="group" role="group" aria-label="Time shown">
+        <div class="group" role="group" aria-label={t('Time shown')}>
           {windows.map((w) => (
             <button key={w} type="button" class="button small" aria-pressed={chosen.value === String(w)} onClick={() => (chosen.value = String(w))}>
-              {w < 60 ? `${w} s` : `${w / 60} min`}
+              {w < 60 ? `${w} s` : t('{n} min', { n: w / 60 })}
             </button>
           ))}
         </div>
-        <button type="button" class="button small" title="What is seen now, as a table" onClick={save}>
-          CSV
+        <button type="button" class="button small" title={t('What is seen now, as a table')} onClick={save}>
+          {t('CSV')}
         </button>
         <button type="button" class="button small hold" aria-pressed={v.paused.value} onClick={hold}>
-          {v.paused.value ? 'Held' : 'Hold'}
+          {v.paused.value ? t('Held') : t('Hold')}
         </button>
       </div>
       <Plot
@@ -123,10 +124,10 @@ export function Scope({ axis, unit }: { axis: string; unit: string }) {
         curves={curves}
         data={data}
         timeText={secondsBefore}
-        label={`Scope of ${axis}, the last ${chosen.value} seconds. Arrow keys move the cursor ${v.active.value === 0 ? 'A' : 'B'}, Delete takes it away.`}
+        label={t('Scope of {axis}, the last {n} seconds. Arrow keys move the cursor {n2}, Delete takes it away.', { axis, n: chosen.value, n2: v.active.value === 0 ? 'A' : 'B' })}
       />
       <DemandLine axis={axis} seen={seen} view={v} />
-      <CursorTable view={v} curves={curves} read={(c, t) => readOf(store.history(axis), c.id as Channel, t)} clock={(t) => new Date(t * 1000).toISOString().slice(11, 23)} />
+      <CursorTable view={v} curves={curves} read={(c, instant) => readOf(store.history(axis), c.id as Channel, instant)} clock={(instant) => new Date(instant * 1000).toISOString().slice(11, 23)} />
       <TriggerBar view={v} unit={unit} now={now} />
     </div>
   );
@@ -140,13 +141,13 @@ function toggle(c: Channel): void {
 }
 
 /** The newest values hold until now. */
-function extend(t: HistoryColumns, now_s: number): void {
-  t.at.push(now_s);
-  for (const column of [t.position, t.velocity, t.target, t.demand, t.error]) column.push(column.at(-1) ?? null);
-  t.source.push(t.source.at(-1) ?? null);
+function extend(instant: HistoryColumns, now_s: number): void {
+  instant.at.push(now_s);
+  for (const column of [instant.position, instant.velocity, instant.target, instant.demand, instant.error]) column.push(column.at(-1) ?? null);
+  instant.source.push(instant.source.at(-1) ?? null);
 }
 
-const readOf = (history: AxisHistory, c: Channel, t: number) => valueAt(history.since(t * 1000 - 60_000, t * 1000 + 60_000), c, t);
+const readOf = (history: AxisHistory, c: Channel, instant: number) => valueAt(history.since(instant * 1000 - 60_000, instant * 1000 + 60_000), c, instant);
 
 /** Where the demand of the newest sample comes from, as long as something of it is drawn or waited for. */
 function DemandLine({ axis, seen, view }: { axis: string; seen: ReadonlySet<string>; view: View }) {
@@ -164,7 +165,7 @@ function DemandLine({ axis, seen, view }: { axis: string; seen: ReadonlySet<stri
   );
 }
 
-const triggerWords = { off: '', waiting: 'Waiting for the trigger', fired: 'Triggered, recording', shown: 'Held by the trigger' } as const;
+const triggerWords = { off: '', waiting: t('Waiting for the trigger'), fired: t('Triggered, recording'), shown: t('Held by the trigger') } as const;
 
 function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => number }) {
   const typed = useRef(signal('0')).current;
@@ -177,17 +178,17 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
   return (
     <div class="scope-trigger">
       <label>
-        <span>Trigger</span>
+        <span>{t('Trigger')}</span>
         <select value={setting.mode} onChange={(e) => change({ mode: e.currentTarget.value as TriggerSetting['mode'] })}>
-          <option value="off">off</option>
-          <option value="single">once</option>
-          <option value="again">each time</option>
+          <option value="off">{t('off')}</option>
+          <option value="single">{t('once')}</option>
+          <option value="again">{t('each time')}</option>
         </select>
       </label>
       {setting.mode !== 'off' && (
         <>
           <label>
-            <span>when</span>
+            <span>{t('when')}</span>
             <select value={setting.channel} onChange={(e) => change({ channel: e.currentTarget.value as Channel })}>
               {channels.map((c) => (
                 <option key={c} value={c}>
@@ -197,14 +198,14 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
             </select>
           </label>
           <label>
-            <span class="visually-hidden">Edge</span>
+            <span class="visually-hidden">{t('Edge')}</span>
             <select value={setting.edge} onChange={(e) => change({ edge: e.currentTarget.value as TriggerSetting['edge'] })}>
-              <option value="rising">rises through</option>
-              <option value="falling">falls through</option>
+              <option value="rising">{t('rises through')}</option>
+              <option value="falling">{t('falls through')}</option>
             </select>
           </label>
           <label>
-            <span class="visually-hidden">Level, {perSecond(setting.channel, unit)}</span>
+            <span class="visually-hidden">{t('Level, {channel}', { channel: perSecond(setting.channel, unit) })}</span>
             <input
               type="text"
               inputMode="decimal"
@@ -221,7 +222,7 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
             <span class="unit">{perSecond(setting.channel, unit)}</span>
           </label>
           <button type="button" class="button small" onClick={() => view.machine.arm(now())}>
-            Arm
+            {t('Arm')}
           </button>
           <span class="where" role="status">
             {parsed.good ? triggerWords[view.triggerState.value] : parsed.why}
@@ -232,7 +233,7 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
   );
 }
 
-const secondsBefore = (t: number, end: number): string => {
-  const s = Math.round((t - end) * 10) / 10;
+const secondsBefore = (instant: number, end: number): string => {
+  const s = Math.round((instant - end) * 10) / 10;
   return s === 0 ? '0 s' : `${s < 0 ? '−' : ''}${Math.abs(s) < 10 ? Math.abs(s).toFixed(1).replace(/\.0$/, '') : Math.abs(Math.round(s))} s`;
 };

@@ -1,5 +1,6 @@
 // Snapshots of an axis' parameters: saved under a name, compared, restored after a look at what will change. In: the HTTP door. Out: a section.
 // A restore is never sent without the list of its changes on the page; it is refused by the gateway while the axis is commanded.
+import { t } from '../language';
 import { barred } from '../state/session';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
@@ -57,46 +58,46 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const save = () => {
     wrong.value = name.value.trim() === '';
     if (wrong.value) return;
-    void tell(from.value === 'device' ? 'Reading all parameters from the drive …' : 'Saving …', async () => {
+    void tell(from.value === 'device' ? t('Reading all parameters from the drive …') : t('Saving …'), async () => {
       const sent = { name: name.value, comment: comment.value };
       const s = await door.save({ name: sent.name.trim(), comment: sent.comment.trim(), from: from.value });
       emptied(name, sent.name);
       emptied(comment, sent.comment);
       await again();
-      return `Saved as ${s.n}.`;
+      return t('Saved as {n}.', { n: s.n });
     });
   };
   const look = (s: Snapshot, withLive = live.peek()) =>
-    tell('Comparing with the drive …', async () => {
+    tell(t('Comparing with the drive …'), async () => {
       const report = await door.restore(s.n, withLive ? { dry_run: true, include_live: true } : { dry_run: true });
       // Names and units only: what is to be written is in the report.
       if (shapes.peek().size === 0) shapes.value = new Map((await client.parameters(axis).catch(() => [])).map((x) => [x.id, x]));
       live.value = withLive;
       restoring.value = { snapshot: s, report, chosen: new Set((report.changes ?? []).map((c) => c.parameter)) };
-      return report.changes?.length ? 'Nothing has been changed yet.' : `The drive has all values of ${s.name} already.`;
+      return report.changes?.length ? t('Nothing has been changed yet.') : t('The drive has all values of {name} already.', { name: s.name });
     });
   const restore = () => {
     const r = restoring.value;
     if (!r || r.chosen.size === 0) return;
-    void tell(`Writing ${parametersWords(r.chosen.size)} …`, async () => {
+    void tell(t('Writing {size} …', { size: parametersWords(r.chosen.size) }), async () => {
       const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false, ...(live.peek() ? { include_live: true } : {}) });
       restoring.value = null;
       const failed = done.failed ?? [];
-      if (failed.length > 0) throw new Error(`${done.changed?.length ?? 0} written; NOT written: ${failed.map((f) => `${f.parameter} (${f.reason})`).join(', ')}`);
-      return `${parametersWords(done.changed?.length ?? r.chosen.size)} restored from ${r.snapshot.name}.`;
+      if (failed.length > 0) throw new Error(t('{n} written; NOT written: {n2}', { n: done.changed?.length ?? 0, n2: failed.map((f) => `${f.parameter} (${f.reason})`).join(', ') }));
+      return t('{n} restored from {name}.', { n: parametersWords(done.changed?.length ?? r.chosen.size), name: r.snapshot.name });
     });
   };
   const remove = (s: Snapshot) =>
-    tell('Removing …', async () => {
+    tell(t('Removing …'), async () => {
       await door.remove(s.n);
       removing.value = null;
       await again();
-      return `${s.name} is removed.`;
+      return t('{name} is removed.', { name: s.name });
     });
 
   if (why) {
     return (
-      <Section title="Snapshots">
+      <Section title={t('Snapshots')}>
         <div class="card" data-field="snapshots">
           <Empty text={why} />
         </div>
@@ -105,56 +106,56 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   }
   const r = restoring.value;
   return (
-    <Section title="Snapshots" class="snapshots" help="parameters">
+    <Section title={t('Snapshots')} class="snapshots" help="parameters">
       <form
         class="card form"
         noValidate
-        aria-label="Save a snapshot"
+        aria-label={t('Save a snapshot')}
         data-field="snapshots"
         onSubmit={(e) => {
           e.preventDefault();
           save();
         }}
       >
-        <Why need="engineer" what="Saving, restoring and removing a snapshot" />
+        <Why need="engineer" what={t('Saving, restoring and removing a snapshot')} />
         <div class="form-grid">
-          <TextField label="Name" value={name.value} onText={(t) => (name.value = t)} fault={wrong.value && name.value.trim() === '' ? 'Give it a name.' : undefined} />
-          <TextField label="Comment" class="wide" value={comment.value} onText={(t) => (comment.value = t)} />
-          <Choice label="Values" class="wide" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: 'read from the drive now' }, { value: 'stored', text: 'as the gateway has stored them' }]} />
+          <TextField label={t('Name')} value={name.value} onText={(entered) => (name.value = entered)} fault={wrong.value && name.value.trim() === '' ? t('Give it a name.') : undefined} />
+          <TextField label={t('Comment')} class="wide" value={comment.value} onText={(entered) => (comment.value = entered)} />
+          <Choice label={t('Values')} class="wide" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: t('read from the drive now') }, { value: 'stored', text: t('as the gateway has stored them') }]} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary" {...no}>
-            Save snapshot
+            {t('Save snapshot')}
           </button>
           <Tell told={told.value} field="snapshot-told" />
         </div>
         {list.value.length === 0 ? (
-          <p class="where">No snapshot is kept.</p>
+          <p class="where">{t('No snapshot is kept.')}</p>
         ) : (
-          <ul class="rows snapshot-list" aria-label="Snapshots">
+          <ul class="rows snapshot-list" aria-label={t('Snapshots')}>
             {[...list.value].reverse().map((s) => {
               const other = foreignWords(s, family, titles);
               return (
               <li key={s.n} class="row" data-snapshot={s.n}>
                 <div class="row-head">
                   <h3>
-                    {s.name} <span class="where">no. {s.n}</span>
+                    {s.name} <span class="where">{t('no. {n}', { n: s.n })}</span>
                   </h3>
-                  <button type="button" class="button small" aria-label={`Restore ${s.name}`} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
-                    Restore
+                  <button type="button" class="button small" aria-label={t('Restore {name}', { name: s.name })} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
+                    {t('Restore')}
                   </button>
                   {removing.value === s.n ? (
                     <>
-                      <button type="button" class="button small" aria-label={`Remove for good: ${s.name}`} {...no} onClick={() => void remove(s)}>
-                        Remove for good
+                      <button type="button" class="button small" aria-label={t('Remove for good: {name}', { name: s.name })} {...no} onClick={() => void remove(s)}>
+                        {t('Remove for good')}
                       </button>
                       <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>
-                        Keep
+                        {t('Keep')}
                       </button>
                     </>
                   ) : (
-                    <button type="button" class="button small quiet" aria-label={`Remove ${s.name}`} {...no} onClick={() => (removing.value = s.n)}>
-                      Remove
+                    <button type="button" class="button small quiet" aria-label={t('Remove {name}', { name: s.name })} {...no} onClick={() => (removing.value = s.n)}>
+                      {t('Remove')}
                     </button>
                   )}
                 </div>
@@ -183,18 +184,17 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                   if (restoring.peek()) void look(restoring.peek()!.snapshot, e.currentTarget.checked);
                 }}
               />{' '}
-              Restore also what acts at once
+              {t('Restore also what acts at once')}
             </label>
             <p class="form-told" id="restore-live-told">
-              Settings are always written back. Some values are no settings but act the moment they are written: switches, set-points, outputs, counters, variables of the program in the drive. Without this mark they are left alone and listed as left out; with it, writing them can switch or
-              move something.
+              {t('Settings are always written back. Some values are no settings but act the moment they are written: switches, set-points, outputs, counters, variables of the program in the drive. Without this mark they are left alone and listed as left out; with it, writing them can switch or move something.')}
             </p>
           </div>
         )}
         {r && (r.report.changes?.length ?? 0) > 0 && (
           <fieldset class="changes">
             <legend>
-              Restoring {r.snapshot.name} changes {parametersWords(r.report.changes?.length ?? 0)} of <AxisName name={axis} plain />
+              {t('Restoring {name} changes {n} of', { name: r.snapshot.name, n: parametersWords(r.report.changes?.length ?? 0) })}{' '}<AxisName name={axis} plain />
             </legend>
             <ul>
               {r.report.changes?.map((c) => (
@@ -224,10 +224,10 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
             {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} shapes={shapes.value} />}
             <div class="form-foot">
               <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
-                Write {r.chosen.size === 1 ? '1 value' : `${r.chosen.size} values`} to the drive
+                {t('Write {n} to the drive', { n: r.chosen.size === 1 ? '1 value' : t('{size} values', { size: r.chosen.size }) })}
               </button>
               <button type="button" class="button quiet" onClick={() => (restoring.value = null)}>
-                Change nothing
+                {t('Change nothing')}
               </button>
             </div>
           </fieldset>
@@ -258,7 +258,7 @@ function LeftOut({ skipped, shapes }: { skipped: { parameter: string; why: strin
   return (
     <details class="where" data-field="left-out">
       <summary>
-        Left out: {parametersWords(skipped.length)} ({groups.map((g) => `${g.parameters.length}: ${g.why}`).join('; ')})
+        {t('Left out: {n} (', { n: parametersWords(skipped.length) })}{groups.map((g) => `${g.parameters.length}: ${g.why}`).join('; ')})
       </summary>
       <ul>
         {groups.map((g) => (

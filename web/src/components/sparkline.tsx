@@ -1,5 +1,6 @@
 // Sparkline: the position of the last 30 s, on a canvas. In: the axis' history. Out: a line; a gap where nothing was known.
 // Drawn at most ten times a second, once a second where motion is to be reduced, and not at all while it is off the screen.
+import { t } from '../language';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { dark } from '../state/theme';
@@ -85,5 +86,5 @@ export function Sparkline({ axis }: { axis: string }) {
     };
   }, [axis, store]);
 
-  return <canvas ref={canvas} class="sparkline" role="img" aria-label={`Position of ${axis} over the last 30 seconds`} />;
+  return <canvas ref={canvas} class="sparkline" role="img" aria-label={t('Position of {axis} over the last 30 seconds', { axis })} />;
 }

@@ -4,6 +4,7 @@
 // says so and names the machine's own emergency stop. It is a command over the network, not a safety function.
 import { useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import type { Commander } from '../state/commander';
 import { emptyTyped, typing, watchTyping } from '../state/typing';
 import { Icon } from './icon';
@@ -17,18 +18,18 @@ export function StopButton({ axis, large = false, urgent = true, by }: { axis: s
       type="button"
       disabled={barred !== ''}
       class={`stop${large ? ' stop-large' : ''}${urgent ? '' : ' stop-calm'}`}
-      aria-label={`Stop ${axis}`}
-      title={barred || `Quick stop of ${axis}. Not a safety function: keep the emergency stop of the machine at hand.`}
+      aria-label={t('Stop {axis}', { axis })}
+      title={barred || t('Quick stop of {axis}. Not a safety function: keep the emergency stop of the machine at hand.', { axis })}
       onClick={() => void (by ?? commander).stop(axis)}
     >
       <Icon name="octagon" size={large ? 18 : 14} />
-      STOP
+      {t('STOP')}
     </button>
   );
 }
 
 /** What the key does, for the button and for those who look it up. */
-export const keyWords = 'The Escape key does the same; while you type, it empties the field first and stops when pressed again.';
+export const keyWords = t('The Escape key does the same; while you type, it empties the field first and stops when pressed again.');
 
 export function StopAll() {
   const { commander, session, store } = useGateway();
@@ -37,7 +38,7 @@ export function StopAll() {
     const why = session.stopBarred.peek();
     if (!why) return void commander.stopAll(store.listed.peek() ? movingFirst() : null);
     // Nothing is pretended: it would be refused. Perhaps somebody has signed in meanwhile.
-    commander.stopReport.value = { tone: 'refused', text: 'NOT stopped.' };
+    commander.stopReport.value = { tone: 'refused', text: t('NOT stopped.') };
     void session.ask();
   };
   useLayoutEffect(() => {
@@ -67,11 +68,11 @@ export function StopAll() {
       disabled={barred !== ''}
       aria-keyshortcuts="Escape"
       aria-description={barred || undefined}
-      title={barred || `Quick stop of every axis. ${keyWords} Not a safety function: keep the emergency stop of the machine at hand.`}
+      title={barred || t('Quick stop of every axis. {keyWords} Not a safety function: keep the emergency stop of the machine at hand.', { keyWords })}
       onClick={stopAll}
     >
       <Icon name="octagon" size={16} />
-      <span>{barred ? 'No stop from here' : 'Stop all'}</span>
+      <span>{barred ? t('No stop from here') : t('Stop all')}</span>
       <kbd aria-hidden="true">{typing.value ? 'Esc Esc' : 'Esc'}</kbd>
     </button>
   );

@@ -4,16 +4,17 @@ import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { MadeToken, Token } from '../api/types';
 import { useGateway } from '../gateway';
-import { barred, roles } from '../state/session';
+import { t } from '../language';
+import { barred, roles, roleWord } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 
 const ends = [
-  { value: '86400', text: 'in a day' },
-  { value: '2592000', text: 'in 30 days' },
-  { value: '31536000', text: 'in a year' },
-  { value: '', text: 'never' },
+  { value: '86400', text: t('in a day') },
+  { value: '2592000', text: t('in 30 days') },
+  { value: '31536000', text: t('in a year') },
+  { value: '', text: t('never') },
 ];
 
 export function Tokens() {
@@ -26,30 +27,30 @@ export function Tokens() {
   const [name, setName] = useState('');
   const [role, setRole] = useState<string>('viewer');
   const [end, setEnd] = useState('2592000');
-  const no = info && info.via !== 'cookie' ? 'A token belongs to a user: sign in with a password to make one.' : '';
+  const no = info && info.via !== 'cookie' ? t('A token belongs to a user: sign in with a password to make one.') : '';
 
   const list = async () => setTokens(await client.call<Token[]>('/tokens'));
   const why = useLoaded(list);
   const add = async (event: Event) => {
     event.preventDefault();
-    if (!name.trim()) return setTold({ tone: 'refused', text: 'The name is missing.' });
-    setTold({ tone: 'busy', text: 'Making …' });
+    if (!name.trim()) return setTold({ tone: 'refused', text: t('The name is missing.') });
+    setTold({ tone: 'busy', text: t('Making …') });
     try {
       setMade(await client.call<MadeToken>('/tokens', { method: 'POST', body: { name: name.trim(), role, ...(end ? { expires_in_s: Number(end) } : {}) } }));
-      setTold({ tone: 'good', text: 'Made. It is shown this once: copy it now.' });
+      setTold({ tone: 'good', text: t('Made. It is shown this once: copy it now.') });
       setName((now) => (now === name ? '' : now));
       await list();
     } catch (error) {
       setTold({ tone: 'refused', text: asProblem(error).words });
     }
   };
-  const remove = async (t: Token) => {
-    if (asked !== t.id) return setAsked(t.id);
+  const remove = async (k: Token) => {
+    if (asked !== k.id) return setAsked(k.id);
     setAsked('');
     try {
-      await client.call(`/tokens/${encodeURIComponent(t.id)}`, { method: 'DELETE' });
-      if (made?.id === t.id) setMade(null);
-      setTold({ tone: 'good', text: `Deleted ${t.name}.` });
+      await client.call(`/tokens/${encodeURIComponent(k.id)}`, { method: 'DELETE' });
+      if (made?.id === k.id) setMade(null);
+      setTold({ tone: 'good', text: t('Deleted {name}.', { name: k.name }) });
       await list();
     } catch (error) {
       setTold({ tone: 'refused', text: asProblem(error).words });
@@ -58,28 +59,28 @@ export function Tokens() {
   const copy = async (secret: string) => {
     try {
       await navigator.clipboard.writeText(secret);
-      setTold({ tone: 'good', text: 'Copied.' });
+      setTold({ tone: 'good', text: t('Copied.') });
     } catch {
-      setTold({ tone: 'refused', text: 'The browser does not let the page copy: mark the text and copy it by hand.' });
+      setTold({ tone: 'refused', text: t('The browser does not let the page copy: mark the text and copy it by hand.') });
     }
   };
-  const may = roles.slice(0, info?.role ? roles.indexOf(info.role) + 1 : roles.length).map((r) => ({ value: r, text: r }));
+  const may = roles.slice(0, info?.role ? roles.indexOf(info.role) + 1 : roles.length).map((r) => ({ value: r, text: roleWord(r) }));
   return (
     <div class="card form">
       <ul class="access-list">
         {why && <li>{why}</li>}
-        {tokens?.length === 0 && <li>There are no tokens.</li>}
-        {tokens?.map((t) => (
-          <li key={t.id} data-token={t.name} class="access-row">
+        {tokens?.length === 0 && <li>{t('There are no tokens.')}</li>}
+        {tokens?.map((k) => (
+          <li key={k.id} data-token={k.name} class="access-row">
             <span class="access-name">
-              <b>{t.name}</b>{' '}
+              <b>{k.name}</b>{' '}
               <span class="access-more">
-                {t.role} · {t.owner} · {t.expires_at ? `${Date.parse(t.expires_at) <= store.gatewayNow_ms() ? 'expired' : 'ends'} ${clockTime(t.expires_at)}` : 'does not end'} · {t.last_used_at ? `used ${clockTime(t.last_used_at)}` : 'never used'}
+                {roleWord(k.role)} · {k.owner} · {!k.expires_at ? t('does not end') : Date.parse(k.expires_at) <= store.gatewayNow_ms() ? t('expired {time}', { time: clockTime(k.expires_at) }) : t('ends {time}', { time: clockTime(k.expires_at) })} · {k.last_used_at ? t('used {time}', { time: clockTime(k.last_used_at) }) : t('never used')}
               </span>
             </span>
             <span class="access-acts">
-              <button type="button" class="button" aria-label={asked === t.id ? `Really delete token ${t.name}` : `Delete token ${t.name}`} onClick={() => void remove(t)} onBlur={() => setAsked('')}>
-                {asked === t.id ? 'Really delete' : 'Delete'}
+              <button type="button" class="button" aria-label={asked === k.id ? t('Really delete token {name}', { name: k.name }) : t('Delete token {name}', { name: k.name })} onClick={() => void remove(k)} onBlur={() => setAsked('')}>
+                {asked === k.id ? t('Really delete') : t('Delete')}
               </button>
             </span>
           </li>
@@ -89,22 +90,22 @@ export function Tokens() {
         <p class="access-secret">
           <code class="mono" data-field="secret">{made.token}</code>
           <button type="button" class="button" onClick={() => void copy(made.token)}>
-            Copy
+            {t('Copy')}
           </button>
           <button type="button" class="button quiet" onClick={() => setMade(null)}>
-            Hide
+            {t('Hide')}
           </button>
         </p>
       )}
-      <form aria-label="Add a token" onSubmit={(e) => void add(e)}>
+      <form aria-label={t('Add a token')} onSubmit={(e) => void add(e)}>
         <div class="form-grid">
-          <TextField label="Name of the token" value={name} onText={setName} disabled={Boolean(no)} hint={no || undefined} />
-          <Choice label="Role of the token" value={role} onChoice={setRole} choices={may} disabled={Boolean(no)} />
-          <Choice label="It ends" value={end} onChoice={setEnd} choices={ends} disabled={Boolean(no)} />
+          <TextField label={t('Name of the token')} value={name} onText={setName} disabled={Boolean(no)} hint={no || undefined} />
+          <Choice label={t('Role of the token')} value={role} onChoice={setRole} choices={may} disabled={Boolean(no)} />
+          <Choice label={t('It ends')} value={end} onChoice={setEnd} choices={ends} disabled={Boolean(no)} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary" {...barred(no)}>
-            Add token
+            {t('Add token')}
           </button>
           <Tell told={told} field="tokens-told" />
         </div>

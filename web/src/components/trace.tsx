@@ -1,22 +1,41 @@
 // Trace: the frames of a line as they cross it, newest first: bytes, their reading, and one of them byte by byte.
 // In: the stream's frames. Out: a list that can be filtered, paused and saved. Holding still loses nothing that is still recorded.
+import { t } from '../language';
 import { useComputed, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { bytesOf, idWords, joined, matches, type Frame, type FrameFilter } from '../state/frames';
+import { dateTime } from '../text/time';
 import { Empty } from './lines';
 import { Section } from './section';
 
 /** Rows that are drawn; the filter looks at all that are kept. */
 const mostShown = 300;
+/** Before and after the instant that is asked for. */
+const around_ms = 2_000;
 
-export function Trace({ line }: { line: string }) {
+/** `at_ms`: the frames around that instant, as far as the gateway still has them, held; else those that come. */
+export function Trace({ line, at_ms }: { line: string; at_ms?: number | undefined }) {
   const gateway = useGateway();
   const frames = useSignal<Frame[]>([]);
   const held = useSignal<Frame[] | null>(null);
   const missed = useSignal(0);
   const filter = useSignal<FrameFilter>({ text: '', direction: 'both' });
   const open = useSignal<number | null>(null);
+  const then = useSignal<'' | 'asked' | 'there' | 'gone'>(at_ms === undefined ? '' : 'asked');
+  useEffect(() => {
+    if (at_ms === undefined) return;
+    const end = new AbortController();
+    gateway.client.call<{ frames: Frame[] }>(`/lines/${encodeURIComponent(line)}/trace`, { signal: end.signal }).then(
+      (all) => {
+        const near = all.frames.filter((f) => Math.abs(Date.parse(f.at) - at_ms) <= around_ms);
+        then.value = near.length > 0 ? 'there' : 'gone';
+        if (near.length > 0) held.value = near;
+      },
+      () => !end.signal.aborted && (then.value = 'gone'),
+    );
+    return () => end.abort();
+  }, [gateway, line, at_ms]);
   useEffect(
     () =>
       gateway.follow(`lines/${line}/frames`, 200, (m) => {
@@ -37,24 +56,24 @@ export function Trace({ line }: { line: string }) {
   const source = held.value ?? frames.value;
   return (
     <Section
-      title="Frames"
+      title={t('Frames')}
       beside={
         <>
           <input
             class="search"
             type="search"
-            placeholder="Filter, -without"
-            aria-label="Filter frames by bytes or reading; a minus before a word leaves out what has it"
+            placeholder={t('Filter, -without')}
+            aria-label={t('Filter frames by bytes or reading; a minus before a word leaves out what has it')}
             value={filter.value.text}
             onInput={(e) => (filter.value = { ...filter.peek(), text: e.currentTarget.value })}
           />
-          <select aria-label="Direction" value={filter.value.direction} onChange={(e) => (filter.value = { ...filter.peek(), direction: e.currentTarget.value as FrameFilter['direction'] })}>
-            <option value="both">both ways</option>
-            <option value="to">to the drive</option>
-            <option value="from">from the drive</option>
+          <select aria-label={t('Direction')} value={filter.value.direction} onChange={(e) => (filter.value = { ...filter.peek(), direction: e.currentTarget.value as FrameFilter['direction'] })}>
+            <option value="both">{t('both ways')}</option>
+            <option value="to">{t('to the drive')}</option>
+            <option value="from">{t('from the drive')}</option>
           </select>
           <button type="button" class="button hold" aria-pressed={held.value !== null} onClick={() => (held.value = held.peek() === null ? frames.peek() : null)}>
-            {held.value === null ? 'Pause' : 'Paused'}
+            {held.value === null ? t('Pause') : t('Paused')}
           </button>
           <button
             type="button"
@@ -64,25 +83,27 @@ export function Trace({ line }: { line: string }) {
               held.value = null;
             }}
           >
-            Clear
+            {t('Clear')}
           </button>
           <a class="button" href={file('pcapng')} download={`${line}.pcapng`}>
-            pcapng
+            {'pcapng'}
           </a>
           <a class="button" href={file('candump')} download={`${line}.log`}>
-            candump
+            {'candump'}
           </a>
         </>
       }
     >
+      {at_ms !== undefined && then.value === 'there' && <p class="notice" data-field="frames-then">{t('Held: the frames 2 s before and after {at}. Press Paused for those that come now.', { at: dateTime(new Date(at_ms).toISOString()) })}</p>}
+      {at_ms !== undefined && then.value === 'gone' && <p class="notice" data-field="frames-then">{t('The line remembers no frames of {at} any more; a recording of that time has them.', { at: dateTime(new Date(at_ms).toISOString()) })}</p>}
       <p class="where trace-count" role="status">
-        {fitting.value.length === source.length ? `${source.length} frames` : `${fitting.value.length} of ${source.length} frames`}
-        {fitting.value.length > mostShown && `, the newest ${mostShown} are shown`}
-        {missed.value > 0 && `; ${missed.value} were overwritten before they could be shown`}
+        {fitting.value.length === source.length ? t('{n} frames', { n: source.length }) : t('{n} of {n2} frames', { n: fitting.value.length, n2: source.length })}
+        {fitting.value.length > mostShown && `, ${t('the newest {mostShown} are shown', { mostShown })}`}
+        {missed.value > 0 && `; ${t('{n} were overwritten before they could be shown', { n: missed.value })}`}
       </p>
-      <div class="card scroll frames" tabIndex={0} role="region" aria-label="Frames, newest first">
+      <div class="card scroll frames" tabIndex={0} role="region" aria-label={t('Frames, newest first')}>
         {shown.length === 0 ? (
-          <Empty text={source.length > 0 ? 'No frame fits the filter.' : 'No frame has crossed the line since this page was opened.'} />
+          <Empty text={source.length > 0 ? t('No frame fits the filter.') : t('No frame has crossed the line since this page was opened.')} />
         ) : (
           <ol class="frame-list mono">
             {shown.map((f) => (
@@ -119,18 +140,18 @@ function Details({ frame: f }: { frame: Frame }) {
     <div class="frame-details">
       <dl>
         <div>
-          <dt>Seen</dt>
+          <dt>{t('Seen')}</dt>
           <dd>{f.at}</dd>
         </div>
         {f.id !== null && (
           <div>
-            <dt>Identifier</dt>
+            <dt>{t('Identifier')}</dt>
             <dd>{idWords(f)}</dd>
           </div>
         )}
         {f.decoded.map((d, i) => (
           <div key={i}>
-            <dt>{i === 0 ? 'Reading' : ''}</dt>
+            <dt>{i === 0 ? t('Reading') : ''}</dt>
             <dd>{d}</dd>
           </div>
         ))}
@@ -140,11 +161,11 @@ function Details({ frame: f }: { frame: Frame }) {
           <table class="byte-table">
             <thead>
               <tr>
-                <th scope="col">Byte</th>
-                <th scope="col">Hex</th>
-                <th scope="col">Dec</th>
-                <th scope="col">Bits</th>
-                <th scope="col">ASCII</th>
+                <th scope="col">{t('Byte')}</th>
+                <th scope="col">{t('Hex')}</th>
+                <th scope="col">{t('Dec')}</th>
+                <th scope="col">{t('Bits')}</th>
+                <th scope="col">{t('ASCII')}</th>
               </tr>
             </thead>
             <tbody>

@@ -4,12 +4,13 @@ import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Role, User } from '../api/types';
 import { useGateway } from '../gateway';
-import { passwordFault, roles, userFault } from '../state/session';
+import { t } from '../language';
+import { passwordFault, roles, roleWord, userFault } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
 
-export const roleChoices = roles.map((r) => ({ value: r, text: r }));
+export const roleChoices = roles.map((r) => ({ value: r, text: roleWord(r) }));
 
 export function UserList() {
   const { client, session } = useGateway();
@@ -28,7 +29,7 @@ export function UserList() {
     setTold({ tone: 'busy', text: `${words} …` });
     try {
       await work();
-      setTold({ tone: 'good', text: `${words}: done.` });
+      setTold({ tone: 'good', text: t('{what}: done.', { what: words }) });
       await list();
       return true;
     } catch (error) {
@@ -43,12 +44,12 @@ export function UserList() {
   const at = (n: string) => `/users/${encodeURIComponent(n)}`;
   const patch = (n: string, words: string, body: object) => act(words, () => client.call(at(n), { method: 'PATCH', body }));
   const saveRole = async (n: string, to: string) => {
-    if (await patch(n, `Role of ${n}: ${to}`, { role: to })) setChosen(({ [n]: _, ...rest }) => rest);
+    if (await patch(n, t('Role of {name}: {role}', { name: n, role: roleWord(to as Role) }), { role: to })) setChosen(({ [n]: _, ...rest }) => rest);
   };
   const remove = (n: string) => {
     if (asked !== n) return setAsked(n);
     setAsked('');
-    void act(`Delete ${n}`, () => client.call(at(n), { method: 'DELETE' }));
+    void act(t('Delete {name}', { name: n }), () => client.call(at(n), { method: 'DELETE' }));
   };
   const renew = async (n: string) => {
     if (renewing !== n) {
@@ -57,14 +58,14 @@ export function UserList() {
     }
     const fault = passwordFault(fresh, fresh);
     if (fault) return setTold({ tone: 'refused', text: fault });
-    if (await patch(n, `New password of ${n}`, { password: fresh })) setRenewing('');
+    if (await patch(n, t('New password of {name}', { name: n }), { password: fresh })) setRenewing('');
     setFresh((now) => (now === fresh ? '' : now));
   };
   const add = async (event: Event) => {
     event.preventDefault();
     const fault = userFault(name) || passwordFault(password, password);
     if (fault) return setTold({ tone: 'refused', text: fault });
-    if (await act(`Add ${name}`, () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName((now) => (now === name ? '' : now));
+    if (await act(t('Add {name}', { name }), () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName((now) => (now === name ? '' : now));
     setPassword((now) => (now === password ? '' : now));
   };
 
@@ -72,15 +73,15 @@ export function UserList() {
     <div class="card form">
       <ul class="access-list">
         {why && <li>{why}</li>}
-        {users?.length === 0 && <li>There are no users yet.</li>}
+        {users?.length === 0 && <li>{t('There are no users yet.')}</li>}
         {users?.map((u) => (
           <li key={u.name} data-user={u.name} class="access-row">
             <span class="access-name">
-              <b>{u.name}</b> <span class="access-more">{(chosen[u.name] ?? u.role) !== u.role ? `still ${u.role} · ` : ''}{u.enabled ? '' : 'disabled · '}{u.last_sign_in_at ? `last sign-in ${clockTime(u.last_sign_in_at)}` : 'never signed in'}</span>
+              <b>{u.name}</b> <span class="access-more">{[(chosen[u.name] ?? u.role) !== u.role ? t('still {role}', { role: roleWord(u.role) }) : '', u.enabled ? '' : t('disabled'), u.last_sign_in_at ? t('last sign-in {time}', { time: clockTime(u.last_sign_in_at) }) : t('never signed in')].filter(Boolean).join(' · ')}</span>
             </span>
             <span class="access-acts">
               <select
-                aria-label={`Role of ${u.name}`}
+                aria-label={t('Role of {name}', { name: u.name })}
                 value={chosen[u.name] ?? u.role}
                 onChange={(e) => {
                   const to = e.currentTarget.value;
@@ -89,38 +90,38 @@ export function UserList() {
               >
                 {roles.map((r) => (
                   <option key={r} value={r}>
-                    {r}
+                    {roleWord(r)}
                   </option>
                 ))}
               </select>
               {(chosen[u.name] ?? u.role) !== u.role && (
-                <button type="button" class="button primary" aria-label={`Save the role of ${u.name}: ${chosen[u.name]} in place of ${u.role}`} onClick={() => void saveRole(u.name, chosen[u.name] as string)}>
-                  Save role
+                <button type="button" class="button primary" aria-label={t('Save the role of {name}: {role} in place of {old}', { name: u.name, role: roleWord(chosen[u.name] as Role), old: roleWord(u.role) })} onClick={() => void saveRole(u.name, chosen[u.name] as string)}>
+                  {t('Save role')}
                 </button>
               )}
-              <button type="button" class="button" aria-label={`${u.enabled ? 'Disable' : 'Enable'} ${u.name}`} onClick={() => void patch(u.name, `${u.enabled ? 'Disable' : 'Enable'} ${u.name}`, { enabled: !u.enabled })}>
-                {u.enabled ? 'Disable' : 'Enable'}
+              <button type="button" class="button" aria-label={u.enabled ? t('Bar {name}', { name: u.name }) : t('Admit {name}', { name: u.name })} onClick={() => void patch(u.name, u.enabled ? t('Bar {name}', { name: u.name }) : t('Admit {name}', { name: u.name }), { enabled: !u.enabled })}>
+                {u.enabled ? t('Bar') : t('Admit')}
               </button>
-              {renewing === u.name && <input type="password" aria-label={`New password of ${u.name}`} autocomplete="new-password" value={fresh} onInput={(e) => setFresh(e.currentTarget.value)} />}
-              <button type="button" class="button" aria-label={renewing === u.name ? `Set the password of ${u.name}` : `Give ${u.name} a new password`} onClick={() => void renew(u.name)}>
-                {renewing === u.name ? 'Set' : 'New password'}
+              {renewing === u.name && <input type="password" aria-label={t('New password of {name}', { name: u.name })} autocomplete="new-password" value={fresh} onInput={(e) => setFresh(e.currentTarget.value)} />}
+              <button type="button" class="button" aria-label={renewing === u.name ? t('Set the password of {name}', { name: u.name }) : t('Give {name} a new password', { name: u.name })} onClick={() => void renew(u.name)}>
+                {renewing === u.name ? t('Set password') : t('New password')}
               </button>
-              <button type="button" class="button" aria-label={asked === u.name ? `Really delete ${u.name}` : `Delete ${u.name}`} onClick={() => remove(u.name)} onBlur={() => setAsked('')}>
-                {asked === u.name ? 'Really delete' : 'Delete'}
+              <button type="button" class="button" aria-label={asked === u.name ? t('Really delete {name}', { name: u.name }) : t('Delete {name}', { name: u.name })} onClick={() => remove(u.name)} onBlur={() => setAsked('')}>
+                {asked === u.name ? t('Really delete') : t('Delete')}
               </button>
             </span>
           </li>
         ))}
       </ul>
-      <form aria-label="Add a user" onSubmit={(e) => void add(e)}>
+      <form aria-label={t('Add a user')} onSubmit={(e) => void add(e)}>
         <div class="form-grid">
-          <TextField label="Name" value={name} onText={setName} hint="a-z, 0-9, point, _ - and @" />
-          <Choice label="Role" value={role} onChoice={setRole} choices={roleChoices} />
-          <TextField label="Password" password fill="new-password" value={password} onText={setPassword} hint="At least 12 characters." />
+          <TextField label={t('Name')} value={name} onText={setName} hint={t('a-z, 0-9, point, _ - and @')} />
+          <Choice label={t('Role')} value={role} onChoice={setRole} choices={roleChoices} />
+          <TextField label={t('Password')} password fill="new-password" value={password} onText={setPassword} hint={t('At least 12 characters.')} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary">
-            Add user
+            {t('Add user')}
           </button>
           <Tell told={told} field="users-told" />
         </div>

@@ -1,5 +1,6 @@
 // Who: who one is to the gateway, with the role; the way to the own account, to the sign-in, and out. In: the session. Out: a piece of the head.
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { whoWords } from '../state/session';
 import { Icon } from './icon';
 
@@ -11,7 +12,7 @@ export function Who() {
   const words = whoWords(info);
   return (
     <span class="who" data-field="who">
-      <a class="who-name" href="/users" title={`${words}: account, users and tokens`} aria-label={`You are ${words}. Account, users and tokens`}>
+      <a class="who-name" href="/users" title={t('{words}: account, users and tokens', { words })} aria-label={t('You are {words}. Account, users and tokens', { words })}>
         <Icon name="person" size={15} />
         <span>{words}</span>
       </a>
@@ -27,14 +28,14 @@ export function Way() {
   if (info?.via === 'local') {
     return (
       <a class="button quiet who-way" href="/sign-in">
-        Sign in
+        {t('Sign in')}
       </a>
     );
   }
   if (info?.via !== 'cookie') return null;
   return (
     <button type="button" class="button quiet who-way" onClick={() => void session.signOut()}>
-      Sign out
+      {t('Sign out')}
     </button>
   );
 }

@@ -44,6 +44,14 @@ export function t(text: string, values?: Values): string {
   return values === undefined ? said : said.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
 }
 
+/** A sentence with elements in it: t() whose values may be links, marks or fields. Out: what Preact draws, in the order of the language. */
+export function rich<T>(text: string, values: Readonly<Record<string, T>>): (string | T)[] {
+  return (table[text] ?? text).split(/(\{\w+\})/).map((part) => {
+    const name = /^\{(\w+)\}$/.exec(part)?.[1];
+    return name !== undefined && name in values ? (values[name] as T) : part;
+  });
+}
+
 /** For tests: the sentences of a table, or English again. */
 export function speak(l: Language, sentences: Table = {}): void {
   [spoken, table] = [l, sentences];

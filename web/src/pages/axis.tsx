@@ -11,6 +11,7 @@ import { AxisTabs } from '../components/axis-tabs';
 import { AuthorityBar } from '../components/authority';
 import { Gate } from '../components/gate';
 import { Console } from '../components/console';
+import { ErrorHelp } from '../components/error-help';
 import { EventList } from '../components/events';
 import { Hand } from '../components/hand';
 import { Empty } from '../components/lines';
@@ -80,6 +81,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
               <Readout entry={entry} large />
               <StatePills entry={entry} />
               <Notice entry={entry} />
+              <ErrorHelp axis={name} code={axis.fault || axis.warning ? axis.error.code : 0} />
               <AuthorityBar entry={entry.value} />
               <Controls axis={axis} />
             </div>

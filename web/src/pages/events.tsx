@@ -1,5 +1,6 @@
 // Events and alarms: what waits for somebody, and what happened, newest first, by severity, axis, kind and text; as files exactly what is shown.
 // In: the gateway's newest 1000 that fit, and the store's for what has come since. Out: a page.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { GatewayEvent } from '../api/types';
@@ -58,22 +59,22 @@ export function EventsPage() {
   const kinds = [...new Set([...had.value.list, ...store.events.value].map((e) => e.kind).concat( ...kind.value ? [kind.value] : []))].sort();
   return (
     <main class="page narrow">
-      <h1 tabIndex={-1}>Events and alarms</h1>
+      <h1 tabIndex={-1}>{t('Events and alarms')}</h1>
       <AlarmSection />
-      <Section title={`Events: ${shown.length} shown, newest first`}>
-        <div class="event-filters" role="group" aria-label="Filter of the events">
+      <Section title={t('Events: {n} shown, newest first', { n: shown.length })}>
+        <div class="event-filters" role="group" aria-label={t('Filter of the events')}>
           <label class="select">
-            <span>Severity</span>
+            <span>{t('Severity')}</span>
             <select value={least.value} onChange={(e) => (least.value = e.currentTarget.value)}>
-              <option value="info">all</option>
-              <option value="warning">warnings and alarms</option>
-              <option value="alarm">alarms</option>
+              <option value="info">{t('all')}</option>
+              <option value="warning">{t('warnings and alarms')}</option>
+              <option value="alarm">{t('alarms')}</option>
             </select>
           </label>
           <label class="select">
-            <span>Axis</span>
+            <span>{t('Axis')}</span>
             <select value={axis.value} onChange={(e) => (axis.value = e.currentTarget.value)}>
-              <option value="">all</option>
+              <option value="">{t('all')}</option>
               {store.axisNames.value.map((n) => (
                 <option key={n} value={n}>
                   {named(n)}
@@ -82,9 +83,9 @@ export function EventsPage() {
             </select>
           </label>
           <label class="select">
-            <span>Kind</span>
+            <span>{t('Kind')}</span>
             <select value={kind.value} onChange={(e) => (kind.value = e.currentTarget.value)}>
-              <option value="">all</option>
+              <option value="">{t('all')}</option>
               {kinds.map((k) => (
                 <option key={k} value={k}>
                   {plainWord(k)}
@@ -92,26 +93,26 @@ export function EventsPage() {
               ))}
             </select>
           </label>
-          <input class="search" type="search" placeholder="Text" aria-label="Text in the event" value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} />
+          <input class="search" type="search" placeholder={t('Text')} aria-label={t('Text in the event')} value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} />
           <span class="event-files">
             <button type="button" class="button" onClick={() => save(shown, 'csv')}>
-              Save {shown.length} as CSV
+              {t('Save {n} as CSV', { n: shown.length })}
             </button>
             <button type="button" class="button" onClick={() => save(shown, 'text')}>
-              Save {shown.length} as text
+              {t('Save {n} as text', { n: shown.length })}
             </button>
           </span>
         </div>
         {had.value.more && (
           <p class="where" data-field="more-events">
-            There are more than {most}: these are {text.value.trim() ? `what fits among the newest ${most}` : `the newest ${most}`}. Choose severity, axis or kind to reach further back, or ask the API for pages (GET /api/v1/events?before=).
+            {t('There are more than {most}: these are {n}. Choose severity, axis or kind to reach further back, or ask the API for pages (GET /api/v1/events?before=).', { most, n: text.value.trim() ? t('what fits among the newest {most}', { most }) : t('the newest {most}', { most }) })}
           </p>
         )}
         {filtered && (
           <p class="filtered" role="status" data-field="filtered">
-            <span>{nothing ? `No event matches the filter; ${inAll >= most ? `${most} or more` : inAll} in all.` : 'A filter is on: not all events are shown.'}</span>
+            <span>{nothing ? t('No event matches the filter; {n} in all.', { n: inAll >= most ? t('{most} or more', { most }) : inAll }) : t('A filter is on: not all events are shown.')}</span>
             <button type="button" class="button small" onClick={clear}>
-              Clear the filter
+              {t('Clear the filter')}
             </button>
           </p>
         )}

@@ -14,11 +14,12 @@ import { Mark, Pill } from '../components/pill';
 import { Section } from '../components/section';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
+import { rich, t } from '../language';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { markOf, motionWord, positionText, stateWord, unitOf } from '../text/axis';
 import { aboutAxis, asAxis, clockWords, gatewayWord, heardWords, trustOf } from '../text/fleet';
-import { parseQuantity } from '../text/number';
+import { formatExact, parseQuantity } from '../text/number';
 import { duration } from '../text/time';
 
 const period_ms = 1_000;
@@ -55,14 +56,14 @@ export function FleetPage() {
   const many = (known?.gateways.reduce((n, g) => n + g.axes.length, 0) ?? 0) > unfolded;
   return (
     <main class="page fleet">
-      <h1 tabIndex={-1}>Fleet</h1>
+      <h1 tabIndex={-1}>{t('Fleet')}</h1>
       {fault.value && <p class="card form" role="status" data-field="fleet-fault">{fault.value}</p>}
       {!known && !fault.value && <Empty text={awayWords(connection) || waiting} />}
-      {known && !known.enabled && <Empty text="This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true." />}
+      {known && !known.enabled && <Empty text={t('This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true.')} />}
       {known?.enabled && (
         <>
-          <p class="where">A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.</p>
-          <Why need="operator" what="Every command but a stop" />
+          <p class="where">{t('A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.')}</p>
+          <Why need="operator" what={t('Every command but a stop')} />
           {known.gateways.map((g) => (
             <GatewayCard key={g.instance} gateway={g} connected={fresh} many={many} />
           ))}
@@ -76,16 +77,16 @@ function GatewayCard({ gateway: g, connected, many }: { gateway: FleetGateway; c
   const open = useSignal(!many);
   const clock = clockWords(g.clock_ahead_ms);
   return (
-    <Section title={g.gateway} class="fleet-gateway" beside={<Pill label="Gateway" word={gatewayWord(g, connected)} id="gateway-state" />}>
+    <Section title={g.gateway} class="fleet-gateway" beside={<Pill label={t('Gateway')} word={gatewayWord(g, connected)} id="gateway-state" />}>
       <div class="card" data-gateway={g.gateway} data-instance={g.instance} data-alive={g.alive}>
         <p class="where fleet-about">
-          <span data-field="heard">{heardWords(g)}</span> · version <span class="mono">{g.version}</span> · {g.alive ? 'running for' : 'had run for'} {duration(g.uptime_s * 1000)}
+          <span data-field="heard">{heardWords(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}
           {clock && ` · ${clock}`}
           {g.page && !g.here && (
             <>
               {' · '}
               <a href={g.page} target="_blank" rel="noopener">
-                its page
+                {t('its page')}
               </a>
             </>
           )}
@@ -93,13 +94,13 @@ function GatewayCard({ gateway: g, connected, many }: { gateway: FleetGateway; c
         {g.namesake && (
           <p class="notice tone-warning fleet-namesake" data-field="namesake">
             <Icon name="triangle" size={14} />
-            <span>Another gateway of the domain is called {g.gateway} as well: commands to either are refused, stops are not. Give one of them another name: [dds] name.</span>
+            <span>{t('Another gateway of the domain is called {name} as well: commands to either are refused, stops are not. Give one of them another name: [dds] name.', { name: g.gateway })}</span>
           </p>
         )}
         {g.axes.length === 0 ? (
-          <p class="where fleet-about">No axis has been told.</p>
+          <p class="where fleet-about">{t('No axis has been told.')}</p>
         ) : open.value ? (
-          <ul class="fleet-axes" aria-label={`Axes of ${g.gateway}`}>
+          <ul class="fleet-axes" aria-label={t('Axes of {gateway}', { gateway: g.gateway })}>
             {g.axes.map((a) => (
               <AxisLine key={a.axis} gateway={g} axis={a} connected={connected} />
             ))}
@@ -107,7 +108,7 @@ function GatewayCard({ gateway: g, connected, many }: { gateway: FleetGateway; c
         ) : (
           <p class="fleet-about">
             <button type="button" class="button" onClick={() => (open.value = true)}>
-              Show the {g.axes.length} axes of {g.gateway}
+              {t('Show the {n} axes of {gateway}', { n: g.axes.length, gateway: g.gateway })}
             </button>
           </p>
         )}
@@ -129,16 +130,16 @@ function AxisLine({ gateway: g, axis: a, connected }: { gateway: FleetGateway; a
       <h3>{a.axis}</h3>
       <Mark mark={markOf(shown)} />
       <p class={`row-position${trust === 'live' ? '' : ' is-old'}`} data-field="position" data-value={shown.position ?? ''} data-live={trust === 'live'}>
-        <span class="visually-hidden">{trust === 'live' ? 'Position' : 'Last known position, not live'}: </span>
+        <span class="visually-hidden">{trust === 'live' ? t('Position') : t('Last known position, not live')}: </span>
         <span class="figure">{positionText(shown)}</span> <span class="unit">{unitOf(shown)}</span>
       </p>
       <p class="pills">
-        <Pill label="State" word={stateWord(shown, trust)} id="state" />
-        <Pill label="Motion" word={motionWord(shown, trust)} id="motion" />
+        <Pill label={t('State')} word={stateWord(shown, trust)} id="state" />
+        <Pill label={t('Motion')} word={motionWord(shown, trust)} id="motion" />
       </p>
       <p class="where" data-field="about">{aboutAxis(g, a)}</p>
-      <button type="button" class="button fleet-command" aria-expanded={open.value} aria-label={`Command ${at}`} onClick={() => (open.value = !open.value)}>
-        Command
+      <button type="button" class="button fleet-command" aria-expanded={open.value} aria-label={t('Command {at}', { at })} onClick={() => (open.value = !open.value)}>
+        {t('Command')}
       </button>
       <StopButton axis={at} urgent={a.moving && trust === 'live'} by={fleet} />
       {open.value && <Controls at={at} unit={unitOf(shown)} result={result} />}
@@ -158,22 +159,22 @@ function Controls({ at, unit, result }: { at: string; unit: string; result: stri
     const target = parseQuantity(typed.target.value);
     const speed = typed.speed.value.trim() === '' ? null : parseQuantity(typed.speed.value);
     wrong.value = !target.good ? 'target' : speed && !(speed.good && speed.value > 0) ? 'speed' : '';
-    if (!target.good) return fleet.tell(at, 'refused', `Target: ${target.why}`);
-    if (speed && !speed.good) return fleet.tell(at, 'refused', `Speed: ${speed.why}`);
-    if (speed?.good && speed.value <= 0) return fleet.tell(at, 'refused', 'Speed: It must be greater than 0.');
-    send({ command: 'move_absolute', position: target.value, ...(speed?.good ? { velocity: speed.value } : {}) }, `Move to ${target.value} ${unit}`);
+    if (!target.good) return fleet.tell(at, 'refused', t('Target: {why}', { why: target.why }));
+    if (speed && !speed.good) return fleet.tell(at, 'refused', t('Speed: {why}', { why: speed.why }));
+    if (speed?.good && speed.value <= 0) return fleet.tell(at, 'refused', t('Speed: It must be greater than 0.'));
+    send({ command: 'move_absolute', position: target.value, ...(speed?.good ? { velocity: speed.value } : {}) }, t('Move to {target} {unit}', { target: formatExact(target.value), unit }));
   };
   return (
     <div class="fleet-controls">
       <span class="group">
-        <button type="button" class="button" aria-label={`Enable ${at}`} {...no} onClick={() => send({ command: 'enable' }, 'Enable')}>Enable</button>
-        <button type="button" class="button" aria-label={`Disable ${at}`} title="Takes the power off at once; the shaft is free" {...no} onClick={() => send({ command: 'disable' }, 'Disable')}>Disable</button>
+        <button type="button" class="button" aria-label={t('Enable {at}', { at })} {...no} onClick={() => send({ command: 'enable' }, t('Enable'))}>{t('Enable')}</button>
+        <button type="button" class="button" aria-label={t('Disable {at}', { at })} title={t('Takes the power off at once; the shaft is free')} {...no} onClick={() => send({ command: 'disable' }, t('Disable'))}>{t('Disable')}</button>
       </span>
-      <button type="button" class="button" aria-label={`Reset fault of ${at}`} {...no} onClick={() => send({ command: 'reset_fault' }, 'Reset fault')}>Reset</button>
-      <button type="button" class="button" aria-label={`Halt ${at}`} title="Stop on the profile ramp, stay enabled" onClick={() => send({ command: 'halt' }, 'Halt')}>Halt</button>
-      <Field label="Target" longLabel={`Target of ${at}`} unit={unit} text={typed.target} wrong={wrong.value === 'target'} describedBy={result} onEnter={move} />
-      <Field label="Speed" longLabel={`Speed of ${at}`} unit={`${unit}/s`} text={typed.speed} wrong={wrong.value === 'speed'} describedBy={result} placeholder="as is" onEnter={move} />
-      <button type="button" class="button tinted" aria-label={`Move to target of ${at}`} {...no} onClick={move}>Move to</button>
+      <button type="button" class="button" aria-label={t('Reset fault of {at}', { at })} {...no} onClick={() => send({ command: 'reset_fault' }, t('Reset fault'))}>{t('Reset')}</button>
+      <button type="button" class="button" aria-label={t('Halt {at}', { at })} title={t('Stop on the profile ramp, stay enabled')} onClick={() => send({ command: 'halt' }, t('Halt'))}>{t('Halt')}</button>
+      <Field label={t('Target')} longLabel={t('Target of {at}', { at })} unit={unit} text={typed.target} wrong={wrong.value === 'target'} describedBy={result} onEnter={move} />
+      <Field label={t('Speed')} longLabel={t('Speed of {at}', { at })} unit={`${unit}/s`} text={typed.speed} wrong={wrong.value === 'speed'} describedBy={result} placeholder={t('as is')} onEnter={move} />
+      <button type="button" class="button tinted" aria-label={t('Move to target of {at}', { at })} {...no} onClick={move}>{t('Move to')}</button>
     </div>
   );
 }

@@ -25,7 +25,7 @@ export function LinesPage() {
   );
 }
 
-export function LinePage({ name }: { name: string }) {
+export function LinePage({ name, at_ms }: { name: string; at_ms?: number | undefined }) {
   const { store } = useGateway();
   const known = store.line(name)?.value;
   const drives = store.driveNames.value.filter((d) => store.drive(d)?.value.data.line === name);
@@ -56,7 +56,7 @@ export function LinePage({ name }: { name: string }) {
         store.listed.value && <Empty text={t('There is no line {name}.', { name })} />
       )}
       {known && <ScanSection line={name} />}
-      <Trace key={name} line={name} />
+      <Trace key={name} line={name} at_ms={at_ms} />
       {simulated.length > 0 && (
         <Section title={t('Fault simulation: rehearse what goes wrong')}>
           <div class="hands">

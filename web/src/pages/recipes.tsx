@@ -1,5 +1,6 @@
 // Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
+import { t } from '../language';
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
@@ -8,7 +9,8 @@ import type { RecipeEntry } from '../api/types';
 import { Empty } from '../components/lines';
 import { useLoaded } from '../components/loaded';
 import { Pill } from '../components/pill';
-import { RunSection } from '../components/recipe-run';
+import { RecordPart } from '../components/recipe-record';
+import { RunHead, RunReports, useRun } from '../components/recipe-run';
 import { StepEditor, type Fault } from '../components/recipe-steps';
 import { RecipeParameters } from '../components/recipe-parameters';
 import { Section } from '../components/section';
@@ -51,27 +53,27 @@ export function RecipesPage() {
   }, [gateway]);
   const make = () => {
     const n = name.peek().trim();
-    if (!goodName.test(n)) fault.value = 'A name has 1 to 64 letters, digits, - _ .';
+    if (!goodName.test(n)) fault.value = t('A name has 1 to 64 letters, digits, - _ .');
     else go(recipePath(n));
   };
   return (
     <main class="page narrow">
-      <h1 tabIndex={-1}>Recipes</h1>
-      <p class="where">Named sequences of steps: set parameters, move, wait, check, repeat. Each can be run from here or by one request.</p>
-      <Section title="All recipes">
+      <h1 tabIndex={-1}>{t('Recipes')}</h1>
+      <p class="where">{t('Named sequences of steps: set parameters, move, wait, check, repeat. Each can be run from here or by one request.')}</p>
+      <Section title={t('All recipes')}>
         <div class="card">
           {why && <Empty text={why} />}
-          {list.value?.length === 0 && <Empty text="There is no recipe yet. Give the first one a name." />}
-          <ul aria-label="Recipes">
+          {list.value?.length === 0 && <Empty text={t('There is no recipe yet. Give the first one a name.')} />}
+          <ul aria-label={t('Recipes')}>
             {(list.value ?? []).map((r) => (
               <li key={r.name} class="row" data-recipe={r.name}>
                 <div class="row-head">
                   <h3>
                     <a href={recipePath(r.name)}>{r.name}</a>
                   </h3>
-                  {r.running !== null && <Pill word={runWord('running')} label="State" />}
+                  {r.running !== null && <Pill word={runWord('running')} label={t('State')} />}
                   <span class="where">
-                    {r.steps} steps · {clockTime(r.changed_at)}
+                    {t('{steps} steps · {changed_at}', { steps: r.steps, changed_at: clockTime(r.changed_at) })}
                   </span>
                 </div>
                 {r.description && <p class="why">{r.description}</p>}
@@ -80,7 +82,7 @@ export function RecipesPage() {
           </ul>
         </div>
       </Section>
-      <Why need="engineer" what="Making a recipe" />
+      <Why need="engineer" what={t('Making a recipe')} />
       <form
         class="recipe-buttons"
         onSubmit={(e) => {
@@ -88,9 +90,9 @@ export function RecipesPage() {
           make();
         }}
       >
-        <input class="search" type="text" aria-label="Name of the new recipe" placeholder="name" autocomplete="off" spellcheck={false} value={name.value} onInput={(e) => (name.value = e.currentTarget.value)} />
+        <input class="search" type="text" aria-label={t('Name of the new recipe')} placeholder={t('name')} autocomplete="off" spellcheck={false} value={name.value} onInput={(e) => (name.value = e.currentTarget.value)} />
         <button type="submit" class="button primary" {...no}>
-          New recipe
+          {t('New recipe')}
         </button>
       </form>
       <p class="result result-refused" role="status">
@@ -155,7 +157,7 @@ export function RecipePage({ name }: { name: string }) {
       stored.value = sent;
       faults.value = [];
       const nobody = store.listed.peek() ? unknownAxes(d, store.axisNames.peek()) : [];
-      result.value = nobody.length > 0 ? { tone: 'partly', text: `Saved. But ${unknownWords(nobody)}` } : { tone: 'good', text: 'Saved.' };
+      result.value = nobody.length > 0 ? { tone: 'partly', text: t('Saved. But {nobody}', { nobody: unknownWords(nobody) }) } : { tone: 'good', text: t('Saved.') };
     } else if (!outcome.clash) {
       faults.value = (outcome.problem.document.faults ?? []) as Fault[];
       result.value = { tone: 'refused', text: capital(outcome.problem.message) };
@@ -167,7 +169,7 @@ export function RecipePage({ name }: { name: string }) {
     clash.value = null;
     put(now ?? { description: '', steps: [] });
     stored.value = now ? text.peek() : '';
-    result.value = { tone: 'none', text: 'In view is what the gateway has now.' };
+    result.value = { tone: 'none', text: t('In view is what the gateway has now.') };
   };
   const sure = useSignal(false);
   const remove = async () => {
@@ -182,6 +184,7 @@ export function RecipePage({ name }: { name: string }) {
   };
   const d = document.value;
   const given: Signal<Record<string, string>> = useSignal({});
+  const run = useRun(name, d?.parameters ?? {}, given);
   const unitMeant = (named: string) => {
     const axis = axisMeant(named, d?.parameters, given.value);
     const entry = axis === null ? undefined : store.axis(axis);
@@ -191,7 +194,7 @@ export function RecipePage({ name }: { name: string }) {
   return (
     <main class="page">
       <p class="crumbs">
-        <a href="/recipes">Recipes</a>
+        <a href="/recipes">{t('Recipes')}</a>
       </p>
       <h1 tabIndex={-1}>{name}</h1>
       {!d && why && <Empty text={why} />}
@@ -201,76 +204,78 @@ export function RecipePage({ name }: { name: string }) {
             <div class="recipe-bar">
               <Typed
                 class="recipe-description"
-                aria-label="Description"
-                placeholder="What it does"
+                aria-label={t('Description')}
+                placeholder={t('What it does')}
                 value={typeof d.description === 'string' ? d.description : ''}
-                onDone={(t) => put({ ...d, description: t })}
+                onDone={(entered) => put({ ...d, description: entered })}
               />
               <label class="select">
-                If it fails
-                <select aria-label="If it fails" value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
-                  <option value="halt">halt its axes</option>
-                  <option value="quick_stop">quick stop its axes</option>
+                {t('If it fails')}
+                <select aria-label={t('If it fails')} value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
+                  <option value="halt">{t('halt its axes')}</option>
+                  <option value="quick_stop">{t('quick stop its axes')}</option>
                 </select>
               </label>
               <label class="select">
-                At most, s
+                {t('At most, s')}
                 <Typed
                   class="recipe-limit"
                   inputMode="decimal"
-                  aria-label="Longest time of a run, s"
+                  aria-label={t('Longest time of a run, s')}
                   placeholder="3600"
                   value={typeof d.timeout_s === 'number' ? String(d.timeout_s) : ''}
-                  onDone={(t) => {
+                  onDone={(entered) => {
                     const { timeout_s: _, ...rest } = d;
-                    const typed = valueOf(t);
+                    const typed = valueOf(entered);
                     put(typed === undefined ? { ...rest } : ({ ...rest, timeout_s: typed } as RecipeDocument));
                   }}
                 />
               </label>
               <button type="button" class="button primary" disabled={!unsaved || textFault.value !== '' || clash.value !== null} {...no} onClick={() => void save()}>
-                Save
+                {t('Save')}
               </button>
               <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
-                {sure.value ? 'Delete: sure?' : 'Delete'}
+                {sure.value ? t('Delete: sure?') : t('Delete')}
               </button>
             </div>
           </Gate>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{clash.value ? `${clash.value.text} What you typed is kept.` : unsaved && result.value.tone !== 'refused' ? 'Not saved yet.' : result.value.text}</span>
+            <span>{clash.value ? t('{text} What you typed is kept.', { text: clash.value.text }) : unsaved && result.value.tone !== 'refused' ? t('Not saved yet.') : result.value.text}</span>
           </p>
           {clash.value && (
-            <div class="theirs card form" role="group" aria-label="Somebody else's change" data-field="recipe-clash">
-              <p class="where">From what the gateway has now to what you typed:</p>
-              <ul class="differences" aria-label="What differs">
+            <div class="theirs card form" role="group" aria-label={t('Somebody else\'s change')} data-field="recipe-clash">
+              <p class="where">{t('From what the gateway has now to what you typed:')}</p>
+              <ul class="differences" aria-label={t('What differs')}>
                 {recipeDifferences(clash.value.now ?? {}, d)
                   .slice(0, 50)
-                  .map((t) => (
-                    <li key={t} class="mono">
-                      {t}
+                  .map((entered) => (
+                    <li key={entered} class="mono">
+                      {entered}
                     </li>
                   ))}
               </ul>
               <div class="form-foot">
                 <button type="button" class="button" {...no} onClick={() => void (clash.value?.act === 'remove' ? remove() : save())}>
-                  {clash.value.act === 'remove' ? 'Delete it all the same' : 'Save mine all the same'}
+                  {clash.value.act === 'remove' ? t('Delete it all the same') : t('Save mine all the same')}
                 </button>
                 <button type="button" class="button" onClick={adopt}>
-                  Take theirs
+                  {t('Take theirs')}
                 </button>
               </div>
             </div>
           )}
+          <RunHead run={run} saved={!unsaved && stored.value !== ''} />
           <div class="recipe-sides">
             <Gate need="engineer" silent>
               <div>
-                <Section title="Parameters">
+                <Section title={t('Parameters')}>
                   <div class="card recipe-card">
                     <RecipeParameters document={d} change={put} faults={faults.value} />
                   </div>
                 </Section>
-                <Section title="Steps">
+                <Section title={t('Steps')}>
                   <div class="card recipe-card">
+                    <RecordPart recipe={name} kept={!unsaved || d.steps.length === 0} add={(steps) => put({ ...d, steps: [...d.steps, ...steps] })} />
                     <StepEditor document={d} change={put} axes={store.axisNames.value} listed={store.listed.value} unitOf={unitMeant} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
@@ -283,11 +288,11 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
               </div>
             </Gate>
-            <Section title="JSON">
+            <Section title={t('JSON')}>
               <div class="card recipe-card">
                 <textarea
                   class="recipe-json mono"
-                  aria-label="The recipe as JSON"
+                  aria-label={t('The recipe as JSON')}
                   aria-invalid={textFault.value !== '' || undefined}
                   spellcheck={false}
                   readOnly={no.disabled ?? false}
@@ -301,12 +306,12 @@ export function RecipePage({ name }: { name: string }) {
                   }}
                 />
                 <p class="step-fault" role="status">
-                  {textFault.value || (faults.value.length > 0 ? `${faults.value.length} ${faults.value.length === 1 ? 'place is' : 'places are'} not right yet.` : '')}
+                  {textFault.value || (faults.value.length > 0 ? (faults.value.length === 1 ? t('1 place is not right yet.') : t('{n} places are not right yet.', { n: faults.value.length })) : '')}
                 </p>
               </div>
             </Section>
           </div>
-          <RunSection name={name} typed={given} parameters={d.parameters ?? {}} saved={!unsaved && stored.value !== ''} />
+          <RunReports run={run} />
         </>
       )}
     </main>

@@ -1,5 +1,6 @@
 // Recorder: what the gateway remembers: trends of axes, fast captures, recordings; each a tab with an address of its own.
 // In: which tab, perhaps an axis and an instant (a link from an alarm). Out: a page.
+import { t } from '../language';
 import { CapturesPart } from '../components/recorder-captures';
 import { RecordingsPart } from '../components/recorder-recordings';
 import { TrendsPart } from '../components/recorder-trends';
@@ -9,17 +10,17 @@ import { recorderTitles } from '../text/recorder';
 export function RecorderPage({ tab, axis, at_ms }: { tab: RecorderTab; axis?: string | undefined; at_ms?: number | undefined }) {
   return (
     <main class="page recorder-page">
-      <h1 tabIndex={-1}>Recorder: {recorderTitles[tab].toLowerCase()}</h1>
-      <nav class="axis-tabs" aria-label="Parts of the recorder">
-        {recorderTabs.map((t) => (
-          <a key={t} href={recorderPath(t)} aria-current={t === tab ? 'page' : undefined}>
-            {recorderTitles[t]}
+      <h1 tabIndex={-1}>{t('Recorder: {n}', { n: recorderTitles[tab].toLowerCase() })}</h1>
+      <nav class="axis-tabs" aria-label={t('Parts of the recorder')}>
+        {recorderTabs.map((part) => (
+          <a key={part} href={recorderPath(part)} aria-current={part === tab ? 'page' : undefined}>
+            {recorderTitles[part]}
           </a>
         ))}
       </nav>
       {tab === 'trends' && <TrendsPart at_ms={at_ms} axis={axis} />}
       {tab === 'captures' && <CapturesPart axis={axis} />}
-      {tab === 'recordings' && <RecordingsPart />}
+      {tab === 'recordings' && <RecordingsPart key={`${axis} ${at_ms}`} first={axis} at_ms={at_ms} />}
     </main>
   );
 }

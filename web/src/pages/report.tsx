@@ -1,6 +1,7 @@
 // Commissioning report: one document to print and sign: the site and its wiring, parameters beside snapshot and default, the register list with its
 // hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
 // opened and again by the button. Out: a page that the browser prints or saves as PDF. Nothing is read from a drive for it.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Rehearsal } from '../api/fail-safe';
@@ -63,38 +64,38 @@ export function ReportPage() {
   const about = store.about.value;
   return (
     <main class="page report-page">
-      <h1 tabIndex={-1}>Commissioning report</h1>
+      <h1 tabIndex={-1}>{t('Commissioning report')}</h1>
       <div class="card form form-grid report-form">
-        <TextField label="Machine" value={fields.machine.value} onText={(t) => (fields.machine.value = t)} />
-        <TextField label="Place" value={fields.place.value} onText={(t) => (fields.place.value = t)} />
-        <TextField label="Commissioned by" value={fields.who.value} onText={(t) => (fields.who.value = t)} />
-        <TextField label="Remarks" value={fields.notes.value} onText={(t) => (fields.notes.value = t)} />
+        <TextField label={t('Machine')} value={fields.machine.value} onText={(entered) => (fields.machine.value = entered)} />
+        <TextField label={t('Place')} value={fields.place.value} onText={(entered) => (fields.place.value = entered)} />
+        <TextField label={t('Commissioned by')} value={fields.who.value} onText={(entered) => (fields.who.value = entered)} />
+        <TextField label={t('Remarks')} value={fields.notes.value} onText={(entered) => (fields.notes.value = entered)} />
         <div class="form-foot">
           <button type="button" class="button primary" disabled={!w} onClick={() => print()}>
-            Print
+            {t('Print')}
           </button>
           <button type="button" class="button" onClick={() => (times.value += 1)}>
-            Read it again
+            {t('Read it again')}
           </button>
-          <span class="where">Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.</span>
+          <span class="where">{t('Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.')}</span>
         </div>
       </div>
       {!w && <p class="where" role="status">{why}</p>}
       {w && (
         <article class="report" data-field="report">
           <dl class="report-facts">
-            <Fact name="Machine" value={fields.machine.value} />
-            <Fact name="Place" value={fields.place.value} />
-            <Fact name="Commissioned by" value={fields.who.value} />
-            <Fact name="Date" value={dateTime(w.at)} />
-            <Fact name="axisgate" value={`${about?.version ?? '–'}, page and API of the same program`} />
-            <Fact name="Revision of the site" value={String(store.siteRevision.value ?? '–')} />
-            <Fact name="Doors" value={about?.doors.map((d) => `${d.name} ${d.address}`).join(', ') ?? '–'} />
-            <Fact name="Remarks" value={fields.notes.value} />
+            <Fact name={t('Machine')} value={fields.machine.value} />
+            <Fact name={t('Place')} value={fields.place.value} />
+            <Fact name={t('Commissioned by')} value={fields.who.value} />
+            <Fact name={t('Date')} value={dateTime(w.at)} />
+            <Fact name="axisgate" value={t('{n}, page and API of the same program', { n: about?.version ?? '–' })} />
+            <Fact name={t('Revision of the site')} value={String(store.siteRevision.value ?? '–')} />
+            <Fact name={t('Doors')} value={about?.doors.map((d) => `${d.name} ${d.address}`).join(', ') ?? '–'} />
+            <Fact name={t('Remarks')} value={fields.notes.value} />
           </dl>
 
-          <h2>Site and wiring</h2>
-          <Table head={['Line', 'Port', 'Families', 'Bit rate', 'State', 'Drives']}>
+          <h2>{t('Site and wiring')}</h2>
+          <Table head={[t('Line'), t('Port'), t('Families'), t('Bit rate'), t('State'), t('Drives')]}>
             {w.lines.map((l) => (
               <tr key={l.name}>
                 <th scope="row">{l.name}</th>
@@ -106,7 +107,7 @@ export function ReportPage() {
               </tr>
             ))}
           </Table>
-          <Table head={['Drive', 'Line', 'Family', 'Address', 'Presence', 'Axes']}>
+          <Table head={[t('Drive'), t('Line'), t('Family'), t('Address'), t('Presence'), t('Axes')]}>
             {w.drives.map((d) => (
               <tr key={d.name}>
                 <th scope="row">{d.name}</th>
@@ -118,7 +119,7 @@ export function ReportPage() {
               </tr>
             ))}
           </Table>
-          <Table head={['Axis', 'Number', 'Drive, channel', 'Unit', 'Increments per unit', 'Limits of position', 'Referenced', 'Answered by']}>
+          <Table head={[t('Axis'), t('Number'), t('Drive, channel'), t('Unit'), t('Increments per unit'), t('Limits of position'), t('Referenced'), t('Answered by')]}>
             {names.map((n) => {
               const a = store.axis(n)?.peek()?.data;
               if (!a) return null;
@@ -130,8 +131,8 @@ export function ReportPage() {
                   <td>{`${a.drive}, ${a.channel}`}</td>
                   <td>{unitOf(a)}</td>
                   <td>{formatExact(a.increments_per_unit)}</td>
-                  <td>{`${limit(a.position_min)} to ${limit(a.position_max)}`}</td>
-                  <td>{a.referenced ? 'yes' : 'no'}</td>
+                  <td>{t('{position_min} to {position_max}', { position_min: limit(a.position_min), position_max: limit(a.position_max) })}</td>
+                  <td>{a.referenced ? t('yes') : t('no')}</td>
                   <td>
                     <Mark mark={markOf(a)} />
                   </td>
@@ -140,13 +141,13 @@ export function ReportPage() {
             })}
           </Table>
 
-          <h2>Parameters</h2>
+          <h2>{t('Parameters')}</h2>
           {w.axes.map((a) => (
-            <section key={a.name} aria-label={`Parameters of ${a.name}`}>
+            <section key={a.name} aria-label={t('Parameters of {name}', { name: a.name })}>
               <h3>{a.name}</h3>
               <p>{comparedSentence(a.report, a.snapshot)}</p>
               {a.report.rows.length > 0 && (
-                <Table head={['Parameter', 'Name', 'Now', 'Default', a.snapshot ? `Snapshot ${a.snapshot.n}, ${dateTime(a.snapshot.at)}${a.snapshot.who ? `, ${a.snapshot.who}` : ''}` : 'Snapshot', 'Unit']}>
+                <Table head={[t('Parameter'), t('Name'), t('Now'), t('Default'), a.snapshot ? [t('Snapshot {n}, {at}', { n: a.snapshot.n, at: dateTime(a.snapshot.at) }), ...(a.snapshot.who ? [a.snapshot.who] : [])].join(', ') : t('Snapshot'), t('Unit')]}>
                   {a.report.rows.map((r) => (
                     <tr key={r.id}>
                       <th scope="row" class="mono">{r.id}</th>
@@ -162,34 +163,33 @@ export function ReportPage() {
             </section>
           ))}
 
-          <h2>Register list</h2>
+          <h2>{t('Register list')}</h2>
           <p>
-            Hash of the mapping: <span class="mono">{w.mappings.hash || 'not told by this gateway'}</span> (registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.
+            {t('Hash of the mapping:')}{' '}<span class="mono">{w.mappings.hash || t('not told by this gateway')}</span>{' '}{t('(registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.')}
           </p>
           <div class="report-registers">
             <PrintedList rows={w.mappings.rows} known={{ ...plainKnown, axes: names, points: w.points }} hash={w.mappings.hash} />
           </div>
 
-          <h2>Curves</h2>
-          {w.drawn.length === 0 ? <p>No capture is kept.</p> : null}
+          <h2>{t('Curves')}</h2>
+          {w.drawn.length === 0 ? <p>{t('No capture is kept.')}</p> : null}
           {w.drawn.map((c) => (
             <div key={c.name} class="report-curve">
               <p>
                 <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerWords(c.trigger, c.axes[0]?.unit)}
-                {c.who ? `, by ${c.who}` : ''}
+                {c.who ? `, ${t('by {who}', { who: c.who })}` : ''}
               </p>
               <Overlay captures={[c]} />
             </div>
           ))}
 
-          <h2>Loss of command</h2>
+          <h2>{t('Loss of command')}</h2>
           {w.rehearsal.report ? (
             <>
               <p>
-                Rehearsed {dateTime(w.rehearsal.report.ended_at)} by {w.rehearsal.report.who}, revision {w.rehearsal.report.site_revision} of the site, on {w.rehearsal.report.on}
-                {String(w.rehearsal.report.site_revision) === String(store.siteRevision.value) ? '' : '. The site has changed since: rehearse again'}.
+                {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}{n}.', { ended_at: dateTime(w.rehearsal.report.ended_at), who: w.rehearsal.report.who, site_revision: w.rehearsal.report.site_revision, on: w.rehearsal.report.on, n: String(w.rehearsal.report.site_revision) === String(store.siteRevision.value) ? '' : t('. The site has changed since: rehearse again') })}
               </p>
-              <Table head={['Axis', 'Cause', 'Action', 'Gateway acted', 'Motor slower', 'Stood', 'Way']}>
+              <Table head={[t('Axis'), t('Cause'), t('Action'), t('Gateway acted'), t('Motor slower'), t('Stood'), t('Way')]}>
                 {w.rehearsal.report.cells.map((c) => {
                   const r = cellRow(c, store.axis(c.axis)?.peek()?.data.unit ?? '');
                   return (
@@ -208,16 +208,16 @@ export function ReportPage() {
             </>
           ) : (
             <p>
-              Not rehearsed with this program’s present run. <a href="/site">Rehearse it</a> before this is signed.
+              {t('Not rehearsed with this program’s present run.')}{' '}<a href="/site">{t('Rehearse it')}</a>{' '}{t('before this is signed.')}
             </p>
           )}
 
-          <h2>Signatures</h2>
+          <h2>{t('Signatures')}</h2>
           <div class="report-signatures">
-            {['Commissioned by', 'Checked by', 'Taken over by'].map((t) => (
-              <p key={t}>
+            {[t('Commissioned by, date'), t('Checked by, date'), t('Taken over by, date')].map((text) => (
+              <p key={text}>
                 <span />
-                {t}, date
+                {text}
               </p>
             ))}
           </div>

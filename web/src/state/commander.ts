@@ -6,8 +6,10 @@ import { signal, type Signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
 import type { Axis, Command, CommandAnswer } from '../api/types';
+import { t } from '../language';
 import { causeOf, isWatched, outcomeOf, type Watched } from '../text/outcome';
 import { plain } from '../text/plain';
+import { reasonWord } from '../text/reason';
 
 /** `partly`: taken, but not by all who were meant. */
 export type NoteTone = 'none' | 'busy' | 'good' | 'partly' | 'refused';
@@ -50,7 +52,7 @@ export class Commander {
     if (w) {
       const outcome = this.serial.get(name) === w.mine ? outcomeOf(w, axis) : { tone: 'none' as const, text: '' };
       if (outcome) this.watched.delete(name);
-      if (outcome?.text) this.tell(name, outcome.tone, `${w.words}: ${outcome.text}`, 'interrupted', axis);
+      if (outcome?.text) this.tell(name, outcome.tone, t('{what}: {how}', { what: w.words, how: outcome.text }), 'interrupted', axis);
       else if (outcome && this.serial.get(name) === w.mine) this.note(name).value = quiet;
     }
     const r = this.causes.get(name);
@@ -102,10 +104,10 @@ export class Commander {
     const why = isStop(command) ? '' : this.blocked();
     const mine = this.begin(axis);
     if (why) {
-      this.tell(axis, 'refused', `${words}: not sent. ${why}`, 'blocked');
+      this.tell(axis, 'refused', t('{what}: not sent. {why}', { what: words, why }), 'blocked');
       return new Problem('cancelled', why);
     }
-    this.tell(axis, 'busy', `${words} …`);
+    this.tell(axis, 'busy', t('{what} …', { what: words }));
     if (isMotion(command)) this.onTheirWay.set(axis, (this.onTheirWay.get(axis) ?? 0) + 1);
     let result: CommandAnswer | Problem;
     try {
@@ -122,15 +124,15 @@ export class Commander {
 
   /** Stops one axis: the quick stop; a drive that has none gets a halt. */
   async stop(axis: string): Promise<Problem | null> {
-    this.client.dropWaitingCommands('a stop came first');
+    this.client.dropWaitingCommands(t('a stop came first'));
     if ((this.onTheirWay.get(axis) ?? 0) > 0) this.stopsWanted.add(axis);
     const mine = this.begin(axis);
-    this.tell(axis, 'busy', 'Stop …');
+    this.tell(axis, 'busy', t('Stop …'));
     const problem = await this.stopOnce(axis);
     if (this.serial.get(axis) === mine) {
-      if (!problem && this.offline(axis)) this.tell(axis, 'partly', 'Stop: sent, but the axis is offline: nobody confirms it');
-      else if (!problem) this.tell(axis, 'good', 'Stop: accepted');
-      else this.tell(axis, 'refused', `Stop NOT confirmed: ${problem.words}`);
+      if (!problem && this.offline(axis)) this.tell(axis, 'partly', t('Stop: sent, but the axis is offline: nobody confirms it'));
+      else if (!problem) this.tell(axis, 'good', t('Stop: accepted'));
+      else this.tell(axis, 'refused', t('Stop NOT confirmed: {why}', { why: problem.words }));
     }
     return problem;
   }
@@ -139,32 +141,32 @@ export class Commander {
   async stopAll(known: readonly string[] | null): Promise<void> {
     let axes = known ?? [];
     if (!known) {
-      this.stopReport.value = { tone: 'busy', text: 'Stopping all axes …' };
+      this.stopReport.value = { tone: 'busy', text: t('Stopping all axes …') };
       try {
         axes = (await this.client.axes(true)).map((a) => a.name);
       } catch (error) {
-        this.stopReport.value = { tone: 'refused', text: `NOT stopped: the gateway did not say which axes there are. ${capital(asProblem(error).words)}` };
+        this.stopReport.value = { tone: 'refused', text: t('NOT stopped: the gateway did not say which axes there are. {why}', { why: capital(asProblem(error).words) }) };
         return;
       }
     }
     if (axes.length === 0) {
-      this.stopReport.value = { tone: 'good', text: 'There is no axis to stop.' };
+      this.stopReport.value = { tone: 'good', text: t('There is no axis to stop.') };
       return;
     }
-    this.stopReport.value = { tone: 'busy', text: `Stopping ${axes.length === 1 ? '1 axis' : `${axes.length} axes`} …` };
+    this.stopReport.value = { tone: 'busy', text: axes.length === 1 ? t('Stopping 1 axis …') : t('Stopping {n} axes …', { n: axes.length }) };
     const answers = await Promise.all(axes.map(async (a) => ({ axis: a, problem: await this.stop(a) })));
     const away = answers.filter((a) => this.offline(a.axis));
     const bad = answers.filter((a) => a.problem && !this.offline(a.axis));
     const good = axes.length - bad.length - away.length;
     if (bad.length === 0 && away.length > 0) {
-      this.stopReport.value = { tone: 'partly', text: `Stop accepted by ${good} of ${axes.length}; ${away.length} offline: nobody confirms ${some(away)}.` };
+      this.stopReport.value = { tone: 'partly', text: t('Stop accepted by {good} of {all}; {away} offline: nobody confirms {names}.', { good, all: axes.length, away: away.length, names: some(away) }) };
       this.fade(this.stopReport);
     } else if (bad.length === 0) {
-      this.stopReport.value = { tone: 'good', text: `Stop accepted by ${axes.length === 1 ? 'the axis' : `all ${axes.length} axes`}.` };
+      this.stopReport.value = { tone: 'good', text: axes.length === 1 ? t('Stop accepted by the axis.') : t('Stop accepted by all {n} axes.', { n: axes.length }) };
       this.fade(this.stopReport);
     } else {
       const why = bad[0]?.problem?.words ?? '';
-      this.stopReport.value = { tone: 'refused', text: `Stop accepted by ${good} of ${axes.length}${away.length > 0 ? `; ${away.length} offline` : ''}. NOT confirmed by ${some(bad)}: ${why}` };
+      this.stopReport.value = { tone: 'refused', text: away.length > 0 ? t('Stop accepted by {good} of {all}; {away} offline. NOT confirmed by {names}: {why}', { good, all: axes.length, away: away.length, names: some(bad), why }) : t('Stop accepted by {good} of {all}. NOT confirmed by {names}: {why}', { good, all: axes.length, names: some(bad), why }) };
     }
   }
 
@@ -202,13 +204,18 @@ const isStop = (c: Command) => c.command === 'quick_stop' || c.command === 'halt
 
 function noteOf(words: string, result: CommandAnswer | Problem): [NoteTone, string] {
   if ('result' in result) {
-    const said = plain([result.reason, result.text].filter(Boolean).join('. '));
-    return ['good', `${words}: ${result.result}${said ? `. ${said}` : ''}`];
+    const said = [result.reason && reasonWord(result.reason), plain(result.text)].filter(Boolean).join('. ');
+    const how = result.result === 'done' ? t('done') : t('accepted');
+    return ['good', said ? t('{what}: {how}. {more}', { what: words, how, more: said }) : t('{what}: {how}', { what: words, how })];
   }
   const failed = result.document.result === 'failed' || result.kind !== 'answered';
-  return ['refused', `${words}: ${failed ? 'failed' : 'refused'}. ${capital(result.words)}`];
+  const why = capital(result.words);
+  return ['refused', failed ? t('{what}: failed. {why}', { what: words, why }) : t('{what}: refused. {why}', { what: words, why })];
 }
 
-const some = (all: readonly { axis: string }[]): string => all.slice(0, 4).map((a) => a.axis).join(', ') + (all.length > 4 ? ` and ${all.length - 4} more` : '');
+const some = (all: readonly { axis: string }[]): string => {
+  const names = all.slice(0, 4).map((a) => a.axis).join(', ');
+  return all.length > 4 ? t('{names} and {n} more', { names, n: all.length - 4 }) : names;
+};
 
 export const capital = (s: string): string => s.charAt(0).toUpperCase() + s.slice(1);

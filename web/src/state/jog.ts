@@ -4,6 +4,7 @@
 // loss of the connection, end the jog at once. Never moves again without a new press.
 import { asProblem, Problem } from '../api/problem';
 import type { Client } from '../api/client';
+import { t } from '../language';
 import type { Commander } from './commander';
 
 /** The gateway halts the axis by itself when it has not heard of the jog for so long: the page may be gone, or its network. */
@@ -43,7 +44,7 @@ export class Jog {
 
   /** The page hears nothing more: nobody jogs what he cannot see. */
   lost(): void {
-    if (this.held) this.giveUp('the connection to the gateway is lost');
+    if (this.held) this.giveUp(t('the connection to the gateway is lost'));
   }
 
   /** Says again and again that the hand is still there. What fails is not made good: the jog is over, here and by the gateway's own time-out. */
@@ -58,7 +59,7 @@ export class Jog {
         if (this.held !== mine) return;
         if (problem.kind === 'answered' && problem.status < 500) {
           this.held = 0;
-          this.commander.tell(this.axis, 'refused', `Jog: ended. ${problem.words}`);
+          this.commander.tell(this.axis, 'refused', t('Jog: ended. {why}', { why: problem.words }));
           void this.halt(false);
         } else {
           this.giveUp(problem.words);
@@ -70,7 +71,7 @@ export class Jog {
 
   private giveUp(why: string): void {
     this.held = 0;
-    this.commander.tell(this.axis, 'refused', `Jog: ended, ${why}. The gateway halts the axis by itself ${hold_ms / 1000} s after it last heard of the jog.`);
+    this.commander.tell(this.axis, 'refused', t('Jog: ended, {why}. The gateway halts the axis by itself {n} s after it last heard of the jog.', { why, n: hold_ms / 1000 }));
     void this.halt(true);
   }
 
@@ -84,16 +85,16 @@ export class Jog {
     for (let i = 0; ; i += 1) {
       try {
         await this.client.command(this.axis, { command: 'halt' }, true);
-        if (say) this.commander.tell(this.axis, 'good', 'Jog: ended, halt accepted');
+        if (say) this.commander.tell(this.axis, 'good', t('Jog: ended, halt accepted'));
         return;
       } catch (error) {
         const problem = asProblem(error);
         // The drive said no: it is not moving by this jog, or it never will listen. Trying again changes nothing.
         if (problem.kind === 'answered' && problem.status < 500) {
-          this.commander.tell(this.axis, 'refused', `Jog: halt refused. ${problem.words}`);
+          this.commander.tell(this.axis, 'refused', t('Jog: halt refused. {why}', { why: problem.words }));
           return;
         }
-        this.commander.tell(this.axis, 'refused', `Jog: the halt is NOT confirmed: ${problem.words}`);
+        this.commander.tell(this.axis, 'refused', t('Jog: the halt is NOT confirmed: {why}', { why: problem.words }));
         if (i >= mostRetries || this.held) return;
         await new Promise((r) => setTimeout(r, retry_ms));
       }
@@ -103,7 +104,7 @@ export class Jog {
 
 function inTime<T>(work: Promise<T>, limit_ms: number): Promise<T> {
   return new Promise((good, bad) => {
-    const timer = setTimeout(() => bad(new Problem('timed_out', 'the gateway does not answer')), limit_ms);
+    const timer = setTimeout(() => bad(new Problem('timed_out', t('the gateway does not answer'))), limit_ms);
     work.then(good, bad).finally(() => clearTimeout(timer));
   });
 }

@@ -4,9 +4,12 @@ import { computed, signal, type Signal } from '@preact/signals';
 import type { Client } from '../api/client';
 import { asProblem, type Problem } from '../api/problem';
 import type { Role, SessionInfo } from '../api/types';
+import { t } from '../language';
 import type { TabChannel } from './tab';
 
 export const roles: readonly Role[] = ['viewer', 'operator', 'engineer', 'administrator'];
+const roleWords: Record<Role, string> = { viewer: t('viewer'), operator: t('operator'), engineer: t('engineer'), administrator: t('administrator') };
+export const roleWord = (r: Role): string => roleWords[r] ?? r;
 
 type Caller = Pick<Client, 'call'> & Partial<Pick<Client, 'csrf' | 'onUnauthorized'>>;
 
@@ -89,9 +92,9 @@ export class Session {
 
   private end(why: string): void {
     if (this.ended.peek() !== '') return;
-    const known = why && !/session has ended/.test(why) ? why : 'it was ended elsewhere, it expired, or the gateway was restarted';
+    const known = why && !/session has ended/.test(why) ? why : t('it was ended elsewhere, it expired, or the gateway was restarted');
     this.change += 1; // what was asked before says nothing about after it
-    this.ended.value = `Your session has ended: ${known.replace(/[.\s]+$/, '')}. Sign in again; what you typed is kept.`;
+    this.ended.value = t('Your session has ended: {why}. Sign in again; what you typed is kept.', { why: known.replace(/[.\s]+$/, '') });
     this.onChange();
   }
 
@@ -146,17 +149,17 @@ export class Session {
   }
 
   /** Why one may not do what needs this role; empty: one may. `what` begins the sentence. */
-  mayNot(need: Role, what = 'This'): string {
+  mayNot(need: Role, what = t('This')): string {
     const info = this.info.value;
     if (!info || (info.role && roles.indexOf(info.role) >= roles.indexOf(need))) return '';
-    return `${what} needs the role ${need}. ${info.role ? `Yours is ${info.role}.` : 'You are not signed in.'}`;
+    return info.role ? t('{what} needs the role {need}. Yours is {role}.', { what, need: roleWord(need), role: roleWord(info.role) }) : t('{what} needs the role {need}. You are not signed in.', { what, need: roleWord(need) });
   }
 }
 
 /** "anna, engineer"; "local access, engineer". */
 export function whoWords(info: SessionInfo): string {
-  if (!info.role) return 'not signed in';
-  return `${info.user ?? (info.via === 'local' ? 'local access' : info.via)}, ${info.role}`;
+  if (!info.role) return t('not signed in');
+  return `${info.user ?? (info.via === 'local' ? t('local access') : info.via)}, ${roleWord(info.role)}`;
 }
 
 /** What a disabled control tells about itself. */
@@ -165,14 +168,14 @@ export const barred = (why: string): { disabled?: true; title?: string; 'aria-de
 /** Why a sign-in did not work; for a lockout with the seconds to wait. */
 export function signInWords(p: Problem): string {
   if (p.status !== 429) return p.words;
-  return p.retryAfter_s > 0 ? `Too many wrong attempts. Try again in ${p.retryAfter_s} s.` : p.words;
+  return p.retryAfter_s > 0 ? t('Too many wrong attempts. Try again in {n} s.', { n: p.retryAfter_s }) : p.words;
 }
 
 /** Rules of a password, told before the gateway has to. */
 export function passwordFault(first: string, second: string): string {
   const n = [...first].length;
-  if (n < 12) return `A password has at least 12 characters; this one has ${n}.`;
-  if (n > 256) return 'A password has at most 256 characters.';
-  return first === second ? '' : 'The two passwords are not the same.';
+  if (n < 12) return t('A password has at least 12 characters; this one has {n}.', { n });
+  if (n > 256) return t('A password has at most 256 characters.');
+  return first === second ? '' : t('The two passwords are not the same.');
 }
-export const userFault = (name: string): string => (/^[a-z0-9._@-]{1,64}$/.test(name) ? '' : 'A name has 1 to 64 of a-z, 0-9, point, _ - and @.');
+export const userFault = (name: string): string => (/^[a-z0-9._@-]{1,64}$/.test(name) ? '' : t('A name has 1 to 64 of a-z, 0-9, point, _ - and @.'));

@@ -1,28 +1,36 @@
 // Alarms and events in words: state, subject, how long a shelf lasts, the filter of the events and the files of them.
 // In: documents of the gateway. Out: words. Never asks anything.
-import type { Alarm, GatewayEvent } from '../api/types';
+import { t } from '../language';
+import type { Alarm, GatewayEvent, Recording } from '../api/types';
 import type { Word } from './axis';
 import { csvOf } from './table-text';
 
 export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
   const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
   switch (alarm.state) {
-    case 'unacknowledged_active': return { text: 'Active, not acknowledged', icon: 'bell', tone, long: 'It is wrong now, and nobody has acknowledged it' };
-    case 'acknowledged_active': return { text: 'Active, acknowledged', icon: 'triangle', tone: 'warning', long: 'It is wrong now, and somebody knows' };
-    case 'unacknowledged_cleared': return { text: 'Cleared, not acknowledged', icon: 'circle-dashed', tone: 'neutral', long: 'It is over, but nobody has acknowledged it' };
-    case 'shelved': return { text: 'Shelved', icon: 'shelf', tone: 'muted', long: 'Put aside for a time' };
-    case 'normal': return { text: 'Normal', icon: 'check', tone: 'good', long: 'Over and acknowledged' };
+    case 'unacknowledged_active': return { text: t('Active, not acknowledged'), icon: 'bell', tone, long: t('It is wrong now, and nobody has acknowledged it') };
+    case 'acknowledged_active': return { text: t('Active, acknowledged'), icon: 'triangle', tone: 'warning', long: t('It is wrong now, and somebody knows') };
+    case 'unacknowledged_cleared': return { text: t('Cleared, not acknowledged'), icon: 'circle-dashed', tone: 'neutral', long: t('It is over, but nobody has acknowledged it') };
+    case 'shelved': return { text: t('Shelved'), icon: 'shelf', tone: 'muted', long: t('Put aside for a time') };
+    case 'normal': return { text: t('Normal'), icon: 'check', tone: 'good', long: t('Over and acknowledged') };
   }
 }
 
 export const subjectOf = (a: Pick<Alarm, 'axis' | 'drive' | 'line'>): string => a.axis ?? a.drive ?? a.line ?? 'gateway';
 export const canAcknowledge = (a: Alarm): boolean => !a.acknowledged && a.state !== 'shelved';
 
+/** The newest recording that shows this instant and can be trusted. */
+export function recordingOf(list: readonly Recording[], at: string): string | null {
+  const ms = Date.parse(at);
+  const covers = (r: Recording) => !r.fault && r.from !== null && r.to !== null && Date.parse(r.from) <= ms && ms <= Date.parse(r.to);
+  return list.filter(covers).sort((a, b) => (b.at ?? '').localeCompare(a.at ?? ''))[0]?.name ?? null;
+}
+
 export const shelfTimes = [
-  { value: '600', text: '10 minutes' },
-  { value: '3600', text: '1 hour' },
-  { value: '28800', text: '8 hours' },
-  { value: '86400', text: '1 day' },
+  { value: '600', text: t('10 minutes') },
+  { value: '3600', text: t('1 hour') },
+  { value: '28800', text: t('8 hours') },
+  { value: '86400', text: t('1 day') },
 ] as const;
 
 /** The gateway's sentences often begin with what they are about; beside its name that is said once. */
@@ -66,7 +74,7 @@ export function eventFile(events: readonly GatewayEvent[], format: 'csv' | 'text
   return rows
     .map((e) => {
       const change = e.parameter ? ` [${e.parameter}: ${e.old ?? ''} -> ${e.new ?? ''}]` : '';
-      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? ` (code ${e.code})` : ''}${e.who ? ` by ${e.who}` : ''}`;
+      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? t(' (code {code})', { code: e.code }) : ''}${e.who ? t(' by {who}', { who: e.who }) : ''}`;
       return `${line.replace(/[\u0000-\u001f\u007f]/g, ' ')}\n`;
     })
     .join('');

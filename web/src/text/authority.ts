@@ -1,5 +1,6 @@
 // Words about authority: who holds an axis, and how long still. In: an axis document, the gateway's time, the name of this tab. Out: text.
 import type { Axis } from '../api/types';
+import { t } from '../language';
 
 export interface Held {
   /** Empty: nobody. */
@@ -21,7 +22,7 @@ export const holderName = (holder: string): string => holder.replace(/ page-[0-9
 /** Who did something, as the gateway writes it ("anna 10.0.0.7", "local 127.0.0.1", "token line (anna) 10.0.0.7"), to people: a machine is no name. */
 export function personOf(by: string): string {
   const local = /^local(?: (.+))?$/.exec(by);
-  if (local) return local[1] ? `somebody at ${local[1]}` : 'somebody else';
+  if (local) return local[1] ? t('somebody at {address}', { address: local[1] }) : t('somebody else');
   return /^token \S+/.exec(by)?.[0] ?? by.split(' ')[0] ?? '';
 }
 
@@ -43,12 +44,14 @@ export function commandedWords(door: string, who: string, tab = ''): string {
   const [first = '', ...rest] = who.split(' ');
   const by = (who === '' ? (door === 'none' ? '' : door) : first).replace('_', '/');
   const client = rest.join(' ');
-  if (by === '') return 'nobody has commanded it';
-  if (tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return 'last commanded by this page';
-  return client === '' ? `last commanded by ${by}` : `last commanded by ${holderName(client)} (${by})`;
+  if (by === '') return t('nobody has commanded it');
+  if (tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return t('last commanded by this page');
+  return client === '' ? t('last commanded by {by}', { by }) : t('last commanded by {holder} ({by})', { holder: holderName(client), by });
 }
 
 export function heldWords(h: Held): string {
-  if (!h.holder) return 'Nobody holds it';
-  return `${h.mine ? 'Held by this page' : `Held by ${holderName(h.holder)}`}, ${h.rest_s > 0 ? `${h.rest_s} s left` : 'about to end'}`;
+  if (!h.holder) return t('Nobody holds it');
+  const holder = holderName(h.holder), n = h.rest_s;
+  if (h.mine) return n > 0 ? t('Held by this page, {n} s left', { n }) : t('Held by this page, about to end');
+  return n > 0 ? t('Held by {holder}, {n} s left', { holder, n }) : t('Held by {holder}, about to end', { holder });
 }

@@ -1,5 +1,6 @@
 // What is wrong now, in words, each with the place where it can be mended; why an axis is offline, from its own drive and its own alarms.
 // In: documents of the gateway. Out: words and links. Never a reason that belongs to another axis, drive or line.
+import { t } from '../language';
 import type { Alarm, Axis, Drive, Line } from '../api/types';
 import { axisPath, linePath } from '../router';
 import type { Word } from './axis';
@@ -18,12 +19,12 @@ const newest = (alarms: readonly Alarm[]): Alarm | undefined => alarms.filter((a
 
 /** Of a drive that is silent what the gateway says of it; of one that answers, the axis' own alarm, then the drive's. */
 export function offlineReason(axis: Pick<Axis, 'name' | 'drive' | 'error'>, drive: Drive | undefined, alarms: readonly Alarm[]): string {
-  if (!drive) return 'nobody answers';
-  if (!drive.status.online) return drive.status.text || 'nobody answers';
+  if (!drive) return t('nobody answers');
+  if (!drive.status.online) return drive.status.text || t('nobody answers');
   const own = newest(alarms.filter((a) => a.axis === axis.name)) ?? newest(alarms.filter((a) => a.axis === null && a.drive === axis.drive));
   if (own?.text) return own.text;
-  if (axis.error.code !== 0) return `error ${axis.error.code}: ${axis.error.text || 'the drive says no more'}`;
-  return 'the drive answers, this axis does not';
+  if (axis.error.code !== 0) return t('error {code}: {n}', { code: axis.error.code, n: axis.error.text || t('the drive says no more') });
+  return t('the drive answers, this axis does not');
 }
 
 /** Faults first, then lines, drives, axes that do not answer, and at the end what waits to be acknowledged. Nothing: all is well. */
@@ -31,7 +32,7 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   const out: ErrorEntry[] = [];
   const put = (key: string, text: string, icon: Word['icon'], tone: Word['tone'], about: string, long: string, path: string, of: string[] = []) =>
     out.push({ key, word: { text, icon, tone, long }, about, text: long, path, axes: of });
-  for (const a of axes) if (a.fault) put(`axis ${a.name}`, 'Fault', 'bell', 'fault', a.name, `Fault ${a.error.code}: ${a.error.text || 'the drive says no more'}`, axisPath(a.name));
+  for (const a of axes) if (a.fault) put(`axis ${a.name}`, t('Fault'), 'bell', 'fault', a.name, t('Fault {code}: {n}', { code: a.error.code, n: a.error.text || t('the drive says no more') }), axisPath(a.name));
   const told = new Set<string>();
   const offline = (of: (a: Axis) => boolean): string[] => {
     const names = axes.filter((a) => !a.online && of(a) && !told.has(a.name)).map((a) => a.name);
@@ -42,12 +43,12 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   for (const l of lines) {
     if (l.status.state !== 'down' && l.status.state !== 'bus_off') continue;
     down.add(l.name);
-    put(`line ${l.name}`, l.status.state === 'down' ? 'Line down' : 'Bus off', 'unplugged', 'fault', l.name, l.status.text || 'it cannot be opened', linePath(l.name), offline((a) => a.line === l.name));
+    put(`line ${l.name}`, l.status.state === 'down' ? t('Line down') : t('Bus off'), 'unplugged', 'fault', l.name, l.status.text || t('it cannot be opened'), linePath(l.name), offline((a) => a.line === l.name));
   }
   for (const d of drives) {
     // A drive of a line that is down is told with its line.
     if (d.status.presence !== 'offline' || down.has(d.line)) continue;
-    put(`drive ${d.name}`, 'Drive offline', 'unplugged', 'warning', d.name, d.status.text || 'nobody answers', linePath(d.line), offline((a) => a.drive === d.name));
+    put(`drive ${d.name}`, t('Drive offline'), 'unplugged', 'warning', d.name, d.status.text || t('nobody answers'), linePath(d.line), offline((a) => a.drive === d.name));
   }
   const byDrive = new Map(drives.map((d) => [d.name, d]));
   const groups = new Map<string, { drive: string; line: string; why: string; names: string[] }>();
@@ -60,9 +61,9 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   }
   for (const g of groups.values()) {
     const [first = '', ...more] = g.names;
-    if (more.length === 0) put(`offline ${first}`, 'Axis offline', 'unplugged', 'warning', first, g.why, axisPath(first));
-    else put(`offline ${g.drive} ${first}`, `${g.names.length} axes offline`, 'unplugged', 'warning', g.drive, g.why, linePath(g.line), g.names);
+    if (more.length === 0) put(`offline ${first}`, t('Axis offline'), 'unplugged', 'warning', first, g.why, axisPath(first));
+    else put(`offline ${g.drive} ${first}`, t('{n} axes offline', { n: g.names.length }), 'unplugged', 'warning', g.drive, g.why, linePath(g.line), g.names);
   }
-  if (unacknowledged > 0) put('alarms', 'Alarms', 'list', 'warning', '', unacknowledged === 1 ? '1 alarm is not acknowledged' : `${unacknowledged} alarms are not acknowledged`, '/events');
+  if (unacknowledged > 0) put('alarms', t('Alarms'), 'list', 'warning', '', unacknowledged === 1 ? t('1 alarm is not acknowledged') : t('{unacknowledged} alarms are not acknowledged', { unacknowledged }), '/events');
   return out;
 }

@@ -1,6 +1,7 @@
 // What an event says, in the unit of its axis: the gateway's own words count in increments of the drive here and there; and many events that one bulk
 // edit made, as one. In: events, the axis as it is now. Out: texts, groups. Pure. The increments stay beside it: the axis may have had another
 // unit when it happened. A group has nothing of severity in it: what needs attention keeps a line of its own.
+import { t } from '../language';
 import type { GatewayEvent } from '../api/types';
 import { decimalsOf, formatNumber } from './number';
 import { plain } from './plain';
@@ -14,10 +15,10 @@ const orders: Record<string, string> = { move_absolute: '', move_relative: '', m
 
 export function inUnits(text: string, scale: Scale | undefined): string {
   if (!scale?.unit || !(scale.increments_per_unit > 0)) return plain(text);
-  const both = (increments: string, per: string) => `${formatNumber(Number(increments) / scale.increments_per_unit, decimalsOf(scale.increments_per_unit))} ${scale.unit}${per} (${formatNumber(Number(increments), 0)} increments${per})`;
+  const both = (increments: string, per: string) => t('{n} {unit}{per} ({n2} increments{per2})', { n: formatNumber(Number(increments) / scale.increments_per_unit, decimalsOf(scale.increments_per_unit)), unit: scale.unit, per, n2: formatNumber(Number(increments), 0), per2: per });
   const order = /^(move_\w+) (-?\d+)$/.exec(text);
   if (order && Object.hasOwn(orders, order[1] as string)) return `${plain(order[1] as string)} ${both(order[2] as string, orders[order[1] as string] as string)}`;
-  return plain(text).replace(/\(at (-?\d+) increments\)/g, (_, n: string) => `at ${both(n, '')}`);
+  return plain(text).replace(/\(at (-?\d+) increments\)/g, (_, n: string) => t('at {n}', { n: both(n, '') }));
 }
 
 /** Between two writes of one bulk edit; a slow line needs its time. */

@@ -1,33 +1,34 @@
 // Fail-safe in words: causes, actions, what an axis has named, and the cells of a rehearsal. In: documents of the gateway. Out: texts. Pure.
+import { t } from '../language';
 import type { Action, Cell, Choice, FailSafeRow, Matrix } from '../api/fail-safe';
 
 export type Cause = Matrix['causes'][number]['cause'];
 const causes: Record<Cause, string> = {
-  modbus_closed: 'Modbus connection closed',
-  modbus_silent: 'Modbus client silent',
-  set_points_silent: 'Set-points not renewed',
-  lease_ended: 'Lease ended',
-  enip_closed: 'EtherNet/IP connection closed',
-  enip_timed_out: 'EtherNet/IP connection timed out',
-  enip_idle: 'EtherNet/IP scanner idle',
-  line_lost: 'Drive not reached',
-  gateway_ends: 'Gateway is ended',
-  dds_deadline: 'DDS deadline missed',
+  modbus_closed: t('Modbus connection closed'),
+  modbus_silent: t('Modbus client silent'),
+  set_points_silent: t('Set-points not renewed'),
+  lease_ended: t('Lease ended'),
+  enip_closed: t('EtherNet/IP connection closed'),
+  enip_timed_out: t('EtherNet/IP connection timed out'),
+  enip_idle: t('EtherNet/IP scanner idle'),
+  line_lost: t('Drive not reached'),
+  gateway_ends: t('Gateway is ended'),
+  dds_deadline: t('DDS deadline missed'),
 };
-const actions: Record<Action, string> = { nothing: 'Nothing', halt: 'Halt', quick_stop: 'Quick stop', disable: 'Switch off' };
+const actions: Record<Action, string> = { nothing: t('Nothing'), halt: t('Halt'), quick_stop: t('Quick stop'), disable: t('Switch off') };
 
 const gone = 'gateway_gone'; // in a rehearsal alone: nobody acts but the drive
-export const causeText = (cause: string): string => causes[cause as Cause] ?? (cause === gone ? 'Gateway without supply' : cause.replaceAll('_', ' '));
+export const causeText = (cause: string): string => causes[cause as Cause] ?? (cause === gone ? t('Gateway without supply') : cause.replaceAll('_', ' '));
 export const actionText = (action: Action): string => actions[action];
 export const actionChoices = (cause: Matrix['causes'][number]) => [
-  { value: '', text: `default: ${actionText(cause.default_endless).toLowerCase()}` },
+  { value: '', text: t('default: {n}', { n: actionText(cause.default_endless).toLowerCase() }) },
   ...(Object.keys(actions) as Action[]).map((a) => ({ value: a as string, text: actionText(a) })),
 ];
 
 /** What stands below a cause: when it is, and what its default spares. */
 export function causeHint(cause: Matrix['causes'][number]): string {
   const when = cause.description.replace('watchdog_ms', 'the time below');
-  return cause.default_endless === cause.default_to_a_target ? when : `${when}. By default a motion to a target goes on.`;
+  return cause.default_endless === cause.default_to_a_target ? when : t('{when}. By default a motion to a target goes on.', { when });
 }
 
 /** What an axis has named, in one line. */
@@ -36,18 +37,18 @@ export function namedWords(row: FailSafeRow): string {
     const action = row.fail_safe[c];
     return action ? [`${causeText(c).toLowerCase().replace('modbus', 'Modbus').replace('ethernet/ip', 'EtherNet/IP').replace('dds', 'DDS')}: ${actionText(action).toLowerCase()}`] : [];
   });
-  if (row.fail_safe.watchdog_ms != null) own.push(`Modbus clients watched for ${row.fail_safe.watchdog_ms} ms`);
-  return own.length === 0 ? 'all as by default' : own.join('; ');
+  if (row.fail_safe.watchdog_ms != null) own.push(t('Modbus clients watched for {watchdog_ms} ms', { watchdog_ms: row.fail_safe.watchdog_ms }));
+  return own.length === 0 ? t('all as by default') : own.join('; ');
 }
 
-const ofDrive = { quick_stop: 'quick stop', disable: 'switched off', fault: 'fault' } as const;
+const ofDrive = { quick_stop: t('quick stop'), disable: t('switched off'), fault: t('fault') } as const;
 /** What its drive does by itself, in one line. */
 export function watchdogWords({ drive_watchdog: w }: FailSafeRow): string {
-  if (!w.available) return `The drive has no watchdog of its own. ${w.description}`;
-  if (w.state === 'armed' && w.action !== null) return `The drive's own watchdog: ${ofDrive[w.action]} after ${w.time_ms} ms without the gateway.`;
-  if (w.state === 'off') return "The drive's own watchdog is switched off (watchdog_action).";
-  if (w.state === 'refused') return 'The drive does not take a watchdog of its own: without the gateway it goes on.';
-  return "The drive's own watchdog has not been set yet: the drive has not answered.";
+  if (!w.available) return t('The drive has no watchdog of its own. {description}', { description: w.description });
+  if (w.state === 'armed' && w.action !== null) return t('The drive\'s own watchdog: {n} after {time_ms} ms without the gateway.', { n: ofDrive[w.action], time_ms: w.time_ms ?? 0 });
+  if (w.state === 'off') return t('The drive\'s own watchdog is switched off (watchdog_action).');
+  if (w.state === 'refused') return t('The drive does not take a watchdog of its own: without the gateway it goes on.');
+  return t('The drive\'s own watchdog has not been set yet: the drive has not answered.');
 }
 
 /** The choice with one member changed, as PUT takes it: null is the default. */
@@ -55,13 +56,13 @@ export const changed = (row: FailSafeRow, cause: Cause, action: string): Choice 
 
 /** What is typed for the silence of a Modbus client: a whole number of ms, null (the gateway's own) for nothing typed, or why it is none. */
 export function readWatchdog(text: string): { good: true; value: number | null } | { good: false; why: string } {
-  const t = text.trim();
-  if (t === '') return { good: true, value: null };
-  const n = Number(t);
-  return /^\d+$/.test(t) && n <= 600_000 ? { good: true, value: n } : { good: false, why: 'A whole number of ms from 0 (never) to 600000; empty: as the gateway is set.' };
+  const trimmed = text.trim();
+  if (trimmed === '') return { good: true, value: null };
+  const n = Number(trimmed);
+  return /^\d+$/.test(trimmed) && n <= 600_000 ? { good: true, value: n } : { good: false, why: t('A whole number of ms from 0 (never) to 600000; empty: as the gateway is set.') };
 }
 
-const ms = (n: number | null): string => (n === null ? '' : n < 10 ? `${n.toFixed(1)} ms` : `${Math.round(n)} ms`);
+const ms = (n: number | null): string => (n === null ? '' : n < 10 ? t('{n} ms', { n: n.toFixed(1) }) : t('{n} ms', { n: Math.round(n) }));
 export interface CellRow {
   key: string;
   axis: string;
@@ -76,9 +77,9 @@ export const cellRow = (c: Cell, unit: string): CellRow => ({
   key: `${c.axis} ${c.cause}`,
   axis: c.axis,
   cause: causeText(c.cause),
-  action: c.cause === gone ? "the drive's own" : `${actionText(c.taken)}${c.chosen === null ? ', by default' : ''}`,
+  action: c.cause === gone ? t('the drive\'s own') : (c.chosen === null ? t('{action}, by default', { action: actionText(c.taken) }) : actionText(c.taken)),
   acted: ms(c.noticed_ms) || (c.cause === gone ? '' : 'not'),
   slower: ms(c.reaction_ms) || 'not',
-  stood: ms(c.standstill_ms) || `not within ${ms(c.watched_ms)}`,
+  stood: ms(c.standstill_ms) || t('not within {watched_ms}', { watched_ms: ms(c.watched_ms) }),
   way: `${Math.round(c.travel * 1000) / 1000}${unit ? ` ${unit}` : ''}`,
 });

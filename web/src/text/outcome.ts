@@ -1,6 +1,7 @@
 // Outcome: how a command went that the drive has taken, by what its axis shows afterwards. In: the command, the axis as it is told from then on.
 // Out: nothing yet, or how it ended, in words. Pure. What was read before the drive took the command says nothing about it; a motion that neither
 // moves nor has arrived is not called ended at the first look, since a drive may need a moment to get going.
+import { t } from '../language';
 import type { Axis, Command } from '../api/types';
 import { positionText, stateWord, unitOf } from './axis';
 
@@ -29,27 +30,27 @@ const done: Outcome = { tone: 'good', text: 'done' };
 
 export function outcomeOf(w: Watched, axis: Axis): Outcome | null {
   const after_ms = axis.at === null ? -Infinity : Date.parse(axis.at) - w.taken_ms;
-  if (!axis.online) return failed('the axis went offline; whether it has finished is not known');
+  if (!axis.online) return failed(t('the axis went offline; whether it has finished is not known'));
   if (after_ms < fresh_ms) return null;
   const kind = w.command.command;
-  if (axis.fault) return failed(`ended by a fault${axis.error.code ? `, ${axis.error.code}: ${axis.error.text || 'the drive says no more'}` : ''}`);
+  if (axis.fault) return failed(t('ended by a fault{n}', { n: axis.error.code ? `, ${axis.error.code}: ${axis.error.text || t('the drive says no more')}` : '' }));
   if (kind === 'enable') return axis.state === 'operation_enabled' ? done : null;
   if (kind === 'disable') return axis.state === 'switch_on_disabled' || axis.state === 'ready_to_switch_on' ? done : null;
   w.moved ||= axis.moving;
   if (w.target === undefined) w.target = axis.target_position;
   const at = `${positionText(axis)} ${unitOf(axis)}`;
-  if (axis.state !== 'operation_enabled') return failed(`interrupted: the axis is ${stateWord(axis, 'live').text.toLowerCase()} now, at ${at}`);
+  if (axis.state !== 'operation_enabled') return failed(t('interrupted: the axis is {n} now, at {at}', { n: stateWord(axis, 'live').text.toLowerCase(), at }));
   if (kind === 'move_velocity') return w.moved && !axis.moving ? { tone: 'none', text: '' } : null;
-  if (kind !== 'home' && w.target !== axis.target_position) return failed('ended: another command took its place');
+  if (kind !== 'home' && w.target !== axis.target_position) return failed(t('ended: another command took its place'));
   if (axis.moving || (!w.moved && after_ms < begin_ms)) return null;
   if (axis.target_reached || (kind === 'home' && axis.referenced)) return done;
-  return after_ms > rest_ms ? failed(`interrupted: the axis stopped at ${at}`) : null;
+  return after_ms > rest_ms ? failed(t('interrupted: the axis stopped at {at}', { at })) : null;
 }
 
 /** What a refusal of this reason came from, as the axis shows it; it is over when this is another. Empty: nothing that an axis shows. */
 export function causeOf(reason: string, axis: Axis | undefined): string {
   if (!axis) return '';
   if (/wrong_state|interrupted|fault|not_enabled/.test(reason)) return `${axis.state} ${axis.fault} ${axis.error.code}`;
-  if (/held|authority|claimed/.test(reason)) return axis.authority_holder ? `held by ${axis.authority_holder}` : 'nobody holds it';
-  return /offline|no_answer|line_down/.test(reason) ? `online ${axis.online}` : '';
+  if (/held|authority|claimed/.test(reason)) return axis.authority_holder ? t('held by {authority_holder}', { authority_holder: axis.authority_holder }) : t('nobody holds it');
+  return /offline|no_answer|line_down/.test(reason) ? (axis.online ? t('online again') : t('still offline')) : '';
 }

@@ -1,6 +1,8 @@
 // A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
 // Never changes a document in place, and keeps members that it does not know.
-import { plainWord } from './plain';
+import { t } from '../language';
+import { plain, plainWord } from './plain';
+import { duration } from './time';
 import type { Word } from './axis';
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
@@ -22,7 +24,7 @@ export interface RecipeDocument {
   [other: string]: unknown;
 }
 
-export type FieldKind = 'axis' | 'text' | 'value' | 'number' | 'flag' | 'command' | 'register_type';
+export type FieldKind = 'axis' | 'text' | 'value' | 'number' | 'flag' | 'command' | 'register_type' | 'input';
 export interface StepField {
   key: string;
   label: string;
@@ -39,53 +41,59 @@ export interface StepKind {
   lists?: string[];
 }
 
-const axis: StepField = { key: 'axis', label: 'Axis', kind: 'axis' };
-const wait: StepField = { key: 'wait_s', label: 'Wait up to, s', kind: 'number', optional: true };
+const axis: StepField = { key: 'axis', label: t('Axis'), kind: 'axis' };
+const wait: StepField = { key: 'wait_s', label: t('Wait up to, s'), kind: 'number', optional: true };
 export const stepKinds: StepKind[] = [
-  { word: 'enable', label: 'Enable', fields: [axis, wait], fresh: { axis: '' } },
-  { word: 'disable', label: 'Disable', fields: [axis, wait], fresh: { axis: '' } },
-  { word: 'home', label: 'Home', fields: [axis, { key: 'method', label: 'Method', kind: 'number', optional: true }, wait], fresh: { axis: '' } },
+  { word: 'enable', label: t('Enable'), fields: [axis, wait], fresh: { axis: '' } },
+  { word: 'disable', label: t('Disable'), fields: [axis, wait], fresh: { axis: '' } },
+  { word: 'home', label: t('Home'), fields: [axis, { key: 'method', label: t('Method'), kind: 'number', optional: true }, wait], fresh: { axis: '' } },
   {
     word: 'command',
-    label: 'Command',
+    label: t('Command'),
     fields: [
       axis,
-      { key: 'command', label: 'Command', kind: 'command' },
-      { key: 'position', label: 'Position', kind: 'number', optional: true },
-      { key: 'velocity', label: 'Velocity', kind: 'number', optional: true },
-      { key: 'acceleration', label: 'Acceleration', kind: 'number', optional: true },
-      { key: 'deceleration', label: 'Deceleration', kind: 'number', optional: true },
+      { key: 'command', label: t('Command'), kind: 'command' },
+      { key: 'position', label: t('Position'), kind: 'number', optional: true },
+      { key: 'velocity', label: t('Velocity'), kind: 'number', optional: true },
+      { key: 'acceleration', label: t('Acceleration'), kind: 'number', optional: true },
+      { key: 'deceleration', label: t('Deceleration'), kind: 'number', optional: true },
       wait,
     ],
     fresh: { axis: '', command: 'move_absolute', position: 0, wait_s: 30 },
   },
-  { word: 'set_parameter', label: 'Set a parameter', fields: [axis, { key: 'parameter', label: 'Parameter', kind: 'text' }, { key: 'value', label: 'Value', kind: 'value' }], fresh: { axis: '', parameter: '', value: 0 } },
-  { word: 'read_parameter', label: 'Read a parameter', fields: [axis, { key: 'parameter', label: 'Parameter', kind: 'text' }], fresh: { axis: '', parameter: '' } },
-  { word: 'action', label: 'Action of the family', fields: [axis, { key: 'name', label: 'Name', kind: 'text' }, { key: 'argument', label: 'Argument', kind: 'text', optional: true }, wait], fresh: { axis: '', name: '' } },
+  { word: 'set_parameter', label: t('Set a parameter'), fields: [axis, { key: 'parameter', label: t('Parameter'), kind: 'text' }, { key: 'value', label: t('Value'), kind: 'value' }], fresh: { axis: '', parameter: '', value: 0 } },
+  { word: 'read_parameter', label: t('Read a parameter'), fields: [axis, { key: 'parameter', label: t('Parameter'), kind: 'text' }], fresh: { axis: '', parameter: '' } },
+  { word: 'action', label: t('Action of the family'), fields: [axis, { key: 'name', label: t('Name'), kind: 'text' }, { key: 'argument', label: t('Argument'), kind: 'text', optional: true }, wait], fresh: { axis: '', name: '' } },
   {
     word: 'write_register',
-    label: 'Write a register',
+    label: t('Write a register'),
     fields: [
-      { key: 'unit', label: 'Unit ID', kind: 'number' },
-      { key: 'address', label: 'Address', kind: 'number' },
-      { key: 'type', label: 'Type', kind: 'register_type', optional: true },
-      { key: 'value', label: 'Value', kind: 'value' },
+      { key: 'unit', label: t('Unit ID'), kind: 'number' },
+      { key: 'address', label: t('Address'), kind: 'number' },
+      { key: 'type', label: t('Type'), kind: 'register_type', optional: true },
+      { key: 'value', label: t('Value'), kind: 'value' },
     ],
     fresh: { unit: 1, address: 34, value: 0 },
   },
-  { word: 'wait_for', label: 'Wait for', fields: [{ key: 'timeout_s', label: 'At most, s', kind: 'number', optional: true }], condition: 'own', fresh: { axis: '', point: 'moving', is: false, timeout_s: 30 } },
-  { word: 'check', label: 'Check', fields: [{ key: 'text', label: 'Said if not', kind: 'text', optional: true }], condition: 'own', fresh: { axis: '', point: 'fault', is: false } },
-  { word: 'wait_s', label: 'Wait, seconds', fields: [{ key: '', label: 'Seconds', kind: 'number' }], fresh: 1 },
-  { word: 'if', label: 'If', fields: [], condition: 'condition', lists: ['then', 'else'], fresh: { condition: { axis: '', point: 'referenced', is: false }, then: [], else: [] } },
-  { word: 'repeat', label: 'Repeat', fields: [{ key: 'times', label: 'Times', kind: 'number' }], condition: 'until', lists: ['steps'], fresh: { times: 2, steps: [] } },
-  { word: 'message', label: 'Message', fields: [{ key: '', label: 'Text', kind: 'text' }], fresh: '' },
+  {
+    word: 'simulate',
+    label: t('Simulate (rehearse a fault)'),
+    fields: [axis, { key: 'input', label: t('Condition'), kind: 'input' }, { key: 'value', label: t('Value'), kind: 'value' }],
+    fresh: { axis: '', input: 'stall', value: true },
+  },
+  { word: 'wait_for', label: t('Wait for'), fields: [{ key: 'timeout_s', label: t('At most, s'), kind: 'number', optional: true }], condition: 'own', fresh: { axis: '', point: 'moving', is: false, timeout_s: 30 } },
+  { word: 'check', label: t('Check'), fields: [{ key: 'text', label: t('Said if not'), kind: 'text', optional: true }], condition: 'own', fresh: { axis: '', point: 'fault', is: false } },
+  { word: 'wait_s', label: t('Wait, seconds'), fields: [{ key: '', label: t('Seconds'), kind: 'number' }], fresh: 1 },
+  { word: 'if', label: t('If'), fields: [], condition: 'condition', lists: ['then', 'else'], fresh: { condition: { axis: '', point: 'referenced', is: false }, then: [], else: [] } },
+  { word: 'repeat', label: t('Repeat'), fields: [{ key: 'times', label: t('Times'), kind: 'number' }], condition: 'until', lists: ['steps'], fresh: { times: 2, steps: [] } },
+  { word: 'message', label: t('Message'), fields: [{ key: '', label: t('Text'), kind: 'text' }], fresh: '' },
 ];
 export const points = [
   'state', 'moving', 'target_reached', 'referenced', 'fault', 'warning', 'internal_limit', 'position', 'position_demand', 'following_error', 'velocity', 'target_position', 'position_increments',
   'online', 'simulated', 'stale', 'mode', 'error_code', 'native', 'statusword', 'authority',
 ];
 export const comparisons: { key: string; label: string }[] = [
-  { key: 'is', label: 'is' }, { key: 'is_not', label: 'is not' }, { key: 'at_least', label: '≥' }, { key: 'at_most', label: '≤' }, { key: 'above', label: '>' }, { key: 'below', label: '<' },
+  { key: 'is', label: t('is') }, { key: 'is_not', label: t('is not') }, { key: 'at_least', label: '≥' }, { key: 'at_most', label: '≤' }, { key: 'above', label: '>' }, { key: 'below', label: '<' },
 ];
 export const commands = ['move_absolute', 'move_relative', 'move_velocity', 'set_position', 'halt', 'quick_stop', 'reset_fault', 'enable', 'disable', 'home'];
 
@@ -142,10 +150,10 @@ export const pointerOf = (path: Path): string => path.map((p) => `/${String(p).r
 
 /** What a step is called: `Step 2.1` for the first within the second; the sides of an `if` by name, since both begin to count at 1. */
 export const titleOf = (path: Path): string =>
-  `Step ${path
+  t('Step {n}', { n: path
     .flatMap((p) => (typeof p === 'number' ? [String(p + 1)] : p === 'then' || p === 'else' ? [p] : []))
     .join('.')
-    .replace(/\.(then|else)\./g, ' $1 ')}`;
+    .replace(/\.(then|else)\./g, ' $1 ') });
 
 export function at(document: unknown, path: Path): unknown {
   return path.reduce<unknown>((o, key) => (o as Record<string | number, unknown> | undefined)?.[key], document);
@@ -176,22 +184,24 @@ export const added = (document: RecipeDocument, list: Path, step: Step): RecipeD
 
 /** What was typed as a value: a number, true or false where it reads as one, else a text ("${name}" stays a text). */
 export function valueOf(typed: string): Json | undefined {
-  const t = typed.trim();
-  if (t === '') return undefined;
-  if (t === 'true' || t === 'false') return t === 'true';
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(t) ? Number(t) : t;
+  const trimmed = typed.trim();
+  if (trimmed === '') return undefined;
+  if (trimmed === 'true' || trimmed === 'false') return trimmed === 'true';
+  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(trimmed) ? Number(trimmed) : trimmed;
 }
 export const typedOf = (value: unknown): string => (value === undefined || value === null ? '' : typeof value === 'string' ? value : JSON.stringify(value));
 
 export const parameterTypes = ['number', 'integer', 'boolean', 'text', 'axis'] as const;
 const mostParameters = 64;
+const typeNames: Record<(typeof parameterTypes)[number], string> = { number: t('number'), integer: t('whole number'), boolean: t('yes or no'), text: t('text'), axis: t('axis') };
+export const parameterTypeName = (type: string): string => typeNames[type as keyof typeof typeNames] ?? type;
 
 /** Why a parameter cannot have this name; empty: it can. */
 export function parameterFault(document: RecipeDocument, name: string): string {
-  if (!/^[A-Za-z0-9_.-]{1,64}$/.test(name)) return 'A name has 1 to 64 letters, digits, - _ .';
+  if (!/^[A-Za-z0-9_.-]{1,64}$/.test(name)) return t('A name has 1 to 64 letters, digits, - _ .');
   const known = Object.keys(document.parameters ?? {});
-  if (known.includes(name)) return `There is a parameter ${name} already.`;
-  return known.length >= mostParameters ? `A recipe has at most ${mostParameters} parameters.` : '';
+  if (known.includes(name)) return t('There is a parameter {name} already.', { name });
+  return known.length >= mostParameters ? t('A recipe has at most {mostParameters} parameters.', { mostParameters }) : '';
 }
 
 /** What was typed as a default, by the type; undefined: no default, the run must be given one. */
@@ -243,11 +253,11 @@ export function takesTolerance(op: string, value: unknown): boolean {
 export function documentOf(text: string): { document: RecipeDocument } | { fault: string } {
   try {
     const d = JSON.parse(text) as RecipeDocument;
-    if (typeof d !== 'object' || d === null || Array.isArray(d)) return { fault: 'A recipe is a JSON object.' };
-    if (!Array.isArray(d.steps) || d.steps.some((s) => typeof s !== 'object' || s === null || Array.isArray(s))) return { fault: '"steps" must be a list of objects.' };
+    if (typeof d !== 'object' || d === null || Array.isArray(d)) return { fault: t('A recipe is a JSON object.') };
+    if (!Array.isArray(d.steps) || d.steps.some((s) => typeof s !== 'object' || s === null || Array.isArray(s))) return { fault: t('"steps" must be a list of objects.') };
     return { document: d };
   } catch (error) {
-    return { fault: error instanceof Error ? error.message : 'This is not JSON.' };
+    return { fault: error instanceof Error ? error.message : t('This is not JSON.') };
   }
 }
 /** What differs between two recipes, by place: "/steps/2/wait_s: 1 → 2". */
@@ -265,6 +275,29 @@ export function editable(document: RecipeDocument): RecipeDocument {
   const copy = structuredClone(document);
   for (const key of ['name', 'changed_at', 'changed_by']) delete copy[key];
   return copy;
+}
+
+/** "AC of feeder = 20000": what a step of a report is about, without its number and its word. */
+export function stepWhat(s: { label?: string; step: string }): string {
+  const said = (s.label ?? '').replace(/^Step [^:]*: /, '');
+  return said.startsWith(s.step) ? said.slice(s.step.length).trim() : said;
+}
+/** How long a step took, as exactly as one compares steps: "12 ms", "0.85 s", "2 min". */
+export const tookText = (ms: number): string => (ms < 0 ? '' : ms < 100 ? t('{n} ms', { n: Math.round(ms) }) : ms < 10_000 ? t('{n} s', { n: (ms / 1000).toFixed(2) }) : duration(ms));
+/** A step of the document in one line, for the folded form: "feeder, Move to, 12". */
+export function stepSummary(step: Step): string {
+  const kind = kindOf(step);
+  const body = kind ? step[kind.word] : undefined;
+  const parts: string[] = [];
+  const put = (v: unknown): void => {
+    if (v === null || v === undefined || v === '') return;
+    if (Array.isArray(v)) parts.push(v.length === 1 ? t('1 step') : t('{n} steps', { n: v.length }));
+    else if (typeof v === 'object') for (const [k, x] of Object.entries(v)) put(typeof x === 'number' && comparisons.some((c) => c.key === k) ? `${comparisons.find((c) => c.key === k)?.label} ${x}` : x);
+    else parts.push(plain(String(v)));
+  };
+  put(body);
+  if (typeof step['comment'] === 'string' && step['comment']) parts.push(`“${step['comment']}”`);
+  return parts.join(', ');
 }
 
 /** How much of a run was carried out: the step in which a run ended that is not done was not. */
@@ -304,18 +337,18 @@ export function unknownAxes(document: RecipeDocument, axes: readonly string[]): 
 }
 /** "Step 2 names foo, which is no axis of this site"; each step of it once, at most five. */
 export function unknownWords(list: readonly Unknown[]): string {
-  const said = list.slice(0, 5).map((u) => `${u.title} names ${u.axis}, which is no axis of this site`);
-  return `${said.join('; ')}${list.length > 5 ? `; and ${list.length - 5} more` : ''}. A run would be refused.`;
+  const said = list.slice(0, 5).map((u) => t('{title} names {axis}, which is no axis of this site', { title: u.title, axis: u.axis }));
+  return t('{steps}. A run would be refused.', { steps: [...said, ...(list.length > 5 ? [t('and {n} more', { n: list.length - 5 })] : [])].join('; ') });
 }
 
 export function runWord(state: string): Word {
   switch (state) {
-    case 'running': return { text: 'Running', icon: 'arrow-right', tone: 'active', long: 'The run goes on' };
-    case 'stopping': return { text: 'Stopping', icon: 'pause', tone: 'warning', long: 'Axes that the run has set in motion are being stopped' };
-    case 'done': return { text: 'Done', icon: 'check', tone: 'good', long: 'Every step was carried out' };
-    case 'cancelled': return { text: 'Cancelled', icon: 'stop', tone: 'warning', long: 'The run was ended before its end' };
-    case 'interrupted': return { text: 'Interrupted', icon: 'triangle', tone: 'warning', long: 'The gateway ended while it was under way; nobody has seen its end' };
-    case 'failed': return { text: 'Failed', icon: 'triangle', tone: 'fault', long: 'A step failed' };
-    default: return { text: 'Not run', icon: 'circle-dashed', tone: 'muted', long: 'Not carried out' };
+    case 'running': return { text: t('Running'), icon: 'arrow-right', tone: 'active', long: t('The run goes on') };
+    case 'stopping': return { text: t('Stopping'), icon: 'pause', tone: 'warning', long: t('Axes that the run has set in motion are being stopped') };
+    case 'done': return { text: t('Done'), icon: 'check', tone: 'good', long: t('Every step was carried out') };
+    case 'cancelled': return { text: t('Cancelled'), icon: 'stop', tone: 'warning', long: t('The run was ended before its end') };
+    case 'interrupted': return { text: t('Interrupted'), icon: 'triangle', tone: 'warning', long: t('The gateway ended while it was under way; nobody has seen its end') };
+    case 'failed': return { text: t('Failed'), icon: 'triangle', tone: 'fault', long: t('A step failed') };
+    default: return { text: t('Not run'), icon: 'circle-dashed', tone: 'muted', long: t('Not carried out') };
   }
 }

@@ -1,65 +1,76 @@
 // The recorder in words: trends, captures and recordings of the gateway. In: its documents. Out: words, curves' names, instants. Pure.
+import { t } from '../language';
 import type { Capture, CaptureTrigger, Recording } from '../api/types';
 import { formatNumber } from './number';
 import type { Word } from './axis';
 
-export const recorderTitles = { trends: 'Trends', captures: 'Captures', recordings: 'Recordings' } as const;
+export const recorderTitles = { trends: t('Trends'), captures: t('Captures'), recordings: t('Recordings') } as const;
 
 export const points = ['position', 'demand', 'velocity', 'following_error'] as const;
 export type TracePoint = (typeof points)[number];
-export const pointNames: Record<TracePoint, string> = { position: 'Position', demand: 'Demand', velocity: 'Velocity', following_error: 'Following error' };
+export const pointNames: Record<TracePoint, string> = { position: t('Position'), demand: t('Demand'), velocity: t('Velocity'), following_error: t('Following error') };
 export const pointUnit = (p: TracePoint, unit: string): string => (p === 'velocity' ? `${unit}/s` : unit);
 
 export const stateNames: Record<NonNullable<CaptureTrigger['state']>, string> = {
-  moving: 'it moves',
-  target_reached: 'its target is reached',
-  fault: 'fault',
-  warning: 'warning',
-  referenced: 'referenced',
-  online: 'online',
-  fail_safe: 'fail-safe has acted',
+  moving: t('it moves'),
+  target_reached: t('its target is reached'),
+  fault: t('fault'),
+  warning: t('warning'),
+  referenced: t('referenced'),
+  online: t('online'),
+  fail_safe: t('fail-safe has acted'),
 };
 
 /** What a capture waits for, or waited for. */
-export function triggerWords(t: CaptureTrigger | null, unit = ''): string {
-  if (!t) return 'not known';
-  const axis = t.axis ? ` of ${t.axis}` : '';
-  if (t.kind === 'at_once') return 'at once';
-  if (t.kind === 'command') return `a command that moves ${t.axis ?? 'it'}`;
-  if (t.kind === 'state') return `“${stateNames[t.state ?? 'moving']}”${axis} ${t.edge === 'falling' ? 'goes' : 'comes'}`;
-  const point = t.point ?? 'position';
-  return `${pointNames[point].toLowerCase()}${axis} ${t.edge === 'falling' ? 'falls' : 'rises'} through ${formatNumber(t.level ?? 0, 3)} ${pointUnit(point, unit)}`.trim();
+export function triggerWords(trigger: CaptureTrigger | null, unit = ''): string {
+  if (!trigger) return t('not known');
+  const axis = trigger.axis ?? t('the axis');
+  if (trigger.kind === 'at_once') return t('at once');
+  if (trigger.kind === 'command') return t('a command that moves {axis}', { axis });
+  if (trigger.kind === 'state') {
+    const state = stateNames[trigger.state ?? 'moving'];
+    return trigger.edge === 'falling' ? t('“{state}” of {axis} goes', { state, axis }) : t('“{state}” of {axis} comes', { state, axis });
+  }
+  const point = trigger.point ?? 'position';
+  const values = { point: pointNames[point].toLowerCase(), axis, level: `${formatNumber(trigger.level ?? 0, 3)} ${pointUnit(point, unit)}`.trim() };
+  return trigger.edge === 'falling' ? t('{point} of {axis} falls through {level}', values) : t('{point} of {axis} rises through {level}', values);
 }
 
+/** "↑ 1.5 mm": the level of a trigger with its edge. */
+export const levelText = (trigger: CaptureTrigger, unit: string): string => `${trigger.edge === 'falling' ? '↓' : '↑'} ${formatNumber(trigger.level ?? 0, 3)} ${pointUnit(trigger.point ?? 'position', unit)}`.trim();
+
 export function captureWord(c: Capture): Word {
-  if (c.fault) return { text: 'Damaged', icon: 'triangle', tone: 'fault', long: c.fault };
+  if (c.fault) return { text: t('Damaged'), icon: 'triangle', tone: 'fault', long: c.fault };
   switch (c.state) {
     case 'armed':
-      return { text: 'Armed', icon: 'clock', tone: 'warning', long: 'It waits for its trigger' };
+      return { text: t('Armed'), icon: 'clock', tone: 'warning', long: t('It waits for its trigger') };
     case 'triggered':
-      return { text: 'Recording', icon: 'play', tone: 'warning', long: 'The trigger has come' };
+      return { text: t('Recording'), icon: 'play', tone: 'warning', long: t('The trigger has come') };
     case 'done':
-      return { text: 'Done', icon: 'check', tone: 'good', long: c.why ?? 'It is kept on the disk' };
+      return { text: t('Done'), icon: 'check', tone: 'good', long: c.why ?? t('It is kept on the disk') };
     default:
-      return { text: 'Given up', icon: 'unplugged', tone: 'muted', long: c.why ?? 'Cancelled' };
+      return { text: t('Given up'), icon: 'unplugged', tone: 'muted', long: c.why ?? t('Cancelled') };
   }
 }
 
 /** "997 Hz, 1,197 rows" of each axis. */
 export const captureAbout = (c: Capture): string =>
-  c.axes.map((a) => `${a.axis}: ${a.rate_hz > 0 ? `${formatNumber(a.rate_hz, 0)} of ${formatNumber(c.wanted_hz ?? 0, 0)} Hz, ` : ''}${formatNumber(a.rows, 0)} rows`).join(' · ');
+  c.axes.map((a) => {
+    const rows = formatNumber(a.rows, 0);
+    return a.rate_hz > 0 ? t('{axis}: {rate} of {wanted} Hz, {rows} rows', { axis: a.axis, rate: formatNumber(a.rate_hz, 0), wanted: formatNumber(c.wanted_hz ?? 0, 0), rows }) : t('{axis}: {rows} rows', { axis: a.axis, rows });
+  }).join(' · ');
 
 export const recordingWord = (r: Recording): Word =>
   r.fault
-    ? { text: 'Damaged', icon: 'triangle', tone: 'fault', long: r.fault }
+    ? { text: t('Damaged'), icon: 'triangle', tone: 'fault', long: r.fault }
     : r.replayable
-      ? { text: 'Replayable', icon: 'check', tone: 'good', long: 'axisgate replay plays it' }
-      : { text: 'To be read', icon: 'list', tone: 'muted', long: r.not_replayable ?? '' };
+      ? { text: t('Replayable'), icon: 'check', tone: 'good', long: t('axisgate replay plays it') }
+      : { text: t('To be read'), icon: 'list', tone: 'muted', long: r.not_replayable ?? '' };
 
-export const bytesWords = (n: number): string => (n < 10_000 ? `${n} bytes` : n < 10_000_000 ? `${formatNumber(n / 1000, 0)} kB` : `${formatNumber(n / 1_000_000, 0)} MB`);
+export const bytesWords = (n: number): string => (n < 10_000 ? t('{n} bytes', { n }) : n < 10_000_000 ? t('{n} kB', { n: formatNumber(n / 1000, 0) }) : t('{n} MB', { n: formatNumber(n / 1_000_000, 0) }));
 
 /** "20.0 Hz", or why there is none. */
-export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? `told ${rate_hz < 10 ? rate_hz.toFixed(1) : Math.round(rate_hz)} times a second` : 'not told now');
+export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? t('told {n} times a second', { n: rate_hz < 10 ? rate_hz.toFixed(1) : Math.round(rate_hz) }) : t('not told now'));
 
 /** Registers 0 to 11 of an axis as they were, in hexadecimal. */
 export const registerWords = (r: { address: number; words: readonly number[] } | undefined): string =>
@@ -80,4 +91,4 @@ export const sinceText = (t_s: number, span_s: number): string => {
   return `${t_s < 0 && Number(text) !== 0 ? '−' : ''}${text} s`;
 };
 
-export const nameFault = (name: string): string | undefined => (/^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/.test(name) ? undefined : 'A name has 1 to 64 letters, digits, - _ or . and does not begin with a dot.');
+export const nameFault = (name: string): string | undefined => (/^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/.test(name) ? undefined : t('A name has 1 to 64 letters, digits, - _ or . and does not begin with a dot.'));

@@ -1,5 +1,6 @@
 // The commissioning report in words: what of an axis' parameters is other than its default or its snapshot, and how much could be compared.
 // In: parameters, a snapshot. Out: rows, sentences. Pure.
+import { t } from '../language';
 import type { AxisParameter, MaybeValue } from '../api/types';
 
 export interface SnapshotValues {
@@ -51,4 +52,4 @@ export function parameterReport(list: readonly AxisParameter[], snapshot: Snapsh
 }
 
 export const comparedSentence = (r: ParameterReport, s: SnapshotValues | null): string =>
-  `${r.known} values known, ${r.unknown === 0 ? 'all of them read' : `${r.unknown} not read and not compared`}; ${s ? `${r.againstSnapshot} beside snapshot ${s.n}, ${s.name}` : 'no snapshot was taken'}. ${r.rows.length === 0 ? 'Nothing differs.' : `${r.rows.length} differ:`}`;
+  t('{known} values known, {n}; {n2}. {n3}', { known: r.known, n: r.unknown === 0 ? t('all of them read') : t('{unknown} not read and not compared', { unknown: r.unknown }), n2: s ? t('{againstSnapshot} beside snapshot {n}, {name}', { againstSnapshot: r.againstSnapshot, n: s.n, name: s.name }) : t('no snapshot was taken'), n3: r.rows.length === 0 ? t('Nothing differs.') : t('{n} differ:', { n: r.rows.length }) });

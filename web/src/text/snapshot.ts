@@ -1,4 +1,5 @@
 // A snapshot in words: when, of what drives, by whom; and why one of another family is of no use here. In: documents. Out: text, choices. Pure.
+import { t } from '../language';
 import type { Snapshot } from '../api/snapshots';
 import { clockTime } from './time';
 
@@ -9,10 +10,10 @@ export function snapshotWords(s: Snapshot, titles: ReadonlyMap<string, string>):
   const count = s.values ?? (typeof s.parameters === 'number' ? s.parameters : undefined);
   return [
     s.at ? clockTime(s.at) : '',
-    s.family ? titled(s.family, titles) : s.family === null ? 'family not known: taken by an older program' : '',
-    count === undefined ? '' : count === 1 ? '1 value' : `${count} values`,
-    s.who ? `by ${s.who}` : '',
-    s.from === 'stored' ? 'stored values' : '',
+    s.family ? titled(s.family, titles) : s.family === null ? t('family not known: taken by an older program') : '',
+    count === undefined ? '' : count === 1 ? t('1 value') : t('{count} values', { count }),
+    s.who ? t('by {who}', { who: s.who }) : '',
+    s.from === 'stored' ? t('stored values') : '',
     s.comment ?? '',
   ].filter(Boolean).join(' · ');
 }
@@ -21,7 +22,7 @@ const foreign = (s: Snapshot, family: string) => Boolean(s.family && family && s
 
 /** Why it can be neither compared nor restored here; empty: it can, as far as the page knows. */
 export const foreignWords = (s: Snapshot, family: string, titles: ReadonlyMap<string, string>): string =>
-  foreign(s, family) ? `Taken of ${titled(s.family ?? '', titles)}; the drive is ${titled(family, titles)} now, so it is neither compared nor restored.` : '';
+  foreign(s, family) ? t('Taken of {n}; the drive is {family} now, so it is neither compared nor restored.', { n: titled(s.family ?? '', titles), family: titled(family, titles) }) : '';
 
 export interface Offer {
   value: string;
@@ -29,10 +30,10 @@ export interface Offer {
   disabled?: boolean;
 }
 export const snapshotChoice = (s: Snapshot, value: string, family: string): Offer =>
-  foreign(s, family) ? { value, text: `snapshot ${s.name}: of ${s.family}, not comparable`, disabled: true } : { value, text: `snapshot ${s.name}` };
+  foreign(s, family) ? { value, text: t('snapshot {name}: of {family}, not comparable', { name: s.name, family: s.family ?? '' }), disabled: true } : { value, text: t('snapshot {name}', { name: s.name }) };
 /** Another family can be chosen, to be told why it cannot be compared. `said`: the name as it is shown. */
 export const axisChoice = (name: string, theirs: string, family: string, said = name): Offer =>
-  theirs !== family ? { value: `axis:${name}`, text: `axis ${said}: ${theirs}, not comparable` } : { value: `axis:${name}`, text: `axis ${said}, values known now` };
+  theirs !== family ? { value: `axis:${name}`, text: t('axis {said}: {theirs}, not comparable', { said, theirs }) } : { value: `axis:${name}`, text: t('axis {said}, values known now', { said }) };
 /** Why two axes are not compared. */
 export const differentFamilies = (axis: string, family: string, other: string, theirs: string, titles: ReadonlyMap<string, string>): string =>
-  `The families differ: ${other} is ${titled(theirs, titles)}, ${axis} is ${titled(family, titles)}. Their parameters are not the same ones, so they cannot be compared.`;
+  t('The families differ: {other} is {theirs}, {axis} is {family}. Their parameters are not the same ones, so they cannot be compared.', { other, theirs: titled(theirs, titles), axis, family: titled(family, titles) });

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "gateway/lines/host_ports.hpp"
 #include "gateway/runtime/clock.hpp"
 
 namespace axisgate {
@@ -69,6 +70,8 @@ void WarmLines::cancel_scan(LineId line, std::function<void(ScanReport)> then) {
     };
     if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(no_report()); });
 }
+
+std::vector<SystemPort> WarmLines::host_ports() const { return axisgate::host_ports(); }
 
 DriveStatus WarmDrives::drive_status(DriveId drive) const {
     const auto r = threads_.hot.reports();

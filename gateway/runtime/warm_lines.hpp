@@ -18,6 +18,7 @@ public:
     void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) override;
     void cancel_scan(LineId line, std::function<void(ScanReport)> then) override;
     void scan_report(LineId line, std::function<void(ScanReport)> then) override;
+    [[nodiscard]] std::vector<SystemPort> host_ports() const override;
 
 private:
     const WarmThreads& threads_;

@@ -157,6 +157,7 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "position_max", a.position_max);
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
+    if (!a.group.empty()) o["group"] = a.group;
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
     if (a.stored_parameters != StoredParameters::ignore) o["stored_parameters"] = name_of(a.stored_parameters);
     json::object fail_safe;

@@ -59,6 +59,7 @@ struct AxisSpec {
     std::string drive;
     int channel = 1;                     ///< 1-based, within the drive
     int number = 0;                      ///< 1..1024: place in the register map
+    std::string group{};                 ///< the machine part that it belongs to, for people: "infeed"; at most 64 bytes; empty: none
     std::string unit;                    ///< for people: "mm", "deg"; empty: increments
     double increments_per_unit = 1.0;    ///< > 0
     std::optional<double> position_min;  ///< software limits of the gateway, in `unit`

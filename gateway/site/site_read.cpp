@@ -34,6 +34,17 @@ std::string read_name(DocumentFields& f, std::string_view example) {
     return name;
 }
 
+/// A heading for people: nothing but its length and its characters is judged.
+std::string read_group(DocumentFields& f) {
+    std::string group = f.text("group", false, "infeed");
+    const bool plain = std::ranges::none_of(group, [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+    if (group.size() > 64 || !plain || (!group.empty() && (group.front() == ' ' || group.back() == ' '))) {
+        f.fault("group", "this cannot be a group",
+                "write at most 64 bytes of text without line breaks and without blanks at its ends, such as \"infeed\"");
+    }
+    return group;
+}
+
 /// Empty: left out. An empty text names no family.
 std::string read_family(DocumentFields& f, std::string_view example) {
     std::string name = f.text("family", false, example);
@@ -418,6 +429,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         if (!f.get("number"))
             f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
         a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
+        a.group = read_group(f);
         a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
         if (const auto x = f.number("increments_per_unit", "3200")) {
             a.increments_per_unit = *x;

@@ -257,8 +257,8 @@ describe('what is small', () => {
     type(field('Target of feeder'), '');
   });
   it('the line under the name of an axis begins with its number, and is whole in its title', () => {
-    expect(text('[data-axis=feeder] .tile-head .where')).toContain('no. 1 · ');
-    expect(root.querySelector('[data-axis=feeder] .tile-head .where span[title^=Axis]')?.getAttribute('title')).toMatch(/^Axis number 1, family .*, line .*, drive /);
+    expect(text('[data-axis=feeder] .tile-where')).toContain('no. 1 · ');
+    expect(root.querySelector('[data-axis=feeder] .tile-where[title^=Axis]')?.getAttribute('title')).toMatch(/^Axis number 1, family .*, line .*, drive /);
   });
   it('what may be entered for the twin is text that can be unfolded, not only a tooltip', async () => {
     client.hand = vi.fn(async () => [{ name: 'inject_error', value: 0, writable: true, description: '0 or one of 2, 8, 11', options: [] }]);

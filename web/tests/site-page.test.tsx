@@ -94,7 +94,7 @@ describe('options', () => {
   it('are fields of their family; one that it does not know stays in sight until it is removed', async () => {
     (door.world.site.drives[0] as { options?: unknown }).options = { old_one: 'a,b' };
     p = await openPage('/site', { door });
-    await p.see('main', 'Axes');
+    await p.see('main', 'Add an axis');
     await p.press('Change drive feeder');
     await p.see('[data-field=options] summary', 'Options of uim342: 5; set: old_one');
     await p.see('[data-option=old_one]', 'uim342 has no such option here: it counts as not given.');
@@ -112,7 +112,7 @@ describe('options', () => {
   });
   it('of a line stand at the line, and an axis says what an increment is', async () => {
     p = await openPage('/site', { door });
-    await p.see('main', 'Axes');
+    await p.see('main', 'Add an axis');
     await p.press('Change line can0');
     await p.see('[data-field=options] summary', 'Options of uim342: 2, none set');
     p.type(p.field('Crc'), '13');

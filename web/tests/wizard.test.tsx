@@ -95,7 +95,7 @@ describe('a line that is typed', () => {
     expect([...p.root.querySelectorAll('button')].map((b) => b.textContent)).not.toContain('Apply bus and scan it');
     await p.drawn();
     p.choose('a new drive');
-    await soon(() => expect(p.field('Name').value).toBe('drive')); // what was typed for the first one is no proposal for the next
+    await soon(() => expect(p.field('Name').value).toBe('feeder1')); // what was typed for the first one is no proposal for the next
     await p.press('Look at all changes');
     await p.see('.site-diff[aria-label="What would change"]', 'added drive lifter');
     await p.press('Check');

@@ -198,6 +198,7 @@ Handled unshelve_alarm(Call&);
 // --- handlers_scan.cpp ------------------------------------------------------------------------------------------------
 Handled start_scan(Call&, LinePort&, const SitePort&);
 Handled get_scan(Call&, LinePort&, const SitePort&);
+Handled list_host_ports(Call&, const LinePort&, const SitePort&);
 Handled cancel_scan(Call&, LinePort&, const SitePort&);
 // --- handlers_descriptions.cpp ----------------------------------------------------------------------------------------
 Handled list_descriptions(Call&, const DescriptionPort&, const SitePort&, const StagePort&);

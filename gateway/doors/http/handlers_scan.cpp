@@ -1,9 +1,11 @@
-// Handlers of a line's scan: begin it, look at it, end it.
-// In: calls. Out: the report as the engine has it at that moment.
+// Handlers of a line's scan: begin it, look at it, end it; and where on this machine a line can be.
+// In: calls. Out: the report as the engine has it at that moment; the system's ports as they are now.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "gateway/core/line_uri.hpp"
 #include "gateway/doors/http/handlers.hpp"
 
 namespace axisgate::http {
@@ -52,7 +54,31 @@ std::string address_in(const json::value& v, std::string_view key, std::vector<F
         {fmt::format("/{}", key), fmt::format("{} must be an address", key), "write it as a drive's address: a number or a text"});
     return {};
 }
+
+/// Whether a line of the site is at this port, by whichever of its names.
+bool is_at(const LineSpec& line, const SystemPort& port) {
+    const auto u = parse_line_uri(line.uri);
+    if (!u.good()) return false;
+    if (port.kind == SystemPort::Kind::can) return u.uri.kind == LineUri::Kind::can && u.uri.interface == port.name;
+    return u.uri.kind == LineUri::Kind::serial && (u.uri.path == port.path || u.uri.path == "/dev/" + port.name);
+}
 }  // namespace
+
+Handled list_host_ports(Call&, const LinePort& lines, const SitePort& sites) {
+    const auto site = sites.site();
+    json::array list;
+    for (const auto& p : lines.host_ports()) {
+        const auto used = std::ranges::find_if(site->site.lines, [&p](const LineSpec& l) { return is_at(l, p); });
+        const std::string uri = p.kind == SystemPort::Kind::can ? "can:" + p.name : "serial:" + p.path;
+        list.push_back({{"kind", name_of(p.kind)},
+                        {"name", p.name},
+                        {"uri", uri},
+                        {"text", p.text},
+                        {"up", p.up},
+                        {"line", text_or_null(used == site->site.lines.end() ? std::string() : used->name)}});
+    }
+    return json_response(std::move(list));
+}
 
 Handled start_scan(Call& c, LinePort& lines, const SitePort& sites) {
     const auto line = find_line(c, sites);

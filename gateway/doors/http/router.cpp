@@ -39,6 +39,7 @@ constexpr std::array routes{
     Route{"/api/v1/lines/{line}/scan", Method::get, take<get_scan>},
     Route{"/api/v1/lines/{line}/scan", Method::post, take<start_scan>, Takes::json},
     Route{"/api/v1/lines/{line}/scan", Method::remove, take<cancel_scan>},
+    Route{"/api/v1/host/ports", Method::get, take<list_host_ports>}.needs(Role::engineer),
     Route{"/api/v1/drives", Method::get, take<list_drives>},
     Route{"/api/v1/drives", Method::post, take<add_drive>, Takes::json},
     Route{"/api/v1/drives/{drive}", Method::get, take<get_drive>},

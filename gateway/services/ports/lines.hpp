@@ -1,4 +1,4 @@
-// Line port: reports, recorded frames and searches of lines.
+// Line port: reports, recorded frames and searches of lines; where on this machine lines can be.
 // In: lines, wishes. Out: reports at once; what the hot thread has to answer, by callbacks on the service thread.
 // Bounded: a record holds so many frames; what is older is counted as missed.
 #pragma once
@@ -11,6 +11,7 @@
 #include "gateway/core/command.hpp"
 #include "gateway/core/line.hpp"
 #include "gateway/core/scan.hpp"
+#include "gateway/core/system_port.hpp"
 #include "gateway/engine/report.hpp"
 
 namespace axisgate {
@@ -32,6 +33,7 @@ public:
     virtual void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) = 0;
     virtual void cancel_scan(LineId line, std::function<void(ScanReport)> then) = 0;
     virtual void scan_report(LineId line, std::function<void(ScanReport)> then) = 0;
+    [[nodiscard]] virtual std::vector<SystemPort> host_ports() const = 0;  ///< as the system lists them now
 };
 
 }  // namespace axisgate

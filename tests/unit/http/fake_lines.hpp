@@ -19,7 +19,9 @@ public:
     std::vector<ScanWish> scan_wishes;
     std::map<LineId, ScanReport> scans;
     std::string scan_fault;
+    std::vector<SystemPort> ports_of_host;
 
+    std::vector<SystemPort> host_ports() const override { return ports_of_host; }
     LineReport line_report(LineId id) const override {
         const auto it = line_states.find(id);
         return it == line_states.end() ? LineReport{} : it->second;

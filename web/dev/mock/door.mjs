@@ -83,6 +83,7 @@ export class MockDoor {
     if (kind === 'events') return this.events(q);
     if (kind === 'lines' && !name) return world.site.lines.map((l) => world.line(l.name));
     if (kind === 'lines' && name && !what) return world.line(name);
+    if (kind === 'host' && name === 'ports') return [{ kind: 'can', name: 'can0', uri: 'can:can0', text: 'virtual', up: true, line: null }];
     if (kind === 'drives' && !name) return [...world.drives.values()].map((d) => d.document());
     if (kind === 'drives' && name && what === 'hand') {
       if (method === 'GET') return q.get('describe') === '1' ? world.handList(name) : world.hand(name);

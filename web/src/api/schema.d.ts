@@ -247,6 +247,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/host/ports": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** Serial ports and CAN interfaces of the gateway's machine, to choose a line's URI from; none is opened */
+        get: operations["listHostPorts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/lines/{line}/scan": {
         parameters: {
             query?: never;
@@ -2713,6 +2730,11 @@ export interface components {
             acceleration_max?: number;
             fail_safe?: components["schemas"]["FailSafe"];
             /**
+             * @description the machine part that it belongs to, for people; left out: none
+             * @example infeed
+             */
+            group?: string;
+            /**
              * @description lease: a command takes the axis for a while
              * @enum {string}
              */
@@ -3904,6 +3926,29 @@ export interface components {
          * @enum {string}
          */
         Overflow: "mark" | "clamp";
+        HostPort: {
+            /** @enum {string} */
+            kind: "serial" | "can";
+            /**
+             * @description the name that the system gives it
+             * @example ttyUSB0
+             */
+            name: string;
+            /**
+             * @description the line there; of a USB adapter by the name that stays, whichever socket it is plugged into. Bit rate and format are those of the family
+             * @example serial:/dev/serial/by-id/usb-FTDI_FT232R-if00-port0
+             */
+            uri: string;
+            /**
+             * @description maker and product, or the driver's name; may be empty
+             * @example FTDI FT232R USB UART
+             */
+            text: string;
+            /** @description a CAN interface that is switched on; always true for a serial port */
+            up: boolean;
+            /** @description the line of the site that is there already */
+            line: string | null;
+        };
         ScanReport: {
             line: string;
             /**
@@ -5168,6 +5213,27 @@ export interface operations {
             400: components["responses"]["BadRequest"];
             404: components["responses"]["NotFound"];
             406: components["responses"]["NotAcceptable"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listHostPorts: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description CAN interfaces first, each kind by name; 256 at most */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HostPort"][];
+                };
+            };
             default: components["responses"]["Problem"];
         };
     };

@@ -1,6 +1,7 @@
 // Actions: every command of the axis' family by name, as a form with a field for each argument. In: axis and family. Out: one request when Run is
 // pressed, after a question where the catalogue says what is lost; the answer in words. What was typed stays for the visit, whatever becomes of it.
 // Never sends by itself, nor twice.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
@@ -18,7 +19,7 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
   const commands = useSignal<CatalogueCommand[] | null>(null);
   const sought = persisted(`typed.action.sought.${axis}`);
   const chosen = persisted(`typed.action.name.${axis}`);
-  const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered('actions of this family') : p.words));
+  const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered(t('actions of this family')) : p.words));
   if (commands.value === null) return <p class="where">{why}</p>;
   const offered = found(commands.value, sought.value);
   const command = commands.value.find((c) => c.id === chosen.value);
@@ -27,8 +28,8 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
     <Gate need="engineer">
       <div class="form card" data-part="actions">
         <div class="form-grid">
-          <TextField label="Find" value={sought.value} onText={(t) => (sought.value = t)} hint={`${offered.length} of ${commands.value.length}`} />
-          <Choice label="Action" value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? nameOf(c) : `${nameOf(c)} (${c.id})` }))} />
+          <TextField label={t('Find')} value={sought.value} onText={(t) => (sought.value = t)} hint={t('{n} of {all}', { n: offered.length, all: commands.value.length })} />
+          <Choice label={t('Action')} value={chosen.value} onChoice={(id) => (chosen.value = id)} choices={listed.map((c) => ({ value: c.id, text: c.id === c.name ? nameOf(c) : `${nameOf(c)} (${c.id})` }))} />
         </div>
         {command && <ActionForm key={`${axis} ${command.id}`} axis={axis} command={command} />}
       </div>
@@ -54,7 +55,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
     tried.value = true;
     const now: Record<string, string> = JSON.parse(typed.peek());
     if (Object.keys(faultsOf(command, now)).length > 0) {
-      told.value = { tone: 'refused', text: 'Not sent: see the fields.' };
+      told.value = { tone: 'refused', text: t('Not sent: see the fields.') };
       return;
     }
     const body = bodyOf(command, now, text.peek());
@@ -64,7 +65,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
   };
   const send = async (body: ReturnType<typeof bodyOf>) => {
     asked.value = null;
-    told.value = { tone: 'busy', text: 'Sent…' };
+    told.value = { tone: 'busy', text: t('Sent…') };
     try {
       const a = await client.act(axis, body);
       told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
@@ -85,10 +86,10 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
         {command.description}
       </p>
       <div class="form-grid">
-        {command.arguments.length === 0 && <TextField label="Argument" value={text.value} onText={(t) => { asked.value = null; text.value = t; }} hint="Most take none." />}
+        {command.arguments.length === 0 && <TextField label={t('Argument')} value={text.value} onText={(t) => { asked.value = null; text.value = t; }} hint={t('Most take none.')} />}
         {command.arguments.map((a) =>
           isFlag(a) ? (
-            <Choice key={a.name} label={labelOf(a)} value={values[a.name] ?? ''} onChoice={(v) => change(a.name, v)} choices={[{ value: 'true', text: 'true' }, { value: 'false', text: 'false' }]} fault={tried.value ? faults[a.name] : undefined} hint={hintOf(a)} />
+            <Choice key={a.name} label={labelOf(a)} value={values[a.name] ?? ''} onChoice={(v) => change(a.name, v)} choices={[{ value: 'true', text: t('true') }, { value: 'false', text: t('false') }]} fault={tried.value ? faults[a.name] : undefined} hint={hintOf(a)} />
           ) : (
             <TextField
               key={a.name}
@@ -96,7 +97,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
               value={values[a.name] ?? ''}
               onText={(t) => change(a.name, t)}
               number={a.type !== 'text' && a.type !== 'bytes'}
-              placeholder={a.default === null || a.default === undefined ? 'needed' : String(a.default)}
+              placeholder={a.default === null || a.default === undefined ? t('needed') : String(a.default)}
               fault={tried.value || (values[a.name] ?? '') !== '' ? faults[a.name] : undefined}
               hint={hintOf(a)}
             />
@@ -105,14 +106,14 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       </div>
       <div class="form-foot">
         <button type="submit" class="button primary">
-          {command.confirm ? 'Run …' : 'Run'}
+          {command.confirm ? t('Run …') : t('Run')}
         </button>
       </div>
       {asked.value && (
         <Ask
           field="action-question"
           words={questionOf(command, axis)}
-          yes={`Run ${nameOf(command)}`}
+          yes={t('Run {command}', { command: nameOf(command) })}
           onNo={() => (asked.value = null)}
           onYes={() => {
             if (asked.peek()) void send(asked.peek() as ReturnType<typeof bodyOf>);
@@ -121,7 +122,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       )}
       {asStep && (
         <p class="where">
-          In a recipe: <span class="mono" data-field="action-as-text">{`${command.name}: ${asStep}`}</span>
+          {t('In a recipe:')}{' '}<span class="mono" data-field="action-as-text">{`${command.name}: ${asStep}`}</span>
         </p>
       )}
       <Tell told={told.value} field="action-result" />

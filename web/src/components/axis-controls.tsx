@@ -4,6 +4,7 @@ import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import type { Commander } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { setPositionWords, unitOf } from '../text/axis';
@@ -12,6 +13,7 @@ import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
 import { useBarred, Why } from './gate';
+import { HelpButton } from './help-button';
 import { JogButton } from './jog-button';
 
 type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
@@ -44,7 +46,7 @@ export function useControls(axis: Axis) {
   const read = (which: Which, words: string, need: 'any' | 'positive'): number | null => {
     const parsed = parseQuantity(fields[which].value);
     let why = parsed.good ? '' : parsed.why;
-    if (parsed.good && need === 'positive' && parsed.value <= 0) why = 'It must be greater than 0; the buttons give the direction.';
+    if (parsed.good && need === 'positive' && parsed.value <= 0) why = t('It must be greater than 0; the buttons give the direction.');
     wrong.value = why ? which : '';
     if (why) tellWrong(which, `${words}: ${why}`);
     return why || !parsed.good ? null : parsed.value;
@@ -55,22 +57,22 @@ export function useControls(axis: Axis) {
 
   const move = (kind: 'move_absolute' | 'move_relative', sign = 1) => {
     const which = kind === 'move_absolute' ? 'target' : 'distance';
-    const position = read(which, kind === 'move_absolute' ? 'Target' : 'Distance', 'any');
+    const position = read(which, kind === 'move_absolute' ? t('Target') : t('Distance'), 'any');
     if (position === null) return;
     const command: Extract<Command, { command: 'move_absolute' | 'move_relative' }> = { command: kind, position: position * sign };
-    for (const [key, label, which] of [['velocity', 'Speed', 'speed'], ['acceleration', 'Acceleration', 'acceleration'], ['deceleration', 'Deceleration', 'deceleration']] as const) {
+    for (const [key, label, which] of [['velocity', t('Speed'), 'speed'], ['acceleration', t('Acceleration'), 'acceleration'], ['deceleration', t('Deceleration'), 'deceleration']] as const) {
       const v = optional(which, label);
       if (v === undefined) return;
       if (v !== null) command[key] = v;
     }
-    void commander.send(name, command, `Move ${kind === 'move_absolute' ? 'to' : 'by'} ${command.position} ${unit}`);
+    void commander.send(name, command, kind === 'move_absolute' ? t('Move to {position} {unit}', { position: command.position, unit }) : t('Move by {position} {unit}', { position: command.position, unit }));
   };
-  const jogSpeed = () => read('speed', 'Speed', 'positive');
+  const jogSpeed = () => read('speed', t('Speed'), 'positive');
   const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', words: string) => () =>
     void commander.send(name, { command } as Command, words);
   /** What the present position shall be called, as it is typed; null: it is no number, and that has been said. */
-  const newPosition = () => read('zero', 'Position', 'any');
-  const setPosition = (position: number) => void commander.send(name, { command: 'set_position', position }, `Call this place ${position} ${unit}`);
+  const newPosition = () => read('zero', t('Position'), 'any');
+  const setPosition = (position: number) => void commander.send(name, { command: 'set_position', position }, t('Call this place {position} {unit}', { position, unit }));
   return { fields, wrong, unit, move, jogSpeed, simple, newPosition, setPosition };
 }
 
@@ -99,11 +101,11 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
     <div class="controls">
       {!bare && (
         <div class="control-rows">
-          <Field label="Target" longLabel={`Target of ${name}`} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
-          <button type="button" class="button tinted" aria-label={`Move to target of ${name}`} {...no} onClick={() => c.move('move_absolute')}>Move to</button>
-          <Field label="Distance" longLabel={`Distance of ${name}`} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
-          <button type="button" class="button" aria-label={`Move by distance of ${name}`} {...no} onClick={() => c.move('move_relative')}>Move by</button>
-          <Field label="Speed" longLabel={`Speed of ${name}`} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
+          <Field label={t('Target')} longLabel={t('Target of {name}', { name })} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+          <button type="button" class="button tinted" aria-label={t('Move to target of {name}', { name })} {...no} onClick={() => c.move('move_absolute')}>{t('Move to')}</button>
+          <Field label={t('Distance')} longLabel={t('Distance of {name}', { name })} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+          <button type="button" class="button" aria-label={t('Move by distance of {name}', { name })} {...no} onClick={() => c.move('move_relative')}>{t('Move by')}</button>
+          <Field label={t('Speed')} longLabel={t('Speed of {name}', { name })} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder={t('as is')} />
           <span class="pair">
             <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={c.unit} />
             <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={c.unit} />
@@ -112,11 +114,11 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       )}
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" aria-label={`Enable ${name}`} {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" aria-label={`Disable ${name}`} title="Takes the power off at once; the shaft is free" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" aria-label={t('Enable {name}', { name })} {...no} onClick={c.simple('enable', t('Enable'))}>{t('Enable')}</button>
+          <button type="button" class="button" aria-label={t('Disable {name}', { name })} title={t('Takes the power off at once; the shaft is free')} {...no} onClick={c.simple('disable', t('Disable'))}>{t('Disable')}</button>
         </span>
-        <button type="button" class="button" aria-label={`Reset fault of ${name}`} {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset</button>
-        <button type="button" class="button" aria-label={`Halt ${name}`} title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
+        <button type="button" class="button" aria-label={t('Reset fault of {name}', { name })} {...no} onClick={c.simple('reset_fault', t('Reset fault'))}>{t('Reset')}</button>
+        <button type="button" class="button" aria-label={t('Halt {name}', { name })} title={t('Stop on the profile ramp, stay enabled')} onClick={c.simple('halt', t('Halt'))}>{t('Halt')}</button>
       </div>
     </div>
   );
@@ -133,14 +135,14 @@ function SetPosition({ name, c, describedBy }: { name: string; c: ReturnType<typ
   return (
     <>
       <div class="control-rows">
-        <Field label="Position" longLabel="What the present position shall be called" unit={c.unit} text={c.fields.zero} wrong={c.wrong.value === 'zero'} describedBy={describedBy} placeholder="new value" onEnter={ask} />
-        <button type="button" class="button" title="Calls the present position this, after a question; nothing moves" {...no} onClick={ask}>Set position …</button>
+        <Field label={t('Position')} longLabel={t('What the present position shall be called')} unit={c.unit} text={c.fields.zero} wrong={c.wrong.value === 'zero'} describedBy={describedBy} placeholder={t('new value')} onEnter={ask} />
+        <button type="button" class="button" title={t('Calls the present position this, after a question; nothing moves')} {...no} onClick={ask}>{t('Set position …')}</button>
       </div>
       {now && (
         <Ask
           field="set-position"
           words={words}
-          yes="Set position"
+          yes={t('Set position')}
           onNo={() => (asked.value = null)}
           onYes={() => {
             c.setPosition(asked.peek() as number);
@@ -162,37 +164,40 @@ export function FullControls({ axis }: { axis: Axis }) {
   const u = c.unit;
   return (
     <div class="controls controls-full">
-      <Why need="operator" what="Every command but a stop" />
+      <Why need="operator" what={t('Every command but a stop')} />
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" {...no} onClick={c.simple('enable', 'Enable')}>Enable</button>
-          <button type="button" class="button" title="Takes the power off at once; the shaft is free" {...no} onClick={c.simple('disable', 'Disable')}>Disable</button>
+          <button type="button" class="button" {...no} onClick={c.simple('enable', t('Enable'))}>{t('Enable')}</button>
+          <button type="button" class="button" title={t('Takes the power off at once; the shaft is free')} {...no} onClick={c.simple('disable', t('Disable'))}>{t('Disable')}</button>
         </span>
-        <button type="button" class="button" {...no} onClick={c.simple('reset_fault', 'Reset fault')}>Reset fault</button>
-        <button type="button" class="button" title="Stop on the profile ramp, stay enabled" onClick={c.simple('halt', 'Halt')}>Halt</button>
-        <button type="button" class="button" title="Stop on the quick-stop ramp; enable to go on" onClick={c.simple('quick_stop', 'Quick stop')}>Quick stop</button>
-        <button type="button" class="button" title="Homing, by the drive's own method" {...no} onClick={c.simple('home', 'Home')}>Home</button>
+        <button type="button" class="button" {...no} onClick={c.simple('reset_fault', t('Reset fault'))}>{t('Reset fault')}</button>
+        <button type="button" class="button" title={t('Stop on the profile ramp, stay enabled')} onClick={c.simple('halt', t('Halt'))}>{t('Halt')}</button>
+        <button type="button" class="button" title={t('Stop on the quick-stop ramp; enable to go on')} onClick={c.simple('quick_stop', t('Quick stop'))}>{t('Quick stop')}</button>
+        <button type="button" class="button" title={t('Homing, by the drive\'s own method')} {...no} onClick={c.simple('home', t('Home'))}>{t('Home')}</button>
       </div>
       <p class="where stops-told">
-        <b>Halt</b> slows down on the profile ramp and stays enabled. <b>Quick stop</b>, STOP and Esc slow down on the quick-stop ramp; enable to go on. <b>Disable</b> takes the power off at once.
+        {t('Halt slows down on the profile ramp and stays enabled. Quick stop, STOP and Esc slow down on the quick-stop ramp; enable to go on. Disable takes the power off at once.')}{' '}
+        <HelpButton of={t('the controls')}>
+          {t('Enable gives power: the axis holds its place and follows commands. Reset fault clears a fault whose cause is gone. Home looks for the zero by the method of the drive. Move to goes to the target, the buttons by go that far from here, Jog moves while it is held. Speed, acceleration and deceleration that are left empty are as the drive has them. Set position gives the present place another name; nothing moves.')}
+        </HelpButton>
       </p>
       <div class="control-rows">
-        <Field label="Target" unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
-        <button type="button" class="button primary" {...no} onClick={() => c.move('move_absolute')}>Move to</button>
-        <Field label="Distance" unit={u} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+        <Field label={t('Target')} unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+        <button type="button" class="button primary" {...no} onClick={() => c.move('move_absolute')}>{t('Move to')}</button>
+        <Field label={t('Distance')} unit={u} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
         <span class="pair">
-          <button type="button" class="button" aria-label="Move back by distance" {...no} onClick={() => c.move('move_relative', -1)}>− by</button>
-          <button type="button" class="button" aria-label="Move forward by distance" {...no} onClick={() => c.move('move_relative')}>+ by</button>
+          <button type="button" class="button" aria-label={t('Move back by distance')} {...no} onClick={() => c.move('move_relative', -1)}>{t('− by')}</button>
+          <button type="button" class="button" aria-label={t('Move forward by distance')} {...no} onClick={() => c.move('move_relative')}>{t('+ by')}</button>
         </span>
-        <Field label="Speed" unit={`${u}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder="as is" />
+        <Field label={t('Speed')} unit={`${u}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder={t('as is')} />
         <span class="pair">
           <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={u} />
           <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={u} />
         </span>
       </div>
       <div class="control-ramps">
-        <Field label="Accel." longLabel="Acceleration" unit={`${u}/s²`} text={c.fields.acceleration} wrong={wrong === 'acceleration'} describedBy={result} placeholder="as is" />
-        <Field label="Decel." longLabel="Deceleration" unit={`${u}/s²`} text={c.fields.deceleration} wrong={wrong === 'deceleration'} describedBy={result} placeholder="as is" />
+        <Field label={t('Accel.')} longLabel={t('Acceleration')} unit={`${u}/s²`} text={c.fields.acceleration} wrong={wrong === 'acceleration'} describedBy={result} placeholder={t('as is')} />
+        <Field label={t('Decel.')} longLabel={t('Deceleration')} unit={`${u}/s²`} text={c.fields.deceleration} wrong={wrong === 'deceleration'} describedBy={result} placeholder={t('as is')} />
       </div>
       <SetPosition name={name} c={c} describedBy={result} />
       <ResultLine axis={name} id={result} />

@@ -3,6 +3,7 @@
 import type { ReadonlySignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { axisPath } from '../router';
 import { tick } from '../state/clock';
 import type { AxisEntry } from '../state/store';
@@ -10,6 +11,7 @@ import { markOf, motionWord, noticeOf, positionText, stateWord, targetText, unit
 import { duration } from '../text/time';
 import { offlineReason } from '../text/errors';
 import { ResultLine, resultId, TileControls } from './axis-controls';
+import { SelectBox } from './axis-selection';
 import { HolderLine } from './authority';
 import { Icon } from './icon';
 import { memo } from './memo';
@@ -31,7 +33,7 @@ export function Notice({ entry }: { entry: EntrySignal }) {
   const axis = entry.value.data;
   const trust = store.trustOf(entry.value);
   const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
-  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || 'some time' : '');
+  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || t('some time') : '');
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
       <Icon name={word.icon} size={14} />
@@ -49,19 +51,19 @@ export function Readout({ entry, large = false }: { entry: EntrySignal; large?: 
   return (
     <div class={`readout${large ? ' readout-large' : ''}${trust === 'live' ? '' : ' is-old'}`} data-trust={trust}>
       <p class="position" data-field="position" data-value={axis.position ?? ''} data-live={trust === 'live'}>
-        <span class="visually-hidden">{trust === 'live' ? 'Position' : 'Last known position, not live'}: </span>
+        <span class="visually-hidden">{trust === 'live' ? t('Position') : t('Last known position, not live')}: </span>
         <span class="figure">{positionText(axis)}</span>
         <span class="unit">{unit}</span>
       </p>
       <dl class="minor">
         <div>
-          <dt>Velocity</dt>
+          <dt>{t('Velocity')}</dt>
           <dd data-field="velocity">
             {velocityText(axis)} <span class="unit">{unit}/s</span>
           </dd>
         </div>
         <div>
-          <dt>Target</dt>
+          <dt>{t('Target')}</dt>
           <dd data-field="target">
             {targetText(axis)} <span class="unit">{unit}</span>
           </dd>
@@ -76,37 +78,36 @@ export function StatePills({ entry }: { entry: EntrySignal }) {
   const trust = store.trustOf(entry.value);
   return (
     <p class="pills">
-      <Pill label="State" id="state" word={stateWord(entry.value.data, trust)} />
-      <Pill label="Motion" id="motion" word={motionWord(entry.value.data, trust)} />
+      <Pill label={t('State')} id="state" word={stateWord(entry.value.data, trust)} />
+      <Pill label={t('Motion')} id="motion" word={motionWord(entry.value.data, trust)} />
     </p>
   );
 }
 
-function TileHead({ entry }: { entry: EntrySignal }) {
+function TileHead({ entry, selectable }: { entry: EntrySignal; selectable: boolean }) {
   const axis = entry.value.data;
   return (
     <header class="tile-head">
       <h3>
+        {selectable && <SelectBox names={[axis.name]} label={t('Select {axis}', { axis: axis.name })} />}
         <a href={axisPath(axis.name)}>{axis.name}</a>
       </h3>
       <p class="where">
         <Mark mark={markOf(axis)} />
-        <span title={`Axis number ${axis.number}, family ${axis.family}, line ${axis.line}, drive ${axis.drive}`}>
-          no. {axis.number} · {axis.family} · {axis.line}
-        </span>
       </p>
       <StopButton axis={axis.name} urgent={axis.moving} />
     </header>
   );
 }
 
-export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
+/** `selectable`: it stands among others, and a command can be meant for several. */
+export function AxisTile({ name, bare, selectable = false }: { name: string; bare: boolean; selectable?: boolean }) {
   const { store } = useGateway();
   const entry = store.axis(name);
   if (!entry) return null;
   return (
     <TileFrame entry={entry}>
-      <TileHead entry={entry} />
+      <TileHead entry={entry} selectable={selectable} />
       <div class="tile-live">
         <Readout entry={entry} />
         <Sparkline axis={name} />
@@ -117,6 +118,7 @@ export function AxisTile({ name, bare }: { name: string; bare: boolean }) {
         <Notice entry={entry} />
         <TileHolder entry={entry} />
         <ResultLine axis={name} id={resultId(name)} />
+        <TileWhere entry={entry} />
       </footer>
     </TileFrame>
   );
@@ -126,13 +128,23 @@ function TileHolder({ entry }: { entry: EntrySignal }) {
   return <HolderLine entry={entry.value} />;
 }
 
+/** Where nothing else is to be said: which axis it is to other machines. */
+function TileWhere({ entry }: { entry: EntrySignal }) {
+  const axis = entry.value.data;
+  return (
+    <p class="tile-where" title={t('Axis number {number}, family {family}, line {line}, drive {drive}', { number: axis.number, family: axis.family, line: axis.line, drive: axis.drive })}>
+      {t('no. {number} · {family} · {line}', { number: axis.number, family: axis.family, line: axis.line })}
+    </p>
+  );
+}
+
 /** The frame tells the condition too; it is drawn anew only when the condition changes. */
 function TileFrame({ entry, children }: { entry: EntrySignal; children: ComponentChildren }) {
   const { store } = useGateway();
   const axis = entry.value.data;
   const condition = axis.fault && store.trustOf(entry.value) === 'live' ? 'fault' : store.trustOf(entry.value);
   return (
-    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={`Axis ${axis.name}`}>
+    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={t('Axis {name}', { name: axis.name })}>
       {children}
     </article>
   );

@@ -16,7 +16,7 @@ import { AxisName, DriveName } from './name';
 const marks: Record<Severity, { icon: IconName; text: string; tone: string }> = {
   info: { icon: 'info', text: t('Info'), tone: 'muted' },
   warning: { icon: 'triangle', text: t('Warning'), tone: 'warning' },
-  alarm: { icon: 'octagon', text: t('Alarm'), tone: 'fault' },
+  alarm: { icon: 'bell', text: t('Alarm'), tone: 'fault' },
 };
 
 function subject(e: GatewayEvent) {

@@ -1,6 +1,7 @@
 // Hand: the outside conditions of a simulated drive, as switches and numbers: power, stall, limits, inputs, injected errors.
 // In: what the twin offers, asked again every 2 s while shown; the axis whose page it is. Out: changes of one condition at a time. Only where a
 // twin answers. What belongs to another axis than this one stands folded under that one's name, so that nobody takes the wrong one in hand.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -57,17 +58,17 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
     try {
       const now = await client.setHand(drive, { [name]: value });
       if (items.peek()) items.value = items.peek()!.map((i) => ({ ...i, value: now[i.name] ?? i.value }));
-      note.value = { tone: 'good', text: `${whose(name)}${handLabel(name)}: set to ${typeof value === 'boolean' ? (value ? 'on' : 'off') : editText(now[name] ?? value)}` };
+      note.value = { tone: 'good', text: t('{what}: set to {value}', { what: whose(name) + handLabel(name), value: typeof value === 'boolean' ? (value ? t('on') : t('off')) : editText(now[name] ?? value) }) };
       return '';
     } catch (error) {
       const why = capital(asProblem(error).words);
-      note.value = { tone: 'refused', text: `${whose(name)}${handLabel(name)}: refused. ${why}` };
+      note.value = { tone: 'refused', text: t('{what}: refused. {why}', { what: whose(name) + handLabel(name), why }) };
       return why;
     }
   };
 
-  if (!simulated) return <Empty text="This drive is not simulated now: there is nothing to take in hand." />;
-  if (items.value === null) return <Empty text={note.value.text || 'Waiting for the twin.'} />;
+  if (!simulated) return <Empty text={t('This drive is not simulated now: there is nothing to take in hand.')} />;
+  if (items.value === null) return <Empty text={note.value.text || t('Waiting for the twin.')} />;
   const groups = handGroups(items.value, axes, own);
   return (
     <div class="hand card">
@@ -86,7 +87,7 @@ type Set = (name: string, value: Value) => Promise<string>;
 /** `named`: its fields are told apart from the same ones of another axis by the name of theirs. */
 function Group({ group: g, set, named }: { group: HandGroup; set: Set; named: boolean }) {
   const list = (
-    <ul aria-label={g.title ? `Conditions: ${g.title}` : undefined}>
+    <ul aria-label={g.title ? t('Conditions: {title}', { title: g.title }) : undefined}>
       {g.items.map((i) => (
         <HandRow key={i.item.name} item={i.item} label={i.label} of={named ? g.title : ''} axis={g.axis} set={set} />
       ))}
@@ -96,7 +97,7 @@ function Group({ group: g, set, named }: { group: HandGroup; set: Set; named: bo
   if (g.folded) {
     return (
       <details class="hand-group" data-hand-group={g.title}>
-        <summary>Another axis of this drive: {g.title}</summary>
+        <summary>{t('Another axis of this drive: {title}', { title: g.title })}</summary>
         {list}
       </details>
     );
@@ -145,11 +146,11 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
     <li data-hand={item.name}>
       <span class="hand-name">
         {short}
-        {isPosition && <span class="where">, increments</span>}
+        {isPosition && <span class="where">{t(', increments')}</span>}
         {item.description && (
           <details class="hand-more">
             <summary>
-              {item.writable && typeof item.value !== 'boolean' ? 'What may be entered' : 'What it is'}
+              {item.writable && typeof item.value !== 'boolean' ? t('What may be entered') : t('What it is')}
               <span class="visually-hidden">: {label}</span>
             </summary>
             <span class="where">{item.description}</span>
@@ -159,7 +160,7 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
       {typeof item.value === 'boolean' ? (
         <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => void set(item.name, !item.value).then((w) => (wrong.value = w))}>
           <span class="switch-thumb" aria-hidden="true" />
-          <span class="switch-text">{item.value ? 'on' : 'off'}</span>
+          <span class="switch-text">{item.value ? t('on') : t('off')}</span>
         </button>
       ) : item.writable ? (
         <span class="hand-number">
@@ -177,8 +178,8 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
               if (e.key === 'Enter' && !e.repeat) void send();
             }}
           />
-          <button type="button" class="button small" aria-label={`Set ${label} of the twin`} onClick={() => void send()} disabled={typed.value === null}>
-            Set
+          <button type="button" class="button small" aria-label={t('Set {label} of the twin', { label })} onClick={() => void send()} disabled={typed.value === null}>
+            {t('Set')}
           </button>
           {inUnit && (
             <span class="hand-unit" data-field="hand-unit">

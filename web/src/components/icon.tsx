@@ -14,7 +14,11 @@ const shapes = {
   check: <path d="M3 8.5l3.2 3.2L13 4.8" />,
   'power-off': <path d="M8 2v5M4.6 4.2a5 5 0 1 0 6.8 0" />,
   power: <path d="M8 2v5M4.6 4.2a5 5 0 1 0 6.8 0" />,
+  // A full octagon is a stop and nothing else; an alarm is a bell.
   octagon: <path d="M5.5 2h5L14 5.5v5L10.5 14h-5L2 10.5v-5z" fill="currentColor" stroke="none" />,
+  bell: <path d="M8 1.8v1.1M3.5 11.5c1-1 1.1-2 1.1-4.2a3.4 3.4 0 0 1 6.8 0c0 2.2.1 3.2 1.1 4.2zM6.6 13.6a1.5 1.5 0 0 0 2.8 0" />,
+  chevron: <path d="M4 6l4 4 4-4" />,
+  sort: <path d="M5 6.5l3-3 3 3M5 9.5l3 3 3-3" />,
   triangle: <path d="M8 2.5l6 10.5H2zM8 6.5v3M8 11.2v.3" />,
   unplugged: <path d="M2 2l12 12M6 4V2M10 4V2M4.5 5H11v3.2M10 10.5A3.5 3.5 0 0 1 4.5 8V5M8 11v3" />,
   plug: <path d="M6 4V2M10 4V2M4.5 5h7v3a3.5 3.5 0 0 1-7 0zM8 11.5V14" />,

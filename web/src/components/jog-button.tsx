@@ -1,5 +1,6 @@
 // Jog button: the axis moves while it is held, by finger, mouse or key, and stops when it is let go, when the pointer slides off it or is lost,
 // when the page is hidden, closed or loses the keyboard. Never starts by a click alone that was not held.
+import { t } from '../language';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { useBarred } from './gate';
@@ -32,7 +33,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
     if (v === null) return;
     holding.current = true;
     button.current?.classList.add('is-held');
-    jog.press(direction * v, `Jog ${direction > 0 ? '+' : '−'}${v} ${unit}/s`);
+    jog.press(direction * v, t('Jog {speed} {unit}/s', { speed: `${direction > 0 ? '+' : '−'}${v}`, unit }));
   };
   const release = () => {
     if (!holding.current) return;
@@ -63,8 +64,8 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
       ref={button}
       type="button"
       class="button jog"
-      aria-label={`Jog ${axis} ${direction > 0 ? 'forward' : 'backward'} while held`}
-      title="Moves while held"
+      aria-label={direction > 0 ? t('Jog {axis} forward while held', { axis }) : t('Jog {axis} backward while held', { axis })}
+      title={t('Moves while held')}
       {...no}
       onPointerDown={(e) => {
         if (e.button !== 0) return;
@@ -92,7 +93,7 @@ export function JogButton({ axis, direction, speed, unit }: JogProps) {
       onBlur={release}
     >
       {direction < 0 && <Icon name="arrow-left" size={14} />}
-      <span>Jog</span>
+      <span>{t('Jog')}</span>
       {direction > 0 && <Icon name="arrow-right" size={14} />}
     </button>
   );

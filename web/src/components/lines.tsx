@@ -1,5 +1,6 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
+import { t } from '../language';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
@@ -11,29 +12,29 @@ import { Pill } from './pill';
 
 export function lineWord(state: Line['status']['state']): Word {
   switch (state) {
-    case 'up': return { text: 'Up', icon: 'check', tone: 'good', long: 'The line is up' };
-    case 'opening': return { text: 'Opening', icon: 'clock', tone: 'neutral', long: 'The line is being opened' };
-    case 'down': return { text: 'Down', icon: 'unplugged', tone: 'fault', long: 'The line is down' };
-    case 'bus_off': return { text: 'Bus off', icon: 'triangle', tone: 'fault', long: 'The CAN controller has left the bus' };
-    case 'closed': return { text: 'Closed', icon: 'circle-dashed', tone: 'muted', long: 'The line is closed' };
+    case 'up': return { text: t('Up'), icon: 'check', tone: 'good', long: t('The line is up') };
+    case 'opening': return { text: t('Opening'), icon: 'clock', tone: 'neutral', long: t('The line is being opened') };
+    case 'down': return { text: t('Down'), icon: 'unplugged', tone: 'fault', long: t('The line is down') };
+    case 'bus_off': return { text: t('Bus off'), icon: 'triangle', tone: 'fault', long: t('The CAN controller has left the bus') };
+    case 'closed': return { text: t('Closed'), icon: 'circle-dashed', tone: 'muted', long: t('The line is closed') };
   }
 }
 
 export function presenceWord(drive: Drive): Word {
   switch (drive.status.presence) {
-    case 'device': return { text: 'Real drive', icon: 'plug', tone: 'good', long: 'The real drive answers' };
-    case 'twin': return { text: 'Simulated', icon: 'chip', tone: 'simulated', long: 'The embedded model answers' };
-    case 'offline': return { text: 'Offline', icon: 'unplugged', tone: 'warning', long: 'Nobody answers' };
+    case 'device': return { text: t('Real drive'), icon: 'plug', tone: 'good', long: t('The real drive answers') };
+    case 'twin': return { text: t('Simulated'), icon: 'chip', tone: 'simulated', long: t('The embedded model answers') };
+    case 'offline': return { text: t('Offline'), icon: 'unplugged', tone: 'warning', long: t('Nobody answers') };
   }
 }
 
-const wanted: Record<Drive['presence'], string> = { auto: 'real, else simulated', device: 'real only', twin: 'simulated only' };
+const wanted: Record<Drive['presence'], string> = { auto: t('real, else simulated'), device: t('real only'), twin: t('simulated only') };
 
 function Load({ share }: { share: number }) {
   const percent = Math.min(100, Math.max(0, share * 100));
   return (
-    <span class="load" title="Share of the bit rate used in the last second">
-      <meter min={0} max={100} high={70} optimum={0} value={percent} aria-label="Load" />
+    <span class="load" title={t('Share of the bit rate used in the last second')}>
+      <meter min={0} max={100} high={70} optimum={0} value={percent} aria-label={t('Load')} />
       <span class="figure-small">{percent < 10 ? percent.toFixed(1) : Math.round(percent)} %</span>
     </span>
   );
@@ -62,7 +63,7 @@ export function LineCard({ name }: { name: string }) {
         <h3>
           <a href={linePath(name)}>{name}</a>
         </h3>
-        <Pill label="State" word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: `Was ${lineWord(s.state).text.toLowerCase()}` }} />
+        <Pill label={t('State')} word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: t('Was {state}', { state: lineWord(s.state).text.toLowerCase() }) }} />
         <Load share={s.load} />
       </div>
       <p class="where">
@@ -70,18 +71,18 @@ export function LineCard({ name }: { name: string }) {
         {s.text && s.text !== 'up' ? ` · ${s.text}` : ''}
       </p>
       <dl class="counts">
-        <Count label="Exchanges" value={s.counters.exchanges} />
-        <Count label="Time-outs" value={s.counters.timeouts} bad />
-        <Count label="Retries" value={s.counters.retries} bad />
-        <Count label="Garbled" value={s.counters.garbled} bad />
-        <Count label="Refused" value={s.counters.refused} />
-        <Count label="Dropped" value={s.dropped} bad title="Frames that found the queue full" />
-        <Count label="Queued" value={s.queued} />
-        <Count label="Reopened" value={s.reopened} />
+        <Count label={t('Exchanges')} value={s.counters.exchanges} />
+        <Count label={t('Time-outs')} value={s.counters.timeouts} bad />
+        <Count label={t('Retries')} value={s.counters.retries} bad />
+        <Count label={t('Garbled')} value={s.counters.garbled} bad />
+        <Count label={t('Refused')} value={s.counters.refused} />
+        <Count label={t('Dropped')} value={s.dropped} bad title={t('Frames that found the queue full')} />
+        <Count label={t('Queued')} value={s.queued} />
+        <Count label={t('Reopened')} value={s.reopened} />
       </dl>
       {scanned > 0 && (
         <p class="where" data-field="scan-counters">
-          Scans apart: {formatExact(s.scan_counters.exchanges)} exchanges, {formatExact(s.scan_counters.timeouts)} addresses or retries without an answer
+          {t('Scans apart: {exchanges} exchanges, {timeouts} addresses or retries without an answer', { exchanges: formatExact(s.scan_counters.exchanges), timeouts: formatExact(s.scan_counters.timeouts) })}
         </p>
       )}
     </li>
@@ -100,21 +101,21 @@ function DriveCard({ name }: { name: string }) {
     <li class={`row${live ? '' : ' is-old'}`} data-drive={name}>
       <div class="row-head">
         <h3>{name}</h3>
-        <Pill label="Presence" word={live ? word : { ...word, tone: 'muted', text: `Was ${word.text.toLowerCase()}` }} />
+        <Pill label={t('Presence')} word={live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: word.text.toLowerCase() }) }} />
       </div>
       <p class="where">
-        {drive.family} · {drive.line} · address <span class="mono">{String(drive.address)}</span> · {wanted[drive.presence]}
+        {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {wanted[drive.presence]}
       </p>
       <p class="why">{s.text || '\u00a0'}</p>
       <p class="where">
-        {drive.axes.length === 0 ? 'no axis' : 'Axes: '}
+        {drive.axes.length === 0 ? t('no axis') : t('Axes: ')}
         {drive.axes.map((a, i) => (
           <>
             {i > 0 && ', '}
             <AxisName name={a} />
           </>
         ))}
-        {s.silent_exchanges > 0 && ` · silent ${s.silent_exchanges} times, next try within ${s.retry_pause_ms} ms`}
+        {s.silent_exchanges > 0 && t(' · silent {silent_exchanges} times, next try within {retry_pause_ms} ms', { silent_exchanges: s.silent_exchanges, retry_pause_ms: s.retry_pause_ms })}
       </p>
     </li>
   );
@@ -122,7 +123,7 @@ function DriveCard({ name }: { name: string }) {
 
 export function LineList() {
   const names = useGateway().store.lineNames.value;
-  if (names.length === 0) return <Empty text="No line is configured." />;
+  if (names.length === 0) return <Empty text={t('No line is configured.')} />;
   return (
     <ul class="rows card">
       {names.map((n) => (
@@ -136,7 +137,7 @@ export function LineList() {
 export function DriveList({ of }: { of?: string[] }) {
   const all = useGateway().store.driveNames.value;
   const names = of ?? all;
-  if (names.length === 0) return <Empty text="No drive is configured." />;
+  if (names.length === 0) return <Empty text={t('No drive is configured.')} />;
   return (
     <ul class="rows card">
       {names.map((n) => (

@@ -1,5 +1,6 @@
 // Option fields: what `options` of a line or drive may say, one typed field for each option that the family has, and what is there besides.
 // In: the family's catalogue, the texts. Out: what is typed. Nothing is left out unseen: an option that the family does not know is shown, and says so.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { optionField, optionFault, optionPrefix, optionsTitle, unknownOptions, type OptionSpec } from '../text/options';
@@ -25,7 +26,7 @@ export function OptionFields({ room, family, specs, texts, onText, fault }: Prop
   open.current ||= specs.some((o) => faultOf(o)) || others.length > 0;
   const add = () => {
     const n = name.value.trim();
-    wrong.value = n === '' ? 'What is it called?' : optionPrefix + n in texts || specs.some((o) => o.name === n) ? `${n} is here already.` : '';
+    wrong.value = n === '' ? t('What is it called?') : optionPrefix + n in texts || specs.some((o) => o.name === n) ? t('{n} is here already.', { n }) : '';
     if (wrong.value) return;
     onText(optionPrefix + n, '');
     name.value = '';
@@ -33,7 +34,7 @@ export function OptionFields({ room, family, specs, texts, onText, fault }: Prop
   return (
     <details class="option-fields" data-field="options" open={open.current || undefined}>
       <summary>{optionsTitle(family, specs, texts)}</summary>
-      {specs.length === 0 && <p class="where">{family ? `The gateway tells no options of ${family}.` : 'Which options there are depends on the family: choose it first.'}</p>}
+      {specs.length === 0 && <p class="where">{family ? t('The gateway tells no options of {family}.', { family }) : t('Which options there are depends on the family: choose it first.')}</p>}
       <div class="form-grid">
         {specs.map((o) => {
           const f = optionField(o, room);
@@ -49,19 +50,19 @@ export function OptionFields({ room, family, specs, texts, onText, fault }: Prop
               value={texts[optionPrefix + n] ?? ''}
               onText={(t) => onText(optionPrefix + n, t)}
               fault={fault(optionPrefix + n)}
-              hint={specs.length > 0 ? `${family} has no such option here: it counts as not given.` : 'Not checked by this page.'}
+              hint={specs.length > 0 ? t('{family} has no such option here: it counts as not given.', { family }) : t('Not checked by this page.')}
             />
-            <button type="button" class="button small" aria-label={`Remove option ${n}`} onClick={() => onText(optionPrefix + n, null)}>
-              Remove
+            <button type="button" class="button small" aria-label={t('Remove option {n}', { n })} onClick={() => onText(optionPrefix + n, null)}>
+              {t('Remove')}
             </button>
           </div>
         ))}
       </div>
       {specs.length === 0 && family && (
         <div class="form-foot">
-          <TextField label="Another option" value={name.value} onText={(t) => (name.value = t)} fault={wrong.value || undefined} />
+          <TextField label={t('Another option')} value={name.value} onText={(t) => (name.value = t)} fault={wrong.value || undefined} />
           <button type="button" class="button" onClick={add}>
-            Add the option
+            {t('Add the option')}
           </button>
         </div>
       )}

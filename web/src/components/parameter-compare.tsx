@@ -1,6 +1,7 @@
 // Parameter compare: two sets of values of an axis side by side: what is known now or a snapshot, beside the defaults, what is stored, the drive,
 // another snapshot, another axis. In: the HTTP door. Out: a table of what differs; everything on demand. What an axis has not told yet is read first,
 // one value at a time, with the progress; that can be ended, and what was not read is said to be not compared.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -31,9 +32,9 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   const named = useNamed();
   const familyOfAxis = (n: string) => store.axis(n)?.peek().data.family ?? family;
   const choices = [
-    { value: 'default', text: 'the defaults of the family' },
-    { value: 'stored', text: 'what the gateway has stored' },
-    ...(fromSnapshot ? [{ value: 'device', text: 'the drive, read now' }] : []),
+    { value: 'default', text: t('the defaults of the family') },
+    { value: 'stored', text: t('what the gateway has stored') },
+    ...(fromSnapshot ? [{ value: 'device', text: t('the drive, read now') }] : []),
     ...snapshots.filter((s) => !fromSnapshot || String(s.n) !== base.value).map((s) => snapshotChoice(s, `snapshot:${s.n}`, family)),
     ...others.map((n) => axisChoice(n, familyOfAxis(n), family, named(n))),
   ];
@@ -47,7 +48,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
     const wanted = list.filter((p) => p.quality !== 'good' && p.access !== 'W' && !p.count);
     for (const [i, p] of wanted.entries()) {
       if (end.aborted) break;
-      told.value = { tone: 'busy', text: `Reading ${of}: ${i + 1} of ${wanted.length} …` };
+      told.value = { tone: 'busy', text: t('Reading {of}: {done} of {n} …', { of, done: i + 1, n: wanted.length }) };
       try {
         list[list.indexOf(p)] = await client.parameter(of, p.id, {}, end);
       } catch {
@@ -72,7 +73,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
       told.value = { tone: 'refused', text: differentFamilies(axis, family, other.value.slice('axis:'.length), theirs, store.familyTitles.peek()) };
       return;
     }
-    told.value = { tone: 'busy', text: 'Comparing …' };
+    told.value = { tone: 'busy', text: t('Comparing …') };
     result.value = null;
     try {
       const title = choices.find((c) => c.value === other.value)?.text ?? other.value;
@@ -103,45 +104,45 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   };
   const rows = (result.value?.rows ?? []).filter((r) => all.value || (!r.same && (r.known !== false || fromSnapshot)));
   return (
-    <Section title="Compare" class="compare" beside={<SimulatedMark of={axis} />}>
+    <Section title={t('Compare')} class="compare" beside={<SimulatedMark of={axis} />}>
       <form
         class="card form"
         noValidate
-        aria-label="Compare"
+        aria-label={t('Compare')}
         onSubmit={(e) => {
           e.preventDefault();
           void compare();
         }}
       >
         <div class="form-grid">
-          <Choice label="Compare" class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; told.value = quiet; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: 'the values known now' }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
-          <Choice label="with" class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; told.value = quiet; }} choices={choices} />
+          <Choice label={t('Compare')} class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; told.value = quiet; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: t('the values known now') }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
+          <Choice label={t('with')} class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; told.value = quiet; }} choices={choices} />
         </div>
         <div class="form-foot">
           {busy.value ? (
             <button type="button" class="button" onClick={() => reading.current?.abort()}>
-              End reading
+              {t('End reading')}
             </button>
           ) : (
             <button type="submit" class="button primary">
-              Compare
+              {t('Compare')}
             </button>
           )}
           <label class="check">
-            <input type="checkbox" checked={all.value} onChange={(e) => (all.value = e.currentTarget.checked)} /> equal ones too
+            <input type="checkbox" checked={all.value} onChange={(e) => (all.value = e.currentTarget.checked)} />{' '}{t('equal ones too')}
           </label>
           <Tell told={told.value} field="compare-told" />
         </div>
-        {result.value && result.value.rows.length > 0 && rows.length === 0 && <Empty text="Nothing differs." />}
+        {result.value && result.value.rows.length > 0 && rows.length === 0 && <Empty text={t('Nothing differs.')} />}
         {result.value && rows.length > 0 && (
-          <div class="table-scroll" tabIndex={0} role="region" aria-label="Comparison">
+          <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Comparison')}>
             <table class="table compare-table">
               <thead>
                 <tr>
-                  <th scope="col">Parameter</th>
-                  <th scope="col" class="num">{fromSnapshot ? 'Snapshot' : 'Now'}</th>
+                  <th scope="col">{t('Parameter')}</th>
+                  <th scope="col" class="num">{fromSnapshot ? t('Snapshot') : t('Now')}</th>
                   <th scope="col" class="num">{capital(result.value.title)}</th>
-                  <th scope="col">Verdict</th>
+                  <th scope="col">{t('Verdict')}</th>
                 </tr>
               </thead>
               <tbody>
@@ -155,7 +156,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
                     </th>
                     <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
                     <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.other, r.unit)}</span></td>
-                    <td data-label="Verdict">{r.same ? 'equal' : r.known === false ? 'not known' : <span class="flag">differs{r.writable ? '' : ', read only'}</span>}</td>
+                    <td data-label={t('Verdict')}>{r.same ? t('equal') : r.known === false ? t('not known') : <span class="flag">{t('differs')}{r.writable ? '' : t(', read only')}</span>}</td>
                   </tr>
                 ))}
               </tbody>

@@ -1,5 +1,6 @@
 // Parameter history: who wrote it last, and on demand all writes that are kept: when, who, through which door, from what to what.
 // In: the parameter. Out: the cell of the table. At most 20 writes are asked for.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
@@ -26,18 +27,18 @@ export function Written({ axis, p }: { axis: string; p: AxisParameter }) {
       why.value = capital(asProblem(error).words);
     }
   };
-  if (!p.written_at) return <span class="where">never here</span>;
+  if (!p.written_at) return <span class="where">{t('never here')}</span>;
   return (
     <>
       <time dateTime={p.written_at}>{clockTime(p.written_at)}</time> <span class="where">{byWhom(p.written_by, p.written_through)}</span>{' '}
-      <button type="button" class="link-button" aria-expanded={open.value} aria-label={`History of ${p.id}`} onClick={() => void toggle()}>
-        History
+      <button type="button" class="link-button" aria-expanded={open.value} aria-label={t('History of {id}', { id: p.id })} onClick={() => void toggle()}>
+        {t('History')}
       </button>
       {open.value && (
-        <ol class="history" aria-label={`Writes of ${p.id}, newest first`}>
+        <ol class="history" aria-label={t('Writes of {id}, newest first', { id: p.id })}>
           {why.value && <li class="fault-text">{why.value}</li>}
-          {history.value === null && !why.value && <li class="where">Asking …</li>}
-          {history.value?.length === 0 && <li class="where">No write is kept.</li>}
+          {history.value === null && !why.value && <li class="where">{t('Asking …')}</li>}
+          {history.value?.length === 0 && <li class="where">{t('No write is kept.')}</li>}
           {history.value?.map((h) => (
             <li key={h.written_at}>
               <time dateTime={h.written_at}>{clockTime(h.written_at)}</time>{' '}
@@ -53,4 +54,4 @@ export function Written({ axis, p }: { axis: string; p: AxisParameter }) {
   );
 }
 
-const byWhom = (who: string | null, door: string | null): string => `${who ?? 'not said by whom'}${door ? ` (${door})` : ''}`;
+const byWhom = (who: string | null, door: string | null): string => `${who ?? t('not said by whom')}${door ? ` (${door})` : ''}`;

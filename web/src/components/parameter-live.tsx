@@ -1,5 +1,6 @@
 // Parameter live: how old the value of a parameter is, and which rows of a table are on the screen. In: a parameter as the gateway tells it, the
 // table's body. Out: the value, grey where it is not live; its age, counted on once a second; ids. Never asks the gateway for anything.
+import { t } from '../language';
 import type { ReadonlySignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
@@ -19,7 +20,7 @@ export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Sinc
   void tick.value;
   const live = store.connected.value && isLive(heardAt(p), store.gatewayNow_ms(), since.value);
   return (
-    <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? `${valueText(p.value, p)}, as the drive said at ${clockTime(p.at)}` : 'Not read yet'}>
+    <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? t('{value}, as the drive said at {at}', { value: valueText(p.value, p), at: clockTime(p.at) }) : t('Not read yet')}>
       {valueText(p.value, p)}
     </span>
   );
@@ -31,7 +32,7 @@ export function Age({ p }: { p: AxisParameter }) {
   if (at_ms === null) return null;
   return (
     <span class="age" data-field="age">
-      {duration(store.gatewayNow_ms() - at_ms)} ago
+      {t('{time} ago', { time: duration(store.gatewayNow_ms() - at_ms) })}
     </span>
   );
 }

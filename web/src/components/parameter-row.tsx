@@ -1,13 +1,15 @@
 // Parameter row: one parameter of an axis in the table: live, stored and default value, range, a field for a new one, who wrote last.
 // In: the row's signals. Out: a row that keeps its height: each cell is drawn for itself, has room for the longest text that its value can have, and
 // what has the keyboard is not drawn anew by a value that comes. Never asks the gateway: reading and writing are handed in.
+import { t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
-import { addressingWords, editText, fieldLines, fieldValue, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
+import { addressingWords, editText, fieldLines, fieldValue, helpText, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
 import { isApart, isChanged } from '../text/transfer';
 import { Ask } from './ask';
 import { useBarred } from './gate';
+import { HelpButton } from './help-button';
 import { Icon } from './icon';
 import { memo } from './memo';
 import { Written } from './parameter-history';
@@ -40,10 +42,12 @@ function RowView({ axis, row, since, read, write, open }: RowProps) {
   const p = row.data.peek(); // id, name and description never change
   return (
     <tr data-parameter={p.id}>
-      <th scope="row" title={p.description.replaceAll('_', ' ')}>
+      <th scope="row">
         <span class="both">
           <span class="mono id">{p.id}</span>
-          <span class="name">{p.name.replaceAll('_', ' ')}</span>
+          <span class="name">
+            {p.name.replaceAll('_', ' ')} <HelpButton of={p.id}>{helpText(p)}</HelpButton>
+          </span>
         </span>
       </th>
       <LiveCell row={row} since={since} />
@@ -60,15 +64,15 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
   const p = row.data.value;
   if (isLongArray(p)) {
     return (
-      <td class="num" data-label="Live" data-field="live">
-        <span class="where">{p.count} elements</span>
+      <td class="num" data-label={t('Live')} data-field="live">
+        <span class="where">{t('{count} elements', { count: p.count ?? 0 })}</span>
       </td>
     );
   }
   const differs = isChanged(p);
   const longest = longestText(p);
   return (
-    <td class={`num${p.quality === 'good' ? '' : ' is-not-good'}`} data-label="Live" data-field="live">
+    <td class={`num${p.quality === 'good' ? '' : ' is-not-good'}`} data-label={t('Live')} data-field="live">
       <span class={longest ? 'roomy' : 'one-line'} data-longest={longest || undefined}>
         <span>
           <LiveValue p={p} since={since} differs={differs} />{' '}
@@ -77,12 +81,12 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
       </span>
       <span class="one-line about">
         {differs && (
-          <span class="flag changed" title="Not the default of the family">
-            changed{' '}
+          <span class="flag changed" title={t('Not the default of the family')}>
+            {t('changed')}{' '}
           </span>
         )}
-        {p.quality === 'stale' && <span class="flag">stale </span>}
-        {p.at === null ? <span class="age">not read yet</span> : <Age p={p} />}
+        {p.quality === 'stale' && <span class="flag">{t('stale')}{' '}</span>}
+        {p.at === null ? <span class="age">{t('not read yet')}</span> : <Age p={p} />}
       </span>
       {(p.fields ?? []).map((f, i) => (
         <span key={f.name} class="part roomy" data-longest={`${f.name.replaceAll('_', ' ')}: ${longestOf(f.allowed?.map((a) => a.meaning) ?? [])}`}>
@@ -97,12 +101,12 @@ const longestOf = (texts: readonly string[]): string => texts.reduce((a, b) => (
 function StoredCell({ row }: { row: Row }) {
   const p = row.data.value;
   return (
-    <td class="num mono" data-label="Stored">
+    <td class="num mono" data-label={t('Stored')}>
       {valueText(p.stored, p)}
       {isApart(p) && (
-        <span class="flag" title="The drive has another value than the one written last">
+        <span class="flag" title={t('The drive has another value than the one written last')}>
           {' '}
-          differs
+          {t('differs')}
         </span>
       )}
     </td>
@@ -113,10 +117,10 @@ function RangeCells({ row }: { row: Row }) {
   const p = row.data.value;
   return (
     <>
-      <td class="num mono" data-label="Default">
+      <td class="num mono" data-label={t('Default')}>
         {valueText(p.default, p)}
       </td>
-      <td class="range" data-label="Range">
+      <td class="range" data-label={t('Range')}>
         <span class="mono">{rangeText(p)}</span> <span class="unit">{unitWords(p.unit)}</span>
       </td>
     </>
@@ -125,7 +129,7 @@ function RangeCells({ row }: { row: Row }) {
 
 function WrittenCell({ axis, row }: { axis: string; row: Row }) {
   return (
-    <td class="written" data-label="Last written">
+    <td class="written" data-label={t('Last written')}>
       <Written axis={axis} p={row.data.value} />
     </td>
   );
@@ -136,21 +140,21 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
   const p = row.data.peek();
   const n = row.note.value;
   return (
-    <td class="edit" data-label="New value">
+    <td class="edit" data-label={t('New value')}>
       <div class="edit-row">
         {isLongArray(p) ? (
           <button type="button" class="button small" onClick={() => open(row)}>
-            List elements
+            {t('List elements')}
           </button>
         ) : (
           <>
             {p.access !== 'R' && <Editor row={row} describedBy={note} write={() => write(row)} />}
             {p.access !== 'W' && (
-              <button type="button" class="button small quiet square" aria-label={`Read ${p.id} from the drive`} title="Read from the drive" onClick={() => read(row)}>
+              <button type="button" class="button small quiet square" aria-label={t('Read {id} from the drive', { id: p.id })} title={t('Read from the drive')} onClick={() => read(row)}>
                 <Icon name="refresh" size={14} />
               </button>
             )}
-            {p.access === 'R' && <span class="where">read only</span>}
+            {p.access === 'R' && <span class="where">{t('read only')}</span>}
           </>
         )}
       </div>
@@ -158,7 +162,7 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
         <Ask
           field="addressing-question"
           words={addressingWords(axis, row.data.peek(), row.asked.value)}
-          yes={`Write ${p.id}`}
+          yes={t('Write {id}', { id: p.id })}
           onNo={() => (row.asked.value = null)}
           onYes={() => {
             row.typed.value = row.asked.peek();
@@ -203,7 +207,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
                 <span>{f.name.replaceAll('_', ' ')}</span>
                 <select
                   {...keyboard}
-                  aria-label={`New ${f.name.replaceAll('_', ' ')} of ${p.id}`}
+                  aria-label={t('New {part} of {id}', { part: f.name.replaceAll('_', ' '), id: p.id })}
                   aria-describedby={describedBy}
                   value={String(fieldValue(whole, f))}
                   onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
@@ -219,9 +223,9 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
           })}
         </span>
       ) : choices ? (
-        <select {...keyboard} aria-label={`New value of ${p.id}`} aria-describedby={describedBy} value={text} onChange={(e) => (row.typed.value = e.currentTarget.value)}>
+        <select {...keyboard} aria-label={t('New value of {id}', { id: p.id })} aria-describedby={describedBy} value={text} onChange={(e) => (row.typed.value = e.currentTarget.value)}>
           <option value="" disabled>
-            choose
+            {t('choose')}
           </option>
           {choices.map((c) => (
             <option key={c.value} value={String(c.value)}>
@@ -237,7 +241,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
           inputMode={p.type === 'text' || p.type === 'bytes' ? 'text' : 'decimal'}
           autocomplete="off"
           spellcheck={false}
-          aria-label={`New value of ${p.id}`}
+          aria-label={t('New value of {id}', { id: p.id })}
           aria-describedby={describedBy}
           aria-invalid={wrong || undefined}
           placeholder={editText(p.value)}
@@ -248,8 +252,8 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
           }}
         />
       )}
-      <button type="button" class="button small" aria-label={`Write ${p.id}`} {...no} onClick={write}>
-        Write
+      <button type="button" class="button small" aria-label={t('Write {id}', { id: p.id })} {...no} onClick={write}>
+        {t('Write')}
       </button>
     </>
   );

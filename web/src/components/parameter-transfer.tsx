@@ -1,5 +1,6 @@
 // Parameter transfer: all known values out as CSV or JSON, and in again: each row is checked first, nothing is sent while one is wrong, then they are
 // written one by one. In: the HTTP door, a file or pasted text. Out: files; writes. At the first refusal the rest is held back and said so.
+import { t } from '../language';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
@@ -43,7 +44,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
       const known = all.filter((p) => p.value !== null).length;
       if (kind === 'csv') saveText(`${axis}-parameters.csv`, 'text/csv', csvOfParameters(all));
       else saveText(`${axis}-parameters.json`, 'application/json', jsonOfParameters(axis, all));
-      told.value = { tone: known === 0 ? 'refused' : 'good', text: `${known} of ${all.length} values are known and in the file.${known < all.length ? ' “Read all” above asks the drive for the others.' : ''}` };
+      told.value = { tone: known === 0 ? 'refused' : 'good', text: known < all.length ? t('{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.', { known, n: all.length }) : t('{known} of {n} values are known and in the file.', { known, n: all.length }) };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
@@ -51,7 +52,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
   const take = async (file: File | undefined) => {
     if (!file) return;
     if (file.size > largest) {
-      told.value = { tone: 'refused', text: `${file.name} has ${file.size} bytes; at most ${largest} are read.` };
+      told.value = { tone: 'refused', text: t('{name} has {size} bytes; at most {largest} are read.', { name: file.name, size: file.size, largest }) };
       return;
     }
     text.value = await file.text();
@@ -64,67 +65,67 @@ export function ParameterTransfer({ axis }: { axis: string }) {
     let done = 0;
     for (const row of wanted) {
       if (run.stop) break;
-      told.value = { tone: 'busy', text: `Writing ${row.id}: ${done + 1} of ${wanted.length} …` };
+      told.value = { tone: 'busy', text: t('Writing {id}: {done} of {n} …', { id: row.id, done: done + 1, n: wanted.length }) };
       try {
         await client.writeParameter(axis, row.id, row.value!);
         done += 1;
       } catch (error) {
-        told.value = { tone: 'refused', text: `${row.id}: ${asProblem(error).words}. ${done} were written before it; ${wanted.length - done - 1} behind it were not sent.` };
+        told.value = { tone: 'refused', text: t('{id}: {words}. {done} were written before it; {left} behind it were not sent.', { id: row.id, words: asProblem(error).words, done, left: wanted.length - done - 1 }) };
         run.stop = true;
       }
     }
     if (done === wanted.length) {
       emptied(text, sent);
-      told.value = { tone: 'good', text: `${parametersWords(done)} written.` };
-    } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: `Ended: ${done} of ${wanted.length} were written.` };
+      told.value = { tone: 'good', text: t('{done} written.', { done: parametersWords(done) }) };
+    } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: t('Ended: {done} of {n} were written.', { done, n: wanted.length }) };
     busy.value = false;
     sending.current = null;
     await load().catch(() => undefined);
   };
   return (
     <Section
-      title="Export and import"
+      title={t('Export and import')}
       class="transfer"
       beside={
         <>
           <button type="button" class="button" onClick={() => void save('csv')}>
-            Export CSV
+            {t('Export CSV')}
           </button>
           <button type="button" class="button" onClick={() => void save('json')}>
-            Export JSON
+            {t('Export JSON')}
           </button>
         </>
       }
     >
       <div class="card form">
-        <Why need="engineer" what="Writing what is imported" />
+        <Why need="engineer" what={t('Writing what is imported')} />
         <label class="where" for="transfer-text">
-          CSV with the columns <span class="mono">parameter, value</span>, or JSON as it is exported
+          {t('CSV with the columns parameter and value, or JSON as it is exported')}
         </label>
         <textarea id="transfer-text" class="mono" rows={4} spellcheck={false} value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} />
         <div class="form-foot">
           <label class="button">
             <input type="file" class="visually-hidden" accept=".csv,.tsv,.json,.txt,text/csv,application/json" onChange={(e) => void take(e.currentTarget.files?.[0])} />
-            Choose a file
+            {t('Choose a file')}
           </label>
           {busy.value ? (
             <button type="button" class="button" onClick={() => sending.current && (sending.current.stop = true)}>
-              End after this one
+              {t('End after this one')}
             </button>
           ) : (
             <button type="button" class="button primary" disabled={wanted.length === 0 || bad > 0} {...no} onClick={() => void send()}>
-              Write {wanted.length === 1 ? '1 value' : `${wanted.length} values`} to the drive
+              {wanted.length === 1 ? t('Write 1 value to the drive') : t('Write {n} values to the drive', { n: wanted.length })}
             </button>
           )}
           <Tell told={told.value} field="transfer-told" />
         </div>
         {(read.problem || read.rows.length > 0) && (
           <p class={`form-told${read.problem || bad > 0 ? ' is-fault' : ''}`} role="status" data-field="transfer-count">
-            {read.problem || (bad > 0 ? `${bad} of ${read.rows.length} rows must be mended before anything is sent.` : `${wanted.length} will be written; ${read.rows.length - wanted.length} are so already.`)}
+            {read.problem || (bad > 0 ? t('{bad} of {n} rows must be mended before anything is sent.', { bad, n: read.rows.length }) : t('{n} will be written; {same} are so already.', { n: wanted.length, same: read.rows.length - wanted.length }))}
           </p>
         )}
         {read.rows.length > 0 && (
-          <ul class="differences" aria-label="What would be written">
+          <ul class="differences" aria-label={t('What would be written')}>
             {read.rows.filter((r) => !r.same).slice(0, 300).map((r) => (
               <li key={r.line} data-line={r.line}>
                 <span class="mono">{r.id}</span>{' '}

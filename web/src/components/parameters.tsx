@@ -2,6 +2,7 @@
 // What is on the screen is read again, one value at a time, unless that is switched off; after a command first what was read before it. A value that
 // comes changes the text of its cell alone: no row moves, comes or goes by it. Reading all goes one by one and can be ended; a slow drive is not
 // flooded. What was typed stays until the drive took it. At most 100 rows are drawn at once; more on demand.
+import { t } from '../language';
 import { effect, signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -135,7 +136,7 @@ export function Parameters({ axis }: { axis: string }) {
 
   const read = async (row: Row, end?: AbortSignal) => {
     const id = row.data.peek().id;
-    row.note.value = { tone: 'busy', text: 'Reading …' };
+    row.note.value = { tone: 'busy', text: t('Reading …') };
     row.refused_ms = null;
     try {
       const p = await client.parameter(axis, id, {}, end);
@@ -171,11 +172,11 @@ export function Parameters({ axis }: { axis: string }) {
       return;
     }
     row.asked.value = null;
-    row.note.value = { tone: 'busy', text: 'Writing …' };
+    row.note.value = { tone: 'busy', text: t('Writing …') };
     try {
       const answer = await client.writeParameter(axis, p.id, value.value);
       row.data.value = { ...row.data.peek(), value: answer.value, quality: 'good' };
-      row.note.value = { tone: 'good', text: sameValue(answer.value, value.value) ? 'Written.' : `Written; the drive took ${valueText(answer.value, p)}.` };
+      row.note.value = { tone: 'good', text: sameValue(answer.value, value.value) ? t('Written.') : t('Written; the drive took {value}.', { value: valueText(answer.value, p) }) };
       if (row.typed.peek() === sent) row.typed.value = null; // what was typed since then stays
       const now = await client.parameter(axis, p.id, { cached: true });
       row.data.value = now;
@@ -188,12 +189,12 @@ export function Parameters({ axis }: { axis: string }) {
   const open = async (row: Row) => {
     const p = row.data.peek();
     const known = rows.peek().filter((r) => r.data.peek().id.startsWith(`${p.id}[`));
-    row.note.value = { tone: 'busy', text: 'Listing …' };
+    row.note.value = { tone: 'busy', text: t('Listing …') };
     try {
       const list = await client.parameters(axis, { array: p.id, first: (p.first ?? 0) + known.length });
       const at = rows.peek().indexOf(row) + known.length + 1;
       rows.value = rows.peek().toSpliced(at, 0, ...list.map(newRow));
-      row.note.value = { tone: 'none', text: `${known.length + list.length} of ${p.count} elements are listed below.` };
+      row.note.value = { tone: 'none', text: t('{n} of {count} elements are listed below.', { n: known.length + list.length, count: p.count ?? 0 }) };
     } catch (error) {
       row.note.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
@@ -201,16 +202,16 @@ export function Parameters({ axis }: { axis: string }) {
 
   return (
     <Section
-      title="Parameters"
+      title={t('Parameters')}
       class="parameters"
       beside={
         <>
-          <input class="search" type="search" placeholder="Search" aria-label="Search parameters" value={search.value} onInput={(e) => (search.value = e.currentTarget.value)} />
+          <input class="search" type="search" placeholder={t('Search')} aria-label={t('Search parameters')} value={search.value} onInput={(e) => (search.value = e.currentTarget.value)} />
           {groups.length > 1 && (
             <label class="select">
-              <span class="visually-hidden">Group</span>
+              <span class="visually-hidden">{t('Group')}</span>
               <select value={group.value} onChange={(e) => (group.value = e.currentTarget.value)}>
-                <option value="">all groups</option>
+                <option value="">{t('all groups')}</option>
                 {groups.map((g) => (
                   <option key={g} value={g}>
                     {g.replaceAll('_', ' ')}
@@ -220,7 +221,7 @@ export function Parameters({ axis }: { axis: string }) {
             </label>
           )}
           <label class="select">
-            <span class="visually-hidden">Show</span>
+            <span class="visually-hidden">{t('Show')}</span>
             <select value={mark.value} onChange={(e) => (mark.value = e.currentTarget.value as Marked)}>
               {marks.map((m) => (
                 <option key={m.id} value={m.id}>
@@ -229,40 +230,40 @@ export function Parameters({ axis }: { axis: string }) {
               ))}
             </select>
           </label>
-          <label class="check" title="What is on the screen is read again, one value at a time; at most a quarter of the line's time is taken">
-            <input type="checkbox" checked={keep.value === 'yes'} onChange={(e) => (keep.value = e.currentTarget.checked ? 'yes' : 'no')} /> Keep reading
+          <label class="check" title={t('What is on the screen is read again, one value at a time; at most a quarter of the line\'s time is taken')}>
+            <input type="checkbox" checked={keep.value === 'yes'} onChange={(e) => (keep.value = e.currentTarget.checked ? 'yes' : 'no')} />{' '}{t('Keep reading')}
           </label>
           {progress.value ? (
             <button type="button" class="button" onClick={() => reading.current?.abort()}>
-              Reading {progress.value.done} of {progress.value.of}: end
+              {t('Reading {done} of {of}: end', { done: progress.value.done, of: progress.value.of })}
             </button>
           ) : (
             <button type="button" class="button" onClick={() => void readAll()} disabled={matching.length === 0}>
-              Read {matching.length === rows.value.length ? 'all' : 'shown'}
+              {matching.length === rows.value.length ? t('Read all') : t('Read shown')}
             </button>
           )}
         </>
       }
     >
-      <Why need="engineer" what="Writing a parameter" />
+      <Why need="engineer" what={t('Writing a parameter')} />
       {loaded.value === 'waiting' ? (
-        <Empty text="Waiting for the list." />
+        <Empty text={t('Waiting for the list.')} />
       ) : loaded.value !== 'there' ? (
         <Empty text={capital(loaded.value)} />
       ) : matching.length === 0 ? (
-        <Empty text={rows.value.length === 0 ? 'This family has no parameters.' : 'No parameter matches.'} />
+        <Empty text={rows.value.length === 0 ? t('This family has no parameters.') : t('No parameter matches.')} />
       ) : (
-        <div class="card table-scroll" tabIndex={0} role="region" aria-label="Parameters">
+        <div class="card table-scroll" tabIndex={0} role="region" aria-label={t('Parameters')}>
           <table class="table">
             <thead>
               <tr>
-                <th scope="col">Parameter</th>
-                <th scope="col" class="num">Live</th>
-                <th scope="col" class="num">Stored</th>
-                <th scope="col" class="num">Default</th>
-                <th scope="col">Range</th>
-                <th scope="col">New value</th>
-                <th scope="col">Last written</th>
+                <th scope="col">{t('Parameter')}</th>
+                <th scope="col" class="num">{t('Live')}</th>
+                <th scope="col" class="num">{t('Stored')}</th>
+                <th scope="col" class="num">{t('Default')}</th>
+                <th scope="col">{t('Range')}</th>
+                <th scope="col">{t('New value')}</th>
+                <th scope="col">{t('Last written')}</th>
               </tr>
             </thead>
             <tbody ref={table}>
@@ -274,7 +275,7 @@ export function Parameters({ axis }: { axis: string }) {
           {mark.value !== 'all' && <Elsewise rows={rows.value} shown={matching} mark={mark.value} again={() => (asked.value += 1)} within={(r) => searchRank(r.data.peek(), search.value) !== null && (group.value === '' || r.data.peek().group === group.value)} />}
           {matching.length > shown.length && (
             <button type="button" class="button more" onClick={() => (most.value += rowsAtOnce)}>
-              Show more ({matching.length - shown.length} are not shown)
+              {t('Show more ({n} are not shown)', { n: matching.length - shown.length })}
             </button>
           )}
         </div>
@@ -291,7 +292,7 @@ function Elsewise({ rows, shown, mark, within, again }: { rows: Row[]; shown: Ro
   if (gone === 0 && come === 0) return null;
   return (
     <button type="button" class="button more" onClick={again}>
-      Filter again ({[come > 0 && `${come} more ${come === 1 ? 'fits' : 'fit'} now`, gone > 0 && `${gone} no longer`].filter(Boolean).join(', ')})
+      {t('Filter again ({changes})', { changes: [come === 1 ? t('1 more fits now') : come > 0 && t('{n} more fit now', { n: come }), gone > 0 && t('{n} no longer', { n: gone })].filter(Boolean).join(', ') })}
     </button>
   );
 }

@@ -1,5 +1,6 @@
 // Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
 // Never adds a drive by itself, and never begins to look by itself.
+import { t } from '../language';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -14,8 +15,8 @@ const askLater_ms = 2_000;
 
 /** "3 of 8 addresses asked, done, 1 found". A line that is asked as a whole has no addresses to count: how it was found is told then. */
 export function scanWords(r: Pick<ScanReport, 'asked' | 'of' | 'state' | 'text' | 'found'>): string {
-  const found = r.found.length === 1 ? '1 found' : `${r.found.length} found`;
-  const how = r.of > 0 ? `${r.asked} of ${r.of} addresses asked, ${r.state}, ${found}` : `The line was asked as a whole, not address by address: ${r.state}, ${found}`;
+  const found = r.found.length === 1 ? t('1 found') : t('{n} found', { n: r.found.length });
+  const how = r.of > 0 ? t('{asked} of {of} addresses asked, {state}, {found}', { asked: r.asked, of: r.of, state: r.state, found }) : t('The line was asked as a whole, not address by address: {state}, {found}', { state: r.state, found });
   return `${how}${r.text ? `: ${r.text}` : ''}`;
 }
 
@@ -56,21 +57,21 @@ export function ScanSection({ line }: { line: string }) {
   };
   const r = report.value;
   return (
-    <Section title="Scan" help="commission#find-the-drives">
+    <Section title={t('Scan')} help="commission#find-the-drives">
       <div class="card recipe-run" data-field="scan">
-        <Why need="engineer" what="Looking for drives" />
+        <Why need="engineer" what={t('Looking for drives')} />
         <div class="recipe-buttons">
-          <input class="search" type="text" aria-label="First address" placeholder="first address" autocomplete="off" value={from.value} onInput={(e) => (from.value = e.currentTarget.value)} />
-          <input class="search" type="text" aria-label="Last address" placeholder="last address" autocomplete="off" value={to.value} onInput={(e) => (to.value = e.currentTarget.value)} />
+          <input class="search" type="text" aria-label={t('First address')} placeholder={t('first address')} autocomplete="off" value={from.value} onInput={(e) => (from.value = e.currentTarget.value)} />
+          <input class="search" type="text" aria-label={t('Last address')} placeholder={t('last address')} autocomplete="off" value={to.value} onInput={(e) => (to.value = e.currentTarget.value)} />
           <button type="button" class="button primary" disabled={running} {...no} onClick={() => void act(() => client.startScan(line, { ...(from.peek() ? { from: from.peek() } : {}), ...(to.peek() ? { to: to.peek() } : {}) }))}>
-            Look for drives
+            {t('Look for drives')}
           </button>
           {running && (
             <button type="button" class="button" {...no} onClick={() => void act(() => client.cancelScan(line))}>
-              End
+              {t('End')}
             </button>
           )}
-          {r && r.state !== 'none' && <progress max={1} value={r.state === 'done' ? 1 : r.progress} aria-label="Addresses asked" />}
+          {r && r.state !== 'none' && <progress max={1} value={r.state === 'done' ? 1 : r.progress} aria-label={t('Addresses asked')} />}
           {r && r.state !== 'none' && (
             <span class="where" role="status">
               {scanWords(r)}
@@ -81,14 +82,14 @@ export function ScanSection({ line }: { line: string }) {
           <span>{fault.value}</span>
         </p>
         {r && r.found.length > 0 && (
-          <ul aria-label="Drives found">
+          <ul aria-label={t('Drives found')}>
             {r.found.map((f) => (
               <li key={`${f.family ?? ""} ${f.address}`} class="row" data-found={f.address}>
                 <div class="row-head">
                   <h3>
-                    {f.family} at {f.address}
+                    {t('{family} at {address}', { family: f.family, address: f.address })}
                   </h3>
-                  <span class="where">{f.known_as ? `is the drive ${f.known_as}` : 'not in the site yet'}</span>
+                  <span class="where">{f.known_as ? t('is the drive {known_as}', { known_as: f.known_as }) : t('not in the site yet')}</span>
                 </div>
                 {f.text && <p class="why">{f.text}</p>}
               </li>

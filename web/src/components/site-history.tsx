@@ -1,5 +1,6 @@
 // Site history: the states that were applied before, newest first, page by page. In: the draft, the door. Out: a list; a difference on demand; a
 // restore, which is staged and then checked and applied like every change. Changes of one's own are never dropped for it unasked.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { HistoryEntry, SiteDoor } from '../api/site';
@@ -37,7 +38,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     list.value = joins ? [...first, ...had.filter((h) => h.revision < last)] : first;
     if (!joins) older.value = { more: first.length >= atOnce, busy: false, why: '' };
   };
-  const why = useLoaded(load, [door, revision], (p) => (absent(p.status) ? notOffered('a history of applied states') : p.words));
+  const why = useLoaded(load, [door, revision], (p) => (absent(p.status) ? notOffered(t('a history of applied states')) : p.words));
   const ask = async () => {
     const before = list.peek().at(-1)?.revision;
     if (before === undefined || older.peek().busy) return;
@@ -60,59 +61,64 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     }
   };
   return (
-    <Section title="Applied states" class="site-history">
+    <Section title={t('Applied states')} class="site-history">
       <div class="card" data-field="history">
         {why ? (
           <p class="empty">{why}</p>
         ) : list.value.length === 0 ? (
-          <p class="empty">No earlier state is kept.</p>
+          <p class="empty">{t('No earlier state is kept.')}</p>
         ) : (
           <>
-            <ul class="rows" aria-label="Applied states">
+            <ul class="rows" aria-label={t('Applied states')}>
               {list.value.map((h) => (
                 <li key={h.revision} class="row" data-revision={h.revision}>
                   <div class="row-head">
                     <h3>
-                      Revision {h.revision}{' '}
+                      {t('Revision {revision}', { revision: h.revision })}{' '}
                       {h.revision === revision && (
                         <span class="flag" data-field="in-force">
-                          {onTrial ? 'in force, on trial' : 'in force'}
+                          {onTrial ? t('in force, on trial') : t('in force')}
                         </span>
                       )}
                     </h3>
-                    <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={`Difference to revision ${h.revision}`} onClick={() => void look(h.revision)}>
-                      Difference
+                    <button type="button" class="button small" aria-expanded={shown.value?.revision === h.revision} aria-label={t('Difference to revision {revision}', { revision: h.revision })} onClick={() => void look(h.revision)}>
+                      {t('Difference')}
                     </button>
-                    <button type="button" class="button small" aria-label={`Restore revision ${h.revision}`} {...no} onClick={() => void draft.restore(h.revision)}>
-                      Restore
+                    <button type="button" class="button small" aria-label={t('Restore revision {revision}', { revision: h.revision })} {...no} onClick={() => void draft.restore(h.revision)}>
+                      {t('Restore')}
                     </button>
                   </div>
                   <p class="where">
                     {clockTime(h.at)} {h.who ?? ''} · {sizeWords(h.bytes)}
                   </p>
                   {draft.askRestore.value === h.revision && (
-                    <p class="form-foot ask" role="group" aria-label={`Restore revision ${h.revision}`}>
-                      <span>{draft.changes.value.length === 1 ? 'One change of yours is' : `${draft.changes.value.length} changes of yours are`} not applied; restoring puts revision {h.revision} in their place.</span>
+                    <p class="form-foot ask" role="group" aria-label={t('Restore revision {revision}', { revision: h.revision })}>
+                      <span>{draft.changes.value.length === 1 ? t('One change of yours is not applied; restoring puts revision {revision} in their place.', { revision: h.revision }) : t('{n} changes of yours are not applied; restoring puts revision {revision} in their place.', { n: draft.changes.value.length, revision: h.revision })}</span>
                       <button type="button" class="button small" {...no} onClick={() => void draft.restore(h.revision, true)}>
-                        Drop mine and restore
+                        {t('Drop mine and restore')}
                       </button>
                       <button type="button" class="button small quiet" onClick={() => (draft.askRestore.value = null)}>
-                        Keep mine
+                        {t('Keep mine')}
                       </button>
                     </p>
                   )}
-                  {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">It is the site that is in force.</p> : <DifferenceList list={shown.value.changes} label={`What revision ${h.revision} would change`} />)}
+                  {shown.value?.revision === h.revision && (shown.value.changes.length === 0 ? <p class="where">{t('It is the site that is in force.')}</p> : <DifferenceList list={shown.value.changes} label={t('What revision {revision} would change', { revision: h.revision })} />)}
                 </li>
               ))}
             </ul>
             <div class="form-foot history-foot">
               <span class="where" role="status" data-field="history-count">
-                {list.value.length === 1 ? 'One state' : `${list.value.length} states`}
-                {older.value.more ? ' shown; there may be older ones.' : ', the oldest that is kept included.'}
+                {older.value.more
+                  ? list.value.length === 1
+                    ? t('One state shown; there may be older ones.')
+                    : t('{n} states shown; there may be older ones.', { n: list.value.length })
+                  : list.value.length === 1
+                    ? t('One state, the oldest that is kept included.')
+                    : t('{n} states, the oldest that is kept included.', { n: list.value.length })}
               </span>
               {older.value.more && (
                 <button type="button" class="button" aria-disabled={older.value.busy} onClick={() => void ask()}>
-                  Older
+                  {t('Older')}
                 </button>
               )}
               {older.value.why && <span class="tell result-refused">{older.value.why}</span>}

@@ -1,5 +1,6 @@
 // Site pending: a restored copy that waits for the next start: what it is, since when, from whom, and the way to drop it. In: the door. Out: a notice,
 // or nothing. Only administrators are told, so nobody else's page asks. Another administrator may lay one down or drop it: it is asked for again.
+import { t } from '../language';
 import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -32,10 +33,10 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
     return () => clearInterval(timer);
   }, [door, may]);
   const drop = async () => {
-    told.value = { tone: 'busy', text: 'Dropping it …' };
+    told.value = { tone: 'busy', text: t('Dropping it …') };
     try {
       await door.dropPending();
-      told.value = { tone: 'good', text: 'Dropped: the next start goes on with the database as it is.' };
+      told.value = { tone: 'good', text: t('Dropped: the next start goes on with the database as it is.') };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
@@ -45,11 +46,11 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
   const waits = may && now.value?.waiting === true;
   if (!waits && told.value.tone === 'none') return null;
   return (
-    <section class={`card pending-restore${waits ? ' is-waiting' : ''}`} aria-label="Restore that waits" data-field="pending">
+    <section class={`card pending-restore${waits ? ' is-waiting' : ''}`} aria-label={t('Restore that waits')} data-field="pending">
       {waits && now.value && (
         <>
           <p class="stage-count">
-            <Icon name="triangle" /> A restore waits: it takes effect with the next start.
+            <Icon name="triangle" />{' '}{t('A restore waits: it takes effect with the next start.')}
           </p>
           <p class="where" data-field="pending-what">
             {pendingWords(now.value)}
@@ -59,17 +60,17 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
       <div class="form-foot">
         {waits && !asked.value && (
           <button type="button" class="button" onClick={() => (asked.value = true)}>
-            Drop the restore …
+            {t('Drop the restore …')}
           </button>
         )}
         {waits && asked.value && (
           <>
-            <span>The copy is taken away; the next start goes on with the database as it is.</span>
+            <span>{t('The copy is taken away; the next start goes on with the database as it is.')}</span>
             <button type="button" class="button" onClick={() => void drop()}>
-              Drop it
+              {t('Drop it')}
             </button>
             <button type="button" class="button quiet" onClick={() => (asked.value = false)}>
-              Leave it
+              {t('Leave it')}
             </button>
           </>
         )}

@@ -1,5 +1,6 @@
 // Site scan: who answers on a line. In: a line of the site in force, a range of addresses. Out: what was found, and a drive with an axis in the draft
 // for each that is not known yet. Asks for progress three times a second, for at most ten minutes; can be ended. Begins none that was not asked for.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -37,7 +38,7 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
   const running = useRef<{ stop: boolean } | null>(null);
   useEffect(() => () => void (running.current && (running.current.stop = true)), []);
 
-  const words = (s: Scan) => `${s.state === 'done' ? `${s.found.length} found${s.asked ? `, ${s.asked} asked` : ''}.` : `The scan is ${s.state}.`} ${s.text ?? ''}`.trim();
+  const words = (s: Scan) => `${s.state === 'done' ? s.asked ? t('{n} found, {asked} asked.', { n: s.found.length, asked: s.asked }) : t('{n} found.', { n: s.found.length }) : t('The scan is {state}.', { state: s.state })} ${s.text ?? ''}`.trim();
   /** Until it has an end, whoever began it. */
   const follow = async (run: { stop: boolean }) => {
     const end = performance.now() + longest_ms;
@@ -45,7 +46,7 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       const s = await door.scan(line.name);
       scan.value = s;
       if (s.state !== 'running') return void (told.value = { tone: s.state === 'done' ? 'good' : 'refused', text: words(s) });
-      told.value = { tone: 'busy', text: `Scanning, ${Math.round(s.progress * 100)} % …` };
+      told.value = { tone: 'busy', text: t('Scanning, {percent} % …', { percent: Math.round(s.progress * 100) }) };
       await new Promise((r) => setTimeout(r, poll_ms));
     }
   };
@@ -65,13 +66,13 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       if (a !== undefined) range.from = a;
       if (b !== undefined) range.to = b;
       scan.value = null;
-      told.value = { tone: 'busy', text: 'Scanning …' };
+      told.value = { tone: 'busy', text: t('Scanning …') };
       try {
         await door.startScan(line.name, range);
         await follow(run);
       } catch (error) {
         const p = asProblem(error);
-        told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered('a scan of its lines') : p.words };
+        told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered(t('a scan of its lines')) : p.words };
       }
     });
   /** One that runs already, begun before a reload or by somebody else, is followed to its end; what the last one has found is still there. */
@@ -82,7 +83,7 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       if (s.state === 'running') return follow(run);
       if (s.found.length === 0) return;
       scan.value = s;
-      told.value = { tone: 'none', text: `The last scan: ${words(s)}` };
+      told.value = { tone: 'none', text: t('The last scan: {s}', { s: words(s) }) };
     }).catch(() => undefined); // a gateway that does not tell has nothing to go on with
   useEffect(() => {
     void (begin && !no.disabled ? start() : look());
@@ -94,7 +95,7 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
     <form
       class="form scan"
       noValidate
-      aria-label={`Scan line ${line.name}`}
+      aria-label={t('Scan line {name}', { name: line.name })}
       onSubmit={(e) => {
         e.preventDefault();
         void start();
@@ -102,35 +103,35 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
     >
       {headed && (
         <h4 ref={head} tabIndex={-1} class="scan-head">
-          Scan of line {line.name}
+          {t('Scan of line {name}', { name: line.name })}
         </h4>
       )}
       <div class="form-foot">
-        <TextField label="From address" class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder="first" />
-        <TextField label="to" class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder="last" />
+        <TextField label={t('From address')} class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder={t('first')} />
+        <TextField label={t('to')} class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder={t('last')} />
         <button type="submit" class="button primary" disabled={told.value.tone === 'busy'} {...no}>
-          Scan
+          {t('Scan')}
         </button>
         {told.value.tone === 'busy' && (
           <button type="button" class="button" {...no} onClick={() => void door.endScan(line.name).catch(() => undefined)}>
-            End
+            {t('End')}
           </button>
         )}
         <Tell told={told.value} field="scan-told" />
       </div>
-      {scan.value && scan.value.state === 'running' && <progress max={1} value={scan.value.progress} aria-label="Progress of the scan" />}
+      {scan.value && scan.value.state === 'running' && <progress max={1} value={scan.value.progress} aria-label={t('Progress of the scan')} />}
       {scan.value && scan.value.found.length > 0 && (
-        <ul class="found" aria-label="Found">
+        <ul class="found" aria-label={t('Found')}>
           {scan.value.found.map((f) => {
             const name = f.known_as ?? known.get(placeOf(f.family, f.address));
             return (
               <li key={`${f.family ?? ''} ${f.address}`} data-found={f.address}>
                 <b class="mono">{f.address}</b> <span>{f.text ?? ''}</span>{' '}
                 {name ? (
-                  <span class="where">known as {name}</span>
+                  <span class="where">{t('known as {name}', { name })}</span>
                 ) : (
                   <button type="button" class="button small" {...no} onClick={() => addFound(draft, line, f.address, f.family)}>
-                    Add {f.address} as a drive
+                    {t('Add {address} as a drive', { address: f.address })}
                   </button>
                 )}
               </li>

@@ -1,8 +1,9 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
-import { useSignal } from '@preact/signals';
+import { t } from '../language';
+import { useSignal, type Signal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { stagerOf, type SiteDraft } from '../state/site-draft';
+import { checkedWords, stagerOf, type SiteDraft } from '../state/site-draft';
 import { persisted } from '../state/persisted';
 import { barred } from '../state/session';
 import { differenceWords, sameDocument, type Difference } from '../text/site';
@@ -14,7 +15,7 @@ import { Icon } from './icon';
 import { keepBarred, useTrialRest } from './trial';
 import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
 
-const within = persisted('site.within_s', '60');
+const usual = persisted('site.within_s', '60');
 const mostShown = 200;
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
@@ -25,12 +26,13 @@ export function DifferenceList({ list, label }: { list: readonly (Difference | S
           <span class="diff-kind">{d.kind}</span> <span>{differenceWords(d)}</span>
         </li>
       ))}
-      {list.length > mostShown && <li class="where">and {list.length - mostShown} more</li>}
+      {list.length > mostShown && <li class="where">{t('and {n} more', { n: list.length - mostShown })}</li>}
     </ul>
   );
 }
 
-export function SiteStage({ draft }: { draft: SiteDraft }) {
+/** `within`: the field's own text, where another time is usual. */
+export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?: Signal<string> }) {
   const { session, tab } = useGateway();
   const no = useBarred('engineer');
   const stage = draft.stage.value;
@@ -54,85 +56,85 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
 
   if (stage.state === 'applied') {
     return (
-      <section class="card stage is-applied" aria-label="Applied change" data-field="stage" data-state="applied">
+      <section class="card stage is-applied" aria-label={t('Applied change')} data-field="stage" data-state="applied">
         <p class="stage-count" data-field="countdown">
-          <Icon name="clock" /> The change is applied. {rest > 0 ? `It is rolled back by itself in ${rest} s.` : 'Its time is over.'}
+          <Icon name="clock" />{' '}{t('The change is applied.')}{' '}{rest > 0 ? t('It is rolled back by itself in {rest} s.', { rest }) : t('Its time is over.')}
         </p>
         <p class="form-told" data-field="applied-by">
           {appliedWords(stage, tab.name.value, keepBarred(draft, session, tab.name.value))}
         </p>
         <div class="form-foot">
           <button type="button" class="button primary" disabled={busy} {...keep} onClick={() => void draft.confirm()}>
-            Keep
+            {t('Keep')}
           </button>
           <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
-            Roll back now
+            {t('Roll back now')}
           </button>
           <Tell told={draft.told.value} field="stage-told" />
         </div>
-        {(stage.diff?.length ?? 0) > 0 && <DifferenceList list={stage.diff ?? []} label="What was changed" />}
+        {(stage.diff?.length ?? 0) > 0 && <DifferenceList list={stage.diff ?? []} label={t('What was changed')} />}
         {changes.length > 0 && (
           <details class="own-draft" data-field="own-draft">
             <summary>
-              Your own draft waits: {changes.length === 1 ? '1 change' : `${changes.length} changes`}. It can be checked when the trial is over.
+              {changes.length === 1 ? t('Your own draft waits: 1 change. It can be checked when the trial is over.') : t('Your own draft waits: {n} changes. It can be checked when the trial is over.', { n: changes.length })}
             </summary>
-            <DifferenceList list={changes} label="What waits in your draft" />
+            <DifferenceList list={changes} label={t('What waits in your draft')} />
           </details>
         )}
       </section>
     );
   }
   return (
-    <section class="card stage" aria-label="Changes" data-field="stage" data-state={stage.state}>
+    <section class="card stage" aria-label={t('Changes')} data-field="stage" data-state={stage.state}>
       {theirs && (
-        <div class="theirs" role="group" aria-label="Somebody else's change" data-field="theirs">
+        <div class="theirs" role="group" aria-label={t('Somebody else\'s change')} data-field="theirs">
           <p class="stage-count">
-            <Icon name="triangle" /> Somebody else has changed the site meanwhile. What you typed is kept.
+            <Icon name="triangle" />{' '}{t('Somebody else has changed the site meanwhile. What you typed is kept.')}
           </p>
-          <DifferenceList list={theirs.changes} label="What somebody else changed" />
+          <DifferenceList list={theirs.changes} label={t('What somebody else changed')} />
           <div class="form-foot">
             <button type="button" class="button primary" onClick={() => void draft.adopt(true)}>
-              Put mine on top
+              {t('Put mine on top')}
             </button>
             <button type="button" class="button" onClick={() => void draft.adopt(false)}>
-              Drop mine
+              {t('Drop mine')}
             </button>
           </div>
         </div>
       )}
       {foreign && (rival || changes.length === 0) && (
-        <div class="theirs" role="group" aria-label="What is staged" data-field="rival">
+        <div class="theirs" role="group" aria-label={t('What is staged')} data-field="rival">
           <p class="stage-count">
-            <Icon name="triangle" /> {stagerOf(stage)} has staged this; nothing of it is in force yet.
-            {changes.length > 0 && ' What you typed is kept.'}
+            <Icon name="triangle" />{' '}{t('{stage} has staged this; nothing of it is in force yet.', { stage: stagerOf(stage) })}
+            {changes.length > 0 && ` ${t('What you typed is kept.')}`}
           </p>
-          <DifferenceList list={stage.diff ?? []} label="What is staged" />
+          <DifferenceList list={stage.diff ?? []} label={t('What is staged')} />
           <div class="form-foot">
             {changes.length > 0 && (
               <button type="button" class="button" disabled={busy || theirs !== null} {...no} onClick={() => void draft.check(true)}>
-                Check mine instead
+                {t('Check mine instead')}
               </button>
             )}
             {inView ? (
               <button type="button" class="button quiet" onClick={() => draft.view(false)}>
-                {changes.length > 0 ? 'Back to mine' : 'Leave it'}
+                {changes.length > 0 ? t('Back to mine') : t('Leave it')}
               </button>
             ) : (
               <button type="button" class="button" {...no} onClick={() => draft.view(true)}>
-                Take theirs into view
+                {t('Take theirs into view')}
               </button>
             )}
           </div>
         </div>
       )}
       <p class="stage-count" role="status">
-        {inView ? 'In view is what somebody else has staged: Apply applies that. ' : ''}
-        {changes.length === 0 ? 'Nothing is changed.' : `${changes.length === 1 ? '1 change is' : `${changes.length} changes are`} waiting; nothing has been sent to the drives.`}
-        {foreign && !rival && changes.length > 0 && ' A change is staged at the gateway; checking yours takes its place.'}
+        {inView ? `${t('In view is what somebody else has staged: Apply applies that.')} ` : ''}
+        {changes.length === 0 ? t('Nothing is changed.') : changes.length === 1 ? t('1 change is waiting; nothing has been sent to the drives.') : t('{n} changes are waiting; nothing has been sent to the drives.', { n: changes.length })}
+        {foreign && !rival && changes.length > 0 && ` ${t('A change is staged at the gateway; checking yours takes its place.')}`}
       </p>
-      {changes.length > 0 && <DifferenceList list={changes} label={inView ? 'What waits in your draft' : 'What would change'} />}
+      {changes.length > 0 && <DifferenceList list={changes} label={inView ? t('What waits in your draft') : t('What would change')} />}
       {list.length > 0 && (
-        <ul class="stage-faults" aria-label="Faults">
+        <ul class="stage-faults" aria-label={t('Faults')}>
           {list.slice(0, 50).map((f) => (
             <li key={f.pointer + f.text} class="fault-text">
               <span class="mono">{f.pointer}</span> {f.text}: {f.remedy}
@@ -144,14 +146,14 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
       <div class="form-foot">
         {changes.length > 0 && !inView && (
           <button type="button" class={`button${ready ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>
-            Check
+            {t('Check')}
           </button>
         )}
         {(changes.length > 0 || inView) && (
           <>
-            {draft.offersStage.value !== false && <TextField label="Confirm within, s" class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? '5 to 600; 0: no roll back.' : undefined} />}
+            {draft.offersStage.value !== false && <TextField label={t('Confirm within, s')} class="within" number value={within.value} onText={(t) => (within.value = t)} fault={seconds === null ? t('5 to 600; 0: no roll back.') : undefined} />}
             <button type="button" class="button primary" disabled={busy || !ready || seconds === null} {...no} onClick={() => void draft.apply(seconds ?? 60)}>
-              Apply{inView ? ' theirs' : ''}
+              {inView ? t('Apply theirs') : t('Apply')}
             </button>
             {!ready && !busy && !no.disabled && (
               <span class="where" data-field="apply-why">
@@ -165,32 +167,32 @@ export function SiteStage({ draft }: { draft: SiteDraft }) {
             {asked.value ? (
               <>
                 <button type="button" class="button" onClick={() => { asked.value = false; draft.drop(); }}>
-                  Drop all changes
+                  {t('Drop all changes')}
                 </button>
                 <button type="button" class="button quiet" onClick={() => (asked.value = false)}>
-                  Keep typing
+                  {t('Keep typing')}
                 </button>
               </>
             ) : (
               <button type="button" class="button quiet" onClick={() => (asked.value = true)}>
-                Drop …
+                {t('Drop …')}
               </button>
             )}
           </>
         )}
         {stage.state === 'staged' && (
           <button type="button" class="button quiet" {...no} onClick={() => void draft.discard()}>
-            Discard what is staged
+            {t('Discard what is staged')}
           </button>
         )}
         {draft.rolledBack.value && changes.length === 0 && (
           <button type="button" class="button" {...no} onClick={() => draft.again()}>
-            Put it into the draft again
+            {t('Put it into the draft again')}
           </button>
         )}
-        <Tell told={changes.length === 0 && /^Checked/.test(draft.told.value.text) ? { tone: 'none', text: '' } : draft.told.value} field="stage-told" />
+        <Tell told={changes.length === 0 && draft.told.value.text === checkedWords ? { tone: 'none', text: '' } : draft.told.value} field="stage-told" />
       </div>
-      {draft.offersStage.value === false && changes.length > 0 && <p class="form-told">This gateway does not offer staging: an applied change stays, there is no roll back by itself.</p>}
+      {draft.offersStage.value === false && changes.length > 0 && <p class="form-told">{t('This gateway does not offer staging: an applied change stays, there is no roll back by itself.')}</p>}
     </section>
   );
 }

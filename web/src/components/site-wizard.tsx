@@ -5,27 +5,35 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import type { SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
+import { t } from '../language';
+import { barred } from '../state/session';
 import { persisted } from '../state/persisted';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../text/site';
+import { lineNameFor, numbered } from '../text/ports';
 import { quiet, Tell } from './form';
 import { AxisTile } from './axis-tile';
+import { Icon } from './icon';
 import { ScanPanel } from './site-scan';
 import { EntryField } from './site-entries';
+import { ReadFromHmi } from './site-hmi';
 import { SiteStage } from './site-stage';
+import { keepBarred, useTrialRest } from './trial';
 
 const kinds = [
-  { id: 'twin', text: 'No drive yet: simulate it', uri: 'twin' },
-  { id: 'can', text: 'CAN', uri: 'can:can0' },
-  { id: 'serial', text: 'Serial port, RS-485', uri: 'serial:/dev/ttyUSB0?baud=9600&rs485=1' },
-  { id: 'tcp', text: 'Network, TCP', uri: 'tcp:192.0.2.10:8888' },
-  { id: 'udp', text: 'Network, UDP', uri: 'udp:192.0.2.10:503' },
+  { id: 'twin', text: t('No drive yet: simulate it'), uri: 'twin' },
+  { id: 'can', text: t('CAN'), uri: 'can:can0' },
+  { id: 'serial', text: t('Serial port, RS-485'), uri: 'serial:/dev/ttyUSB0?baud=9600&rs485=1' },
+  { id: 'tcp', text: t('Network, TCP'), uri: 'tcp:192.0.2.10:8888' },
+  { id: 'udp', text: t('Network, UDP'), uri: 'udp:192.0.2.10:503' },
 ];
-const steps = ['Line', 'Drive', 'Axis', 'Apply', 'Move'] as const;
+const steps = [t('Line'), t('Drive'), t('Axis'), t('Apply'), t('Move')] as const;
 const step = persisted('wizard.step', '0');
 const chosen = { lines: persisted('wizard.line'), drives: persisted('wizard.drive'), axes: persisted('wizard.axis') };
 /** What stands in the fields of a step that is not finished, as JSON. */
 const typed = { lines: persisted('wizard.typed.line'), drives: persisted('wizard.typed.drive'), axes: persisted('wizard.typed.axis') };
+/** Long enough to go to the machine, enable and move before the question whether it stays. */
+const trial = persisted('wizard.within_s', '300');
 const order: Room[] = ['lines', 'drives', 'axes'];
 
 export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: SiteDoor; leave: () => void }) {
@@ -55,9 +63,9 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
     <section class="card wizard" aria-labelledby="wizard-head" data-step={at + 1}>
       <header class="wizard-head">
         <h2 id="wizard-head" ref={head} tabIndex={-1}>
-          Step {at + 1} of {steps.length}: {['Where is the line?', 'Which drive is on it?', 'What does it move?', 'Check and apply', 'Move it'][at]}
+          {t('Step {step} of {n}: {title}', { step: at + 1, n: steps.length, title: [t('Where is the line?'), t('Which drive is on it?'), t('What does it move?'), t('Check and apply'), t('Move it')][at] ?? '' })}
         </h2>
-        <ol class="wizard-steps" aria-label="Steps">
+        <ol class="wizard-steps" aria-label={t('Steps')}>
           {steps.map((s, i) => (
             <li key={s} class={i < at ? 'is-done' : i === at ? 'is-now' : ''} aria-current={i === at ? 'step' : undefined}>
               {s}
@@ -65,12 +73,12 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
           ))}
         </ol>
         <button type="button" class="button quiet" onClick={leave}>
-          Leave the wizard
+          {t('Leave the wizard')}
         </button>
       </header>
       {at < wanted && (
         <p class="where" role="status" data-field="wizard-back">
-          {chosen[order[at] as Room].value || `The ${nouns[order[at] as Room]}`} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.
+          {t('{what} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.', { what: chosen[order[at] as Room].value || theWords[order[at] as Room] })}
         </p>
       )}
       {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
@@ -78,17 +86,16 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       {at === 1 && meant && meant.uri !== 'twin' && (!line || lineFirst.value === 'applying') && (
         <div class="form-foot" data-field="scan-later">
           <p class="where">
-            Scanning asks the line itself, so {meant.name} must be in force first.{' '}
-            {alone || lineFirst.value === 'applying' ? `One click checks it, applies it, keeps it and begins to scan; nothing else is changed.` : 'More than this line is changed: look at all of it, apply it, then scan here.'} Or describe the drive above without a scan: its address
-            stands in the drive's papers.
+            {t('Scanning asks the line itself, so {name} must be in force first.', { name: meant.name })}{' '}
+            {alone || lineFirst.value === 'applying' ? t('One click checks it, applies it, keeps it and begins to scan; nothing else is changed.') : t('More than this line is changed: look at all of it, apply it, then scan here.')}{' '}{t('Or describe the drive above without a scan: its address stands in the drive\'s papers.')}
           </p>
           {alone || lineFirst.value === 'applying' ? (
             <button type="button" class="button" disabled={lineFirst.value === 'applying'} onClick={() => void applyLine()}>
-              Apply {meant.name} and scan it
+              {t('Apply {name} and scan it', { name: meant.name })}
             </button>
           ) : (
             <button type="button" class="button" aria-expanded={lineFirst.value === 'shown'} onClick={() => (lineFirst.value = lineFirst.value === 'shown' ? '' : 'shown')}>
-              Look at all changes
+              {t('Look at all changes')}
             </button>
           )}
           {lineFirst.value === 'applying' && <Tell told={draft.told.value} field="wizard-told" />}
@@ -97,34 +104,35 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       {at === 1 && ((lineFirst.value === 'shown' && !line) || (onTrial && lineFirst.value !== 'applying')) && <SiteStage draft={draft} />}
       {at === 3 && (
         <>
-          <SiteStage draft={draft} />
+          <SiteStage draft={draft} within={trial} />
           <div class="form-foot">
             <button type="button" class="button" onClick={() => go(2)}>
-              Back
+              {t('Back')}
             </button>
             <button type="button" class="button primary" disabled={!applied} onClick={() => go(4)}>
-              Go on to moving {axis}
+              {t('Go on to moving {axis}', { axis })}
             </button>
-            {!applied && <span class="where">Apply first: {axis || 'the axis'} is not in force yet.</span>}
+            {!applied && <span class="where">{t('Apply first: {axis} is not in force yet.', { axis: axis || t('the axis') })}</span>}
           </div>
         </>
       )}
       {at === 4 && (
         <>
-          {onTrial && <SiteStage draft={draft} />}
+          {onTrial && <KeepAfterMove draft={draft} axis={axis} />}
           {applied ? (
             <>
-              <p class="where">Enable the axis, then move it: a short distance first. Escape stops all axes.</p>
+              <p class="where">{t('Enable the axis, then move it: a short distance first. Escape stops all axes.')}</p>
               <AxisTile name={axis} bare={false} />
+              <ReadFromHmi axis={axis} />
             </>
           ) : (
             <p class="empty" role="status" data-field="not-there">
-              {draft.rolledBack.value ? `The change was rolled back because nobody pressed Keep in time, so ${axis} is not in force. What you typed can be applied again.` : `${axis || 'The axis'} is not in force: go back and apply it.`}
+              {draft.rolledBack.value ? t('The change was rolled back because nobody pressed Keep in time, so {axis} is not in force. What you typed can be applied again.', { axis }) : t('{axis} is not in force: go back and apply it.', { axis: axis || t('The axis') })}
             </p>
           )}
           <div class="form-foot">
             <button type="button" class="button" onClick={() => go(3)}>
-              Back
+              {t('Back')}
             </button>
             {!applied && draft.rolledBack.value && (
               <button
@@ -135,7 +143,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
                   go(3);
                 }}
               >
-                Apply again
+                {t('Apply again')}
               </button>
             )}
             <button
@@ -148,7 +156,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
                 leave();
               }}
             >
-              Done
+              {t('Done')}
             </button>
           </div>
         </>
@@ -157,7 +165,39 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
   );
 }
 
-const nouns: Record<Room, string> = { lines: 'line', drives: 'drive', axes: 'axis' };
+/** The question whether the site stays, asked when the axis has moved for the first time; before that it can be answered, too. */
+function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
+  const { session, store, tab } = useGateway();
+  const entry = store.axis(axis)?.value.data;
+  const moved = useSignal(false);
+  const rest = useTrialRest(draft);
+  if (entry?.moving) moved.value = true;
+  const asks = moved.value && entry?.moving === false;
+  const busy = draft.told.value.tone === 'busy';
+  const no = barred(session.mayNot('engineer'));
+  const keep = barred(keepBarred(draft, session, tab.name.value));
+  return (
+    <section class={`card stage is-applied${asks ? ' is-asking' : ''}`} aria-label={t('Keep the site?')} data-field="keep-after-move" data-asks={asks}>
+      <p class="stage-count" role="status">
+        <Icon name="clock" />
+        {asks ? t('{axis} has moved. Was it right? Then keep the site; else it is rolled back by itself in {n} s.', { axis, n: rest }) : t('The site is on trial, for {n} s more: move {axis} first, then you are asked whether it stays.', { axis, n: rest })}
+      </p>
+      <div class="form-foot">
+        <button type="button" class={`button${asks ? ' primary' : ''}`} disabled={busy} {...keep} onClick={() => void draft.confirm()}>
+          {t('Keep')}
+        </button>
+        <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
+          {t('Roll back now')}
+        </button>
+        <Tell told={draft.told.value} field="stage-told" />
+      </div>
+    </section>
+  );
+}
+
+const nouns: Record<Room, string> = { lines: t('line'), drives: t('drive'), axes: t('axis') };
+const theWords: Record<Room, string> = { lines: t('The line'), drives: t('The drive'), axes: t('The axis') };
+const newWords: Record<Room, string> = { lines: t('a new line'), drives: t('a new drive'), axes: t('a new axis') };
 const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
 
 function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; back: (() => void) | null; next: () => void }) {
@@ -174,9 +214,13 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     if (use.peek() === '' && fitting.length > 0 && room === 'drives' && !touched.peek()) use.value = fitting[0]!.name;
   }, [fitting.length]);
   const { entry, faults } = checkEntry(room, texts.value, site, null);
-  const set = (key: string) => (t: string) => {
-    texts.value = { ...texts.value, [key]: t };
-    typed[room].value = JSON.stringify(texts.value);
+  const set = (key: string) => (text: string) => {
+    const before = texts.peek();
+    const next = { ...before, [key]: text };
+    // A name that nobody has typed goes with the line.
+    if (room === 'lines' && key === 'uri' && before.name === lineNameFor(before.uri ?? '', site.lines)) next.name = lineNameFor(text, site.lines);
+    texts.value = next;
+    typed[room].value = JSON.stringify(next);
   };
   const word = nouns[room];
   const submit = () => {
@@ -196,7 +240,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
       ref={form}
       class="form"
       noValidate
-      aria-label={`Wizard: ${word}`}
+      aria-label={t('Wizard: {word}', { word })}
       onSubmit={(e) => {
         e.preventDefault();
         submit();
@@ -204,20 +248,20 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
     >
       {fitting.length > 0 && (
         <fieldset class="choices">
-          <legend>Take one that is there, or describe a new one</legend>
+          <legend>{t('Take one that is there, or describe a new one')}</legend>
           {fitting.map((e) => (
             <label key={e.name} class="check">
               <input type="radio" name={`wizard-${room}`} checked={use.value === e.name} onChange={() => (use.value = e.name)} /> {e.name}
             </label>
           ))}
           <label class="check">
-            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} /> a new {word}
+            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} />{' '}{newWords[room]}
           </label>
         </fieldset>
       )}
       {use.value === '' && room === 'lines' && (
         <fieldset class="choices">
-          <legend>What kind of line is it?</legend>
+          <legend>{t('What kind of line is it?')}</legend>
           {kinds.map((k) => (
             <label key={k.id} class="check">
               <input type="radio" name="wizard-kind" checked={kindOf(texts.value.uri ?? '') === k.id} onChange={() => set('uri')(k.uri)} /> {k.text}
@@ -238,11 +282,11 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
       <div class="form-foot">
         {back && (
           <button type="button" class="button" onClick={back}>
-            Back
+            {t('Back')}
           </button>
         )}
         <button type="submit" class="button primary">
-          Next
+          {t('Next')}
         </button>
       </div>
     </form>
@@ -265,7 +309,7 @@ const kindOf = (uri: string) => uri.split(':')[0] ?? '';
 
 function first(room: Room, draft: SiteDraft): Texts {
   const site = draft.draft.peek();
-  if (room === 'lines') return { name: freeName(site.lines, 'line'), uri: 'twin', family: '' };
-  if (room === 'drives') return { name: freeName(site.drives, 'drive'), line: chosen.lines.peek(), presence: 'auto' };
+  if (room === 'lines') return { name: lineNameFor('twin', site.lines), uri: 'twin', family: '' };
+  if (room === 'drives') return { name: numbered(site.drives, 'feeder'), line: chosen.lines.peek(), presence: 'auto' };
   return { name: freeName(site.axes, chosen.drives.peek() || 'axis'), drive: chosen.drives.peek(), number: String(freeNumber(site)), unit: 'mm', increments_per_unit: '', channel: '1' };
 }

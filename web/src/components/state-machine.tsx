@@ -1,5 +1,6 @@
 // State machine: the power states of CiA 402 with the present one marked, and status and control word beside it, bit by bit.
 // In: the axis. Out: a drawing whose content is also said in words. Old values are not shown as the present state.
+import { t } from '../language';
 import { useMemo } from 'preact/hooks';
 import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
@@ -13,14 +14,14 @@ const far = 181;
 const indent = 20;
 interface Place { x: number; y: number; text: string }
 const places: Record<AxisStateName, Place> = {
-  not_ready_to_switch_on: { x: 1, y: 8, text: 'Not ready' },
-  switch_on_disabled: { x: 1, y: 66, text: 'Switch on disabled' },
-  ready_to_switch_on: { x: 1, y: 124, text: 'Ready to switch on' },
-  switched_on: { x: 1, y: 182, text: 'Switched on' },
-  operation_enabled: { x: 1, y: 240, text: 'Operation enabled' },
-  quick_stop_active: { x: far, y: 240, text: 'Quick stop active' },
-  fault_reaction_active: { x: far, y: 124, text: 'Fault reaction' },
-  fault: { x: far, y: 66, text: 'Fault' },
+  not_ready_to_switch_on: { x: 1, y: 8, text: t('Not ready') },
+  switch_on_disabled: { x: 1, y: 66, text: t('Switch on disabled') },
+  ready_to_switch_on: { x: 1, y: 124, text: t('Ready to switch on') },
+  switched_on: { x: 1, y: 182, text: t('Switched on') },
+  operation_enabled: { x: 1, y: 240, text: t('Operation enabled') },
+  quick_stop_active: { x: far, y: 240, text: t('Quick stop active') },
+  fault_reaction_active: { x: far, y: 124, text: t('Fault reaction') },
+  fault: { x: far, y: 66, text: t('Fault') },
 };
 const mid = (s: AxisStateName) => ({ x: places[s].x + width / 2, y: places[s].y + height / 2 });
 
@@ -35,7 +36,7 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
   const right = 1 + width;
   return (
     <figure class="machine card">
-      <svg viewBox="0 0 332 280" role="img" aria-label={now ? `Present state: ${stateName(now)}` : 'The present state is not known'}>
+      <svg viewBox="0 0 332 280" role="img" aria-label={now ? t('Present state: {now}', { now: stateName(now) }) : t('The present state is not known')}>
         <defs>
           <marker id="arrow" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto-start-reverse">
             <path d="M0 0.5L7 4L0 7.5z" class="edge-head" />
@@ -65,10 +66,10 @@ export function StateMachine({ axis, trust }: { axis: Axis; trust: Trust }) {
       </svg>
       <div class="words">
         <p class="where">
-          Drive's own <span class="mono">{live ? hex(axis.native, 8) : '–'}</span>, mode <span class="mono">{live ? axis.mode_number : '–'}</span> of {axis.modes.join(', ')}
+          {t('The drive’s own word: {word}; mode {mode} of {modes}', { word: live ? hex(axis.native, 8) : '–', mode: live ? axis.mode_number : '–', modes: axis.modes.join(', ') })}
         </p>
-        <Bits title="Status word" word={live ? axis.statusword : null} bits={statusBits} />
-        <Bits title="Control word" word={live ? axis.controlword : null} bits={controlBits} />
+        <Bits title={t('Status word')} word={live ? axis.statusword : null} bits={statusBits} />
+        <Bits title={t('Control word')} word={live ? axis.controlword : null} bits={controlBits} />
       </div>
     </figure>
   );

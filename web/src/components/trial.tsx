@@ -1,5 +1,6 @@
 // Trial: a site that is applied and waits to be kept: how long still, and the way forward and back, in the head of every part. In: the stage at
 // the gateway, asked after each change of the site and every few seconds while one waits. Out: words and two buttons; nothing while none waits.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -23,14 +24,14 @@ export function useTrialRest(draft: SiteDraft): number {
 
 /** Why this page may not keep it; the gateway takes that from who applied it alone. */
 export function keepBarred(draft: SiteDraft, session: Session, tab = ''): string {
-  const role = session.mayNot('engineer', 'Keeping the site');
+  const role = session.mayNot('engineer', t('Keeping the site'));
   const by = draft.stage.value.by ?? '';
   const info = session.info.value;
   if (role || !by || !info) return role;
   const client = draft.stage.value.client ?? '';
-  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : `Only the page of ${personOf(by)} that applied it can keep it; take it back and apply it from here if need be.`;
+  if (client && tab) return client === tab || client.endsWith(` ${tab}`) ? '' : t('Only the page of {by} that applied it can keep it; take it back and apply it from here if need be.', { by: personOf(by) });
   const me = info.user ?? (info.via === 'local' ? 'local' : '');
-  return !me || by === me || by.startsWith(`${me} `) ? '' : `Only ${personOf(by)}, who applied it, can keep it.`;
+  return !me || by === me || by.startsWith(`${me} `) ? '' : t('Only {by}, who applied it, can keep it.', { by: personOf(by) });
 }
 
 export function Trial() {
@@ -59,23 +60,23 @@ export function Trial() {
     await what();
     busy.value = false;
   };
-  const mayNot = session.mayNot('engineer', 'Rolling the site back');
+  const mayNot = session.mayNot('engineer', t('Rolling the site back'));
   const mayNotKeep = keepBarred(draft, session, tab.name.value);
   const off = (why: string) => ({ disabled: busy.value || why !== '', ...(why ? { title: why, 'aria-description': why } : {}) });
   return (
-    <span class="trial" role="group" aria-label="Site on trial" data-field="trial">
+    <span class="trial" role="group" aria-label={t('Site on trial')} data-field="trial">
       <Icon name="clock" size={14} />
       <a href="/site" class="trial-words" data-field="trial-rest">
-        Site on trial: <b>{rest} s</b>
+        {t('Site on trial:')}{' '}<b>{rest} s</b>
       </a>
-      <button type="button" class="button" aria-label="Keep the applied site" {...off(mayNotKeep)} onClick={() => void act(draft.confirm)}>
-        Keep
+      <button type="button" class="button" aria-label={t('Keep the applied site')} {...off(mayNotKeep)} onClick={() => void act(draft.confirm)}>
+        {t('Keep')}
       </button>
-      <button type="button" class="button" aria-label="Roll back the applied site" {...off(mayNot)} onClick={() => void act(draft.rollBack)}>
-        Roll back
+      <button type="button" class="button" aria-label={t('Roll back the applied site')} {...off(mayNot)} onClick={() => void act(draft.rollBack)}>
+        {t('Roll back')}
       </button>
       <span class="visually-hidden" role="alert">
-        {rest === 20 || rest === 10 ? `The change of the site is rolled back in ${rest} seconds.` : ''}
+        {rest === 20 || rest === 10 ? t('The change of the site is rolled back in {rest} seconds.', { rest }) : ''}
       </span>
     </span>
   );

@@ -1,5 +1,6 @@
 // Axis: one axis on its own page, in tabs that have addresses: move (readings, controls, states), scope, drive (actions, console), the twin's hand, events.
 // Its parameters are a page of their own under the same tabs. In: its name, the tab. Out: a page. Follows the axis at 50 ms while it is open.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Authority, Axis } from '../api/types';
@@ -27,8 +28,15 @@ import { markOf, unitOf } from '../text/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
 
-const headings: Record<AxisTab, string> = { move: '', scope: 'Scope of ', drive: 'Drive of ', simulation: 'Simulation of ', events: 'Events of ' };
-export const headingOf = (name: string, tab: AxisTab): string => headings[tab] + name;
+export function headingOf(name: string, tab: AxisTab): string {
+  switch (tab) {
+    case 'move': return name;
+    case 'scope': return t('Scope of {name}', { name });
+    case 'drive': return t('Drive of {name}', { name });
+    case 'simulation': return t('Simulation of {name}', { name });
+    case 'events': return t('Events of {name}', { name });
+  }
+}
 
 export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
   const gateway = useGateway();
@@ -40,10 +48,10 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
     return (
       <main class="page">
         <p class="crumbs">
-          <a href="/">Axes</a>
+          <a href="/">{t('Axes')}</a>
         </p>
         <h1 tabIndex={-1}>{headingOf(name, tab)}</h1>
-        <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
+        <Empty text={store.listed.value ? t('There is no axis {name}.', { name }) : t('Waiting for the gateway.')} />
       </main>
     );
   }
@@ -54,13 +62,13 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
       <header class="axis-head">
         <div>
           <p class="crumbs">
-            <a href="/">Axes</a>
+            <a href="/">{t('Axes')}</a>
           </p>
           <h1 tabIndex={-1}>{headingOf(name, tab)}</h1>
           <Mark mark={markOf(axis)} />
         </div>
         <p class="where">
-          {axis.family} · line <a href={linePath(axis.line)}>{axis.line}</a> · drive {axis.drive}, channel {axis.channel} · axis {axis.number} ·{' '}
+          {axis.family} · <a href={linePath(axis.line)}>{axis.line}</a>{' '}· {t('drive {drive}, channel {channel} · axis {number}', { drive: axis.drive, channel: axis.channel, number: axis.number })} ·{' '}
           <LastCommander axis={axis} />
         </p>
         <StopButton axis={name} large urgent={axis.moving} />
@@ -79,7 +87,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
             </div>
             <Scope axis={name} unit={unitOf(axis)} />
           </div>
-          <Section title="State machine">
+          <Section title={t('State machine')}>
             <StateMachine axis={axis} trust={trust} />
           </Section>
         </>
@@ -94,16 +102,16 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
             <Scope axis={name} unit={unitOf(axis)} />
           </div>
           <p class="where">
-            <a href={recorderPath('captures', name)}>Capture it at up to 1 kHz</a> · <a href={recorderPath('trends', name)}>its last minutes in the recorder</a>
+            <a href={recorderPath('captures', name)}>{t('Capture it at up to 1 kHz')}</a> · <a href={recorderPath('trends', name)}>{t('its last minutes in the recorder')}</a>
           </p>
         </>
       )}
       {tab === 'drive' && (
         <>
-          <Section title="Actions of the family">
+          <Section title={t('Actions of the family')}>
             <Actions key={name} axis={name} family={axis.family} />
           </Section>
-          <Section title="Native console" help="reference#families">
+          <Section title={t('Native console')} help="reference#families">
             <Gate need="engineer">
               <Console drive={axis.drive} />
             </Gate>
@@ -111,15 +119,15 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
         </>
       )}
       {tab === 'simulation' && (
-        <Section title="Fault simulation">
+        <Section title={t('Fault simulation')}>
           <Gate need="engineer">
             <Hand drive={axis.drive} axis={name} />
           </Gate>
         </Section>
       )}
       {tab === 'events' && (
-        <Section title="Events of this axis">
-          <div class="card scroll" tabIndex={0} role="region" aria-label="Events of this axis">
+        <Section title={t('Events of this axis')}>
+          <div class="card scroll" tabIndex={0} role="region" aria-label={t('Events of this axis')}>
             <AxisEvents name={name} />
           </div>
         </Section>

@@ -1,5 +1,6 @@
 // Lines and drives, and one line with what it counts, the frames that cross it, and the hand of its twins. In: the store, the stream's
 // frames. Out: two pages.
+import { t } from '../language';
 import { Gate } from '../components/gate';
 import { Hand } from '../components/hand';
 import { DriveList, Empty, LineCard, LineList } from '../components/lines';
@@ -11,12 +12,12 @@ import { useGateway } from '../gateway';
 export function LinesPage() {
   return (
     <main class="page">
-      <h1 tabIndex={-1}>Lines and drives</h1>
+      <h1 tabIndex={-1}>{t('Lines and drives')}</h1>
       <div class="side-by-side">
-        <Section title="Lines">
+        <Section title={t('Lines')}>
           <LineList />
         </Section>
-        <Section title="Drives">
+        <Section title={t('Drives')}>
           <DriveList />
         </Section>
       </div>
@@ -32,7 +33,7 @@ export function LinePage({ name, at_ms }: { name: string; at_ms?: number | undef
   return (
     <main class="page">
       <p class="crumbs">
-        <a href="/lines">Lines and drives</a>
+        <a href="/lines">{t('Lines and drives')}</a>
       </p>
       <h1 tabIndex={-1}>{name}</h1>
       {known ? (
@@ -41,26 +42,26 @@ export function LinePage({ name, at_ms }: { name: string; at_ms?: number | undef
             {known.data.family} · <span class="mono">{known.data.uri}</span> · {known.data.status.state} {known.data.status.text}
           </p>
           <div class="side-by-side">
-            <Section title="Statistics">
+            <Section title={t('Statistics')}>
               <ul class="rows card">
                 <LineCard name={name} />
               </ul>
             </Section>
-            <Section title="Drives">
+            <Section title={t('Drives')}>
               <DriveList of={drives} />
             </Section>
           </div>
         </>
       ) : (
-        store.listed.value && <Empty text={`There is no line ${name}.`} />
+        store.listed.value && <Empty text={t('There is no line {name}.', { name })} />
       )}
       {known && <ScanSection line={name} />}
       <Trace key={name} line={name} at_ms={at_ms} />
       {simulated.length > 0 && (
-        <Section title="Fault simulation: rehearse what goes wrong">
+        <Section title={t('Fault simulation: rehearse what goes wrong')}>
           <div class="hands">
             {simulated.map((d) => (
-              <section key={d} aria-label={`Hand of ${d}`}>
+              <section key={d} aria-label={t('Hand of {d}', { d })}>
                 <h3>{d}</h3>
                 <Gate need="engineer">
                   <Hand drive={d} />

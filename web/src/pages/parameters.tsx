@@ -1,4 +1,5 @@
 // Parameters: the whole catalogue of one axis on a page of its own: values, snapshots, comparison, export and import. In: its name. Out: a page.
+import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import type { Snapshot } from '../api/snapshots';
 import { AxisTabs } from '../components/axis-tabs';
@@ -25,19 +26,19 @@ export function ParametersPage({ name }: { name: string }) {
           <p class="crumbs">
             <a href={axisPath(name)}>{name}</a>
           </p>
-          <h1 tabIndex={-1}>Parameters of {name}</h1>
+          <h1 tabIndex={-1}>{t('Parameters of {name}', { name })}</h1>
           {axis && <Mark mark={markOf(axis)} />}
         </div>
         {axis && (
           <p class="where">
-            {axis.family} · drive {axis.drive}, channel {axis.channel}
+            {t('{family} · drive {drive}, channel {channel}', { family: axis.family, drive: axis.drive, channel: axis.channel })}
           </p>
         )}
         {axis && <StopButton axis={name} large urgent={axis.moving} />}
       </header>
       <AxisTabs name={name} tab="parameters" />
       {!axis ? (
-        <Empty text={store.listed.value ? `There is no axis ${name}.` : 'Waiting for the gateway.'} />
+        <Empty text={store.listed.value ? t('There is no axis {name}.', { name }) : t('Waiting for the gateway.')} />
       ) : (
         <>
           <Parameters axis={name} />

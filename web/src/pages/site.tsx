@@ -6,14 +6,15 @@ import { useEffect } from 'preact/hooks';
 import { FailSafe } from '../components/fail-safe';
 import { Empty } from '../components/lines';
 import { useLoaded, waiting } from '../components/loaded';
-import { SiteEntries } from '../components/site-entries';
 import { SiteFiles } from '../components/site-files';
 import { SiteHistory } from '../components/site-history';
 import { PendingRestore } from '../components/site-pending';
 import { ScanPanel } from '../components/site-scan';
 import { SiteStage } from '../components/site-stage';
+import { SiteTree } from '../components/site-tree';
 import { SiteWizard } from '../components/site-wizard';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { persisted } from '../state/persisted';
 import { barred } from '../state/session';
 import { draftOf } from '../state/site-draft';
@@ -54,10 +55,10 @@ export function SitePage() {
   return (
     <main class="page site-page">
       <div class="site-head">
-        <h1 tabIndex={-1}>Site</h1>
+        <h1 tabIndex={-1}>{t('Site')}</h1>
         {!guided && draft.state.value === 'there' && (
           <button type="button" class="button" {...barred(session.mayNot('engineer'))} onClick={() => (wizard.value = 'open')}>
-            Wizard: to a moving axis
+            {t('Wizard: to a moving axis')}
           </button>
         )}
       </div>
@@ -68,28 +69,23 @@ export function SitePage() {
         <SiteWizard draft={draft} door={door} leave={() => (wizard.value = 'closed')} />
       ) : (
         <>
-          <Why need="engineer" what="Changing the site" />
+          <Why need="engineer" what={t('Changing the site')} />
           <SiteStage draft={draft} />
-          <div class="site-rooms">
-            <SiteEntries
-              room="lines"
-              draft={draft}
-              extra={(l) =>
-                !inForce.has(l.name) ? (
-                  <span class="where" data-field="scan-later">
-                    Scan: once it is applied
-                  </span>
-                ) : (
-                  <button type="button" class="button small" aria-expanded={scanning.value === l.name} aria-label={`Scan ${l.name}`} onClick={() => (scanning.value = scanning.value === l.name ? '' : l.name)}>
-                    Scan
-                  </button>
-                )
-              }
-              below={(l) => scanning.value === l.name && <ScanPanel line={l} door={door} draft={draft} headed />}
-            />
-            <SiteEntries room="drives" draft={draft} />
-            <SiteEntries room="axes" draft={draft} />
-          </div>
+          <SiteTree
+            draft={draft}
+            extra={(l) =>
+              !inForce.has(l.name) ? (
+                <span class="where" data-field="scan-later">
+                  {t('Scan: once it is applied')}
+                </span>
+              ) : (
+                <button type="button" class="button small" aria-expanded={scanning.value === l.name} aria-label={t('Scan {line}', { line: l.name })} onClick={() => (scanning.value = scanning.value === l.name ? '' : l.name)}>
+                  {t('Scan')}
+                </button>
+              )
+            }
+            below={(l) => scanning.value === l.name && <ScanPanel line={l} door={door} draft={draft} headed />}
+          />
           <FailSafe revision={revision} />
           <SiteFiles draft={draft} door={door} />
           <SiteHistory draft={draft} door={door} />

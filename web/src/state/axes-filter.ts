@@ -11,7 +11,7 @@ export const axesFilter = signal('');
 export function axisMatches(axis: Axis, trust: Trust, text: string): boolean {
   const wanted = text.trim().toLowerCase();
   if (wanted === '') return true;
-  const words = [axis.name, axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
+  const words = [axis.name, axis.group ?? '', axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
   // What the strip counts, by the same rule as there.
   if (!axis.online) words.push('offline');
   else words.push(motionWord(axis, trust).text, axis.moving ? 'moving' : '', axis.stale ? 'stale' : '');

@@ -1,6 +1,7 @@
 // Site draft: what is typed for the site, until it is applied; what the gateway says of it; and the way through stage, apply, keep or roll back.
 // In: the HTTP door. Out: signals. The draft survives a change of page and a reload. Another person's change is shown, and mine are put on top of it
 // only when I say so; only what was shown is applied, and what is typed meanwhile stays. A gateway without staging gets the whole document at once, after a dry run; that there is no roll back is said.
+import { t } from '../language';
 import { computed, effect, signal, type ReadonlySignal } from '@preact/signals';
 import { asProblem, type Problem } from '../api/problem';
 import type { Client } from '../api/client';
@@ -106,7 +107,7 @@ export class SiteDraft {
         if (before.state !== 'none' && this.told.peek().tone !== 'busy') this.told.value = quiet;
       } else if (now.state === 'staged' && idOf(now) !== '' && idOf(now) !== this.shown && before.state === 'staged' && idOf(before) === this.shown && this.shown !== '') {
         // Mine was replaced: it is said before somebody presses Apply.
-        this.contest(`${stagerOf(now)} has staged something else in place of what you checked.`);
+        this.contest(t('{now} has staged something else in place of what you checked.', { now: stagerOf(now) }));
       }
       if (before.state === 'applied' && (now.state === 'none' || now.state === 'staged')) await this.ended();
     } catch (error) {
@@ -122,7 +123,7 @@ export class SiteDraft {
     this.move(site, tag, this.base.peek());
     if (!applied || sameDocument(site, applied)) return;
     this.rolledBack.value = applied;
-    this.told.value = { tone: 'refused', text: 'Rolled back by itself: nobody pressed Keep in time.' };
+    this.told.value = { tone: 'refused', text: t('Rolled back by itself: nobody pressed Keep in time.') };
   }
 
   /** Puts what was rolled back into the draft again, to be checked and applied anew. */
@@ -146,23 +147,23 @@ export class SiteDraft {
 
   /** Goes on from somebody else's site: with my changes on top, or without them. */
   async adopt(withMine: boolean): Promise<void> {
-    const t = this.theirs.peek();
-    if (!t) return;
-    const { site, clashes } = withMine ? rebase(this.base.peek(), this.draft.peek(), t.site) : { site: t.site, clashes: [] };
-    this.base.value = t.site;
-    this.tag = t.tag;
+    const theirs = this.theirs.peek();
+    if (!theirs) return;
+    const { site, clashes } = withMine ? rebase(this.base.peek(), this.draft.peek(), theirs.site) : { site: theirs.site, clashes: [] };
+    this.base.value = theirs.site;
+    this.tag = theirs.tag;
     this.draft.value = site;
     this.clear();
     this.told.value = {
       tone: 'good',
-      text: !withMine ? 'Your changes are dropped.' : clashes.length > 0 ? `Your changes stand on the newer site now. Both of you changed ${clashes.map((c) => c.what.split('/')[1]).join(', ')}: yours would win; look at the list.` : 'Your changes stand on the newer site now.',
+      text: !withMine ? t('Your changes are dropped.') : clashes.length > 0 ? t('Your changes stand on the newer site now. Both of you changed {names}: yours would win; look at the list.', { names: clashes.map((c) => c.what.split('/')[1]).join(', ') }) : t('Your changes stand on the newer site now.'),
     };
   }
 
   /** `replace`: also in place of what somebody else has staged. */
   async check(replace = false): Promise<boolean> {
     const draft = this.draft.peek();
-    return this.tell('Checking …', async () => {
+    return this.tell(t('Checking …'), async () => {
       if (this.offersStage.peek() !== false) {
         try {
           const stage = await this.door.putStage(draft, this.tag, replace);
@@ -183,12 +184,12 @@ export class SiteDraft {
 
   async apply(confirm_within_s: number): Promise<boolean> {
     const sent = this.checked.peek() ?? this.draft.peek();
-    return this.step('Applying …', async () => {
+    return this.step(t('Applying …'), async () => {
       if (this.offersStage.peek() === false) {
         await this.door.replace(sent, { dryRun: false, tag: this.tag });
         const { site, tag } = await this.door.read();
         this.move(site, tag, sent);
-        return 'Applied. This gateway does not roll back by itself.';
+        return t('Applied. This gateway does not roll back by itself.');
       }
       const theirs = this.rival.peek()?.inView === true;
       const r = await this.door.apply(confirm_within_s, this.shown);
@@ -199,16 +200,16 @@ export class SiteDraft {
       this.move(site, tag, theirs ? this.base.peek() : sent);
       const waits = this.stage.peek().state === 'applied';
       this.applied = waits ? site : null;
-      return waits ? 'Applied. Keep it, or it is rolled back by itself.' : 'Applied.';
+      return waits ? t('Applied. Keep it, or it is rolled back by itself.') : t('Applied.');
     });
   }
 
   confirm = () =>
-    this.step('Keeping …', async () => {
+    this.step(t('Keeping …'), async () => {
       await this.door.confirm();
       this.stage.value = none;
       this.applied = null;
-      return 'Kept.';
+      return t('Kept.');
     });
   /** Check, apply and keep, one after the other, where nothing that runs is disturbed by it; else it ends after the check, and what is disturbed is shown. */
   async applyAndKeep(): Promise<boolean> {
@@ -217,21 +218,21 @@ export class SiteDraft {
     return (await this.apply(60)) && (this.stage.peek().state !== 'applied' || (await this.confirm()));
   }
   rollBack = () =>
-    this.step('Rolling back …', async () => {
+    this.step(t('Rolling back …'), async () => {
       await this.door.rollBack();
       this.stage.value = none;
       this.applied = null;
       const { site, tag } = await this.door.read();
       this.move(site, tag, this.base.peek());
-      return 'Rolled back: the site is as it was before.';
+      return t('Rolled back: the site is as it was before.');
     });
   discard = () =>
-    this.tell('Discarding …', async () => {
+    this.tell(t('Discarding …'), async () => {
       await this.door.discard();
       this.stage.value = none;
       this.rival.value = null;
       this.clear();
-      return 'Nothing is staged now. What you typed is still there.';
+      return t('Nothing is staged now. What you typed is still there.');
     });
   /** `sure`: changes that are not applied may go. */
   async restore(revision: number, sure = false): Promise<boolean> {
@@ -240,7 +241,7 @@ export class SiteDraft {
       return false;
     }
     this.askRestore.value = null;
-    return this.tell('Staging …', async () => {
+    return this.tell(t('Staging …'), async () => {
       const document = await this.door.old(revision);
       // What was typed goes, so nothing has to be put on top of the newer site: the difference is the one to what is in force now.
       const newer = this.theirs.peek();
@@ -255,7 +256,7 @@ export class SiteDraft {
         if (asProblem(error).is('stage_taken')) this.edit(document);
         throw error;
       }
-      return `Revision ${revision} is staged; nothing has been applied yet.`;
+      return t('Revision {revision} is staged; nothing has been applied yet.', { revision });
     });
   }
 
@@ -282,7 +283,7 @@ export class SiteDraft {
   private verdict(): string {
     const n = this.faults.peek().length;
     if (n > 0) throw new Error(faultWords(n));
-    return 'Checked: it can be applied.';
+    return checkedWords;
   }
   private judge(site: Site, faults: SiteFault[], disturbs: string[]): void {
     this.faults.value = faults;
@@ -325,7 +326,7 @@ export class SiteDraft {
       if (p.document.faults) this.judge(this.draft.peek(), p.document.faults, []);
       if (p.status === 412) await this.load();
       const n = p.document.faults?.length ?? 0;
-      const words = n > 0 ? faultWords(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? 'Somebody else has changed the site meanwhile; what you typed is kept.' : p.words;
+      const words = n > 0 ? faultWords(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? t('Somebody else has changed the site meanwhile; what you typed is kept.') : p.words;
       this.told.value = { tone: 'refused', text: words.charAt(0).toUpperCase() + words.slice(1) };
       if (p.is('stage_replaced') || p.is('stage_taken')) await this.meet(p);
       return false;
@@ -338,15 +339,17 @@ export class SiteDraft {
     if (stage?.state === 'none') {
       this.checked.value = null;
       this.shown = '';
-      this.told.value = { tone: 'refused', text: 'Nothing was applied: what you checked is not staged any more. Check it again.' };
+      this.told.value = { tone: 'refused', text: t('Nothing was applied: what you checked is not staged any more. Check it again.') };
     } else {
-      const who = stage ? stagerOf(stage) : 'Somebody else';
-      this.contest(`${p.is('stage_replaced') ? `Nothing was applied: ${who.replace(/^Somebody/, 'somebody')}` : who} has staged another change. What you typed is kept.`);
+      const who = stage ? stagerOf(stage) : t('Somebody else');
+      this.contest(t('{value} has staged another change. What you typed is kept.', { value: p.is('stage_replaced') ? t('Nothing was applied: {list}', { list: who.replace(/^Somebody/, 'somebody') }) : who }));
     }
   }
 }
 
-const faultWords = (n: number): string => (n === 1 ? 'One fault must be mended.' : `${n} faults must be mended.`);
+/** What is told when a check has found nothing. */
+export const checkedWords = t('Checked: it can be applied.');
+const faultWords = (n: number): string => (n === 1 ? t('One fault must be mended.') : t('{n} faults must be mended.', { n }));
 
 const drafts = new WeakMap<Client, { door: SiteDoor; draft: SiteDraft }>();
 /** The one draft of a page; the head and the part of the site look at the same stage. */

@@ -8,7 +8,7 @@ import { csvOf } from './table-text';
 export function alarmWord(alarm: Pick<Alarm, 'state' | 'severity'>): Word {
   const tone = alarm.severity === 'alarm' ? 'fault' : 'warning';
   switch (alarm.state) {
-    case 'unacknowledged_active': return { text: t('Active, not acknowledged'), icon: 'octagon', tone, long: t('It is wrong now, and nobody has acknowledged it') };
+    case 'unacknowledged_active': return { text: t('Active, not acknowledged'), icon: 'bell', tone, long: t('It is wrong now, and nobody has acknowledged it') };
     case 'acknowledged_active': return { text: t('Active, acknowledged'), icon: 'triangle', tone: 'warning', long: t('It is wrong now, and somebody knows') };
     case 'unacknowledged_cleared': return { text: t('Cleared, not acknowledged'), icon: 'circle-dashed', tone: 'neutral', long: t('It is over, but nobody has acknowledged it') };
     case 'shelved': return { text: t('Shelved'), icon: 'shelf', tone: 'muted', long: t('Put aside for a time') };

@@ -32,7 +32,7 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   const out: ErrorEntry[] = [];
   const put = (key: string, text: string, icon: Word['icon'], tone: Word['tone'], about: string, long: string, path: string, of: string[] = []) =>
     out.push({ key, word: { text, icon, tone, long }, about, text: long, path, axes: of });
-  for (const a of axes) if (a.fault) put(`axis ${a.name}`, t('Fault'), 'octagon', 'fault', a.name, t('Fault {code}: {n}', { code: a.error.code, n: a.error.text || t('the drive says no more') }), axisPath(a.name));
+  for (const a of axes) if (a.fault) put(`axis ${a.name}`, t('Fault'), 'bell', 'fault', a.name, t('Fault {code}: {n}', { code: a.error.code, n: a.error.text || t('the drive says no more') }), axisPath(a.name));
   const told = new Set<string>();
   const offline = (of: (a: Axis) => boolean): string[] => {
     const names = axes.filter((a) => !a.online && of(a) && !told.has(a.name)).map((a) => a.name);

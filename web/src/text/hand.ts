@@ -1,6 +1,7 @@
 // The hand of a twin in words: which of its conditions belong to which axis of the drive, and which to the whole drive. In: the items as the gateway
 // describes them, the axes of the drive by channel, the channel one looks from. Out: groups with labels. Pure. Channel k's conditions are named
 // "axisK.NAME"; those of channel 1 stand bare beside them. A bare name that means the same as "axis1.NAME" is left out.
+import { t } from '../language';
 import type { HandItem } from '../api/types';
 import { formatNumber, decimalsOf } from './number';
 
@@ -53,9 +54,9 @@ export function handGroups(items: readonly HandItem[], axes: readonly HandAxis[]
   const channels = [...by.keys()].filter((c) => c > 0).sort((a, b) => (a === own ? -1 : b === own ? 1 : a - b));
   const groups = channels.map((c): HandGroup => {
     const axis = axes.find((a) => a.channel === c) ?? null;
-    return { title: axis?.name ?? `Channel ${c}, no axis of the site`, kind: 'axis', axis, folded: own !== null && c !== own, items: by.get(c) ?? [] };
+    return { title: axis?.name ?? t('Channel {c}, no axis of the site', { c }), kind: 'axis', axis, folded: own !== null && c !== own, items: by.get(c) ?? [] };
   });
-  const drive: HandGroup[] = whole.length === 0 ? [] : [{ title: 'The whole drive', kind: 'drive', axis: null, folded: false, items: whole }];
+  const drive: HandGroup[] = whole.length === 0 ? [] : [{ title: t('The whole drive'), kind: 'drive', axis: null, folded: false, items: whole }];
   return [...groups.filter((g) => !g.folded), ...drive, ...groups.filter((g) => g.folded)];
 }
 

@@ -1,6 +1,7 @@
 // Options of a family in words and fields: what each may say, what was typed for them, what an entry gets of it, what an increment is.
 // In: the family's catalogue, text. Out: fields, faults, the members of `options`. Pure. What the family does not know stays until it is taken away;
 // the gateway checks all of it again.
+import { t } from '../language';
 import type { components } from '../api/schema';
 import type { FieldSpec, Room, Site, Texts } from './site';
 
@@ -30,8 +31,8 @@ const switchWords = ['on', 'off', 'true', 'false', '1', '0'];
 const choicesOf = (o: OptionSpec): readonly string[] => (o.values && switchWords.every((w) => o.values?.includes(w)) ? o.values.filter((v) => v === 'on' || v === 'off') : (o.values ?? []));
 const rangeOf = (o: OptionSpec): string => {
   const unit = o.unit ? ` ${o.unit}` : '';
-  if (o.min !== undefined && o.max !== undefined) return `${o.min} to ${o.max}${unit}`;
-  return o.min !== undefined ? `from ${o.min}${unit}` : o.max !== undefined ? `up to ${o.max}${unit}` : '';
+  if (o.min !== undefined && o.max !== undefined) return t('{min} to {max}', { min: o.min, max: `${o.max}${unit}` });
+  return o.min !== undefined ? t('from {n}', { n: `${o.min}${unit}` }) : o.max !== undefined ? t('up to {n}', { n: `${o.max}${unit}` }) : '';
 };
 
 /** An option as a field of a form: its range, its default and its description are in its hint. */
@@ -39,23 +40,23 @@ export function optionField(o: OptionSpec, room: Room): FieldSpec {
   const own = o.of.includes(room === 'lines' ? 'line' : 'drive');
   const whole = o.min !== undefined || o.max !== undefined;
   const standard = o.default === null || o.default === undefined ? '' : `${o.default}${o.unit ? ` ${o.unit}` : ''}`;
-  const hint = [own ? '' : room === 'lines' ? 'Of all twins of this line' : 'Of its twin', o.description, rangeOf(o), standard ? `default ${standard}` : 'not given: as described'].filter(Boolean).join('. ');
+  const hint = [own ? '' : room === 'lines' ? t('Of all twins of this line') : t('Of its twin'), o.description, rangeOf(o), standard ? t('default {standard}', { standard }) : t('not given: as described')].filter(Boolean).join('. ');
   const f: FieldSpec = { key: optionPrefix + o.name, label: label(o), kind: o.values ? 'choice' : whole ? 'integer' : 'text', hint: `${hint}.` };
   if (o.min !== undefined) f.min = o.min;
   if (o.max !== undefined) f.max = o.max;
-  if (o.values) f.choices = [{ value: '', text: standard ? `default: ${standard}` : 'not given' }, ...choicesOf(o).map((value) => ({ value, text: value }))];
+  if (o.values) f.choices = [{ value: '', text: standard ? t('default: {standard}', { standard }) : t('not given') }, ...choicesOf(o).map((value) => ({ value, text: value }))];
   else f.placeholder = standard;
   return f;
 }
 
 /** What is said of a value that is not the family's; empty: nothing. */
 export function optionFault(o: OptionSpec, text: string): string {
-  const t = text.trim();
-  if (t === '') return '';
-  if (o.values) return o.values.includes(t) ? '' : `One of ${o.values.join(', ')}.`;
+  const typed = text.trim();
+  if (typed === '') return '';
+  if (o.values) return o.values.includes(typed) ? '' : t('One of {list}.', { list: o.values.join(', ') });
   if (o.min === undefined && o.max === undefined) return '';
-  if (!/^[+-]?\d+$/.test(t)) return 'A whole number.';
-  const n = Number(t);
+  if (!/^[+-]?\d+$/.test(typed)) return t('A whole number.');
+  const n = Number(typed);
   return (o.min !== undefined && n < o.min) || (o.max !== undefined && n > o.max) ? `${words(rangeOf(o))}.` : '';
 }
 
@@ -83,14 +84,14 @@ export function optionsFrom(texts: Texts, before: unknown): Options {
 /** "Options of uim342: 9; set: crc, notify". */
 export function optionsTitle(family: string, specs: readonly OptionSpec[], texts: Texts): string {
   const set = Object.keys(texts).filter((k) => k.startsWith(optionPrefix) && (texts[k] ?? '').trim() !== '').map((k) => k.slice(optionPrefix.length));
-  const of = family ? `Options of ${family}` : 'Options';
-  return `${of}${specs.length > 0 ? `: ${specs.length}` : ''}${set.length > 0 ? `; set: ${set.join(', ')}` : specs.length > 0 ? ', none set' : ''}`;
+  const of = family ? t('Options of {family}', { family }) : t('Options');
+  return `${of}${specs.length > 0 ? `: ${specs.length}` : ''}${set.length > 0 ? t('; set: {list}', { list: set.join(', ') }) : specs.length > 0 ? ', none set' : ''}`;
 }
 
 /** What an increment of the drive is, beside the field that asks how many of them make a unit. */
 export function incrementHint(family: Family | undefined, unit: string): string {
-  const what = `how many increments of the drive make one ${unit.trim() || 'unit'}`;
+  const what = t('how many increments of the drive make one {unit}', { unit: unit.trim() || t('unit') });
   const own = family?.position_unit;
   if (typeof own !== 'string' || own === '') return what;
-  return `${what}; one increment of ${family?.name} is ${/^\d/.test(own) ? own : `one ${own}`}`;
+  return t('{what}; one increment of {name} is {own}', { what, name: family?.name ?? '', own: /^\d/.test(own) ? own : t('one {own}', { own }) });
 }

@@ -1,6 +1,7 @@
 // A parameter in words: its range, its value, and what a person typed for it. In: the parameter as the gateway describes it.
 // Out: text, or a value of the right type, or why it is none, with the range. Never changes a value to make it fit.
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
+import { t } from '../language';
 import { formatExact, formatNumber, parseNumber } from './number';
 
 type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'> & Partial<Pick<AxisParameter, 'fields' | 'meanings'>>;
@@ -48,11 +49,11 @@ export function rangeText(p: Described): string {
   }
   if (p.type === 'bool') return '0, 1';
   if (p.type === 'text') return 'text';
-  if (p.type === 'bytes') return 'hex pairs';
+  if (p.type === 'bytes') return t('hex pairs');
   const { min, max } = rangeOf(p);
-  if (min === null && max === null) return p.type.startsWith('f') ? 'number' : 'whole number';
-  if (min === null) return `up to ${formatExact(max as number)}`;
-  if (max === null) return `from ${formatExact(min)}`;
+  if (min === null && max === null) return p.type.startsWith('f') ? t('number') : t('whole number');
+  if (min === null) return t('up to {n}', { n: formatExact(max as number) });
+  if (max === null) return t('from {n}', { n: formatExact(min) });
   return `${formatExact(min)} … ${formatExact(max)}`;
 }
 
@@ -76,7 +77,7 @@ export function wrongField(value: number, p: Partial<Pick<Described, 'fields'>>)
   for (const f of p.fields ?? []) {
     const bits = fieldValue(value, f);
     if (f.allowed && !f.allowed.some((a) => a.value === bits)) {
-      return `${formatExact(value)} has ${formatExact(bits)} as ${f.name.replaceAll('_', ' ')}. Allowed: ${f.allowed.map((a) => `${a.value} (${a.meaning})`).join(', ')}.`;
+      return t('{value} has {bits} as {part}. Allowed: {allowed}.', { value: formatExact(value), bits: formatExact(bits), part: f.name.replaceAll('_', ' '), allowed: f.allowed.map((a) => `${a.value} (${a.meaning})`).join(', ') });
     }
   }
   return null;
@@ -127,22 +128,22 @@ export function readValue(text: string, p: Described): Read {
   if (p.type === 'text') return { good: true, value: text };
   if (p.type === 'bytes') {
     const bytes = text.replace(/\s/g, '');
-    return /^([0-9a-f]{2})*$/i.test(bytes) ? { good: true, value: bytes.toUpperCase() } : { good: false, why: 'Write bytes as pairs of hex digits, such as 0A FF.' };
+    return /^([0-9a-f]{2})*$/i.test(bytes) ? { good: true, value: bytes.toUpperCase() } : { good: false, why: t('Write bytes as pairs of hex digits, such as 0A FF.') };
   }
   if (p.type === 'bool') {
-    const t = text.trim().toLowerCase();
-    if (['1', 'on', 'true', 'yes'].includes(t)) return { good: true, value: true };
-    if (['0', 'off', 'false', 'no'].includes(t)) return { good: true, value: false };
-    return { good: false, why: 'Write 1 (on) or 0 (off).' };
+    const typed = text.trim().toLowerCase();
+    if (['1', 'on', 'true', 'yes'].includes(typed)) return { good: true, value: true };
+    if (['0', 'off', 'false', 'no'].includes(typed)) return { good: true, value: false };
+    return { good: false, why: t('Write 1 (on) or 0 (off).') };
   }
   const parsed = parseNumber(text);
   if (!parsed.good) return parsed;
   const { value } = parsed;
   const shown = formatExact(value);
-  if (!p.type.startsWith('f') && !Number.isInteger(value)) return { good: false, why: `${shown} is not a whole number. Range: ${rangeText(p)}${unit}.` };
-  if (p.allowed && p.allowed.length > 0 && !p.allowed.some((a) => a.value === value)) return { good: false, why: `${shown} is not allowed. Allowed: ${rangeText(p)}.` };
+  if (!p.type.startsWith('f') && !Number.isInteger(value)) return { good: false, why: t('{shown} is not a whole number. Range: {range}.', { shown, range: rangeText(p) + unit }) };
+  if (p.allowed && p.allowed.length > 0 && !p.allowed.some((a) => a.value === value)) return { good: false, why: t('{shown} is not allowed. Allowed: {range}.', { shown, range: rangeText(p) }) };
   const { min, max } = rangeOf(p);
-  if ((min !== null && value < min) || (max !== null && value > max)) return { good: false, why: `${shown} is outside the range ${rangeText(p)}${unit}.` };
+  if ((min !== null && value < min) || (max !== null && value > max)) return { good: false, why: t('{shown} is outside the range {range}.', { shown, range: rangeText(p) + unit }) };
   const wrong = wrongField(value, p);
   return wrong ? { good: false, why: wrong } : { good: true, value };
 }
@@ -157,4 +158,19 @@ export function sameValue(a: MaybeValue, b: MaybeValue): boolean {
 
 /** What is asked before a value is written by which the drive is reached: its address, name or group, the speed or form of its line. */
 export const addressingWords = (axis: string, p: Pick<AxisParameter, 'id' | 'name' | 'value' | 'allowed'>, sent: string): string =>
-  `The drive of ${axis} is reached by ${p.id} (${p.name.replaceAll('_', ' ')}): ${p.value === null ? 'what it is now is not known' : `it is ${valueText(p.value, p)} now`} and will be ${sent.trim()}. The gateway may not find the drive again before the site says the same. Write it?`;
+  t('The drive of {axis} is reached by {id} ({name}): {now} and will be {next}. The gateway may not find the drive again before the site says the same. Write it?', { axis, id: p.id, name: p.name.replaceAll('_', ' '), now: p.value === null ? t('what it is now is not known') : t('it is {value} now', { value: valueText(p.value, p) }), next: sent.trim() });
+
+/** What a parameter is, from the catalogue: what the manual says, what its values mean, and what writing it does besides. */
+export function helpText(p: Pick<AxisParameter, 'description' | 'allowed' | 'addressing' | 'live' | 'access'>): string {
+  const meanings = (p.allowed ?? []).filter((a) => a.meaning && a.meaning !== String(a.value)).map((a) => t('{value} is {meaning}', { value: a.value, meaning: a.meaning }));
+  return [
+    p.description.replaceAll('_', ' '),
+    meanings.length > 0 ? `${meanings.join('; ')}.` : '',
+    p.access === 'R' ? t('It can only be read.') : p.access === 'W' ? t('It can only be written.') : '',
+    p.addressing ? t('The drive is reached by it: written, the drive may not be found again before the site says the same.') : '',
+    p.live && p.access !== 'R' ? t('It acts at once instead of configuring.') : '',
+  ]
+    .filter(Boolean)
+    .map((x) => (/[.;!?]$/.test(x) ? x : `${x}.`))
+    .join(' ');
+}

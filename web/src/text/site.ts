@@ -1,5 +1,6 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
+import { t } from '../language';
 import { parseNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 
@@ -14,7 +15,7 @@ export interface Site {
 }
 export const rooms = ['lines', 'drives', 'axes'] as const;
 export type Room = (typeof rooms)[number];
-export const oneOf: Record<Room | 'mappings' | 'modbus_units', string> = { lines: 'line', drives: 'drive', axes: 'axis', mappings: 'mapping', modbus_units: 'Modbus unit' };
+export const oneOf: Record<Room | 'mappings' | 'modbus_units', string> = { lines: t('line'), drives: t('drive'), axes: t('axis'), mappings: t('mapping'), modbus_units: t('Modbus unit') };
 
 export interface FieldSpec {
   /** Where it stands in the entry; "timing.retries" in an object of it. */
@@ -32,76 +33,80 @@ export interface FieldSpec {
   more?: boolean;
 }
 
-const timing = (key: string, label: string, min: number, max: number): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: "the family's" });
+const timing = (key: string, label: string, min: number, max: number, hint: string): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: t("the family's"), hint });
 export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive', 'dds'];
 
 const presences = [
-  { value: 'auto', text: 'auto: the real one if it answers, else the twin' },
-  { value: 'device', text: 'device: the real one only; on a line dds: the other gateway’s axis' },
-  { value: 'twin', text: 'twin: the model only' },
+  { value: 'auto', text: t('real, else simulated') },
+  { value: 'device', text: t('real only') },
+  { value: 'twin', text: t('simulated only') },
 ];
 
+/** The default is told once, beside the first of them. */
+const failSafeHint = t('the default halts a velocity move and lets a move to a target end; what is chosen holds for every motion');
 const failSafeActions = [
-  { value: '', text: 'halt a velocity move, let a move to a target end' },
-  { value: 'nothing', text: 'nothing' },
-  { value: 'halt', text: 'halt every motion' },
-  { value: 'quick_stop', text: 'quick stop every motion' },
-  { value: 'disable', text: 'switch the axis off' },
+  { value: '', text: t('the default') },
+  { value: 'nothing', text: t('nothing') },
+  { value: 'halt', text: t('halt') },
+  { value: 'quick_stop', text: t('quick stop') },
+  { value: 'disable', text: t('switch off') },
 ];
 
+const nameHint = t('letters, digits, - _ and .; it is in addresses, registers’ lists and recipes');
 export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'family', label: 'Family', kind: 'family', hint: 'of its drives; may be empty on a CAN line whose drives each name theirs' },
-    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: 'where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)' },
-    { key: 'bitrate', label: 'Bit rate', kind: 'integer', min: 0, max: 100000000, hint: 'bit/s; empty: from the URI, or the family’s' },
-    timing('reply_timeout_ms', 'Reply time-out, ms', 0, 60000),
-    timing('poll_period_ms', 'Poll period, ms', 0, 60000),
-    timing('pause_ms', 'Pause, ms', 0, 10000),
-    timing('stale_after_ms', 'Stale after, ms', 0, 600000),
-    timing('retries', 'Retries', -1, 20),
-    timing('silent_limit', 'Silent limit', 1, 1000),
-    timing('retry_pause_min_ms', 'First retry pause, ms', 1, 600000),
-    timing('retry_pause_max_ms', 'Longest retry pause, ms', 1, 600000),
+    { key: 'name', label: t('Name'), kind: 'name', required: true, hint: nameHint },
+    { key: 'family', label: t('Family'), kind: 'family', hint: t('of its drives; may be empty on a CAN line whose drives each name theirs') },
+    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: t('where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)') },
+    { key: 'bitrate', label: t('Bit rate'), kind: 'integer', min: 0, max: 100000000, hint: t('bit/s; empty: from the URI, or the family’s') },
+    timing('reply_timeout_ms', t('Reply time-out, ms'), 0, 60000, t('how long an answer is waited for')),
+    timing('poll_period_ms', t('Poll period, ms'), 0, 60000, t('how often each drive is asked')),
+    timing('pause_ms', t('Pause, ms'), 0, 10000, t('silence of the line between two exchanges')),
+    timing('stale_after_ms', t('Stale after, ms'), 0, 600000, t('data older than this is told as stale')),
+    timing('retries', t('Retries'), -1, 20, t('how often an exchange without an answer is repeated; −1: as the family has it')),
+    timing('silent_limit', t('Silent limit'), 1, 1000, t('after so many exchanges without an answer a drive is offline')),
+    timing('retry_pause_min_ms', t('First retry pause, ms'), 1, 600000, t('until an offline drive is asked again')),
+    timing('retry_pause_max_ms', t('Longest retry pause, ms'), 1, 600000, t('the pauses grow up to this')),
   ],
   drives: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'line', label: 'Line', kind: 'line', required: true },
-    { key: 'family', label: 'Family', kind: 'family', hint: 'empty: the line’s; several can share a CAN line', more: true },
-    { key: 'address', label: 'Address', kind: 'address', hint: 'empty: the factory address' },
-    { key: 'presence', label: 'Presence', kind: 'choice', choices: presences },
+    { key: 'name', label: t('Name'), kind: 'name', required: true, hint: nameHint },
+    { key: 'line', label: t('Line'), kind: 'line', required: true, hint: t('that it hangs on') },
+    { key: 'family', label: t('Family'), kind: 'family', hint: t('empty: the line’s; several can share a CAN line'), more: true },
+    { key: 'address', label: t('Address'), kind: 'address', hint: t('empty: the factory address') },
+    { key: 'presence', label: t('Presence'), kind: 'choice', choices: presences, hint: t('who serves its axes: the drive if it answers and else its model (auto), the drive alone (device), the model alone (twin); on a line dds the drive is the other gateway’s axis') },
   ],
   axes: [
-    { key: 'name', label: 'Name', kind: 'name', required: true },
-    { key: 'drive', label: 'Drive', kind: 'drive', required: true },
-    { key: 'channel', label: 'Channel', kind: 'integer', min: 1, max: 256, placeholder: '1' },
-    { key: 'number', label: 'Number', kind: 'integer', required: true, min: 1, max: 1024, hint: 'place in the register map' },
-    { key: 'unit', label: 'Unit', kind: 'text', placeholder: 'increments', hint: 'such as mm or deg' },
-    { key: 'increments_per_unit', label: 'Increments per unit', kind: 'number', above: 0, hint: 'how many increments of the drive make one unit' },
-    { key: 'position_min', label: 'Lowest position', kind: 'number', hint: 'software limit, in unit' },
-    { key: 'position_max', label: 'Highest position', kind: 'number', hint: 'software limit, in unit' },
-    { key: 'velocity_max', label: 'Highest speed', kind: 'number', above: 0, hint: 'unit/s' },
-    { key: 'acceleration_max', label: 'Highest acceleration', kind: 'number', above: 0, hint: 'unit/s²' },
-    { key: 'fail_safe.modbus_closed', label: 'When its Modbus client has closed', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.modbus_silent', label: 'When its Modbus client is silent', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.set_points_silent', label: 'When its streamed set-points stop', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.lease_ended', label: 'When the lease of who moves it expires', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_closed', label: 'When its EtherNet/IP connection is closed', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_timed_out', label: 'When its EtherNet/IP connection times out', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.enip_idle', label: 'When its EtherNet/IP scanner is idle', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.line_lost', label: 'When it could not be reached', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.gateway_ends', label: 'When the gateway ends', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.dds_deadline', label: 'When its DDS client misses a deadline or is gone', kind: 'choice', more: true, choices: failSafeActions },
-    { key: 'fail_safe.watchdog_ms', label: 'Silent after, ms', kind: 'integer', min: 0, max: 600000, more: true, placeholder: "the gateway's", hint: '0: silence is not watched' },
+    { key: 'name', label: t('Name'), kind: 'name', required: true, hint: nameHint },
+    { key: 'drive', label: t('Drive'), kind: 'drive', required: true, hint: t('that moves it') },
+    { key: 'channel', label: t('Channel'), kind: 'integer', min: 1, max: 256, placeholder: '1', hint: t('which axis of the drive; most drives have one') },
+    { key: 'number', label: t('Number'), kind: 'integer', required: true, min: 1, max: 1024, hint: t('place in the register map') },
+    { key: 'group', label: t('Machine part'), kind: 'text', hint: t('axes of one part stand together; empty: none') },
+    { key: 'unit', label: t('Unit'), kind: 'text', placeholder: t('increments'), hint: t('such as mm or deg') },
+    { key: 'increments_per_unit', label: t('Increments per unit'), kind: 'number', above: 0, hint: t('how many increments of the drive make one unit') },
+    { key: 'position_min', label: t('Lowest position'), kind: 'number', hint: t('software limit, in unit') },
+    { key: 'position_max', label: t('Highest position'), kind: 'number', hint: t('software limit, in unit') },
+    { key: 'velocity_max', label: t('Highest speed'), kind: 'number', above: 0, hint: t('in unit/s') },
+    { key: 'acceleration_max', label: t('Highest acceleration'), kind: 'number', above: 0, hint: t('in unit/s²') },
+    { key: 'fail_safe.modbus_closed', label: t('When its Modbus client has closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.modbus_silent', label: t('When its Modbus client is silent'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.set_points_silent', label: t('When its streamed set-points stop'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.lease_ended', label: t('When the lease of who moves it expires'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_closed', label: t('When its EtherNet/IP connection is closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_timed_out', label: t('When its EtherNet/IP connection times out'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_idle', label: t('When its EtherNet/IP scanner is idle'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.line_lost', label: t('When it could not be reached'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.gateway_ends', label: t('When the gateway ends'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.dds_deadline', label: t('When its DDS client misses a deadline or is gone'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.watchdog_ms', label: t('Silent after, ms'), kind: 'integer', min: 0, max: 600000, more: true, placeholder: t('the gateway\'s'), hint: t('0: silence is not watched') },
     {
       key: 'stored_parameters',
-      label: 'Stored parameters',
+      label: t('Stored parameters'),
       kind: 'choice',
       more: true,
-      hint: 'when the drive answers: compared with what was written through the gateway, or written where they differ',
-      choices: [{ value: '', text: 'not looked at' }, { value: 'compare', text: 'compared' }, { value: 'write', text: 'compared and written' }],
+      hint: t('when the drive answers: compared with what was written through the gateway, or written where they differ'),
+      choices: [{ value: '', text: t('not looked at') }, { value: 'compare', text: t('compared') }, { value: 'write', text: t('compared and written') }],
     },
-    { key: 'authority_mode', label: 'Authority', kind: 'choice', more: true, choices: [{ value: '', text: 'as the gateway has it' }, { value: 'free', text: 'free' }, { value: 'lease', text: 'lease' }] },
+    { key: 'authority_mode', label: t('Authority'), kind: 'choice', more: true, hint: t('free: a command needs no lease; lease: a command takes the axis for a while, and others are refused'), choices: [{ value: '', text: t('as the gateway has it') }, { value: 'free', text: t('free') }, { value: 'lease', text: t('lease') }] },
   ],
 };
 
@@ -121,26 +126,26 @@ export function textsOfEntry(room: Room, entry: Entry | null): Texts {
 }
 
 function readField(f: FieldSpec, text: string): { value: unknown; why: string } {
-  const t = text.trim();
-  if (t === '') return { value: undefined, why: f.required ? 'This is needed.' : '' };
+  const typed = text.trim();
+  if (typed === '') return { value: undefined, why: f.required ? t('This is needed.') : '' };
   switch (f.kind) {
     case 'name':
-      return { value: t, why: /^[A-Za-z0-9_.-]{1,64}$/.test(t) ? '' : '1 to 64 letters, digits, - _ and .' };
+      return { value: typed, why: /^[A-Za-z0-9_.-]{1,64}$/.test(typed) ? '' : t('1 to 64 letters, digits, - _ and .') };
     case 'integer':
     case 'number': {
-      const p = parseNumber(t);
+      const p = parseNumber(typed);
       if (!p.good) return { value: undefined, why: p.why };
       const low = f.min !== undefined && p.value < f.min;
       const high = f.max !== undefined && p.value > f.max;
-      if (f.kind === 'integer' && !Number.isInteger(p.value)) return { value: undefined, why: 'A whole number.' };
-      if (low || high) return { value: undefined, why: `From ${f.min} to ${f.max}.` };
-      if (f.above !== undefined && p.value <= f.above) return { value: undefined, why: `Above ${f.above}.` };
+      if (f.kind === 'integer' && !Number.isInteger(p.value)) return { value: undefined, why: t('A whole number.') };
+      if (low || high) return { value: undefined, why: t('From {min} to {max}.', { min: f.min ?? '−∞', max: f.max ?? '∞' }) };
+      if (f.above !== undefined && p.value <= f.above) return { value: undefined, why: t('Above {above}.', { above: f.above }) };
       return { value: p.value, why: '' };
     }
     case 'address':
-      return { value: /^\d+$/.test(t) ? Number(t) : t, why: '' };
+      return { value: /^\d+$/.test(typed) ? Number(typed) : typed, why: '' };
     default:
-      return { value: t, why: '' };
+      return { value: typed, why: '' };
   }
 }
 
@@ -176,18 +181,18 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
     const o = others.find(same);
     if (o && !faults[key]) faults[key] = `${words} ${o.name}.`;
   };
-  taken('name', `There is already ${room === 'axes' ? 'an' : 'a'} ${oneOf[room]}`, (e) => e.name === entry.name);
-  if (room === 'drives' && entry.line !== undefined && !(site.lines ?? []).some((l) => l.name === entry.line)) faults.line ??= `There is no line ${String(entry.line)}.`;
-  if (room === 'drives' && entry.address !== undefined) taken('address', 'The same address on this line has', (e) => e.line === entry.line && (e.family ?? '') === (entry.family ?? '') && String(e.address) === String(entry.address));
+  taken('name', { lines: t('There is already a line'), drives: t('There is already a drive'), axes: t('There is already an axis') }[room], (e) => e.name === entry.name);
+  if (room === 'drives' && entry.line !== undefined && !(site.lines ?? []).some((l) => l.name === entry.line)) faults.line ??= t('There is no line {line}.', { line: String(entry.line) });
+  if (room === 'drives' && entry.address !== undefined) taken('address', t('The same address on this line has'), (e) => e.line === entry.line && (e.family ?? '') === (entry.family ?? '') && String(e.address) === String(entry.address));
   if (room === 'axes') {
-    if (entry.drive !== undefined && !(site.drives ?? []).some((d) => d.name === entry.drive)) faults.drive ??= `There is no drive ${String(entry.drive)}.`;
-    taken('number', 'This number has', (e) => e.number === entry.number);
-    taken('channel', 'This channel of the drive has', (e) => e.drive === entry.drive && (e.channel ?? 1) === (entry.channel ?? 1));
+    if (entry.drive !== undefined && !(site.drives ?? []).some((d) => d.name === entry.drive)) faults.drive ??= t('There is no drive {drive}.', { drive: String(entry.drive) });
+    taken('number', t('This number has'), (e) => e.number === entry.number);
+    taken('channel', t('This channel of the drive has'), (e) => e.drive === entry.drive && (e.channel ?? 1) === (entry.channel ?? 1));
     // Left empty it would be 1, and every move would be wrong by the whole factor.
     const unit = String(entry.unit ?? '').trim();
-    if (!['', 'inc', 'increments'].includes(unit) && entry.increments_per_unit === undefined) faults.increments_per_unit ??= `How many increments make one ${unit}?`;
+    if (!['', 'inc', 'increments'].includes(unit) && entry.increments_per_unit === undefined) faults.increments_per_unit ??= t('How many increments make one {unit}?', { unit });
     const { position_min: low, position_max: high } = entry as { position_min?: number; position_max?: number };
-    if (low !== undefined && high !== undefined && low >= high) faults.position_max ??= 'The highest position lies above the lowest.';
+    if (low !== undefined && high !== undefined && low >= high) faults.position_max ??= t('The highest position lies above the lowest.');
   }
   return { entry: Object.keys(faults).length === 0 ? (entry as Entry) : null, faults };
 }
@@ -315,14 +320,14 @@ export function readSite(text: string): Site | string {
   try {
     d = JSON.parse(text);
   } catch (error) {
-    return `This is not JSON: ${error instanceof Error ? error.message : 'it cannot be read'}`;
+    return t('This is not JSON: {why}', { why: error instanceof Error ? error.message : t('it cannot be read') });
   }
-  if (typeof d !== 'object' || d === null || Array.isArray(d)) return 'A site is an object with lines, drives, axes and mappings.';
+  if (typeof d !== 'object' || d === null || Array.isArray(d)) return t('A site is an object with lines, drives, axes and mappings.');
   const wrong = Object.entries(d).find(([k, v]) => !(allRooms as readonly string[]).includes(k) || !(v === null || Array.isArray(v)));
-  if (wrong) return `“${wrong[0]}” is no list of a site: lines, drives, axes, mappings, modbus_units.`;
+  if (wrong) return t('“{key}” is no list of a site: {lists}.', { key: wrong[0], lists: 'lines, drives, axes, mappings, modbus_units' });
   for (const room of rooms) {
     const bad = ((d as Site)[room] ?? []).findIndex((e) => typeof e?.name !== 'string');
-    if (bad >= 0) return `${room}: entry ${bad + 1} has no name.`;
+    if (bad >= 0) return t('{room}: entry {n} has no name.', { room, n: bad + 1 });
   }
   const site = d as Site;
   return { lines: site.lines ?? [], drives: site.drives ?? [], axes: site.axes ?? [], mappings: site.mappings ?? [], ...(site.modbus_units?.length ? { modbus_units: site.modbus_units } : {}) };

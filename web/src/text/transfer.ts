@@ -1,5 +1,6 @@
 // Transfer: parameters out of and into the page as CSV or JSON, and the comparison of two sets of values. In: parameters, text. Out: text, or
 // rows that were checked, each with its fault. Pure. Values are checked as if they were typed; nothing is changed to make it fit.
+import { t } from '../language';
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
 import { editText, readValue, sameValue } from './parameter';
 import { csvOf, pointed, rowsOf, separatorOf } from './table-text';
@@ -27,11 +28,11 @@ export function jsonOfParameters(axis: string, list: readonly AxisParameter[]): 
 
 /** Reads CSV (columns `parameter` or `id`, and `value`), or JSON (that list, or an object of values by parameter). */
 export function readTransfer(text: string, list: readonly AxisParameter[]): { rows: Wanted[]; problem: string } {
-  const t = text.trim();
-  if (t === '') return { rows: [], problem: '' };
-  const pairs = t.startsWith('{') || t.startsWith('[') ? pairsOfJson(t) : pairsOfCsv(t);
+  const whole = text.trim();
+  if (whole === '') return { rows: [], problem: '' };
+  const pairs = whole.startsWith('{') || whole.startsWith('[') ? pairsOfJson(whole) : pairsOfCsv(whole);
   if (typeof pairs === 'string') return { rows: [], problem: pairs };
-  const separator = separatorOf(t);
+  const separator = separatorOf(whole);
   const byId = new Map(list.map((p) => [p.id, p]));
   const byName = new Map(list.map((p) => [p.name, p]));
   const seen = new Map<string, number>();
@@ -41,9 +42,9 @@ export function readTransfer(text: string, list: readonly AxisParameter[]): { ro
     const row: Wanted = { line, id, value: null, fault: '', same: false };
     const before = seen.get(id);
     seen.set(id, line);
-    if (!p) row.fault = `This axis has no parameter ${given}.`;
-    else if (before !== undefined) row.fault = `Line ${before} has ${id} too.`;
-    else if (p.access === 'R') row.fault = `${id} can only be read.`;
+    if (!p) row.fault = t('This axis has no parameter {given}.', { given });
+    else if (before !== undefined) row.fault = t('Line {before} has {id} too.', { before, id });
+    else if (p.access === 'R') row.fault = t('{id} can only be read.', { id });
     else {
       const read = readValue(p.type === 'text' || p.type === 'bytes' ? typed : pointed(typed, separator), p);
       if (read.good) Object.assign(row, { value: read.value, same: p.value !== null && p.quality === 'good' && sameValue(p.value, read.value) });
@@ -62,11 +63,11 @@ interface Pair {
 
 function pairsOfCsv(text: string): Pair[] | string {
   const { rows, tooMany } = rowsOf(text);
-  if (tooMany) return 'There are more than 5000 rows.';
+  if (tooMany) return t('There are more than 5000 rows.');
   const heads = rows[0]?.cells.map((c) => c.toLowerCase()) ?? [];
   const id = heads.findIndex((h) => h === 'parameter' || h === 'id');
   const value = heads.indexOf('value');
-  if (id < 0 || value < 0) return 'The first line must name the columns: parameter, value.';
+  if (id < 0 || value < 0) return t('The first line must name the columns: parameter, value.');
   return rows.slice(1).map((r) => ({ line: r.line, id: r.cells[id] ?? '', text: r.cells[value] ?? '' }));
 }
 
@@ -75,14 +76,14 @@ function pairsOfJson(text: string): Pair[] | string {
   try {
     document = JSON.parse(text);
   } catch (error) {
-    return `This is not JSON: ${error instanceof Error ? error.message : 'it cannot be read'}`;
+    return t('This is not JSON: {why}', { why: error instanceof Error ? error.message : t('it cannot be read') });
   }
   const inner = isObject(document) && 'parameters' in document ? document.parameters : document;
   if (Array.isArray(inner)) {
     return inner.map((x, i) => ({ line: i + 1, id: isObject(x) ? String(x.parameter ?? x.id ?? '') : '', text: isObject(x) ? textOf(x.value) : '' }));
   }
   if (isObject(inner)) return Object.entries(inner).map(([id, value], i) => ({ line: i + 1, id, text: textOf(value) }));
-  return 'A list of {"parameter", "value"} is expected, or an object of values by parameter.';
+  return t('A list of {form} is expected, or an object of values by parameter.', { form: '{"parameter", "value"}' });
 }
 const isObject = (x: unknown): x is Record<string, unknown> => typeof x === 'object' && x !== null && !Array.isArray(x);
 const textOf = (v: unknown): string => (typeof v === 'boolean' ? (v ? '1' : '0') : typeof v === 'number' || typeof v === 'string' ? String(v) : '');
@@ -115,17 +116,17 @@ export function comparedWords(rows: readonly Compared[], of: number): string {
   const both = rows.filter((r) => r.known !== false);
   const differ = both.filter((r) => !r.same).length;
   const open = Math.max(of, rows.length) - both.length;
-  if (both.length === 0) return `None of the ${of} values can be compared: no value is known by both sides.`;
-  return `${differ} of ${both.length} values differ${open > 0 ? `; ${open} of ${Math.max(of, rows.length)} cannot be compared, because one side does not know ${open === 1 ? 'it' : 'them'}` : ''}.`;
+  if (both.length === 0) return t('None of the {of} values can be compared: no value is known by both sides.', { of });
+  return open === 0 ? t('{differ} of {n} values differ.', { differ, n: both.length }) : open === 1 ? t('{differ} of {n} values differ; 1 of {of} cannot be compared, because one side does not know it.', { differ, n: both.length, of: Math.max(of, rows.length) }) : t('{differ} of {n} values differ; {open} of {of} cannot be compared, because one side does not know them.', { differ, n: both.length, open, of: Math.max(of, rows.length) });
 }
 
 export type Marked = 'all' | 'changed' | 'unsaved' | 'written' | 'writable';
 export const marks: readonly { id: Marked; text: string }[] = [
-  { id: 'all', text: 'all parameters' },
-  { id: 'changed', text: 'changed from default' },
-  { id: 'unsaved', text: 'live differs from stored' },
-  { id: 'written', text: 'written through the gateway' },
-  { id: 'writable', text: 'can be written' },
+  { id: 'all', text: t('all parameters') },
+  { id: 'changed', text: t('changed from default') },
+  { id: 'unsaved', text: t('live differs from stored') },
+  { id: 'written', text: t('written through the gateway') },
+  { id: 'writable', text: t('can be written') },
 ];
 export const isChanged = (p: AxisParameter): boolean => p.value !== null && p.default !== null && !sameValue(p.value, p.default);
 export const isApart = (p: AxisParameter): boolean => p.value !== null && p.stored !== null && !sameValue(p.value, p.stored);
@@ -139,12 +140,12 @@ export function isMarked(p: AxisParameter, mark: Marked): boolean {
   }
 }
 
-export const parametersWords = (n: number): string => (n === 1 ? '1 parameter' : `${n} parameters`);
+export const parametersWords = (n: number): string => (n === 1 ? t('1 parameter') : t('{n} parameters', { n }));
 
 /** Why a restore leaves something out, in the words of the form. The gateway names the parameter in its reason: that is said beside its id already. */
 export function leftOutWhy(why: string): string {
-  if (/include_live/.test(why)) return 'acts at once and is no setting; written with “Restore also what acts at once”';
-  if (/include_addressing/.test(why)) return 'the drive is reached by it, so it is never written back from here';
+  if (/include_live/.test(why)) return t('acts at once and is no setting; written with “Restore also what acts at once”');
+  if (/include_addressing/.test(why)) return t('the drive is reached by it, so it is never written back from here');
   return why.replaceAll('_', ' ');
 }
 

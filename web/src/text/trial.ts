@@ -1,5 +1,6 @@
 // Words about a site that is checked, applied, and waits to be kept: whose it is, who may keep it, what applying does to the axes, why it cannot be
 // applied yet. In: the stage as the gateway tells it, the sites before and after. Out: sentences. Pure.
+import { t } from '../language';
 import type { Stage } from '../api/site';
 import { personOf } from './authority';
 import type { Site } from './site';
@@ -7,11 +8,11 @@ import type { Site } from './site';
 /** `barred`: why this page may not keep it; empty: it may. */
 export function appliedWords(stage: Pick<Stage, 'by' | 'client'>, tab: string, barred: string): string {
   const client = stage.client ?? '';
-  if (client !== '' && tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return 'Applied by this page.';
+  if (client !== '' && tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return t('Applied by this page.');
   const by = stage.by ?? '';
   const page = /(?:^| )(page-\S+)$/.exec(client)?.[1];
-  const who = by === '' ? 'Applied by somebody else' : `Applied by ${personOf(by)}`;
-  const first = `${who}${page ? ` (from the page ${page})` : ''}.`;
+  const who = by === '' ? t('Applied by somebody else') : t('Applied by {by}', { by: personOf(by) });
+  const first = page ? t('{who} (from the page {page}).', { who, page }) : `${who}.`;
   return barred ? `${first} ${barred}` : first;
 }
 
@@ -20,14 +21,14 @@ export function disturbedWords(disturbs: readonly string[], before: Site, after:
   const there = new Set((after.axes ?? []).map((a) => a.name));
   const gone = (before.axes ?? []).map((a) => a.name).filter((n) => !there.has(n));
   const shaken = disturbs.filter((n) => !gone.includes(n));
-  const said = [gone.length > 0 ? `Applying removes ${gone.join(', ')}.` : '', shaken.length > 0 ? `Applying disturbs for a moment: ${shaken.join(', ')}.` : ''];
-  if (gone.length + shaken.length > 0) said.push('What of it moves is stopped first.');
+  const said = [gone.length > 0 ? t('Applying removes {list}.', { list: gone.join(', ') }) : '', shaken.length > 0 ? t('Applying disturbs for a moment: {list}.', { list: shaken.join(', ') }) : ''];
+  if (gone.length + shaken.length > 0) said.push(t('What of it moves is stopped first.'));
   return said.filter(Boolean).join(' ');
 }
 
 /** What to do before Apply can be pressed. */
 export function applyBarred(why: { inView: boolean; theirs: boolean; faults: boolean }): string {
-  if (why.theirs) return 'Decide first about what somebody else has changed.';
-  if (why.faults) return why.inView ? 'It has faults, so it cannot be applied.' : 'Mend the faults, then check again.';
-  return 'Check first.';
+  if (why.theirs) return t('Decide first about what somebody else has changed.');
+  if (why.faults) return why.inView ? t('It has faults, so it cannot be applied.') : t('Mend the faults, then check again.');
+  return t('Check first.');
 }

@@ -93,7 +93,7 @@ export function RegisterMap(p: MapProps) {
     const measure = () => {
       const width = box.clientWidth;
       batch(() => {
-        perRowNow.value = width === 0 ? 8 : width < 520 ? 4 : width < 1320 ? 8 : 16;
+        perRowNow.value = width > 0 && width < 520 ? 4 : 8;
         look();
       });
     };

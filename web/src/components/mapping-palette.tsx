@@ -48,7 +48,7 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
   return (
     <aside class="map-palette" aria-label={t('Points and parameters')}>
       <label class="select">
-        <span>{t('Axis')}</span>
+        <span>{t('Points of')}</span>
         <select value={chosen} onChange={(e) => (axis.value = e.currentTarget.value)}>
           {names.map((n) => (
             <option key={n} value={n}>

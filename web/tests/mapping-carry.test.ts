@@ -1,5 +1,5 @@
 // What is carried over the register map: what is in its own way is not, what does not fit is not sent, Escape puts back, and each way down is one change.
-import { signal } from '@preact/signals';
+import { signal, type Signal } from '@preact/signals';
 import { beforeEach, expect, it, vi } from 'vitest';
 import { MapHand, type Ground } from '../src/state/mapping-carry';
 import type { MappingBook } from '../src/state/mappings';
@@ -12,7 +12,7 @@ const rows = [m('a', 0), m('b', 4), m('s', 20, { type: 'string', length: 4 })];
 const good = async () => ({ good: true as const, text: 'done' });
 const book = { add: vi.fn(good), replace: vi.fn(good), place: vi.fn(good) };
 let hand: MapHand;
-let ground: ReturnType<typeof signal<Ground>>;
+let ground: Signal<Ground>;
 beforeEach(() => {
   for (const f of Object.values(book)) f.mockClear().mockImplementation(good);
   ground = signal<Ground>({ unit: 2, table: 'holding_registers', blocks: blocksOf(2, 'holding_registers', rows, []), base: '0', barred: '' });

@@ -59,7 +59,7 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
       </label>
       <input type="search" class="search" aria-label={t('Filter points and parameters')} placeholder={t('Filter')} value={wanted.value} onInput={(e) => (wanted.value = e.currentTarget.value)} />
       <p class="where">{t('Drag one into a free place; or press it, then the place.')}</p>
-      <ul class="palette-list">
+      <ul class="palette-list scroll">
         {all.slice(0, most).map((p) => (
           <li key={p.name}>
             <button

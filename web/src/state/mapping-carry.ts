@@ -138,7 +138,7 @@ export class MapHand {
       case 'copy': {
         const { own, axis } = c.what;
         const from = Math.min(...own.map((m) => m.address));
-        return this.book.place(own.map((m) => ({ ...specOf(m), axis, unit, table, address: m.address - from + at })), t('Copied {n} mappings to {axis}', { n: own.length, axis }));
+        return this.book.place(own.map((m) => ({ ...specOf(m), axis, unit, table, address: m.address - from + at })), own.length === 1 ? t('Copied {id} to {axis}', { id: own[0]!.id, axis }) : t('Copied {n} mappings to {axis}', { n: own.length, axis }));
       }
     }
   }
@@ -148,7 +148,7 @@ const specOf = ({ id: _, ...spec }: Mapping): MappingSpec => spec;
 const carriedWords = (w: Carried): string =>
   w.kind === 'new' ? t('{point} of {axis}', { point: w.point, axis: w.axis })
   : w.kind === 'resize' ? t('{id} as {type}', { id: w.own.id, type: resized(w.own, w.width).type })
-  : w.kind === 'copy' ? t('Copy of {n} mappings for {axis}', { n: w.own.length, axis: w.axis })
+  : w.kind === 'copy' ? (w.own.length === 1 ? t('Copy of {id} for {axis}', { id: w.own[0]!.id, axis: w.axis }) : t('Copy of {n} mappings for {axis}', { n: w.own.length, axis: w.axis }))
   : w.own.length === 1 ? t('{id}, {point} of {axis}', { id: w.own[0]!.id, point: w.own[0]!.point, axis: w.own[0]!.axis })
   : t('{n} mappings', { n: w.own.length });
 export function takenWords(taken: readonly Block[], base: Base): string {

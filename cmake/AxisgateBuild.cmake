@@ -70,6 +70,10 @@ function(axisgate_options target kind)
     target_compile_options(${target} PRIVATE -Wno-dangling-else $<$<NOT:$<CONFIG:Debug>>:-O0> $<$<NOT:$<CONFIG:Debug>>:-g0>)
   else()
     target_compile_options(${target} PRIVATE ${AXISGATE_COVERAGE})
+    if(AXISGATE_SANITIZE AND kind STREQUAL net)
+      # What stands on Asio is half of what a build with sanitizers waits for, mostly optimizing templates, and waits itself when it runs.
+      target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O0>)
+    endif()
   endif()
 endfunction()
 

@@ -13,7 +13,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     line_.take(setup);
     choose_own_node(setup);
     const auto fault = [&](const DriveSetup& s) -> std::string {
-        const auto* other = drives_.find([&](const Drive& d) { return d.node() == node_of(s.address); });
+        const auto* other = drives_.find([&](const Drive& d) { return d.node.number == node_of(s.address); });
         return other ? "node " + s.address + " belongs to drive " + other->setup().name : check_address(s.address);
     };
     drives_.fit_axes(setup, [&](Drive& d, const DriveSetup& s) { d.set_axes(s, t); });
@@ -25,7 +25,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
         },
         fault, [&](const DriveSetup& s, std::size_t slot) { return std::make_unique<Drive>(line_, s, slot); }, out);
     by_node_.fill(nullptr);
-    drives_.each([&](Drive& d) { by_node_[d.node()] = &d; });
+    drives_.each([&](Drive& d) { by_node_[d.node.number] = &d; });
     for (Drive* d : fresh)
         if (up_) d->line_up(t);
     end(t);
@@ -115,7 +115,7 @@ void LineAdapter::plan_heartbeat(Instant now) {
     constexpr Duration usual = std::chrono::milliseconds(50);  // of a bus at 125 kbit/s a hundredth
     Duration period{};
     drives_.each([&](const Drive& d) {
-        if (up_ && d.watches()) period = std::min(period == Duration::zero() ? usual : period, d.watch_time() / 4);
+        if (up_ && d.watches()) period = std::min(period == Duration::zero() ? usual : period, d.node.watch.time / 4);
     });
     if (std::exchange(heartbeat_period_, period) != period) heartbeat_.set_period(period, now);
 }

@@ -1,4 +1,4 @@
-// Axis: what it asks for next, and what the answers mean.
+// Axis: its commands, step by step.
 // In: commands, answers. Out: the next transfer, the one result of each command. Never has two steps of a command on the way.
 #include "adapters/cia402/drive_axis.hpp"
 
@@ -11,69 +11,62 @@ using Phase = Presence::Phase;
 void Axis::forget() {
     queue_.clear();
     job_.reset();
-    end_stream();
-    check_at_ = never;
-    need_code_ = false;
+    stream.end();
+    feedback.forget();
 }
 
 bool Axis::submit(const Command& c, Turn& t) {
     if (is_urgent(c.body) || drive::is_motion(c.body) || std::holds_alternative<Enable>(c.body) ||
         std::holds_alternative<SetPosition>(c.body)) {
-        end_stream();
+        stream.end();
         if (job_ && job_->stream) job_.reset();
     }
-    if (drive::admit(c, node_.setup.name, node_.presence, queue_, node_.tickets, t) != drive::Admission::urgent) return false;
+    if (drive::admit(c, node.setup.name, node.presence, queue_, node.tickets, t) != drive::Admission::urgent) return false;
     const bool off = std::holds_alternative<Disable>(c.body);
     const auto ends = [&](const Command& w) {
         return drive::is_motion(w.body) || std::holds_alternative<SetPosition>(w.body) || (off && std::holds_alternative<Enable>(w.body));
     };
-    (void)queue_.interrupt(ends, name_of(c.body), node_.tickets, t);
+    (void)queue_.interrupt(ends, name_of(c.body), node.tickets, t);
     if (job_ && ends(job_->command)) {
-        node_.tickets.failed(job_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);
+        node.tickets.failed(job_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);
         job_.reset();
     }
-    if (!stops_.add({c, {}})) node_.tickets.refused(c.ticket, Reason::busy, "8 stops are on their way already", t.out);
+    if (!stops_.add({c, {}})) node.tickets.refused(c.ticket, Reason::busy, "8 stops are on their way already", t.out);
     return true;
 }
 
 Want Axis::wants(Instant now) const noexcept {
     if (const Stop* stop = stops_.first()) return !stop->job || now >= stop->job->wait_until ? Want::urgent : Want::nothing;
-    if (!node_.presence.is(Phase::ready)) return Want::nothing;
-    if (need_code_) return Want::quick_poll;
-    if (job_ ? now >= job_->wait_until : !queue_.empty() || (newest_ && stream_ == Stream::none)) return Want::command;
-    return !job_ && now >= check_at_ ? Want::poll : Want::nothing;
+    if (!node.presence.is(Phase::ready)) return Want::nothing;
+    if (feedback.needs_error_code()) return Want::quick_poll;
+    if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
+    return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
 Instant Axis::wish() const noexcept {
     if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
-    if (!node_.presence.is(Phase::ready)) return never;
-    return job_ ? job_->wait_until : check_at_;
+    if (!node.presence.is(Phase::ready)) return never;
+    return job_ ? job_->wait_until : feedback.check_at();
 }
 
 std::optional<Ask> Axis::next(Turn& t) {
-    const int retries = node_.line.timing.retries;
+    const int retries = node.line.timing.retries;
     if (Stop* stop = stops_.first()) {
         if (!stop->job) {
             stop->job.emplace().command = stop->command;
-            plan_stop(known_, *stop->job);
+            plan_stop(known, *stop->job);
         }
         return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, 0};
     }
-    if (need_code_) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
+    if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
-    if (!job_ && newest_ && stream_ == Stream::none) {
-        Job job;
-        job.command.axis = id_;
-        plan_stream(known_, newest_->mode, node_.line.cycle, job);
-        job_ = std::move(job);
-        stream_ = Stream::starting;
-    }
+    if (!job_ && stream.waits()) job_ = stream.begin();
     if (job_ && t.now >= job_->wait_until) {
         const Step& s = job_->steps[job_->at];
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
         return Ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
     }
-    if (t.now >= check_at_) return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
+    if (t.now >= feedback.check_at()) return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
     return std::nullopt;
 }
 
@@ -81,8 +74,8 @@ void Axis::begin(Command command, Turn& t) {
     Job job;
     job.command = std::move(command);
     Reason reason = Reason::not_supported;
-    std::string why = plan(node_, known_, place_, job, t.now, reason);
-    if (!why.empty()) return void(node_.tickets.refused(job.command.ticket, reason, std::move(why), t.out));
+    std::string why = plan(node, known, place_, job, t.now, reason);
+    if (!why.empty()) return void(node.tickets.refused(job.command.ticket, reason, std::move(why), t.out));
     job_ = std::move(job);
 }
 
@@ -96,13 +89,9 @@ Step Axis::here(const Job& job) {
 Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
     switch (ask.why) {
         case Ask::Why::check:
-            check_at_ = t.now + std::max<Duration>(4 * node_.line.cycle, std::chrono::milliseconds(100));
-            // It answers and sends no PDOs: somebody has reset it, or taken them away.
-            return ++deaf_ >= 3 ? News::deaf : News::none;
+            return feedback.deaf(t.now) ? News::deaf : News::none;
         case Ask::Why::error:
-            need_code_ = false;
-            if (end.done()) known_.fb.error_code = node_.number_of(static_cast<std::uint16_t>(canopen::low_first(end.data)));
-            emit(t);
+            feedback.error_code_read(end, t);
             return News::none;
         case Ask::Why::step:
             if (job_ && job_->command.ticket == ask.ticket && job_->at < job_->steps.size() &&
@@ -121,91 +110,86 @@ Address Axis::asked(const Step& s) const { return s.literal ? s.address : of_axi
 void Axis::unanswered(const Ask& ask) {
     if (Stop* stop = stops_.first(); ask.why == Ask::Why::stop && stop) stops_.remove(stop);
     if (ask.why == Ask::Why::step && job_) {
-        if (job_->stream) end_stream();
+        if (job_->stream) stream.end();
+        job_.reset();
+    }
+}
+
+void Axis::drop(const Job& job) noexcept {
+    if (is_urgent(job.command.body)) {
+        stops_.remove(stops_.first());
+    } else {
         job_.reset();
     }
 }
 
 Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     const Step s = here(job);
-    const bool of_stop = is_urgent(job.command.body);
-    const auto drop = [&] {
-        if (of_stop) {
-            stops_.remove(stops_.first());
-        } else {
-            job_.reset();
-        }
-        return News::none;
-    };
     if (!end.done() && !s.optional) {
         const std::string text = "the drive refuses: " + canopen::to_text(end);
         if (job.stream) {
             t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
-            end_stream();
+            stream.end();
         }
-        node_.tickets.refused(job.command.ticket, Reason::drive_refused, text, t.out, static_cast<std::int32_t>(end.abort));
-        return drop();
+        node.tickets.refused(job.command.ticket, Reason::drive_refused, text, t.out, static_cast<std::int32_t>(end.abort));
+        return drop(job), News::none;
     }
     const auto sent = [&](Address a) { return end.done() && s.kind == Step::Kind::write && s.address == a; };
-    if (sent(object::controlword)) known_.cw = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
-    if (sent(object::mode)) known_.mode = static_cast<int>(signed_of(s.bytes));
+    if (sent(object::controlword)) known.cw = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
+    if (sent(object::mode)) known.mode = static_cast<int>(signed_of(s.bytes));
     if (s.kind == Step::Kind::read) {
         job.here = signed_of(end.data);
         job.data = end.data;
     }
     // What the drive has just answered is newer than its last PDO: who hears "enabled" finds it shown, and may go on at once.
-    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done()) {
-        known_.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(end.data));
-        judge(t);
-    }
-    if (s.kind == Step::Kind::until && end.done() && (canopen::low_first(end.data) & s.mask) != s.want) {
-        if (job.give_up == never) job.give_up = t.now + s.patience;
-        job.wait_until = t.now + std::chrono::milliseconds(10);
-        if (t.now < job.give_up) return News::none;
-        if (!s.optional) {
-            node_.tickets.failed(
-                job.command.ticket, Reason::drive_refused,
-                fmt::format("the drive has acknowledged, and stays in another state: status word {:04X}h", canopen::low_first(end.data)),
-                t.out);
-            return drop();
-        }
-    }
+    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done())
+        feedback.on_status_word(static_cast<std::uint32_t>(canopen::low_first(end.data)), t);
+    if (s.kind == Step::Kind::until && end.done() && still_waits(job, s, end, t)) return News::none;
     job.give_up = never;
     job.wait_until = {};
     if (++job.at < job.steps.size()) return News::none;
     Job done = std::move(job);
-    drop();
+    drop(done);
     return finish(done, t);
+}
+
+/// The value is not the one that is waited for, and this is not the end of the step: it is looked at again, or the job has failed.
+bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
+    if ((canopen::low_first(end.data) & s.mask) == s.want) return false;
+    if (job.give_up == never) job.give_up = t.now + s.patience;
+    job.wait_until = t.now + std::chrono::milliseconds(10);
+    if (t.now < job.give_up) return true;
+    if (s.optional) return false;
+    node.tickets.failed(
+        job.command.ticket, Reason::drive_refused,
+        fmt::format("the drive has acknowledged, and stays in another state: status word {:04X}h", canopen::low_first(end.data)), t.out);
+    drop(job);
+    return true;
+}
+
+/// Its drive has acknowledged the order of a motion.
+void Axis::moves_now(const CommandBody& body, Turn& t) {
+    if (const auto* m = std::get_if<Move>(&body)) {
+        const Order order = m->kind == Move::Kind::velocity ? Order::velocity : Order::position;
+        if (m->velocity && order == Order::position) known.rates[0] = *m->velocity;
+        if (m->acceleration) known.rates[1] = *m->acceleration;
+        if (m->deceleration) known.rates[2] = *m->deceleration;
+        feedback.ordered(order, t);
+    }
+    if (std::holds_alternative<Home>(body)) feedback.ordered(Order::homing, t);
+    if (std::holds_alternative<SetPosition>(body)) known.fb.referenced = true;
+    if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) known.homing_method = home->method;
 }
 
 Axis::News Axis::finish(Job& job, Turn& t) {
     const CommandBody& body = job.command.body;
-    AxisFeedback& fb = known_.fb;
-    if (known_.profile) check_at_ = std::min(check_at_, t.now + std::max<Duration>(3 * node_.line.cycle, std::chrono::milliseconds(150)));
+    if (known.profile) feedback.look_soon(t.now + std::max<Duration>(3 * node.line.cycle, std::chrono::milliseconds(150)));
     if (job.stream) {
-        stream_ = newest_ ? static_cast<Stream>(static_cast<int>(Stream::position) + static_cast<int>(newest_->mode)) : Stream::none;
-        led_.begin(static_cast<double>(job.here));
+        stream.begun(job.here);
         return News::none;
     }
-    if (is_urgent(body)) known_.order = Order::none;
-    if (const auto* m = std::get_if<Move>(&body)) {
-        known_.order = m->kind == Move::Kind::velocity ? Order::velocity : Order::position;
-        fresh_ = 1;
-        fb.target_reached = false;  // the old "reached" must not stand for the new target
-        fb.moving = true;
-        if (m->velocity && known_.order == Order::position) known_.rates[0] = *m->velocity;
-        if (m->acceleration) known_.rates[1] = *m->acceleration;
-        if (m->deceleration) known_.rates[2] = *m->deceleration;
-        emit(t);
-    }
-    if (std::holds_alternative<Home>(body)) {
-        known_.order = Order::homing;
-        fb.homing = fb.moving = true;
-        fb.homing_attained = fb.homing_error = fb.target_reached = false;
-        emit(t);
-    }
-    if (std::holds_alternative<SetPosition>(body)) fb.referenced = true;
-    if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) known_.homing_method = home->method;
+    if (is_urgent(body)) known.order = Order::none;
+    moves_now(body, t);
     const auto* read = std::get_if<ReadParameter>(&body);
     const auto* to = std::get_if<WriteParameter>(&body);
     Value value;
@@ -218,20 +202,20 @@ Axis::News Axis::finish(Job& job, Turn& t) {
     if (std::holds_alternative<Native>(body)) text = native_text(job);
     if (read || to) t.out.samples.push_back({id_, read ? read->point : to->point, value, Quality::good, t.now, 0});
     const auto* action = std::get_if<Action>(&body);
-    if (action && action->name == "store_parameters") text = node_.stored(t);
-    node_.tickets.answer(job.command.ticket, read || to ? Outcome::done : Outcome::accepted, Reason::none, std::move(text), t.out, 0,
-                         std::move(value), job.data);
+    if (action && action->name == "store_parameters") text = node.stored(t);
+    node.tickets.answer(job.command.ticket, read || to ? Outcome::done : Outcome::accepted, Reason::none, std::move(text), t.out, 0,
+                        std::move(value), job.data);
     return action && action->name == "nmt_reset_node" ? News::node_resets : News::none;
 }
 
 bool Axis::read_value(const Job& job, const ReadParameter& read, Value& value, Turn& t) {
-    const Parameter* p = node_.catalogue().parameter(read.point);
+    const Parameter* p = node.catalogue().parameter(read.point);
     const auto type = p ? type_of(p->type) : std::nullopt;
     value = type ? canopen::decode(*type, job.data).value_or(Value{}) : Value{};
-    if (!known(value)) {
-        node_.tickets.failed(job.command.ticket, Reason::drive_refused,
-                             fmt::format("{}: the drive gives {} bytes, which are none of its type", p ? p->id : "?", job.data.size()),
-                             t.out);
+    if (!axisgate::known(value)) {
+        node.tickets.failed(job.command.ticket, Reason::drive_refused,
+                            fmt::format("{}: the drive gives {} bytes, which are none of its type", p ? p->id : "?", job.data.size()),
+                            t.out);
         return false;
     }
     if (p->type == ValueType::boolean) value = Value{as_integer(value).value_or(0) != 0};
@@ -240,20 +224,20 @@ bool Axis::read_value(const Job& job, const ReadParameter& read, Value& value, T
 
 /// What the gateway itself goes by.
 void Axis::written(const WriteParameter& to) {
-    const Parameter* p = node_.catalogue().parameter(to.point);
+    const Parameter* p = node.catalogue().parameter(to.point);
     const auto place = p ? place_of(*p, to.point) : std::nullopt;
     const auto n = as_integer(to.value);
     if (!place || !n) return;
-    if (*place == object::homing_method) known_.homing_method = *n;
+    if (*place == object::homing_method) known.homing_method = *n;
     for (const auto& [a, i] :
          {std::pair{object::profile_velocity, 0u}, {object::profile_acceleration, 1u}, {object::profile_deceleration, 2u}})
-        if (*place == a) known_.rates[i] = *n;
+        if (*place == a) known.rates[i] = *n;
 }
 
 std::string Axis::native_text(const Job& job) const {
     const Step& last = job.steps.back();
     if (last.kind == Step::Kind::write) return "written";
-    const Parameter* p = parameter_at(node_.catalogue(), last.address);
+    const Parameter* p = parameter_at(node.catalogue(), last.address);
     const auto type = p ? type_of(p->type) : std::nullopt;
     if (const auto decoded = type ? canopen::decode(*type, job.data) : std::nullopt) return to_text(*decoded);
     std::string text;

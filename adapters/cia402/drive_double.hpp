@@ -1,7 +1,9 @@
-// Double beat: whether the heartbeats of one number come from two nodes: each comes in a gap of the other's.
-// In: heartbeats, time. Out: true when it is past doubt, once for as long as it goes on. Never takes one early heartbeat for a second node.
+// Double: whether two nodes have one number: the heartbeats of each come in the gaps of the other's, and each question is answered twice.
+// In: heartbeats, answers, time. Out: true when it is past doubt, once for as long as it goes on. Never takes one early heartbeat, or a
+// late answer, for a second node.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -36,6 +38,22 @@ private:
     Duration period_{};
     std::optional<Instant> beat_{};
     int early_ = 0, in_time_ = 0;
+};
+
+/// A late answer happens; one to every question means that there are two who answer.
+class DoubleAnswer {
+public:
+    /// An answer came that nobody waited for.
+    void stray() noexcept { stray_ = true; }
+    [[nodiscard]] bool answered() noexcept {
+        in_a_row_ = std::exchange(stray_, false) ? std::min(in_a_row_ + 1, enough + 1) : 0;
+        return in_a_row_ == enough;
+    }
+
+private:
+    static constexpr int enough = 12;
+    bool stray_ = false;  ///< to the question before this one
+    int in_a_row_ = 0;
 };
 
 }  // namespace axisgate::cia402_drive

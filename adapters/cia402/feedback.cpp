@@ -1,4 +1,4 @@
-// Drive, part feedback: what PDOs, EMCY and heartbeats tell.
+// Feedback, of a node and of its axes: what PDOs, EMCY and heartbeats tell.
 // In: frames that nobody asked for. Out: feedback when both PDOs of one SYNC are here; notices. Never mixes two instants in one picture.
 #include <fmt/core.h>
 
@@ -10,29 +10,29 @@
 namespace axisgate::cia402_drive {
 
 void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
-    if (!node_.presence.online()) return node_.presence.heard(t.now);
-    const std::uint16_t number = node_.number_of(e.code);
-    const ErrorCode* known = node_.catalogue().error(number);
+    if (!node.presence.online()) return node.presence.heard(t.now);
+    const std::uint16_t number = node.number_of(e.code);
+    const ErrorCode* known = node.catalogue().error(number);
     // An EMCY does not say of which axis it is: each that shows a fault then tells it by this code.
-    for (const auto& a : axes_)
-        a->on_error_code(number);
+    for (const auto& a : axes)
+        a->feedback.on_error_code(number);
     if (!gate_.admits(e, t.now)) return;
     const auto left_out = gate_.take_kept_back();
-    node_.notices.tell(e.code == 0 ? Severity::info : Severity::warning, first_axis(), "emergency", number,
-                       fmt::format("EMCY {}{}{}", canopen::to_text(e), known ? ": " + known->text : "",
-                                   left_out ? fmt::format(" ({} before it were left out)", left_out) : ""),
-                       t.now, t.out);
+    notice(e.code == 0 ? Severity::info : Severity::warning, "emergency", number,
+           fmt::format("EMCY {}{}{}", canopen::to_text(e), known ? ": " + known->text : "",
+                       left_out ? fmt::format(" ({} before it were left out)", left_out) : ""),
+           t);
 }
 
 void Drive::on_heartbeat(const Frame& f, Turn& t) {
     const auto news = heartbeat_.on_frame(f, t.now);
-    Presence& presence = node_.presence;
+    Presence& presence = node.presence;
     // Its answers may be one on the bus, where both send the same bits at the same time: heartbeats drift apart.
     if (news != canopen::NodeNews::started && double_beat_.beat(t.now)) tell_two_nodes("heartbeats come in the gaps of others", t);
     if (news == canopen::NodeNews::started) {
         double_beat_.restarted();
-        for (const auto& a : axes_)
-            a->restarted();
+        for (const auto& a : axes)
+            a->feedback.restarted();
         if (presence.online() && !presence.is(Presence::Phase::restarting)) {
             forget(Reason::interrupted, "the drive has restarted", t);
             return presence.begin(t.now);
@@ -42,110 +42,164 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
     // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
     if (news == canopen::NodeNews::state && heartbeat_.state() == canopen::NmtState::pre_operational &&
         presence.is(Presence::Phase::ready) && listeners() > 0)
-        start();
+        start.begin();
 }
 
 bool Drive::on_pdo(const Frame& f, Turn& t) {
-    for (const auto& place : axes_) {
+    for (const auto& place : axes) {
         Axis& a = *place;
-        const std::uint32_t shift = per_axis * static_cast<std::uint32_t>(a.place()) + node_.number;
+        const std::uint32_t shift = per_axis * static_cast<std::uint32_t>(a.place()) + node.number;
         const bool status = canopen::is_data(f, status_base + shift);
         if (!status && !canopen::is_data(f, motion_base + shift)) continue;
         if (!a.listens()) {
-            node_.presence.heard(t.now);
+            node.presence.heard(t.now);
         } else if (status) {
-            a.on_status(f.data(), t);
+            a.feedback.on_status(f.data(), t);
         } else {
-            a.on_motion(f.data(), t);
+            a.feedback.on_motion(f.data(), t);
         }
         return true;
     }
-    if (axes_.empty() && (canopen::is_data(f, status_base + node_.number) || canopen::is_data(f, motion_base + node_.number)))
-        return node_.presence.heard(t.now), true;
+    if (axes.empty() && (canopen::is_data(f, status_base + node.number) || canopen::is_data(f, motion_base + node.number)))
+        return node.presence.heard(t.now), true;
     return false;
 }
 
-/// Whatever was set up in it is gone, and so are its zero and what was ordered.
-void Axis::restarted() {
-    const auto place = known_.fb.position;
-    known_.fb = {};
-    known_.fb.position = place;
-    known_.order = Order::none;
-    known_.cw = 0;
+void Feedback::begin(Instant now) {
+    deaf_ = 0;
+    status_new_ = motion_new_ = false;
+    if (drive_.known.profile) check_at_ = now + std::max<Duration>(8 * drive_.node.line.cycle, std::chrono::milliseconds(200));
+}
+void Feedback::forget() noexcept {
+    check_at_ = never;
+    need_code_ = false;
+}
+void Feedback::restarted() {
+    AxisKnown& known = drive_.known;
+    const auto place = known.fb.position;
+    known.fb = {};
+    known.fb.position = place;
+    known.order = Order::none;
+    known.cw = 0;
 }
 
-void Axis::on_status(std::span<const std::uint8_t> b, Turn& t) {
+void Feedback::on_status(std::span<const std::uint8_t> b, Turn& t) {
+    AxisKnown& known = drive_.known;
     if (b.size() != 7) {
-        ++node_.line.counters.garbled;
+        ++drive_.node.line.counters.garbled;
         return;
     }
-    known_.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
-    known_.fb.position = signed_of(b.subspan(2, 4));
-    known_.mode = static_cast<int>(signed_of(b.subspan(6, 1)));
+    known.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
+    known.fb.position = signed_of(b.subspan(2, 4));
+    known.mode = static_cast<int>(signed_of(b.subspan(6, 1)));
     status_new_ = true;
     if (motion_new_) learnt(t);
 }
-void Axis::on_motion(std::span<const std::uint8_t> b, Turn& t) {
+void Feedback::on_motion(std::span<const std::uint8_t> b, Turn& t) {
+    AxisKnown& known = drive_.known;
     if (b.size() != 8) {
-        ++node_.line.counters.garbled;
+        ++drive_.node.line.counters.garbled;
         return;
     }
-    known_.fb.velocity = signed_of(b.first(4));
-    known_.fb.position_demand = signed_of(b.subspan(4, 4));
+    known.fb.velocity = signed_of(b.first(4));
+    known.fb.position_demand = signed_of(b.subspan(4, 4));
     motion_new_ = true;
     if (status_new_) learnt(t);
 }
-
-void Axis::learnt(Turn& t) {
-    status_new_ = motion_new_ = false;
-    deaf_ = 0;
-    node_.presence.answered();
-    ++node_.line.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
-    check_at_ = t.now + std::max<Duration>(3 * node_.line.cycle, std::chrono::milliseconds(150));
+void Feedback::on_status_word(std::uint32_t word, Turn& t) {
+    drive_.known.fb.native_status = word;
     judge(t);
 }
 
-void Axis::judge(Turn& t) {
-    const unsigned sw = known_.fb.native_status, six = sw & 0x6Fu;
-    const bool enabled = six == 0x27, quick = six == 0x07, reacting = (sw & 0x4Fu) == 0x0F, was_fault = known_.fb.fault;
-    known_.fb.statusword = static_cast<std::uint16_t>(sw & 0x7Fu);
-    known_.fb.power = enabled || quick || reacting ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    known_.fb.fault = (sw & 0x4Fu) == 0x08 || reacting;
-    known_.fb.warning = sw & 0x80u;
-    known_.fb.internal_limit = sw & 0x800u;
-    known_.fb.quick_stopping = quick;
-    known_.fb.demand_source = known_.fb.power == AxisFeedback::Power::on && !known_.fb.fault ? DemandSource::drive : DemandSource::none;
-    const bool halted = known_.cw & 0x100u;
+void Feedback::on_error_code(std::uint16_t code) noexcept {
+    std::uint16_t& shown = drive_.known.fb.error_code;
+    if (code == 0 || shown == 0) shown = code;
+}
+void Feedback::error_code_read(const canopen::SdoEnd& end, Turn& t) {
+    need_code_ = false;
+    if (end.done()) drive_.known.fb.error_code = drive_.node.number_of(static_cast<std::uint16_t>(canopen::low_first(end.data)));
+    emit(t);
+}
+
+void Feedback::ordered(Order order, Turn& t) {
+    AxisFeedback& fb = drive_.known.fb;
+    drive_.known.order = order;
+    fb.target_reached = false;
+    fb.moving = true;
+    if (order == Order::homing) {
+        fb.homing = true;
+        fb.homing_attained = fb.homing_error = false;
+    } else {
+        fresh_ = 1;
+    }
+    emit(t);
+}
+
+bool Feedback::deaf(Instant now) noexcept {
+    check_at_ = now + std::max<Duration>(4 * drive_.node.line.cycle, std::chrono::milliseconds(100));
+    return ++deaf_ >= 3;
+}
+
+void Feedback::learnt(Turn& t) {
+    Node& node = drive_.node;
+    status_new_ = motion_new_ = false;
+    deaf_ = 0;
+    node.presence.answered();
+    ++node.line.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
+    check_at_ = t.now + std::max<Duration>(3 * node.line.cycle, std::chrono::milliseconds(150));
+    judge(t);
+}
+
+void Feedback::judge(Turn& t) {
+    AxisKnown& known = drive_.known;
+    AxisFeedback& fb = known.fb;
+    const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+    const bool enabled = six == 0x27, quick = six == 0x07, reacting = (sw & 0x4Fu) == 0x0F, was_fault = fb.fault;
+    fb.statusword = static_cast<std::uint16_t>(sw & 0x7Fu);
+    fb.power = enabled || quick || reacting ? AxisFeedback::Power::on : AxisFeedback::Power::off;
+    fb.fault = (sw & 0x4Fu) == 0x08 || reacting;
+    fb.warning = sw & 0x80u;
+    fb.internal_limit = sw & 0x800u;
+    fb.quick_stopping = quick;
+    fb.demand_source = fb.power == AxisFeedback::Power::on && !fb.fault ? DemandSource::drive : DemandSource::none;
+    const bool halted = known.cw & 0x100u;
     if (!enabled || halted) {
-        if (known_.order == Order::homing) known_.fb.homing = false;
-        known_.order = Order::none;
+        if (known.order == Order::homing) fb.homing = false;
+        known.order = Order::none;
     }
-    if (!enabled) end_stream();
-    if (known_.order == Order::homing) {
-        if (known_.mode == 6 && (sw & 0x2000u)) known_.fb.homing = false, known_.fb.homing_error = true, known_.order = Order::none;
-        if (known_.mode == 6 && (sw & 0x1000u) && (sw & 0x400u)) {
-            known_.fb.homing = false;
-            known_.fb.homing_attained = known_.fb.referenced = true;
-            known_.order = Order::none;
-        }
-    }
-    // Bit 10 of the motion before may stand in the first status after a new set-point: it counts from the second one on.
-    const bool fresh = std::exchange(fresh_, fresh_ > 0 ? fresh_ - 1 : 0) > 0;
-    known_.fb.target_reached = known_.order == Order::position && known_.mode == 1 && (sw & 0x400u) && !fresh;
-    const bool on_its_way = (known_.order == Order::position && !known_.fb.target_reached) || known_.fb.homing;
-    known_.fb.moving = known_.fb.velocity != 0 || on_its_way || (stream_ >= Stream::position && led_.velocity() != 0);
-    if (known_.fb.power != AxisFeedback::Power::on) known_.fb.moving = known_.fb.velocity != 0;
-    if (!known_.fb.fault) known_.fb.error_code = 0;
-    if (known_.fb.fault && !was_fault && known_.fb.error_code == 0) {  // its EMCY was lost: the fault is told with its number
+    if (!enabled) drive_.stream.end();
+    judge_order(sw);
+    if (fb.power != AxisFeedback::Power::on) fb.moving = fb.velocity != 0;
+    if (!fb.fault) fb.error_code = 0;
+    if (fb.fault && !was_fault && fb.error_code == 0) {  // its EMCY was lost: the fault is told with its number
         need_code_ = true;
         return;
     }
     if (!need_code_) emit(t);
 }
 
-void Axis::emit(Turn& t) {
-    known_.fb.at = t.now;
-    t.out.feedback.push_back({id_, known_.fb});
+/// How far it is with what was ordered.
+void Feedback::judge_order(unsigned sw) {
+    AxisKnown& known = drive_.known;
+    AxisFeedback& fb = known.fb;
+    if (known.order == Order::homing) {
+        if (known.mode == 6 && (sw & 0x2000u)) fb.homing = false, fb.homing_error = true, known.order = Order::none;
+        if (known.mode == 6 && (sw & 0x1000u) && (sw & 0x400u)) {
+            fb.homing = false;
+            fb.homing_attained = fb.referenced = true;
+            known.order = Order::none;
+        }
+    }
+    // Bit 10 of the motion before may stand in the first status after a new set-point: it counts from the second one on.
+    const bool fresh = std::exchange(fresh_, fresh_ > 0 ? fresh_ - 1 : 0) > 0;
+    fb.target_reached = known.order == Order::position && known.mode == 1 && (sw & 0x400u) && !fresh;
+    const bool on_its_way = (known.order == Order::position && !fb.target_reached) || fb.homing;
+    fb.moving = fb.velocity != 0 || on_its_way || drive_.stream.moves();
+}
+
+void Feedback::emit(Turn& t) {
+    drive_.known.fb.at = t.now;
+    t.out.feedback.push_back({drive_.id(), drive_.known.fb});
 }
 
 }  // namespace axisgate::cia402_drive

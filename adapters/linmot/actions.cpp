@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 
 #include "adapters/linmot/drive.hpp"
 #include "adapters/linmot/parameters_tables.hpp"
@@ -14,6 +13,7 @@
 
 namespace axisgate::linmot {
 namespace {
+constexpr std::size_t most_text = 16'000;  ///< of what comes in rows
 std::int64_t whole(const std::vector<Value>& v, std::size_t i) { return i < v.size() ? as_integer(v[i]).value_or(0) : 0; }
 std::string text(const std::vector<Value>& v, std::size_t i) {
     const auto* s = i < v.size() ? std::get_if<std::string>(&v[i]) : nullptr;
@@ -21,153 +21,157 @@ std::string text(const std::vector<Value>& v, std::size_t i) {
 }
 }  // namespace
 
-void Drive::begin_action(Turn& t) {
-    auto& action = std::get<Action>(job_.command.body);
-    const CatalogueCommand* command = bus_.catalogue.command(action.name);
-    const auto refuse = [&](Reason reason, std::string why) { end_job(Outcome::refused, reason, std::move(why), t); };
+void Actions::begin(Turn& t) {
+    auto& action = std::get<Action>(job().command.body);
+    const Bus& bus = drive_.bus;
+    const CatalogueCommand* command = bus.catalogue.command(action.name);
+    const auto wrong = [&](Reason reason, std::string why) { refuse(reason, std::move(why), t); };
     if (!command)
-        return refuse(Reason::unknown_point, fmt::format("a LinMot drive has no action {}; see the catalogue's commands", action.name));
+        return wrong(Reason::unknown_point, fmt::format("a LinMot drive has no action {}; see the catalogue's commands", action.name));
     if (action.values.size() != command->arguments.size()) {
         auto checked = check_arguments(*command, action.argument);
-        if (!checked.faults.empty()) return refuse(Reason::out_of_range, checked.faults[0].text + "; " + checked.faults[0].remedy);
+        if (!checked.faults.empty()) return wrong(Reason::out_of_range, checked.faults[0].text + "; " + checked.faults[0].remedy);
         action.values = std::move(checked.values);
     }
-    if (const Motion* m = bus_.motions.named(command->id)) {
-        if (m->inferred && !inferred_)
-            return refuse(Reason::not_supported,
-                          fmt::format("the layout of {} is inferred, and the drive option inferred is off", command->name));
-        to_target_ = command->completes == Completion::target_reached;
-        if (m->header == 0x0010) cw_known_ = false;
-        return begin_motion(*m, action.values, t);
+    if (const Motion* m = bus.motions.named(command->id)) {
+        if (m->inferred && !drive_.options.inferred)
+            return wrong(Reason::not_supported,
+                         fmt::format("the layout of {} is inferred, and the drive option inferred is off", command->name));
+        drive_.motion.has_target(command->completes == Completion::target_reached);
+        if (m->header == 0x0010) drive_.control.forget();
+        return drive_.motion.begin_motion(*m, action.values);
     }
     action.name = command->id;
-    if (!inferred_ && inferred(bus_.catalogue, action.name))
-        return refuse(Reason::not_supported,
-                      fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", action.name));
-    static constexpr std::array<std::string_view, 4> carried{"table.read", "table.write", "curve.read", "curve.write"};
-    if (std::ranges::find(carried, action.name) == carried.end()) return;
+    if (!drive_.options.inferred && inferred(bus.catalogue, action.name))
+        return wrong(Reason::not_supported,
+                     fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", action.name));
+    begin_transfer(action, t);
+}
+
+/// Of a table entry or a curve: the whole of it is made before anything is sent.
+void Actions::begin_transfer(const Action& action, Turn& t) {
     const auto number = static_cast<std::uint16_t>(whole(action.values, 0));
-    if (action.name == "table.read" || action.name == "curve.read") return begin_transfer(action.name == "curve.read", false, number);
-    // The whole entry, the whole curve is made before anything is sent.
+    if (action.name == "table.read" || action.name == "curve.read") return drive_.transfers.begin_read(action.name == "curve.read", number);
     if (action.name == "table.write") {
-        auto e = entry_of(bus_.motions, text(action.values, 1), text(action.values, 2), static_cast<std::uint16_t>(whole(action.values, 3)),
-                          text(action.values, 4));
-        if (!e.fault.empty()) return refuse(Reason::out_of_range, fmt::format("row {}: {}", number, e.fault));
-        return begin_transfer(false, true, number, std::move(e.bytes));
+        auto e = entry_of(drive_.bus.motions, text(action.values, 1), text(action.values, 2),
+                          static_cast<std::uint16_t>(whole(action.values, 3)), text(action.values, 4));
+        if (!e.fault.empty()) return refuse(Reason::out_of_range, fmt::format("row {}: {}", number, e.fault), t);
+        return drive_.transfers.begin_write(false, number, std::move(e.bytes));
     }
+    if (action.name != "curve.write") return;
     auto c = curve_of(number, text(action.values, 1));
     if (c.fault.empty() && c.data.empty()) c.fault = "no points are given; curve.delete takes a curve away";
-    if (!c.fault.empty()) return refuse(Reason::out_of_range, fmt::format("curve {}: {}", number, c.fault));
-    begin_transfer(true, true, number, std::move(c.info), std::move(c.data));
+    if (!c.fault.empty()) return refuse(Reason::out_of_range, fmt::format("curve {}: {}", number, c.fault), t);
+    drive_.transfers.begin_write(true, number, std::move(c.info), std::move(c.data));
 }
 
-std::optional<Telegram> Drive::action_request(Turn& t) {
-    const auto& action = std::get<Action>(job_.command.body);
+std::optional<Telegram> Actions::request(Turn& t) {
+    const auto& action = std::get<Action>(job().command.body);
     const std::string& name = action.name;
+    const std::uint8_t id = drive_.id();
     const auto number = static_cast<std::uint16_t>(whole(action.values, 0));
-    const int step = job_.step;
-    if (name == "program.stop") return request(id_, Main::program, 3);
-    if (name == "program.reset") return request(id_, Main::program, 2);
+    const int step = job().step;
     if (name == "program.start") {
-        if (job_.step == 0) {
-            job_.step = 1;
-            job_.limit = t.now + std::chrono::seconds(10);
-            return request(id_, Main::program, 4);
-        }
-        return request(id_, Main::response, 1);
+        if (step > 0) return linmot::request(id, Main::response, 1);
+        job().step = 1;
+        job().limit = t.now + std::chrono::seconds(10);
+        return linmot::request(id, Main::program, 4);
     }
-    if (name == "error.text") return request16(id_, Main::errors, 1, number);
-    if (name == "error.counters") return request(id_, Main::errors, 2);
-    if (name == "parameter.info") return request16(id_, Main::parameters, static_cast<std::uint8_t>(3 + step), number);
-    if (name == "parameter.list") return request16(id_, Main::parameters, step == 0 ? 0x0A : 0x0B, number);
-    if (name == "table.presence") return request16(id_, Main::table, 7, static_cast<std::uint16_t>(step));
-    if (name == "table.delete") return request16(id_, Main::table, 2, number);
-    if (name == "table.delete_all") return request(id_, Main::table, 1);
-    if (name == "table.save") return request(id_, Main::table, 0);
-    if (name == "curve.delete") return request16(id_, Main::curves, 2, number);
-    if (name == "curve.delete_all") return request(id_, Main::curves, 1);
-    if (name == "curve.save") return request(id_, Main::curves, 0);
-    end_job(Outcome::refused, Reason::not_supported, fmt::format("{} is not carried out by this gateway", name), t);
-    return std::nullopt;
+    if (name == "parameter.info") return request16(id, Main::parameters, static_cast<std::uint8_t>(3 + step), number);
+    if (name == "parameter.list") return request16(id, Main::parameters, step == 0 ? 0x0A : 0x0B, number);
+    if (name == "table.presence") return request16(id, Main::table, 7, static_cast<std::uint16_t>(step));
+    struct Message {
+        std::string_view name;
+        Main main;
+        std::uint8_t sub;
+        bool numbered;
+    };
+    static constexpr Message messages[] = {{"program.stop", Main::program, 3, false},    {"program.reset", Main::program, 2, false},
+                                           {"error.text", Main::errors, 1, true},        {"error.counters", Main::errors, 2, false},
+                                           {"table.delete", Main::table, 2, true},       {"table.delete_all", Main::table, 1, false},
+                                           {"table.save", Main::table, 0, false},        {"curve.delete", Main::curves, 2, true},
+                                           {"curve.delete_all", Main::curves, 1, false}, {"curve.save", Main::curves, 0, false}};
+    for (const Message& m : messages) {
+        if (m.name == name) return m.numbered ? request16(id, m.main, m.sub, number) : linmot::request(id, m.main, m.sub);
+    }
+    return refused(Reason::not_supported, fmt::format("{} is not carried out by this gateway", name), t);
 }
 
-void Drive::action_answered(const Telegram& telegram, Turn& t) {
-    const std::string name = std::get<Action>(job_.command.body).name;
-    const auto accept = [&](std::string said) { end_job(Outcome::accepted, Reason::none, std::move(said), t); };
-    if (job_.transfer.active) {
-        if (!transfer_answered(telegram, t)) return;
-        const bool written = job_.transfer.write;
-        return accept(written ? "written and read back" : transfer_text());
+void Actions::answered(const Telegram& telegram, Turn& t) {
+    const std::string name = std::get<Action>(job().command.body).name;
+    if (drive_.transfers.active()) {
+        if (!drive_.transfers.answered(telegram, t)) return;
+        return accept(job().transfer.write ? "written and read back" : drive_.transfers.text(), t);
     }
-    if (name == "program.stop" || name == "program.reset") {
-        cw_known_ = false;
-        return accept({});
+    if (name.starts_with("program.")) return program_answered(name, telegram, t);
+    if (name.starts_with("error.")) return errors_answered(name, telegram, t);
+    rows_answered(name, telegram, t);
+}
+
+void Actions::program_answered(const std::string& name, const Telegram& telegram, Turn& t) {
+    if (name != "program.start") {
+        drive_.control.forget();
+        return accept({}, t);
     }
-    if (name == "program.start") {
-        if (telegram.sub == 0x60) return accept("the software runs");
-        if (status_.status != 0 || status_.state_var != 0) return accept("the software runs");
-        if (t.now >= job_.limit) return end_job(Outcome::failed, Reason::drive_refused, "the software has not started within 10 s", t);
-        job_.not_before = t.now + std::chrono::milliseconds(200);
-        return;
-    }
-    if (name == "error.text" || name == "error.counters") {
-        if (telegram.size < 5 || telegram.storage[0] != 0)
-            return end_job(Outcome::refused, Reason::drive_refused, refusal(telegram.storage[0]), t);
-        if (name == "error.counters")
-            return accept(fmt::format("{} entries in the error log, {} errors have occurred", telegram.u16(1), telegram.u16(3)));
-        std::string said(telegram.data().begin() + 3, telegram.data().end());
-        return accept(said.substr(0, said.find('\0')));
-    }
-    rows_answered(telegram, t);
+    const Status& s = drive_.feedback.status();
+    if (telegram.sub == 0x60 || s.status != 0 || s.state_var != 0) return accept("the software runs", t);
+    if (t.now >= job().limit) return fail(Reason::drive_refused, "the software has not started within 10 s", t);
+    job().not_before = t.now + std::chrono::milliseconds(200);
+}
+
+void Actions::errors_answered(const std::string& name, const Telegram& telegram, Turn& t) {
+    if (telegram.size < 5 || telegram.storage[0] != 0) return refuse(Reason::drive_refused, refusal(telegram.storage[0]), t);
+    if (name == "error.counters")
+        return accept(fmt::format("{} entries in the error log, {} errors have occurred", telegram.u16(1), telegram.u16(3)), t);
+    const std::string said(telegram.data().begin() + 3, telegram.data().end());
+    accept(said.substr(0, said.find('\0')), t);
+}
+
+void Actions::add_row(std::string row) {
+    std::string& rows = job().text;
+    if (rows.size() < most_text) rows += (rows.empty() ? "" : "\n") + std::move(row);
 }
 
 /// What comes in several answers: a list, the presence of the table's entries.
-void Drive::rows_answered(const Telegram& telegram, Turn& t) {
-    const auto& action = std::get<Action>(job_.command.body);
-    const std::string name = action.name;
+void Actions::rows_answered(const std::string& name, const Telegram& telegram, Turn& t) {
     const auto a = config_of(telegram);
-    if (!a) return end_job(Outcome::failed, Reason::drive_refused, "the answer has another form", t);
+    if (!a) return fail(Reason::drive_refused, "the answer has another form", t);
     constexpr std::uint8_t list_end = 0xC6;
-    const auto accept = [&](std::string said) { end_job(Outcome::accepted, Reason::none, std::move(said), t); };
     if (a->communication != 0 && !(name == "parameter.list" && a->communication == list_end))
-        return end_job(Outcome::refused, Reason::drive_refused, refusal(a->communication), t, a->communication);
-    const int step = job_.step++;
-    const auto add = [&](std::string row) {
-        if (job_.text.size() < 16'000) job_.text += (job_.text.empty() ? "" : "\n") + std::move(row);
-    };
+        return refuse(Reason::drive_refused, refusal(a->communication), t, a->communication);
+    std::string& rows = job().text;
+    const int step = job().step++;
     if (name == "parameter.info") {
-        static constexpr const char* what[] = {"usage", "type", "min", "max", "default"};
-        if (step == 1) job_.number = a->value;
-        const bool is_signed = job_.number == 2 || job_.number == 4 || job_.number == 6;
-        if (step == 0)
-            add(fmt::format("usage {:04X}h{}", a->value, a->value & 0x100 ? " (live)" : ""));
-        else if (step == 1)
-            add(fmt::format("type {}", type_name(static_cast<std::uint8_t>(a->value))));
-        else
-            add(is_signed ? fmt::format("{} {}", what[step], static_cast<std::int32_t>(a->value))
-                          : fmt::format("{} {}", what[step], a->value));
-        if (step == 3 && !inferred_) {
-            add("default not asked: the message is inferred, and the drive option inferred is off");
-            return accept(job_.text);
-        }
-        if (step == 4) return accept(job_.text);
-        return;
-    }
-    if (name == "parameter.list") {
-        if (a->communication == list_end || job_.text.size() >= 16'000) return accept(job_.text);
+        info_answered(step, *a, t);
+    } else if (name == "parameter.list") {
+        if (a->communication == list_end || rows.size() >= most_text) return accept(rows, t);
         if (step > 0)
-            add(fmt::format("{:04X}h usage {:04X}h type {}", a->index, a->value & 0xFFFF,
-                            type_name(static_cast<std::uint8_t>(a->value >> 16))));
-        return;
-    }
-    if (name == "table.presence") {
+            add_row(fmt::format("{:04X}h usage {:04X}h type {}", a->index, a->value & 0xFFFF,
+                                type_name(static_cast<std::uint8_t>(a->value >> 16))));
+    } else if (name == "table.presence") {
         for (int i = 0; i < 32; ++i) {
-            if ((a->value >> i & 1) == 0 && step * 32 + i > 0) job_.text += (job_.text.empty() ? "" : " ") + std::to_string(step * 32 + i);
+            if ((a->value >> i & 1) == 0 && step * 32 + i > 0) rows += (rows.empty() ? "" : " ") + std::to_string(step * 32 + i);
         }
-        if (step == 7) return accept(job_.text);
-        return;
+        if (step == 7) accept(rows, t);
+    } else {
+        accept({}, t);
     }
-    accept({});
+}
+
+/// Usage, type, lower and upper limit, default, one answer each; the job's number keeps the type.
+void Actions::info_answered(int step, const ConfigAnswer& a, Turn& t) {
+    static constexpr const char* what[] = {"usage", "type", "min", "max", "default"};
+    if (step == 1) job().number = a.value;
+    const bool is_signed = job().number == 2 || job().number == 4 || job().number == 6;
+    if (step == 0)
+        add_row(fmt::format("usage {:04X}h{}", a.value, a.value & 0x100 ? " (live)" : ""));
+    else if (step == 1)
+        add_row(fmt::format("type {}", type_name(static_cast<std::uint8_t>(a.value))));
+    else
+        add_row(is_signed ? fmt::format("{} {}", what[step], static_cast<std::int32_t>(a.value))
+                          : fmt::format("{} {}", what[step], a.value));
+    if (step == 3 && !drive_.options.inferred) add_row("default not asked: the message is inferred, and the drive option inferred is off");
+    if (step == 4 || (step == 3 && !drive_.options.inferred)) accept(job().text, t);
 }
 
 }  // namespace axisgate::linmot

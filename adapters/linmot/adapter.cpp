@@ -121,7 +121,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
 
 void LineAdapter::heard(const Telegram& telegram, Turn& t) {
     Drive* d = asked_;
-    if (!d || telegram.id != d->id() || !d->answers(telegram)) {
+    if (!d || telegram.id != d->id() || !d->exchanges.answers(telegram)) {
         ++bus_.counters.unexpected;
         if (Drive* other = roster_.find([&](const Drive& x) { return x.id() == telegram.id; }); other && telegram.main == 0) {
             other->unasked(t);
@@ -152,7 +152,7 @@ void LineAdapter::on_deadline(Instant now, Out& out) {
         }
         const bool was = d->waiting();
         d->on_deadline(t);
-        if (was && d->repeats(t)) {
+        if (was && d->exchanges.repeated(t.now)) {
             framer_.reset([&](std::span<const std::uint8_t>, std::string_view) { ++bus_.counters.garbled; });
         } else if (was && !d->waiting()) {
             free_line();

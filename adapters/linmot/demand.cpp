@@ -1,45 +1,60 @@
-// Where the axis should be: worked out from the moves that the drive has acknowledged, since its default response has the position alone.
-// In: beginnings and ends of motions. Out: demand and its source in the feedback. Forgotten where a motion is not the gateway's own.
+// AxisDemand: the ramps of acknowledged moves.
+// In: moves, statuses. Out: the demand. Never goes on where the drive stands before it should: somebody else has ended the motion.
+#include "adapters/linmot/demand.hpp"
+
 #include <cmath>
 
 #include "adapters/linmot/drive.hpp"
 
 namespace axisgate::linmot {
 
-void Drive::demand_moves(Turn& t) {
-    const DemandRamps ramps{.acceleration = move_a_ * 100.0 + (move_a_ == 0 ? 1 : 0), .deceleration = move_d_ * 100.0, .start_speed = 0};
+void AxisDemand::ordered(const Move& move, std::uint32_t v, std::uint32_t a, std::uint32_t d) noexcept {
+    move_ = move;
+    v_ = v, a_ = a, d_ = d;
+}
+void AxisDemand::ordered_stop(const Move& move, std::uint32_t d) noexcept {
+    move_ = move;
+    d_ = d;
+}
+
+std::uint32_t AxisDemand::deceleration() const noexcept { return d_ ? d_ : drive_.limits.deceleration.value_or(100'000); }
+
+double AxisDemand::place(Instant now) const {
+    const bool moves = demand_.known() && drive_.feedback.fb().moving;
+    return moves ? demand_.at(now).position : drive_.feedback.status().position;
+}
+
+void AxisDemand::moves(Turn& t) {
+    const DemandRamps ramps{.acceleration = a_ * 100.0 + (a_ == 0 ? 1 : 0), .deceleration = d_ * 100.0, .start_speed = 0};
     if (!demand_.known()) {
-        if (fb_.moving && fb_.velocity != 0) return;
-        demand_.rest(static_cast<double>(status_.position));
+        if (drive_.feedback.fb().moving && drive_.feedback.fb().velocity != 0) return;
+        rest(drive_.feedback.status().position);
     }
-    const Move& m = demand_move_;
-    const double v = move_v_ * 10.0;
-    if (m.kind == Move::Kind::velocity)
-        return demand_.run(t.now, m.target == 0 ? 0 : std::copysign(v, static_cast<double>(m.target)), ramps);
-    const double target = static_cast<double>(m.target) + (m.kind == Move::Kind::relative ? demand_.at(t.now).position : 0);
+    const double v = v_ * 10.0;
+    if (move_.kind == Move::Kind::velocity)
+        return demand_.run(t.now, move_.target == 0 ? 0 : std::copysign(v, static_cast<double>(move_.target)), ramps);
+    const double target = static_cast<double>(move_.target) + (move_.kind == Move::Kind::relative ? demand_.at(t.now).position : 0);
     demand_.move(t.now, target, v, ramps);
 }
 
-void Drive::demand_stops(Turn& t) {
+void AxisDemand::stops(Turn& t) {
     if (!demand_.known()) return;
-    if (status_.state() != state::enabled) return demand_.forget();  // on a ramp that is not known
-    demand_.stop(
-        t.now,
-        {.acceleration = move_a_ * 100.0 + 1, .deceleration = (move_d_ ? move_d_ : dec_.value_or(100'000)) * 100.0, .start_speed = 0});
+    if (drive_.feedback.status().state() != state::enabled) return forget();  // on a ramp that is not known
+    demand_.stop(t.now, {.acceleration = a_ * 100.0 + 1, .deceleration = deceleration() * 100.0, .start_speed = 0});
 }
 
-void Drive::demand_at_status(Turn& t) {
-    const bool held = status_.state() >= state::enabled && status_.state() != state::quick_stop;
-    if (!held || status_.state() == state::homing)
-        demand_.forget();
-    else if (!demand_.known() && !fb_.moving)
-        demand_.rest(static_cast<double>(status_.position));
-    // It stands before it should: somebody else has ended the motion.
-    else if (demand_.known() && !fb_.moving && !motion_fresh_ &&
-             !demand_.over(t.now + bus_.timing.reply_timeout + std::chrono::milliseconds(20)))
-        demand_.rest(static_cast<double>(status_.position));
-    fb_.demand_source = demand_.known() ? DemandSource::computed : DemandSource::none;
-    fb_.position_demand = demand_.known() ? std::llround(demand_.at(t.now).position) : fb_.position;
+void AxisDemand::at_status(AxisFeedback& fb, Turn& t) {
+    const Status& s = drive_.feedback.status();
+    const bool held = s.state() >= state::enabled && s.state() != state::quick_stop;
+    if (!held || s.state() == state::homing)
+        forget();
+    else if (!demand_.known() && !fb.moving)
+        rest(s.position);
+    else if (demand_.known() && !fb.moving && !drive_.motion.fresh() &&
+             !demand_.over(t.now + drive_.bus.timing.reply_timeout + std::chrono::milliseconds(20)))
+        rest(s.position);
+    fb.demand_source = demand_.known() ? DemandSource::computed : DemandSource::none;
+    fb.position_demand = demand_.known() ? std::llround(demand_.at(t.now).position) : fb.position;
 }
 
 }  // namespace axisgate::linmot

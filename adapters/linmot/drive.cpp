@@ -1,83 +1,182 @@
-// One drive: which verb a command is, and how a job ends.
-// In: commands in order, answers. Out: the verb's telegrams, exactly one result. Never two jobs at once.
+// Drive: what is sent next: stops, a stream, the values at the start, commands, polls, in this order; what a silence means.
+// In: the adapter's calls. Out: telegrams and results by its parts. After a silence nothing is sent for as long as its answer may come.
 #include "adapters/linmot/drive.hpp"
 
 #include <fmt/core.h>
 
+#include "gateway/drive/option_reader.hpp"
+
 namespace axisgate::linmot {
+using drive::Want;
+using Phase = drive::Presence::Phase;
 
-void Drive::begin_job(Turn& t) {
-    job_ = {};
-    job_.active = true;
-    job_.command = queue_.pop();
-    const CommandBody& body = job_.command.body;
-    if (const auto* move = std::get_if<Move>(&body)) return begin_move(*move, t);
-    if (const auto* home = std::get_if<Home>(&body)) return begin_home(*home, t);
-    if (const auto* place = std::get_if<SetPosition>(&body)) {
-        if (status_.state() != state::enabled)
-            return end_job(Outcome::refused, Reason::wrong_state,
-                           fmt::format("drive {} is in {}: its position is set while it is enabled", title(), state_text()), t);
-        if (place->position < INT32_MIN || place->position > INT32_MAX)
-            return end_job(Outcome::refused, Reason::out_of_range, "the position is beyond what the drive can count", t);
-        to_target_ = false;
-        return begin_motion(*bus_.motions.named("009xh"), {place->position}, t);
+Duration Bus::wire(std::size_t bytes) const noexcept {
+    return bit_rate == 0 ? Duration{} : Duration{static_cast<std::int64_t>(bytes * bits_per_byte * 1'000'000'000ull / bit_rate)};
+}
+
+DriveOptions drive_options(const DriveSetup& setup, const Bus& bus) {
+    drive::OptionReader read(setup.options);
+    DriveOptions o;
+    o.warn_inferred = read.word("warn_word", {"off", "inferred"}) == "inferred";
+    o.inferred = read.flag("inferred", true);
+    o.stop_by_off3 = read.word("quick_stop", {"abort", "off3"}) == "off3";
+    const auto set_points = read.word("set_points", {"moves", "auto", "stream"});
+    o.streams = set_points != "moves";
+    if (set_points == "stream" && stream_period(bus) <= Duration{})
+        read.fault(
+            "set_points: a stream needs a set-point every 2 to 5 ms, which this line cannot hold (a bit rate of 115200 or more, and "
+            "no other drive): set-points are sent as moves");
+    o.faults = read.take_faults();
+    return o;
+}
+
+Drive::Drive(Bus& of_line, const DriveSetup& setup, std::uint8_t id, std::size_t slot)
+    : bus(of_line),
+      options(drive_options(setup, of_line)),
+      presence(setup.id, of_line.timing),
+      setup_(setup),
+      id_(id),
+      slot_(slot),
+      notices_(setup.id) {
+    for (const AxisSetup& a : setup.axes) {
+        if (a.channel == 1) axis_ = a.id;
     }
-    if (std::holds_alternative<Action>(body)) return begin_action(t);
-    if (std::holds_alternative<StartTogether>(body))
-        return end_job(Outcome::refused, Reason::not_supported, "LinMot drives cannot be started together", t);
 }
 
-std::optional<Telegram> Drive::job_request(Turn& t) {
-    const CommandBody& body = job_.command.body;
-    if (job_.number == -1) return motion_request(t);
-    if (job_.transfer.active) return transfer_request();
-    if (std::holds_alternative<Enable>(body)) return power_request(t);
-    if (std::holds_alternative<ResetFault>(body)) return reset_request(t);
-    if (std::holds_alternative<Home>(body)) return home_request(t);
-    if (std::holds_alternative<ReadParameter>(body) || std::holds_alternative<WriteParameter>(body)) return parameter_request(t);
-    if (std::holds_alternative<Native>(body)) return native_request(t);
-    if (std::holds_alternative<Action>(body)) return action_request(t);
-    end_job(Outcome::refused, Reason::not_supported, fmt::format("a LinMot drive has no {}", name_of(body)), t);
-    return std::nullopt;
+std::string Drive::title() const { return fmt::format("{} (ID {})", setup_.name, id_); }
+
+void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
+    notices_.tell(severity, axis_, kind, code, std::move(text), t.now, t.out);
 }
 
-/// A motion command once, with a new count; then its count is looked for.
-std::optional<Telegram> Drive::motion_request(Turn&) {
-    if (job_.step > 0) return request(id_, Main::response, 1);
-    job_.step = 1;
-    job_.count = next_count();
-    std::vector<std::uint8_t> bytes = job_.bytes;
-    bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | job_.count);
-    Telegram telegram = request(id_, Main::motion, 0);
-    for (const auto b : bytes)
-        telegram.add(b);
-    return telegram;
+// --- the line ----------------------------------------------------------------------------------------------------------------
+
+void Drive::begin(Turn& t) {
+    for (auto& fault : options.faults)
+        notice(Severity::warning, "setup", 0, std::move(fault), t);
+    options.faults.clear();
 }
 
-void Drive::job_answered(const Telegram& telegram, Turn& t) {
-    const CommandBody& body = job_.command.body;
-    if (job_.number == -1) return motion_answered(t);
-    if (std::holds_alternative<ReadParameter>(body) || std::holds_alternative<WriteParameter>(body)) return parameter_answered(telegram, t);
-    if (std::holds_alternative<Native>(body)) return native_answered(telegram, t);
-    if (std::holds_alternative<Action>(body)) return action_answered(telegram, t);
+void Drive::line_up(Turn& t) {
+    presence.begin(t.now);
+    exchanges.nothing_late();
+    feedback.unknown();
+    control.forget();
 }
 
-void Drive::job_failed_silent(Turn& t) {
-    if (transfer_again()) return;
-    to_target_ = false;
-    demand_.forget();
-    end_job(Outcome::failed, Reason::no_answer, fmt::format("drive {} does not answer", title()), t);
+void Drive::line_down(Turn& t, std::string_view why) {
+    remove(t, why);
+    presence.report(std::string(why), t.out);
 }
 
-void Drive::end_job(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
-    const Ticket ticket = job_.command.ticket;
-    std::vector<std::uint8_t> bytes =
-        std::holds_alternative<Native>(job_.command.body) ? std::move(job_.bytes) : std::vector<std::uint8_t>();
-    if (outcome == Outcome::refused && reason == Reason::drive_refused) ++bus_.counters.refused;
-    const bool streamed = ticket == no_ticket && std::holds_alternative<Move>(job_.command.body);
-    job_ = {};
-    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted) t.out.stream_ends.push_back({axis_, reason, text});
-    tickets_.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
+void Drive::remove(Turn& t, std::string_view why) {
+    presence.close();
+    exchanges.drop();
+    lost(t, {});
+    tickets.fail_all(Reason::line_down, why, t.out);
+}
+
+void Drive::lost(Turn& t, std::string why) {
+    jobs.forget();
+    stops.forget();
+    stream.forget();
+    poll.stop();
+    homing.forget();
+    motion.forget();
+    feedback.forget();
+    control.forget();
+    demand.forget();
+    if (why.empty()) return;
+    tickets.fail_all(Reason::no_answer, why, t.out);
+    presence.report(std::move(why), t.out);
+}
+
+void Drive::follow(const SetPoint& p) {
+    if (p.axis == axis_ && presence.online() && !stream.take(p)) jobs.set_points.put(p);
+}
+
+void Drive::submit(const Command& command, Turn& t) {
+    if (is_urgent(command.body) || drive::is_motion(command.body)) {
+        jobs.set_points.clear();
+        stream.interrupt();
+    } else if (stream.on() && !stream.ending()) {
+        return drive::Tickets::refuse(
+            command, Reason::busy,
+            fmt::format("drive {} follows a stream that leaves no time for other exchanges: end the stream first", title()), t.out);
+    }
+    if (drive::admit(command, title(), presence, jobs.queue, tickets, t) == drive::Admission::urgent) stops.add(command, t);
+}
+
+// --- what is sent next -------------------------------------------------------------------------------------------------------
+
+Want Drive::wants(Instant now) const noexcept {
+    if (presence.is(Phase::down) || !exchanges.ready(now)) return Want::nothing;
+    if (!stops.empty()) return Want::urgent;
+    if (!served()) return presence.probe_due(now) ? Want::probe : Want::nothing;
+    if (stream.on()) return stream.ending() || now >= stream.next() ? Want::command : Want::nothing;
+    if (start.reads() || homing.to_release() || jobs.wants(now) || (jobs.idle() && stream.waits())) return Want::command;
+    if (poll.due(now)) return feedback.fb().moving && !pace.close() ? Want::quick_poll : Want::poll;
+    return Want::nothing;
+}
+
+Instant Drive::wish() const noexcept {
+    if (presence.is(Phase::down)) return never;
+    Instant at = presence.deadline();
+    if (served()) {
+        if (stream.on()) return std::max(stops.empty() && !stream.ending() ? stream.next() : Instant{}, exchanges.ready_at());
+        at = std::min({at, poll.deadline(), jobs.wish()});
+        if (homing.to_release() || start.reads() || (jobs.idle() && stream.waits())) at = Instant{};
+    }
+    if (!stops.empty()) at = Instant{};
+    return std::max(at, exchanges.ready_at());
+}
+
+void Drive::go(Turn& t) {
+    if (exchanges.active()) return;
+    if (stream.on() && stream.ending() && stops.empty_or_halt()) return stream.send(t);
+    if (auto telegram = stops.request(t)) return exchanges.send({std::move(*telegram), Purpose::stop}, t);
+    if (!served()) return start.probe(t);
+    if (start.reads()) return start.read_next(t);
+    if (homing.to_release()) return homing.release(t);
+    if (!stream.on() && stream.waits() && jobs.idle() && jobs.queue.empty()) stream.begin(t);
+    if (stream.on()) return t.now >= stream.next() ? stream.send(t) : void();
+    if (jobs.go(t) || !poll.due(t.now)) return;
+    poll.asked(t.now, pace.period(bus.timing.poll_period));
+    exchanges.send({request(id_, Main::response, 1), Purpose::poll}, t);
+}
+
+// --- what comes --------------------------------------------------------------------------------------------------------------
+
+void Drive::on_telegram(const Telegram& telegram, Turn& t) {
+    const Request r = exchanges.answered();
+    presence.answered();
+    if (r.purpose == Purpose::probe) return start.probed(telegram, t);
+    const bool default_response = telegram.sub == 0 && r.telegram.main <= static_cast<std::uint8_t>(Main::motion);
+    if (default_response && telegram.size != default_size && !(r.telegram.main == 0 && r.telegram.sub == 3) && !r.any_length)
+        return start.not_ours(start.reconfigured(telegram), t);
+    if (r.purpose == Purpose::core) return start.read(telegram, t);
+    if (const auto status = status_of(telegram); status && telegram.sub == 0) feedback.learn(*status, t);
+    if (r.purpose == Purpose::stop) stops.answered(t);
+    if (r.purpose == Purpose::job) jobs.answered(telegram, t);
+    if (r.purpose == Purpose::stream) stream.answered(t);
+}
+
+void Drive::on_deadline(Turn& t) {
+    if (exchanges.on_deadline(t)) silence(t);
+}
+
+void Drive::silence(Turn& t) {
+    const Request& r = exchanges.request();
+    if (r.quiet) return jobs.look_later(t);
+    if (r.purpose == Purpose::stream && stream.heard_lately(t.now)) return;
+    exchanges.missed(t.now);
+    const auto what = presence.silent(t.now);
+    if (what == drive::Presence::Silence::lost) return lost(t, fmt::format("drive {} does not answer", title()));
+    if (what == drive::Presence::Silence::still_absent && r.purpose == Purpose::probe) return start.absent(t);
+    if (r.purpose == Purpose::core) start.read_silent(t);
+    if (r.purpose == Purpose::stop) stops.silent(t);
+    if (r.purpose == Purpose::job) jobs.silent(t);
+    if (r.purpose == Purpose::release) homing.release_lost();
 }
 
 }  // namespace axisgate::linmot

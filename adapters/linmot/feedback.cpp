@@ -1,6 +1,7 @@
-// What is learnt from a default response: the axis' picture, alarms, samples of the drive's own words.
-// In: status word, StateVar, position. Out: feedback, samples, notices. Never shows what the drive did not say; the speed is the change of
-// its position over the last tenth of a second.
+// Feedback: default responses, one after the other.
+// In: the newest one. Out: the axis' picture, what has changed in it. An error is an alarm once, for as long as it stands.
+#include "adapters/linmot/feedback.hpp"
+
 #include <fmt/core.h>
 
 #include <cmath>
@@ -9,17 +10,15 @@
 
 namespace axisgate::linmot {
 
-bool Drive::in_error() const noexcept { return status_.state() == state::error || status_.state() == state::setup_error; }
-
-std::string Drive::error_text() const {
+std::string Feedback::error_text() const {
     const std::uint8_t code = status_.sub_state();
-    const ErrorCode* e = bus_.catalogue.error(code);
+    const ErrorCode* e = drive_.bus.catalogue.error(code);
     if (!e) return fmt::format("error {:02X}h, which is in no list of the motion control software", code);
     return fmt::format("error {:04X}h, {}: {} {}", code, e->text, e->cause, e->remedy);
 }
 
-std::string Drive::state_text() const {
-    const auto* list = bus_.catalogue.document().if_contains("states");
+std::string Feedback::state_text() const {
+    const auto* list = drive_.bus.catalogue.document().if_contains("states");
     for (const auto& s : list->get_array()) {
         if (s.get_object().at("code").as_int64() == status_.state())
             return fmt::format("state {}, {}", status_.state(), std::string_view(s.get_object().at("name").as_string()));
@@ -27,51 +26,55 @@ std::string Drive::state_text() const {
     return fmt::format("state {}", status_.state());
 }
 
-void Drive::sample(std::string_view id, Value value, Turn& t) {
-    if (const auto point = bus_.catalogue.find(id)) t.out.samples.push_back({axis_, *point, std::move(value), Quality::good, t.now, 0});
+void Feedback::sample(std::string_view id, Value value, Turn& t) {
+    if (const auto point = drive_.bus.catalogue.find(id))
+        t.out.samples.push_back({drive_.axis(), *point, std::move(value), Quality::good, t.now, 0});
 }
 
-void Drive::learn(const Status& s, Turn& t) {
-    const bool first = !status_known_;
-    const Status before = status_;
-    status_ = s;
-    status_known_ = true;
-    motion_fresh_ = false;
-    if (s.state() == state::enabled && !(job_.active && job_.number == -1)) count_ = s.sub_state() & 0x0F;
-    if (!cw_known_) {
-        // After a restart of the gateway: the control word as the status word shows it [O-27].
-        cw_ = static_cast<std::uint16_t>(0x0030 | (s.bit(1) ? 1 : 0) | (s.bit(4) ? 2 : 0) | (s.bit(5) ? 4 : 0) | (s.bit(2) ? 8 : 0) |
-                                         (s.state() == state::homing ? cw_home : 0));
-        if (s.state() == state::aborting) cw_ = static_cast<std::uint16_t>(cw_ & ~cw_abort);
-        cw_known_ = true;
+void Feedback::forget() noexcept {
+    known_ = false;
+    track_.clear();
+}
+
+void Feedback::learn(const Status& s, Turn& t) {
+    const bool first = !std::exchange(known_, true);
+    const Status before = std::exchange(status_, s);
+    ControlWord& control = drive_.control;
+    drive_.motion.seen(s);
+    control.shown(s);
+    watch_errors(t);
+    if (!first && s.state() == state::not_ready && before.state() > state::disabled && drive_.jobs.idle() && control.word() != cw_off) {
+        drive_.notice(Severity::warning, "presence", 0, fmt::format("drive {} has restarted", drive_.title()), t);
+        control.cleared();
     }
-    if (in_error()) {
-        if (told_error_ != s.sub_state()) {
-            told_error_ = s.sub_state();
-            notices_.tell(Severity::alarm, axis_, "alarm", s.sub_state(), fmt::format("drive {}: {}", title(), error_text()), t.now, t.out);
-        }
-        if (homing_) fb_.homing_error = true;
-        homing_ = false;
-        to_target_ = false;
-    } else {
-        told_error_ = 0;
-    }
-    if (!first && s.state() == state::not_ready && before.state() > state::disabled && job_.active == false && cw_ != cw_off) {
-        notices_.tell(Severity::warning, axis_, "presence", 0, fmt::format("drive {} has restarted", title()), t.now, t.out);
-        cw_ = cw_off;
-    }
-    track_.emplace_back(t.now, s.position);
-    while (track_.size() > 2 && t.now - track_.front().first > std::chrono::milliseconds(100))
-        track_.pop_front();
-    watch_homing(t);
-    tell(t);
-    if (axis_ == no_axis) return;
+    track(s, t.now);
+    drive_.homing.watch(t);
+    publish(t);
+    if (drive_.axis() == no_axis) return;
     if (first || before.status != s.status) sample("StatusWord", std::int64_t{s.status}, t);
     if (first || before.state_var != s.state_var) sample("StateVar", std::int64_t{s.state_var}, t);
 }
 
-void Drive::tell(Turn& t) {
-    if (axis_ == no_axis || !status_known_) return;
+void Feedback::watch_errors(Turn& t) {
+    if (!in_error()) {
+        told_error_ = 0;
+        return;
+    }
+    const std::uint8_t code = status_.sub_state();
+    if (std::exchange(told_error_, code) != code)
+        drive_.notice(Severity::alarm, "alarm", code, fmt::format("drive {}: {}", drive_.title(), error_text()), t);
+    if (drive_.homing.broken()) homing_failed();
+    drive_.motion.no_target();
+}
+
+void Feedback::track(const Status& s, Instant now) {
+    track_.emplace_back(now, s.position);
+    while (track_.size() > 2 && now - track_.front().first > std::chrono::milliseconds(100))
+        track_.pop_front();
+}
+
+void Feedback::publish(Turn& t) {
+    if (drive_.axis() == no_axis || !known_) return;
     const Status& s = status_;
     const std::uint8_t main = s.state(), sub = s.sub_state();
     fb_.power = main >= state::enabled ? AxisFeedback::Power::on : AxisFeedback::Power::off;
@@ -87,6 +90,18 @@ void Drive::tell(Turn& t) {
                      : main >= state::enabled ? std::optional<std::uint16_t>(0x0027)
                      : standing_by            ? std::optional<std::uint16_t>(0x0023)
                                               : std::nullopt;
+    judge_motion();
+    fb_.target_reached =
+        drive_.motion.to_target() && !drive_.motion.fresh() && !fb_.moving && s.bit(bit::in_target) && main == state::enabled;
+    fb_.native_status = std::uint32_t{s.state_var} << 16 | s.status;
+    fb_.at = t.now;
+    drive_.demand.at_status(fb_, t);
+    t.out.feedback.push_back({drive_.axis(), fb_});
+}
+
+void Feedback::judge_motion() {
+    const Status& s = status_;
+    const std::uint8_t main = s.state(), sub = s.sub_state();
     fb_.homing = main == state::homing && sub != finished;
     const bool own_motion = (main == state::homing || main == 10 || main == state::initial || main == 15) && sub != finished;
     const bool braking = main == state::aborting || main == state::freezing || main == state::quick_stop;
@@ -100,11 +115,6 @@ void Drive::tell(Turn& t) {
         if (dt > 0) fb_.velocity = std::llround((double{1} * track_.back().second - track_.front().second) / dt);
     }
     if (!fb_.moving && track_.size() > 1) track_.erase(track_.begin(), track_.end() - 1);
-    fb_.target_reached = to_target_ && !motion_fresh_ && !fb_.moving && s.bit(bit::in_target) && main == state::enabled;
-    fb_.native_status = std::uint32_t{s.state_var} << 16 | s.status;
-    fb_.at = t.now;
-    demand_at_status(t);
-    t.out.feedback.push_back({axis_, fb_});
 }
 
 }  // namespace axisgate::linmot

@@ -6,68 +6,69 @@
 
 namespace axisgate::linmot {
 
-void Drive::begin_home(const Home& home, Turn& t) {
-    if (status_.state() != state::enabled) {
-        return end_job(Outcome::refused, Reason::wrong_state,
-                       fmt::format("drive {} is in {}: enable it first", title(), in_error() ? error_text() : state_text()), t);
+void Homing::begin(Turn& t) {
+    const Feedback& feedback = drive_.feedback;
+    const std::int16_t method = std::get<Home>(job().command.body).method;
+    if (feedback.status().state() != state::enabled)
+        return refuse(Reason::wrong_state, fmt::format("drive {} is in {}: enable it first", drive_.title(), feedback.error_or_state()), t);
+    if (method == 35 || method == 37) {
+        drive_.motion.no_target();
+        drive_.feedback.homing_attained();
+        return drive_.motion.begin_motion(*drive_.bus.motions.named("009xh"), {std::int64_t{0}});
     }
-    if (home.method == 35 || home.method == 37) {
-        to_target_ = false;
-        fb_.homing_attained = true;
-        return begin_motion(*bus_.motions.named("009xh"), {std::int64_t{0}}, t);
-    }
-    if (home.method != 0)
-        return end_job(Outcome::refused, Reason::not_supported,
-                       "a LinMot drive homes as its parameters say: method 0; or where it stands: 35, 37", t);
+    if (method != 0) refuse(Reason::not_supported, "a LinMot drive homes as its parameters say: method 0; or where it stands: 35, 37", t);
 }
 
-std::optional<Telegram> Drive::home_request(Turn& t) {
-    if (job_.step++ == 0) {
-        fb_.homing_attained = fb_.homing_error = false;
-        to_target_ = false;
-        demand_.forget();
-        return control(static_cast<std::uint16_t>(cw_on | cw_home));
+std::optional<Telegram> Homing::request(Turn& t) {
+    Feedback& feedback = drive_.feedback;
+    if (job().step++ == 0) {
+        feedback.homing_begins();
+        drive_.motion.no_target();
+        drive_.demand.forget();
+        return drive_.control.write(static_cast<std::uint16_t>(cw_on | cw_home));
     }
-    if (status_.state() == state::homing) {
-        homing_ = true;
-        end_job(Outcome::accepted, Reason::none, {}, t);
+    if (feedback.status().state() == state::homing) {
+        searching_ = true;
+        accept({}, t);
         return std::nullopt;
     }
-    if (in_error()) {
-        fb_.homing_error = true;
-        end_job(Outcome::refused, Reason::drive_refused, fmt::format("drive {}: {}", title(), error_text()), t, status_.sub_state());
+    if (feedback.in_error()) {
+        feedback.homing_failed();
+        return refused(Reason::drive_refused, fmt::format("drive {}: {}", drive_.title(), feedback.error_text()), t,
+                       feedback.status().sub_state());
+    }
+    if (job().step > 6) {
+        feedback.homing_failed();
+        (void)drive_.control.write(cw_on);
+        fail(Reason::drive_refused, fmt::format("drive {} does not begin to home; it stays in {}", drive_.title(), feedback.state_text()),
+             t);
         return std::nullopt;
     }
-    if (job_.step > 6) {
-        fb_.homing_error = true;
-        (void)control(cw_on);
-        end_job(Outcome::failed, Reason::drive_refused,
-                fmt::format("drive {} does not begin to home; it stays in {}", title(), state_text()), t);
-        return std::nullopt;
-    }
-    job_.not_before = t.now + std::chrono::milliseconds(10);
-    return request(id_, Main::response, 1);
+    job().not_before = t.now + std::chrono::milliseconds(10);
+    return linmot::request(drive_.id(), Main::response, 1);
 }
 
-/// With each status: has the search ended, or was it ended?
-void Drive::watch_homing(Turn& t) {
-    if ((cw_ & cw_home) == 0) return;
-    if (status_.state() == state::homing) {
-        homing_ = true;
-        if (status_.sub_state() != finished) return;
-        homing_ = false;
-        release_home_ = true;
-        fb_.homing_attained = true;
-        demand_.rest(static_cast<double>(status_.position));
-        return;
+void Homing::watch(Turn& t) {
+    if ((drive_.control.word() & cw_home) == 0) return;
+    Feedback& feedback = drive_.feedback;
+    const Status& s = feedback.status();
+    if (s.state() == state::homing) {
+        searching_ = s.sub_state() != finished;
+        if (searching_) return;
+        release_ = true;
+        feedback.homing_attained();
+        return drive_.demand.rest(s.position);
     }
-    if (homing_) {
-        homing_ = false;
-        fb_.homing_error = true;
-        release_home_ = status_.state() == state::enabled;
-        notices_.tell(Severity::warning, axis_, "homing", 0,
-                      fmt::format("drive {} has not ended its homing; it is in {}", title(), state_text()), t.now, t.out);
-    }
+    if (!std::exchange(searching_, false)) return;
+    feedback.homing_failed();
+    release_ = s.state() == state::enabled;
+    drive_.notice(Severity::warning, "homing", 0,
+                  fmt::format("drive {} has not ended its homing; it is in {}", drive_.title(), feedback.state_text()), t);
+}
+
+void Homing::release(Turn& t) {
+    release_ = false;
+    drive_.exchanges.send({drive_.control.write(static_cast<std::uint16_t>(drive_.control.word() & ~cw_home)), Purpose::release}, t);
 }
 
 }  // namespace axisgate::linmot

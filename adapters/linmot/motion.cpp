@@ -15,107 +15,136 @@ constexpr int looks = 6;  ///< at the count of a motion command until it counts 
 std::int64_t counts(std::int64_t value, std::int64_t per) { return std::max<std::int64_t>((value + per / 2) / per, 1); }
 }  // namespace
 
-std::uint8_t Drive::next_count() noexcept { return count_ = static_cast<std::uint8_t>((count_ + 1) & 0x0F); }
+void Moves::begin(Turn& t) {
+    const CommandBody& body = job().command.body;
+    if (const auto* move = std::get_if<Move>(&body)) return begin_move(*move, t);
+    const auto& place = std::get<SetPosition>(body);
+    if (drive_.feedback.status().state() != state::enabled)
+        return refuse(
+            Reason::wrong_state,
+            fmt::format("drive {} is in {}: its position is set while it is enabled", drive_.title(), drive_.feedback.state_text()), t);
+    if (place.position < INT32_MIN || place.position > INT32_MAX)
+        return refuse(Reason::out_of_range, "the position is beyond what the drive can count", t);
+    drive_.motion.no_target();
+    drive_.motion.begin_motion(*drive_.bus.motions.named("009xh"), {place.position});
+}
 
-Telegram Drive::motion_telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const {
-    Telegram telegram = request(id_, Main::motion, 0);
+void Moves::begin_move(const Move& move, Turn& t) {
+    const auto wrong = [&](Reason reason, std::string text) { refuse(reason, std::move(text), t); };
+    const Feedback& feedback = drive_.feedback;
+    const Limits& own = drive_.limits;
+    if (move.prepare_only) return wrong(Reason::not_supported, "a LinMot drive starts a move when it gets it; nothing can be prepared");
+    if (feedback.status().state() != state::enabled)
+        return wrong(Reason::wrong_state, feedback.in_error()
+                                              ? fmt::format("drive {} is in {}", drive_.title(), feedback.error_text())
+                                              : fmt::format("drive {} is in {}: enable it first", drive_.title(), feedback.state_text()));
+    const bool endless = move.kind == Move::Kind::velocity;
+    if (endless && move.target == 0) {
+        const std::uint32_t d =
+            move.deceleration ? static_cast<std::uint32_t>(counts(*move.deceleration, 100)) : drive_.demand.deceleration();
+        drive_.motion.no_target();
+        drive_.demand.ordered_stop(move, d);
+        return drive_.motion.begin_motion(*drive_.bus.motions.named("017xh"), {std::int64_t{d}});
+    }
+    const auto pick = [&](const std::optional<std::int64_t>& given, std::int64_t per,
+                          const std::optional<std::uint32_t>& limit) -> std::int64_t {
+        return given ? counts(*given, per) : limit ? std::int64_t{*limit} : 0;
+    };
+    const std::int64_t v = endless ? counts(std::llabs(move.target), 10) : pick(move.velocity, 10, own.velocity);
+    const std::int64_t a = pick(move.acceleration, 100, own.acceleration), d = pick(move.deceleration, 100, own.deceleration);
+    if (v == 0 || a == 0 || d == 0)
+        return wrong(Reason::out_of_range, "give velocity, acceleration and deceleration: what the drive would use is not known");
+    constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
+    if (v > most || a > most || d > most)
+        return wrong(Reason::out_of_range, fmt::format("velocity is at most {} and acceleration {} increments", most * 10, most * 100));
+    // An endless motion is a move to the end of the numbers: 010xh is proven on drives, the endless commands' layouts are inferred.
+    constexpr std::int64_t far = std::numeric_limits<std::int32_t>::max();
+    const std::int64_t target = endless ? (move.target > 0 ? far : -far) : move.target;
+    if (target < -far - 1 || target > far)
+        return wrong(Reason::out_of_range, fmt::format("{} is outside {}..{} (0.1 um)", target, -far - 1, far));
+    const bool relative = move.kind == Move::Kind::relative;
+    if (relative && std::llabs(feedback.status().position + target) > far)
+        return wrong(Reason::out_of_range, "the target is beyond what the drive can count");
+    drive_.motion.has_target(!endless);
+    drive_.demand.ordered(move, static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(d));
+    drive_.motion.begin_motion(*drive_.bus.motions.named(relative ? "011xh" : "010xh"), {target, v, a, d});
+}
+
+void MotionOrders::begin_motion(const Motion& motion, std::vector<Value> values) {
+    job().bytes = Motions::pack(motion, 0, values);
+    job().text = motion.command->name;
+    job().step = 0;
+    job().state_before = drive_.feedback.status().state();
+    drive_.jobs.hand_to(*this);
+}
+
+Telegram MotionOrders::telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const {
+    Telegram telegram = linmot::request(drive_.id(), Main::motion, 0);
     for (const auto b : Motions::pack(motion, count, values))
         telegram.add(b);
     return telegram;
 }
 
-void Drive::begin_move(const Move& move, Turn& t) {
-    const auto refuse = [&](Reason reason, std::string text) { end_job(Outcome::refused, reason, std::move(text), t); };
-    if (move.prepare_only) return refuse(Reason::not_supported, "a LinMot drive starts a move when it gets it; nothing can be prepared");
-    if (status_.state() != state::enabled) {
-        return refuse(Reason::wrong_state, in_error() ? fmt::format("drive {} is in {}", title(), error_text())
-                                                      : fmt::format("drive {} is in {}: enable it first", title(), state_text()));
-    }
-    const bool endless = move.kind == Move::Kind::velocity;
-    if (endless && move.target == 0) {
-        const std::uint32_t d = move.deceleration ? static_cast<std::uint32_t>(counts(*move.deceleration, 100))
-                                : move_d_         ? move_d_
-                                                  : dec_.value_or(100'000);
-        to_target_ = false;
-        demand_move_ = move;
-        move_d_ = d;
-        return begin_motion(*bus_.motions.named("017xh"), {std::int64_t{d}}, t);
-    }
-    const auto pick = [&](const std::optional<std::int64_t>& given, std::int64_t per,
-                          const std::optional<std::uint32_t>& own) -> std::int64_t {
-        return given ? counts(*given, per) : own ? std::int64_t{*own} : 0;
-    };
-    const std::int64_t v = endless ? counts(std::llabs(move.target), 10) : pick(move.velocity, 10, vmax_);
-    const std::int64_t a = pick(move.acceleration, 100, acc_), d = pick(move.deceleration, 100, dec_);
-    if (v == 0 || a == 0 || d == 0)
-        return refuse(Reason::out_of_range, "give velocity, acceleration and deceleration: what the drive would use is not known");
-    constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
-    if (v > most || a > most || d > most)
-        return refuse(Reason::out_of_range, fmt::format("velocity is at most {} and acceleration {} increments", most * 10, most * 100));
-    // An endless motion is a move to the end of the numbers: 010xh is proven on drives, the endless commands' layouts are inferred.
-    constexpr std::int64_t far = std::numeric_limits<std::int32_t>::max();
-    const std::int64_t target = endless ? (move.target > 0 ? far : -far) : move.target;
-    if (target < -far - 1 || target > far)
-        return refuse(Reason::out_of_range, fmt::format("{} is outside {}..{} (0.1 um)", target, -far - 1, far));
-    const bool relative = move.kind == Move::Kind::relative;
-    if (relative && std::llabs(status_.position + target) > far)
-        return refuse(Reason::out_of_range, "the target is beyond what the drive can count");
-    to_target_ = !endless;
-    move_v_ = static_cast<std::uint32_t>(v);
-    move_a_ = static_cast<std::uint32_t>(a);
-    move_d_ = static_cast<std::uint32_t>(d);
-    demand_move_ = move;
-    begin_motion(*bus_.motions.named(relative ? "011xh" : "010xh"), {target, v, a, d}, t);
+void MotionOrders::seen(const Status& s) noexcept {
+    fresh_ = false;
+    if (s.state() == state::enabled && !drive_.jobs.is(*this)) count_ = s.sub_state() & 0x0F;
 }
 
-/// Sends it when the line is free; motion_answered() sees what became of it.
-void Drive::begin_motion(const Motion& motion, std::vector<Value> values, Turn&) {
-    job_.bytes = Motions::pack(motion, 0, values);
-    job_.text = motion.command->name;
-    job_.step = 0;
-    job_.number = -1;  // its count is watched
-    job_.state_before = status_.state();
+/// Once, with a new count; then the count is looked for.
+std::optional<Telegram> MotionOrders::request(Turn&) {
+    if (job().step > 0) return linmot::request(drive_.id(), Main::response, 1);
+    job().step = 1;
+    job().count = next_count();
+    std::vector<std::uint8_t> bytes = job().bytes;
+    bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | job().count);
+    Telegram telegram = linmot::request(drive_.id(), Main::motion, 0);
+    for (const auto b : bytes)
+        telegram.add(b);
+    return telegram;
 }
 
-void Drive::motion_answered(Turn& t) {
-    const bool was_enabled = job_.state_before == state::enabled;
-    if (in_error() && job_.state_before != state::error && job_.state_before != state::setup_error) {
-        to_target_ = false;
-        return end_job(Outcome::refused, Reason::drive_refused, fmt::format("drive {} refused {}: {}", title(), job_.text, error_text()), t,
-                       status_.sub_state());
+void MotionOrders::answered(const Telegram&, Turn& t) {
+    Feedback& feedback = drive_.feedback;
+    const Status& s = feedback.status();
+    Job& j = job();
+    const bool was_enabled = j.state_before == state::enabled;
+    if (feedback.in_error() && j.state_before != state::error && j.state_before != state::setup_error) {
+        no_target();
+        return refuse(Reason::drive_refused, fmt::format("drive {} refused {}: {}", drive_.title(), j.text, feedback.error_text()), t,
+                      s.sub_state());
     }
     // Most errors stop the motor first: the state after that says which it was.
-    if (status_.state() == state::quick_stop && ++job_.step <= looks) {
-        job_.not_before = t.now + look_again;
+    if (s.state() == state::quick_stop && ++j.step <= looks) {
+        j.not_before = t.now + look_again;
         return;
     }
-    const bool executed = status_.state() == state::enabled ? (status_.sub_state() & 0x0F) == job_.count : !was_enabled;
-    if (status_.state() != state::enabled && was_enabled) {
-        to_target_ = false;
-        return end_job(Outcome::failed, Reason::interrupted,
-                       fmt::format("drive {} went to {} while {} was sent", title(), state_text(), job_.text), t);
+    const bool executed = s.state() == state::enabled ? (s.sub_state() & 0x0F) == j.count : !was_enabled;
+    if (s.state() != state::enabled && was_enabled) {
+        no_target();
+        return fail(Reason::interrupted,
+                    fmt::format("drive {} went to {} while {} was sent", drive_.title(), feedback.state_text(), j.text), t);
     }
     if (!executed) {
-        if (++job_.step <= looks) {
-            job_.not_before = t.now + look_again;
+        if (++j.step <= looks) {
+            j.not_before = t.now + look_again;
             return;
         }
-        to_target_ = false;
-        return end_job(Outcome::failed, Reason::drive_refused,
-                       fmt::format("drive {} did not execute {}: its count stays {} instead of {}", title(), job_.text,
-                                   status_.sub_state() & 0x0F, job_.count),
-                       t);
+        no_target();
+        return fail(Reason::drive_refused,
+                    fmt::format("drive {} did not execute {}: its count stays {} instead of {}", drive_.title(), j.text,
+                                s.sub_state() & 0x0F, j.count),
+                    t);
     }
-    motion_fresh_ = true;
-    if (std::holds_alternative<Move>(job_.command.body))
-        demand_moves(t);
-    else if (std::holds_alternative<Action>(job_.command.body))
-        demand_.forget();
+    fresh_ = true;
+    if (std::holds_alternative<Move>(j.command.body))
+        drive_.demand.moves(t);
+    else if (std::holds_alternative<Action>(j.command.body))
+        drive_.demand.forget();
     else
-        demand_.rest(static_cast<double>(status_.position));
-    tell(t);
-    poll_.soon(t.now);
-    end_job(Outcome::accepted, Reason::none, {}, t);
+        drive_.demand.rest(s.position);
+    feedback.publish(t);
+    drive_.poll.soon(t.now);
+    accept({}, t);
 }
 
 }  // namespace axisgate::linmot

@@ -1,7 +1,7 @@
-// Motion, part stream: the drive's own position stream (031xh) for set-points over the lane, where the line can hold its period.
-// In: the newest set-point. Out: one motion command each period, with place and speed on the way there; its answers say where the axis is,
-// so nothing else is asked. The newest set-point is held when none comes: a stream that starves is an error of the drive (0083h), and who
-// is silent is the engine's to judge. Never streams on a line without a bit rate, nor beside another drive: their periods cannot be kept.
+// PositionStream: its periods, one after the other.
+// In: set-points, answers. Out: motion commands. Each is a place and a speed that the drive can be at, a period from now.
+#include "adapters/linmot/motion_stream.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,61 +16,84 @@ constexpr Duration for_the_drive = std::chrono::microseconds(700);  ///< to answ
 constexpr std::size_t stream_bytes = 10;                            ///< of 031xh: header, place, speed
 }  // namespace
 
-/// 0: this line cannot hold a stream.
-Duration Drive::stream_period() const noexcept {
-    if (bus_.bit_rate == 0 || bus_.drives != 1) return {};
-    const Duration exchange = bus_.wire(wire_size(stream_bytes, bus_.checksum) + wire_size(default_size, bus_.checksum)) + for_the_drive;
+Duration stream_period(const Bus& bus) noexcept {
+    if (bus.bit_rate == 0 || bus.drives != 1) return {};
+    const Duration exchange = bus.wire(wire_size(stream_bytes, bus.checksum) + wire_size(default_size, bus.checksum)) + for_the_drive;
     const Duration period = std::max<Duration>(shortest_period, std::chrono::ceil<std::chrono::milliseconds>(exchange));
     return period <= longest_period ? period : Duration{};
 }
 
-void Drive::begin_stream(Turn& t) {
-    if (status_.state() != state::enabled)
-        return end_stream(Reason::wrong_state, fmt::format("drive {} is in {}: enable it first", title(), state_text()), t);
-    stream_.on = true;
-    stream_.ending = false;
-    stream_.period = stream_period();
-    stream_.lead.begin(demand_.known() && fb_.moving ? demand_.at(t.now).position : static_cast<double>(status_.position));
-    stream_.next = stream_.heard = t.now;
-    to_target_ = false;
-    demand_.forget();
+bool PositionStream::take(const SetPoint& p) {
+    if (drive_.options.streams && p.mode == SetPoint::Mode::position && stream_period(drive_.bus) > Duration{} && !state_.ending) {
+        state_.newest = p;
+        return true;
+    }
+    if (state_.on) state_.ending = true;  // another mode
+    return false;
 }
 
-void Drive::send_stream(Turn& t) {
-    if (stream_.ending) return send({motion_telegram(*bus_.motions.named("03Fxh"), next_count(), {}), Purpose::stream}, t);
-    const SetPoint& p = *stream_.newest;
+void PositionStream::interrupt() noexcept {
+    state_.newest.reset();
+    state_.ending = state_.on;
+}
+
+void PositionStream::begin(Turn& t) {
+    const Feedback& feedback = drive_.feedback;
+    if (feedback.status().state() != state::enabled)
+        return end(Reason::wrong_state, fmt::format("drive {} is in {}: enable it first", drive_.title(), feedback.state_text()), t);
+    state_.on = true;
+    state_.ending = false;
+    state_.period = stream_period(drive_.bus);
+    state_.lead.begin(drive_.demand.place(t.now));
+    state_.next = state_.heard = t.now;
+    drive_.motion.no_target();
+    drive_.demand.forget();
+}
+
+void PositionStream::send(Turn& t) {
+    MotionOrders& motion = drive_.motion;
+    const Motions& motions = drive_.bus.motions;
+    if (state_.ending)
+        return drive_.exchanges.send({motion.telegram(*motions.named("03Fxh"), motion.next_count(), {}), Purpose::stream}, t);
+    const SetPoint& p = *state_.newest;
     const auto rate = [](const std::optional<std::int64_t>& given, const std::optional<std::uint32_t>& own, double per, double fallback) {
         return given ? static_cast<double>(*given) : own && *own > 0 ? *own * per : fallback;
     };
-    const drive::LeadRamps ramps{rate(p.velocity, vmax_, 10, 100'000), rate(p.acceleration, acc_, 100, 10'000'000),
-                                 rate(p.deceleration, dec_, 100, 10'000'000)};
-    const double place = stream_.lead.towards(static_cast<double>(p.value), ramps, seconds(stream_.period));
+    const Limits& own = drive_.limits;
+    const drive::LeadRamps ramps{rate(p.velocity, own.velocity, 10, 100'000), rate(p.acceleration, own.acceleration, 100, 10'000'000),
+                                 rate(p.deceleration, own.deceleration, 100, 10'000'000)};
+    const double place = state_.lead.towards(static_cast<double>(p.value), ramps, seconds(state_.period));
     const std::vector<Value> values{
         Value{static_cast<std::int64_t>(std::clamp(std::round(place), double{INT32_MIN}, double{INT32_MAX}))},
-        Value{static_cast<std::int64_t>(std::clamp(std::round(stream_.lead.velocity() / 10), double{INT32_MIN}, double{INT32_MAX}))}};
-    stream_.next = std::max(stream_.next + stream_.period, t.now);
-    send({motion_telegram(*bus_.motions.named("031xh"), next_count(), values), Purpose::stream}, t);
+        Value{static_cast<std::int64_t>(std::clamp(std::round(state_.lead.velocity() / 10), double{INT32_MIN}, double{INT32_MAX}))}};
+    state_.next = std::max(state_.next + state_.period, t.now);
+    drive_.exchanges.send({motion.telegram(*motions.named("031xh"), motion.next_count(), values), Purpose::stream}, t);
 }
 
-void Drive::stream_answered(Turn& t) {
-    if (std::exchange(stream_.ending, false)) {
-        stream_ = {};
-        demand_.rest(static_cast<double>(status_.position));
-        poll_.soon(t.now);
+void PositionStream::answered(Turn& t) {
+    const Feedback& feedback = drive_.feedback;
+    if (std::exchange(state_.ending, false)) {
+        forget();
+        drive_.demand.rest(feedback.status().position);
+        drive_.poll.soon(t.now);
         return;
     }
-    if (!stream_.on) return;
-    stream_.heard = t.now;
-    if (status_.state() == state::enabled) return demand_.rest(stream_.lead.place());
-    end_stream(Reason::drive_refused,
-               in_error() ? fmt::format("drive {}: {}", title(), error_text()) : fmt::format("drive {} went to {}", title(), state_text()),
-               t);
+    if (!state_.on) return;
+    state_.heard = t.now;
+    if (feedback.status().state() == state::enabled) return drive_.demand.rest(state_.lead.place());
+    end(Reason::drive_refused,
+        feedback.in_error() ? fmt::format("drive {}: {}", drive_.title(), feedback.error_text())
+                            : fmt::format("drive {} went to {}", drive_.title(), feedback.state_text()),
+        t);
 }
 
 /// The drive has left it already, or never began.
-void Drive::end_stream(Reason reason, std::string why, Turn& t) {
-    stream_ = {};
-    t.out.stream_ends.push_back({axis_, reason, std::move(why)});
+void PositionStream::end(Reason reason, std::string why, Turn& t) {
+    forget();
+    t.out.stream_ends.push_back({drive_.axis(), reason, std::move(why)});
 }
+
+std::optional<Duration> PositionStream::patience() const noexcept { return state_.ending ? std::nullopt : std::optional(state_.period); }
+bool PositionStream::heard_lately(Instant now) const noexcept { return now - state_.heard < drive_.bus.timing.reply_timeout; }
 
 }  // namespace axisgate::linmot

@@ -28,48 +28,46 @@ std::optional<std::vector<std::uint8_t>> hex_bytes(std::span<const std::uint8_t>
 }
 }  // namespace
 
-std::optional<Telegram> Drive::native_request(Turn& t) {
-    const auto& native = std::get<Native>(job_.command.body);
-    const auto refuse = [&](std::string text) {
-        end_job(Outcome::refused, Reason::out_of_range, std::move(text), t);
-        return std::nullopt;
-    };
+std::optional<Telegram> NativeTelegram::request(Turn& t) {
+    const auto& native = std::get<Native>(job().command.body);
+    const Status& status = drive_.feedback.status();
+    const auto wrong = [&](std::string text) { return refused(Reason::out_of_range, std::move(text), t); };
     const auto bytes = native.is_text ? hex_bytes(native.send) : std::optional(native.send);
     if (!bytes || bytes->size() < 2)
-        return refuse("write sub ID, main ID and data as pairs of hex digits: \"01 00\" asks for the default response");
+        return wrong("write sub ID, main ID and data as pairs of hex digits: \"01 00\" asks for the default response");
     Telegram telegram;
     const auto& b = *bytes;
-    const std::size_t tail = bus_.checksum.size();
+    const std::size_t tail = drive_.bus.checksum.size();
     if (b.size() >= 7 && b[0] == 1 && b[3] == 2 && b.back() == 4 && b.size() == std::size_t{b[2]} + 4 + tail) {
         Framer framer;
-        framer.set(bus_.checksum);
+        framer.set(drive_.bus.checksum);
         bool found = false;
         framer.push(b, [&](const Telegram& x, std::span<const std::uint8_t>) { telegram = x, found = true; }, {});
-        if (!found) return refuse("the telegram's checksum is wrong");
-        if (telegram.id != id_) return refuse(fmt::format("the telegram is for ID {}, and drive {} is asked", telegram.id, title()));
+        if (!found) return wrong("the telegram's checksum is wrong");
+        if (telegram.id != drive_.id())
+            return wrong(fmt::format("the telegram is for ID {}, and drive {} is asked", telegram.id, drive_.title()));
     } else {
-        if (b.size() > 2 + Telegram::most_data) return refuse(fmt::format("a telegram has at most {} bytes of data", Telegram::most_data));
-        telegram = request(id_, Main::response, b[0]);
+        if (b.size() > 2 + Telegram::most_data) return wrong(fmt::format("a telegram has at most {} bytes of data", Telegram::most_data));
+        telegram = linmot::request(drive_.id(), Main::response, b[0]);
         telegram.main = b[1];
         for (std::size_t i = 2; i < b.size(); ++i)
             telegram.add(b[i]);
     }
-    job_.number = 0;
-    if (telegram.main == static_cast<std::uint8_t>(Main::motion) && telegram.size >= 2 && status_.state() == state::enabled &&
-        (telegram.u16(0) & 0x0F) == (status_.sub_state() & 0x0F))
-        job_.text = fmt::format(" (the count is {} as before: the drive has not executed it)", telegram.u16(0) & 0x0F);
-    cw_known_ = telegram.main != static_cast<std::uint8_t>(Main::control_word) && cw_known_;
+    if (telegram.main == static_cast<std::uint8_t>(Main::motion) && telegram.size >= 2 && status.state() == state::enabled &&
+        (telegram.u16(0) & 0x0F) == (status.sub_state() & 0x0F))
+        job().text = fmt::format(" (the count is {} as before: the drive has not executed it)", telegram.u16(0) & 0x0F);
+    if (telegram.main == static_cast<std::uint8_t>(Main::control_word)) drive_.control.forget();
     if (telegram.main == static_cast<std::uint8_t>(Main::motion) || telegram.main == static_cast<std::uint8_t>(Main::control_word))
-        demand_.forget();
+        drive_.demand.forget();
     return telegram;
 }
 
-void Drive::native_answered(const Telegram& telegram, Turn& t) {
-    job_.bytes = pack(telegram, bus_.checksum);
+void NativeTelegram::answered(const Telegram& telegram, Turn& t) {
+    job().bytes = pack(telegram, drive_.bus.checksum);
     std::string text;
-    for (const auto b : job_.bytes)
+    for (const auto b : job().bytes)
         fmt::format_to(std::back_inserter(text), "{}{:02X}", text.empty() ? "" : " ", b);
-    end_job(Outcome::done, Reason::none, text + job_.text, t);
+    drive_.jobs.over(Outcome::done, Reason::none, text + job().text, t);
 }
 
 }  // namespace axisgate::linmot

@@ -41,107 +41,109 @@ Place place_of(const Catalogue& catalogue, Point point) {
 }
 }  // namespace
 
+/// Whichever the command has.
+Point Parameters::point() {
+    const CommandBody& body = job().command.body;
+    const auto* read = std::get_if<ReadParameter>(&body);
+    return read ? read->point : std::get<WriteParameter>(body).point;
+}
+
+void Parameters::done(Value v, Turn& t) {
+    t.out.samples.push_back({drive_.axis(), point(), v, Quality::good, t.now, 0});
+    drive_.jobs.over(Outcome::done, Reason::none, {}, t, 0, std::move(v));
+}
+
 /// A text of the command table or of a curve: what is to be written is checked as a whole, before the drive is asked anything.
-bool Drive::begin_table_parameter(const Parameter& parameter, Point point, Turn& t) {
+bool Parameters::begin_text(const Parameter& parameter, Turn& t) {
     const auto* item = parameter.wire.if_contains("item");
     const bool curve = item && item->as_string() == "curve";
     if (!item || (!curve && item->as_string() != "table")) return false;
-    const auto* write = std::get_if<WriteParameter>(&job_.command.body);
-    if (!inferred_) {
-        end_job(Outcome::refused, Reason::not_supported,
-                fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", parameter.id), t);
+    const std::uint16_t element = point().element;
+    const auto* write = std::get_if<WriteParameter>(&job().command.body);
+    if (!drive_.options.inferred) {
+        refuse(Reason::not_supported,
+               fmt::format("{} rests on messages that are inferred, and the drive option inferred is off", parameter.id), t);
         return true;
     }
-    if (!write) return begin_transfer(curve, false, point.element), true;
+    if (!write) return drive_.transfers.begin_read(curve, element), true;
     const auto* text = std::get_if<std::string>(&write->value);
     CurveBytes c;
     EntryBytes e;
     if (curve)
-        c = curve_of(point.element, text ? *text : std::string());
+        c = curve_of(element, text ? *text : std::string());
     else
-        e = entry_of(bus_.motions, text ? *text : std::string());
+        e = entry_of(drive_.bus.motions, text ? *text : std::string());
     if (const std::string& fault = curve ? c.fault : e.fault; !fault.empty()) {
-        end_job(Outcome::refused, Reason::out_of_range, fmt::format("{}[{}]: {}", parameter.id, point.element, fault), t);
+        refuse(Reason::out_of_range, fmt::format("{}[{}]: {}", parameter.id, element, fault), t);
         return true;
     }
-    curve ? begin_transfer(true, true, point.element, std::move(c.info), std::move(c.data))
-          : begin_transfer(false, true, point.element, std::move(e.bytes));
+    curve ? drive_.transfers.begin_write(true, element, std::move(c.info), std::move(c.data))
+          : drive_.transfers.begin_write(false, element, std::move(e.bytes));
     return true;
 }
 
-std::string Drive::refusal(std::uint8_t code) const { return fmt::format("drive {} refused: {}", title(), communication_text(code)); }
-
-std::optional<Telegram> Drive::parameter_request(Turn& t) {
-    const auto* read = std::get_if<ReadParameter>(&job_.command.body);
-    const auto* write = std::get_if<WriteParameter>(&job_.command.body);
-    const Place p = place_of(bus_.catalogue, read ? read->point : write->point);
-    if (!p.parameter) {
-        end_job(Outcome::refused, Reason::unknown_point, "this drive has no such parameter", t);
-        return std::nullopt;
-    }
-    if (begin_table_parameter(*p.parameter, read ? read->point : write->point, t)) return job_.active ? transfer_request() : std::nullopt;
+std::optional<Telegram> Parameters::request(Turn& t) {
+    const std::uint8_t id = drive_.id();
+    const auto* write = std::get_if<WriteParameter>(&job().command.body);
+    const Place p = place_of(drive_.bus.catalogue, point());
+    if (!p.parameter) return refused(Reason::unknown_point, "this drive has no such parameter", t);
+    if (begin_text(*p.parameter, t)) return drive_.transfers.active() ? drive_.transfers.request() : std::nullopt;
     if (p.item == "warn") {
-        if (warn_inferred_) return request(id_, Main::response, 3);
-        end_job(Outcome::refused, Reason::not_supported,
-                "the request for the warn word is inferred; the drive option warn_word = inferred allows it", t);
-        return std::nullopt;
+        if (drive_.options.warn_inferred) return linmot::request(id, Main::response, 3);
+        return refused(Reason::not_supported, "the request for the warn word is inferred; the drive option warn_word = inferred allows it",
+                       t);
     }
-    if (!p.item.empty()) return request(id_, Main::response, 1);
-    if (read) return p.rom ? request16(id_, Main::parameters, 0, p.upid) : request16(id_, Main::ram, 0, p.upid);
+    if (!p.item.empty()) return linmot::request(id, Main::response, 1);
+    if (!write) return p.rom ? request16(id, Main::parameters, 0, p.upid) : request16(id, Main::ram, 0, p.upid);
     const std::uint32_t raw = raw_of(write->value);
-    if (p.rom) return request48(id_, Main::parameters, 1, p.upid, raw);
+    if (p.rom) return request48(id, Main::parameters, 1, p.upid, raw);
     // RAM: written by a motion command, then read; once more with another count where the first was not executed.
-    if (job_.step % 2 == 1) return request16(id_, Main::ram, 0, p.upid);
+    if (job().step % 2 == 1) return request16(id, Main::ram, 0, p.upid);
     const std::vector<Value> values{std::int64_t{p.upid}, std::int64_t{raw}};
-    job_.count = next_count();
-    return motion_telegram(*bus_.motions.named("002xh"), job_.count, values);
+    job().count = drive_.motion.next_count();
+    return drive_.motion.telegram(*drive_.bus.motions.named("002xh"), job().count, values);
 }
 
-void Drive::parameter_answered(const Telegram& telegram, Turn& t) {
-    const auto* read = std::get_if<ReadParameter>(&job_.command.body);
-    const auto* write = std::get_if<WriteParameter>(&job_.command.body);
-    const Point point = read ? read->point : write->point;
-    const Place p = place_of(bus_.catalogue, point);
-    const auto done = [&](Value v) {
-        t.out.samples.push_back({axis_, point, v, Quality::good, t.now, 0});
-        end_job(Outcome::done, Reason::none, {}, t, 0, std::move(v));
-    };
-    if (job_.transfer.active) {
-        if (transfer_answered(telegram, t)) done(transfer_text());
+void Parameters::answered(const Telegram& telegram, Turn& t) {
+    const auto* write = std::get_if<WriteParameter>(&job().command.body);
+    const Place p = place_of(drive_.bus.catalogue, point());
+    const Status& status = drive_.feedback.status();
+    if (drive_.transfers.active()) {
+        if (drive_.transfers.answered(telegram, t)) done(drive_.transfers.text(), t);
         return;
     }
-    if (p.item == "status") return done(std::int64_t{status_.status});
-    if (p.item == "state") return done(std::int64_t{status_.state_var});
+    if (p.item == "status") return done(std::int64_t{status.status}, t);
+    if (p.item == "state") return done(std::int64_t{status.state_var}, t);
     if (p.item == "warn") {
         if (telegram.size < default_size + 2)
-            return end_job(Outcome::refused, Reason::not_supported, fmt::format("drive {} does not send its warn word so", title()), t);
-        return done(std::int64_t{telegram.u16(default_size)});
+            return refuse(Reason::not_supported, fmt::format("drive {} does not send its warn word so", drive_.title()), t);
+        return done(std::int64_t{telegram.u16(default_size)}, t);
     }
-    if (p.rom) {
-        const auto a = config_of(telegram);
-        if (!a) return end_job(Outcome::failed, Reason::drive_refused, "the answer has another form", t);
-        if (a->communication != 0) {
-            // C0h and C3h: this drive has no such value; what else it says is its refusal.
-            const bool absent = a->communication == 0xC0 || a->communication == 0xC3;
-            return end_job(Outcome::refused, absent && read ? Reason::not_supported : Reason::drive_refused, refusal(a->communication), t,
-                           a->communication);
-        }
-        return done(value_of(a->value, p.parameter->type));
-    }
-    if (read) return done(value_of(telegram.u32(default_size), p.parameter->type));
-    if (job_.step++ % 2 == 0) return;  // written; now it is read
-    const Value is = value_of(telegram.u32(default_size), p.parameter->type), wanted = value_of(raw_of(write->value), p.parameter->type);
+    if (p.rom) return rom_answered(telegram, p.parameter->type, t);
+    if (!write) return done(value_of(telegram.u32(default_size), p.parameter->type), t);
+    if (job().step++ % 2 == 0) return;  // written; now it is read
+    const std::uint32_t raw = raw_of(write->value);
+    const Value is = value_of(telegram.u32(default_size), p.parameter->type), wanted = value_of(raw, p.parameter->type);
     if (is == wanted) {
-        for (const auto& [upid, into] : {std::pair{0x14BE, &vmax_}, std::pair{0x14BF, &acc_}, std::pair{0x14C0, &dec_}}) {
-            if (p.upid == upid) *into = raw_of(write->value);
+        for (std::size_t i = 0; i < std::size(Limits::upids); ++i) {
+            if (p.upid == Limits::upids[i]) drive_.limits.at(i) = raw;
         }
-        return done(is);
+        return done(is, t);
     }
-    if (job_.step < 4) return;
-    end_job(Outcome::refused, Reason::drive_refused,
-            fmt::format("drive {} keeps {} for {}: the parameter is not live, or it does not take this value", title(), to_text(is),
-                        p.parameter->id),
-            t);
+    if (job().step < 4) return;
+    refuse(Reason::drive_refused,
+           fmt::format("drive {} keeps {} for {}: the parameter is not live, or it does not take this value", drive_.title(), to_text(is),
+                       p.parameter->id),
+           t);
+}
+
+void Parameters::rom_answered(const Telegram& telegram, ValueType type, Turn& t) {
+    const auto a = config_of(telegram);
+    if (!a) return fail(Reason::drive_refused, "the answer has another form", t);
+    if (a->communication == 0) return done(value_of(a->value, type), t);
+    // C0h and C3h: this drive has no such value; what else it says is its refusal.
+    const bool absent = (a->communication == 0xC0 || a->communication == 0xC3) && std::holds_alternative<ReadParameter>(job().command.body);
+    refuse(absent ? Reason::not_supported : Reason::drive_refused, refusal(a->communication), t, a->communication);
 }
 
 }  // namespace axisgate::linmot

@@ -19,38 +19,42 @@ std::uint32_t word_at(const std::vector<std::uint8_t>& b, std::size_t at) {
 }
 }  // namespace
 
-void Drive::begin_transfer(bool curve, bool write, std::uint16_t id, std::vector<std::uint8_t> first, std::vector<std::uint8_t> second) {
-    job_.transfer = {.active = true, .curve = curve, .write = write, .id = id, .blocks = {std::move(first), std::move(second)}};
+Transfer& Transfers::now() const noexcept { return drive_.jobs.job().transfer; }
+bool Transfers::active() const noexcept { return now().active; }
+
+void Transfers::begin_read(bool curve, std::uint16_t id) { now() = {.active = true, .curve = curve, .id = id}; }
+void Transfers::begin_write(bool curve, std::uint16_t id, std::vector<std::uint8_t> first, std::vector<std::uint8_t> second) {
+    now() = {.active = true, .curve = curve, .write = true, .id = id, .blocks = {std::move(first), std::move(second)}};
 }
 
 /// Steps: 0 clear or ask for sizes; 1 make room; 2 and 3 write the blocks; 4 and 5 read them.
-std::optional<Telegram> Drive::transfer_request() {
-    Transfer& x = job_.transfer;
+std::optional<Telegram> Transfers::request() {
+    const Transfer& x = now();
+    const std::uint8_t id = drive_.id();
     const Main main = x.curve ? Main::curves : Main::table;
-    const auto ask = [&](std::uint8_t sub) { return request16(id_, main, sub, x.id); };
+    const auto ask = [&](std::uint8_t sub) { return request16(id, main, sub, x.id); };
     switch (x.step) {
         case 0:
             if (!x.write) return ask(x.curve ? 0x08 : 0x05);
             return ask(0x02);
         case 1:
-            if (!x.curve) return request48(id_, main, 0x03, x.id, static_cast<std::uint32_t>(entry_size));
-            return request48(id_, main, 0x04, x.id, static_cast<std::uint32_t>(x.blocks[0].size() | x.blocks[1].size() << 16));
+            if (!x.curve) return request48(id, main, 0x03, x.id, static_cast<std::uint32_t>(entry_size));
+            return request48(id, main, 0x04, x.id, static_cast<std::uint32_t>(x.blocks[0].size() | x.blocks[1].size() << 16));
         case 2:
         case 3:
-            return request48(id_, main, static_cast<std::uint8_t>((x.curve ? 0x05 : 0x04) + x.step - 2), x.id,
+            return request48(id, main, static_cast<std::uint8_t>((x.curve ? 0x05 : 0x04) + x.step - 2), x.id,
                              word_at(x.blocks[static_cast<std::size_t>(x.step - 2)], x.at));
         default:
             return ask(static_cast<std::uint8_t>((x.curve ? 0x09 : 0x06) + x.step - 4));
     }
 }
 
-/// True: it is over, and `job_.transfer` has what the drive has. An end with a fault is told here.
-bool Drive::transfer_answered(const Telegram& telegram, Turn& t) {
-    Transfer& x = job_.transfer;
+bool Transfers::answered(const Telegram& telegram, Turn& t) {
+    Transfer& x = now();
     const auto a = config_of(telegram);
     const auto fail = [&](Outcome outcome, std::string why, std::int32_t code = 0) {
-        const std::string what = fmt::format("{} {} of drive {}", x.curve ? "curve" : "command table entry", x.id, title());
-        end_job(outcome, Reason::drive_refused, fmt::format("{}: {}", what, why), t, code);
+        const std::string what = fmt::format("{} {} of drive {}", x.curve ? "curve" : "command table entry", x.id, drive_.title());
+        drive_.jobs.over(outcome, Reason::drive_refused, fmt::format("{}: {}", what, why), t, code);
         return false;
     };
     if (!a) return fail(Outcome::failed, "the answer has another form");
@@ -99,16 +103,14 @@ bool Drive::transfer_answered(const Telegram& telegram, Turn& t) {
     return true;
 }
 
-/// What was read or written, as text.
-std::string Drive::transfer_text() const {
-    const Transfer& x = job_.transfer;
+std::string Transfers::text() const {
+    const Transfer& x = now();
     const auto& b = x.write ? x.blocks : x.seen;
-    return x.curve ? curve_text(x.id, b[0], b[1]) : entry_text(bus_.motions, b[0]);
+    return x.curve ? curve_text(x.id, b[0], b[1]) : entry_text(drive_.bus.motions, b[0]);
 }
 
-/// After a silence: from the beginning, three times in all.
-bool Drive::transfer_again() {
-    Transfer& x = job_.transfer;
+bool Transfers::again() {
+    Transfer& x = now();
     if (!x.active || ++x.tries >= 3) return false;
     x.step = 0;
     x.at = 0;

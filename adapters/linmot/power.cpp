@@ -10,80 +10,90 @@ constexpr Duration enable_limit = std::chrono::seconds(5);
 constexpr Duration look_again_for_power = std::chrono::milliseconds(10);
 }  // namespace
 
-Telegram Drive::control(std::uint16_t word) {
-    cw_ = word;
-    cw_known_ = true;
-    return request16(id_, Main::control_word, 0, word);
+Telegram ControlWord::write(std::uint16_t word) {
+    word_ = word;
+    known_ = true;
+    return request16(drive_.id(), Main::control_word, 0, word);
+}
+
+void ControlWord::shown(const Status& s) noexcept {
+    if (std::exchange(known_, true)) return;
+    // [O-27]
+    word_ = static_cast<std::uint16_t>(0x0030 | (s.bit(1) ? 1 : 0) | (s.bit(4) ? 2 : 0) | (s.bit(5) ? 4 : 0) | (s.bit(2) ? 8 : 0) |
+                                       (s.state() == state::homing ? cw_home : 0));
+    if (s.state() == state::aborting) word_ = static_cast<std::uint16_t>(word_ & ~cw_abort);
 }
 
 /// 0 and 1 need bit 0 low once, 2 needs it high; 5 is passed in about 300 ms; 12 is left by /Abort.
-std::optional<Telegram> Drive::power_request(Turn& t) {
-    if (job_.limit == never) job_.limit = t.now + enable_limit;
-    if (in_error()) {
-        end_job(Outcome::refused, Reason::wrong_state, fmt::format("drive {} is in {}", title(), error_text()), t, status_.sub_state());
+std::optional<Telegram> Power::request(Turn& t) {
+    Feedback& feedback = drive_.feedback;
+    ControlWord& control = drive_.control;
+    const Status& s = feedback.status();
+    if (job().limit == never) job().limit = t.now + enable_limit;
+    if (feedback.in_error())
+        return refused(Reason::wrong_state, fmt::format("drive {} is in {}", drive_.title(), feedback.error_text()), t, s.sub_state());
+    if (t.now >= job().limit) {
+        fail(Reason::drive_refused,
+             fmt::format("drive {} stays in {}; control word bits may be held by its inputs, its parameters or another tool",
+                         drive_.title(), feedback.state_text()),
+             t);
         return std::nullopt;
     }
-    if (t.now >= job_.limit) {
-        end_job(Outcome::failed, Reason::drive_refused,
-                fmt::format("drive {} stays in {}; control word bits may be held by its inputs, its parameters or another tool", title(),
-                            state_text()),
-                t);
-        return std::nullopt;
-    }
-    job_.not_before = t.now + look_again_for_power;
-    switch (status_.state()) {
+    job().not_before = t.now + look_again_for_power;
+    switch (s.state()) {
         case state::not_ready:
         case state::disabled:
         case state::freezing:
-            return control(cw_off);
+            return control.write(cw_off);
         case state::enabled:
-            if (cw_ == cw_on) {
-                to_target_ = false;
-                demand_.rest(static_cast<double>(status_.position));
-                tell(t);
-                end_job(Outcome::accepted, Reason::none, {}, t);
+            if (control.word() == cw_on) {
+                drive_.motion.no_target();
+                drive_.demand.rest(s.position);
+                feedback.publish(t);
+                accept({}, t);
                 return std::nullopt;
             }
-            return control(cw_on);
+            return control.write(cw_on);
         case state::quick_stop:
             break;
         default:
-            if (status_.state() >= state::enabled && status_.state() != state::aborting) {
-                end_job(Outcome::accepted, Reason::none, state_text(), t);
+            if (s.state() >= state::enabled && s.state() != state::aborting) {
+                accept(feedback.state_text(), t);
                 return std::nullopt;
             }
-            if (cw_ != cw_on) return control(cw_on);
+            if (control.word() != cw_on) return control.write(cw_on);
             break;
     }
-    return request(id_, Main::response, 1);
+    return linmot::request(drive_.id(), Main::response, 1);
 }
 
 /// Bit 7 rises while bit 0 is low, so that the drive rests in switch on disabled or ready afterwards.
-std::optional<Telegram> Drive::reset_request(Turn& t) {
-    switch (job_.step++) {
+std::optional<Telegram> FaultReset::request(Turn& t) {
+    const Feedback& feedback = drive_.feedback;
+    ControlWord& control = drive_.control;
+    const Status& s = feedback.status();
+    switch (job().step++) {
         case 0:
-            if (!in_error()) {
-                end_job(Outcome::accepted, Reason::none, {}, t);
+            if (!feedback.in_error()) {
+                accept({}, t);
                 return std::nullopt;
             }
-            if (status_.bit(bit::fatal)) {
-                end_job(Outcome::refused, Reason::drive_refused,
-                        fmt::format("drive {}: {} It is fatal and cannot be acknowledged.", title(), error_text()), t, status_.sub_state());
-                return std::nullopt;
-            }
-            return control(status_.state() == state::setup_error ? cw_on : cw_off);
+            if (s.bit(bit::fatal))
+                return refused(Reason::drive_refused,
+                               fmt::format("drive {}: {} It is fatal and cannot be acknowledged.", drive_.title(), feedback.error_text()),
+                               t, s.sub_state());
+            return control.write(s.state() == state::setup_error ? cw_on : cw_off);
         case 1:
-            return control(cw_off);
+            return control.write(cw_off);
         case 2:
-            return control(cw_off | cw_acknowledge);
+            return control.write(cw_off | cw_acknowledge);
         case 3:
-            return control(cw_off);
+            return control.write(cw_off);
         default:
-            if (in_error())
-                end_job(Outcome::refused, Reason::drive_refused, fmt::format("drive {} is still in {}", title(), error_text()), t,
-                        status_.sub_state());
-            else
-                end_job(Outcome::accepted, Reason::none, {}, t);
+            if (feedback.in_error())
+                return refused(Reason::drive_refused, fmt::format("drive {} is still in {}", drive_.title(), feedback.error_text()), t,
+                               s.sub_state());
+            accept({}, t);
             return std::nullopt;
     }
 }

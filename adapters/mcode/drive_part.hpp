@@ -10,6 +10,7 @@
 #include "adapters/mcode/wire.hpp"
 #include "adapters/mcode/wire_reply.hpp"
 #include "gateway/core/catalogue.hpp"
+#include "gateway/drive/part.hpp"
 #include "gateway/drive/timing.hpp"
 #include "gateway/drive/turn.hpp"
 
@@ -68,18 +69,15 @@ inline constexpr std::string_view reset_key = "CTRL+C";  ///< of a step: the cha
 
 class Drive;
 class Feedback;
-class Part {
+class Part : public drive::Part<Drive> {
 public:
-    explicit Part(Drive& drive) noexcept : drive_(drive) {}
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
+    explicit Part(Drive& drive) noexcept : drive::Part<Drive>(drive) {}
 
 protected:
     ~Part() = default;
     [[nodiscard]] const std::string& name() const noexcept;  ///< of the drive
     [[nodiscard]] Feedback& feedback() const noexcept;
     void note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) const;
-    Drive& drive_;
 };
 
 }  // namespace axisgate::mcode

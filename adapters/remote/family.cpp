@@ -18,6 +18,12 @@ const Family& family_remote() {
         "",
         false,
         true,
+        0,
+        nullptr,
+        nullptr,
+        nullptr,
+        false,
+        true,  // on a line dds
     };
     return family;
 }

@@ -11,6 +11,7 @@
 #include "adapters/uim342/parameters_points.hpp"
 #include "adapters/uim342/wire_instructions.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/drive/part.hpp"
 #include "gateway/drive/timing.hpp"
 #include "gateway/drive/turn.hpp"
 #include "gateway/drive/turns.hpp"
@@ -67,16 +68,6 @@ struct DriveOptions {
 };
 [[nodiscard]] DriveOptions drive_options(const DriveSetup& setup);
 
-/// A part has a state of its own, and reaches the others by its drive (drive.hpp).
-class Part {
-public:
-    explicit Part(Drive& drive) noexcept : drive_(drive) {}
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
-
-protected:
-    ~Part() = default;
-    Drive& drive_;
-};
+using Part = drive::Part<Drive>;
 
 }  // namespace axisgate::uim342

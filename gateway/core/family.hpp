@@ -77,6 +77,8 @@ struct Family {
     std::vector<CanIdentifiers> (*can_identifiers)(std::span<const std::string> addresses) = nullptr;
     /// A drive of the site may name a maker's description; own_catalogue makes the drive's catalogue of it.
     bool takes_description = false;
+    /// Its drives are axes of other gateways: it stands on a line `dds` (or on `twin`) and on no other, and no other family stands there.
+    bool uses_dds = false;
 };
 
 /// Every family that was found at configure time, in order of name. (Generated.)

@@ -29,7 +29,7 @@ public:
 
     /// False: the process had no descriptor left when it was made.
     [[nodiscard]] bool good() const noexcept;
-    /// Level-triggered. Errors and hang-ups are always told. False: the kernel refused (out of memory, too many watches).
+    /// Level-triggered unless `events` has EPOLLET. Errors and hang-ups are always told. False: the kernel refused (out of memory, too many watches).
     [[nodiscard]] bool add(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     void change(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     // A descriptor that is closed leaves by itself.

@@ -221,12 +221,15 @@ void check_relations(const Site& site, const Families& families, std::vector<Sit
         if (family.family) {
             const bool is_can = uri.uri.kind == LineUri::Kind::can;
             const bool is_twin = uri.uri.kind == LineUri::Kind::twin;
-            if (uri.uri.kind == LineUri::Kind::dds && l.family != "remote") {
-                faults.push_back({at("lines", i, "uri"),
-                                  fmt::format("{} does not speak on dds: axes of other gateways alone are there", l.family),
-                                  "use the family remote, or another line"});
-            }
-            if ((is_can && !family.family->uses_can) || (!is_can && !is_twin && !family.family->uses_bytes)) {
+            const bool is_dds = uri.uri.kind == LineUri::Kind::dds;
+            if (!is_twin && is_dds != family.family->uses_dds) {
+                faults.push_back(
+                    is_dds ? SiteFault{at("lines", i, "uri"),
+                                       fmt::format("{} does not speak on dds: axes of other gateways alone are there", l.family),
+                                       "use the family remote, or another line"}
+                           : SiteFault{at("lines", i, "uri"),
+                                       fmt::format("{} speaks on dds alone: its drives are axes of other gateways", l.family), "use dds"});
+            } else if ((is_can && !family.family->uses_can) || (!is_can && !is_twin && !family.family->uses_bytes)) {
                 faults.push_back({at("lines", i, "uri"), fmt::format("{} does not speak on {}", l.family, is_can ? "CAN" : "a byte line"),
                                   is_can ? "use serial:, tcp: or twin" : "use can: or twin"});
             }

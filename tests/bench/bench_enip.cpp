@@ -145,12 +145,13 @@ private:
     pid_t program_;
 };
 
-/// `pid` of the program; 0: it goes on beside the echo, and the figure flatters it.
-bool explicit_messages(Address program, pid_t pid) {
+/// `pid` of the program; 0: it goes on beside the echo, and the figure flatters it. `only`: so many sessions alone; 0: all three figures.
+bool explicit_messages(Address program, pid_t pid, int only) {
     constexpr double least = 0.9;
     constexpr int slices = 7;
     bool kept = true;
     for (const int count : {1, 8, 64}) {
+        if (only != 0 && only != count) continue;
         std::vector<std::unique_ptr<Session>> sessions;
         std::vector<int> ours, theirs;
         std::vector<Bytes> requests;
@@ -329,7 +330,7 @@ int main(int argc, char** argv) {
     Address program, io, modbus;
     const auto usage = [] {
         std::fputs(
-            "usage: bench_enip output PROGRAM [COUNT] | explicit HOST:PORT [PID] | jitter HOST:PORT HOST:IO_PORT MODBUS_HOST:PORT "
+            "usage: bench_enip output PROGRAM [COUNT] | explicit HOST:PORT [PID [SESSIONS]] | jitter HOST:PORT HOST:IO_PORT MODBUS_HOST:PORT "
             "[SECONDS] | lost HOST:PORT HOST:IO_PORT\n",
             stderr);
         return 2;
@@ -337,7 +338,8 @@ int main(int argc, char** argv) {
     if (arg.size() >= 2 && arg[0] == "output") return output_to_frame(arg[1], arg.size() > 2 ? std::atoi(arg[2].c_str()) : 4000) ? 0 : 1;
     if (arg.size() < 2 || !parse_address(arg[1], program)) return usage();
     keep_on(1);
-    if (arg[0] == "explicit") return explicit_messages(program, arg.size() > 2 ? std::atoi(arg[2].c_str()) : 0) ? 0 : 1;
+    const auto number_at = [&](std::size_t i) { return arg.size() > i ? std::atoi(arg[i].c_str()) : 0; };
+    if (arg[0] == "explicit") return explicit_messages(program, number_at(2), number_at(3)) ? 0 : 1;
     if (arg.size() < 3 || !parse_address(arg[2], io)) return usage();
     if (arg[0] == "lost") return lost_owner(program, io) ? 0 : 1;
     if (arg[0] != "jitter" || arg.size() < 4 || !parse_address(arg[3], modbus)) return usage();

@@ -15,6 +15,7 @@ import subprocess
 
 import harness
 from harness import Process, run, until
+from netns import Plant
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 KNOWN = {"FROM", "COPY", "RUN", "USER", "VOLUME", "STOPSIGNAL", "HEALTHCHECK", "ENTRYPOINT", "CMD"}
@@ -164,3 +165,32 @@ def test_run_takes_a_built_program_or_package(folder):
                 p.wait(20)
         until(lambda: not [x for x in (folder / "var").rglob("*-wal")], 10, "it ended in order")
     assert not (folder / "build/release").exists(), "nothing was built"
+
+
+def test_run_starts_a_fleet_whose_printed_lines_move_an_axis_of_another(folder):
+    """deploy/run --fleet 3 in a network of its own, since its ports are fixed: the curl lines that it prints are run as they stand."""
+    shutil.copytree(TOP / "deploy", folder / "deploy", ignore=shutil.ignore_patterns("node_modules"))
+
+    def curl(line):
+        p = subprocess.run(["bash", "-c", line.replace("curl -s", "curl -s --max-time 10 --fail-with-body")], capture_output=True, text=True)
+        return json.loads(p.stdout) if p.returncode == 0 else {"code": p.returncode, "said": p.stdout}
+    with Plant(1).places[0].inside(), subprocess.Popen([folder / "deploy/run", "--use", harness.PROGRAM, "--fleet", "3"], cwd=folder,
+                                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as p:
+        try:
+            lines, ready = [], 0
+            for line in p.stdout:
+                lines.append(line.strip())
+                ready += line.startswith("ready")
+                if ready == 3 and "".join(lines).count("Ctrl-C"):
+                    break
+            show, enable, move, mirror = [line for line in lines if line.startswith("curl ")]
+            until(lambda: sorted(x["gateway"] for x in curl(show)["gateways"] if x["alive"] and x["axes"]) == ["hall-1", "hall-2", "hall-3"], 30, "one page, three gateways")
+            assert curl(enable).get("result") == "done", lines
+            begun = curl("curl -s http://127.0.0.1:8082/api/v1/axes/feeder")["position"]
+            assert "result" in curl(move)
+            until(lambda: curl("curl -s http://127.0.0.1:8082/api/v1/axes/feeder")["position"] > begun + 1, 20, "an axis of hall-2 moves")
+            until(lambda: curl(mirror).get("position", 0) > begun + 1, 20, "and hall-1 shows it as its own")
+        finally:
+            p.terminate()
+            p.stdout.read()
+            p.wait(30)

@@ -149,6 +149,8 @@ def test_a_site_says_what_a_mirror_line_takes(gateway):
     wrong = mirroring("hall-2/feeder")
     wrong["lines"][-1]["family"] = "uim342"
     assert "does not speak on dds" in str(gateway.send("PUT", "/site", wrong, 422))
+    for uri in ("serial:/dev/ttyUSB0", "tcp:127.0.0.1:1", "can:can0"):
+        assert "speaks on dds alone" in str(gateway.send("PUT", "/site", mirroring("hall-2/feeder", uri=uri), 422)), uri
     # Without [dds] it is a line that is down, and says why.
     gateway.send("PUT", "/site", mirroring("hall-2/feeder"))
     until(lambda: "in no fleet" in str(gateway.get("/lines")), 5, "why the line is down")

@@ -9,20 +9,17 @@
 namespace axisgate::uim342::twin {
 namespace {
 
-constexpr std::uint8_t cw_notification = 0x5A;
 constexpr std::uint8_t code_arrived = 0x29;
 constexpr const char* encoder_position_name = "encoder.position";
 
 }  // namespace
 
 Device::Device(const DeviceSetup& setup)
-    : kind_(setup.kind),
-      identity_(setup.identity),
+    : identity_(setup.identity),
       boot_time_(setup.boot_time),
-      bus_rate_(setup.bus_rate),
+      link_(setup.kind, setup.form, setup.bus_rate),
       memory_(setup.factory, setup.identity.serial),
-      reader_(setup.crc),
-      form_(setup.form) {}
+      reader_(setup.crc) {}
 
 // --- power and boot -----------------------------------------------------------------------------------------------------
 
@@ -54,21 +51,16 @@ void Device::power_off(Instant now) {
 /// Section 3.4: RAM from FLASH and EEPROM, flags and history clear, everything volatile at its beginning.
 void Device::boot(Instant now, std::int32_t encoder_position) {
     memory_.reboot();
-    node_ = memory_.flash().node;
-    group_ = memory_.flash().group;
-    bit_rate_ = memory_.flash().bit_rate;
+    link_.boot(memory_.flash());
     microsteps_ = memory_.ram().mt[0];
     pulses_per_turn_ = memory_.ram().qe[4];
     absolute_ = has_absolute_encoder();
     axis_.power_up(absolute_ ? encoder_position : 0, now);
     keep_position(now);
     configure_axis(now);
-    paif_ = tlif_ = err_ = lock_ = output_ = false;
-    pending_group_ = 0;
-    ptp_mode_ = target_is_relative_ = false;
-    desired_speed_ = desired_relative_ = desired_absolute_ = 0;
-    history_.fill({});
-    power_on_error_ = {};
+    flags_ = {};
+    wanted_ = {};
+    history_ = {};
     reader_.reset();
     online_ = false;
     actions_at_ = never;
@@ -79,8 +71,8 @@ void Device::boot_done(Instant at, Out& out) {
     boot_end_ = never;
     online_ = true;
     inputs_.restart(memory_.ram().tg);
-    if (encoder_error_) power_on_error_ = {static_cast<std::uint8_t>(Alarm::encoder_error), 0, 0};
-    if (battery_low_ && !encoder_error_) power_on_error_ = {static_cast<std::uint8_t>(Alarm::battery_low), 0, 0};
+    if (encoder_error_) history_.at_power_on({static_cast<std::uint8_t>(Alarm::encoder_error), 0, 0});
+    if (battery_low_ && !encoder_error_) history_.at_power_on({static_cast<std::uint8_t>(Alarm::battery_low), 0, 0});
     if (encoder_error_) raise(Alarm::encoder_error, at, out);
     if (battery_low_) raise(Alarm::battery_low, at, out);
     enable_at_boot_ = memory_.ram().ic[0] == 1;
@@ -115,8 +107,8 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     now = std::max(now, last_);
     if (next_ <= now) settle(now, out);
     last_ = now;
-    if (kind_ == LineKind::can) {
-        if (!online_ || !on_the_bus() || frame.kind != Frame::Kind::can || !is_for_me(consumer_of(frame.id))) return;
+    if (link_.kind == LineKind::can) {
+        if (!online_ || !link_.on_the_bus() || frame.kind != Frame::Kind::can || !link_.is_for_me(consumer_of(frame.id))) return;
         if (const auto t = read_can(frame)) {
             // Another node's error report is no instruction: answering it would make two nodes report to each other for ever, once a
             // spoilt identifier has named a node as the producer.
@@ -128,8 +120,8 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     }
     if (!online_ || frame.kind != Frame::Kind::bytes) return;
     reader_.feed(frame.data(), [&](const Telegram& t, Form form) {
-        form_ = form;  // the host's way of speaking; notifications follow it
-        if (!online_ || !is_for_me(t.consumer)) return;
+        link_.form = form;  // the host's way of speaking; notifications follow it
+        if (!online_ || !link_.is_for_me(t.consumer)) return;
         instruct(t, now, out);
         settle(now, out);
     });
@@ -175,46 +167,23 @@ void Device::step(Instant at, Out& out) {
 
 // --- what happens by itself -------------------------------------------------------------------------------------------
 
-void Device::send(const Telegram& telegram, Instant at, Out& out) const {
-    if (silent_ || !on_the_bus()) return;
-    if (kind_ == LineKind::can) {
-        Frame f = write_can(telegram);
-        f.at = at;
-        out.send(f);
-        return;
-    }
-    Frame f = Frame::run(write_message(telegram, form_));
-    f.at = at;
-    out.send(f);
-}
-
-void Device::notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const {
-    Telegram t;
-    t.producer = node_;
-    t.consumer = host_id;
-    t.cw = cw_notification;
-    t.dl = static_cast<std::uint8_t>(data.size());
-    std::copy(data.begin(), data.end(), t.d.begin());
-    send(t, at, out);
-}
-
 /// Alarms have no enable bit: they are always sent.
 void Device::raise(Alarm alarm, Instant at, Out& out) {
-    err_ = true;
-    notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
+    flags_.err = true;
+    link_.notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
 }
 
 void Device::on_axis(Axis::Event event, Instant at, Out& out) {
     if (event == Axis::Event::arrived) {
-        paif_ = true;
+        flags_.paif = true;
         if (memory_.ram().ie[3] == 0) return;
         const auto p = static_cast<std::uint32_t>(axis_.position(at));
         const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
-        notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
+        link_.notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
     } else if (event == Axis::Event::too_fast) {
         raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
     } else if (event == Axis::Event::stalled) {
-        tlif_ = true;
+        flags_.tlif = true;
         raise(Alarm::stall, at, out);
         if (memory_.ram().il[3] == 1) {
             axis_.set_driver(false, at);
@@ -227,7 +196,7 @@ void Device::on_axis(Axis::Event event, Instant at, Out& out) {
 /// Order on one edge: the level is latched (by Inputs), the notification goes out if enabled, the action runs whatever IE says.
 void Device::on_edge(Edge edge, Instant at, Out& out) {
     if (memory_.ram().ie[edge.input] == 1) {
-        notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
+        link_.notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
     }
     const std::uint16_t il = memory_.ram().il[edge.input];
     if (memory_.ram().tg[edge.input] == trigger_one_time) {
@@ -243,12 +212,12 @@ Axis::Values Device::values_of(std::size_t group) const noexcept {
     return {s.group[group].ac, s.group[group].dc, s.ic[4] == 1, s.ss, s.bl};
 }
 
-bool Device::may_start() const noexcept { return axis_.driver_on() && !lock_ && axis_.state() != Axis::State::emergency_stop; }
+bool Device::may_start() const noexcept { return axis_.driver_on() && !flags_.lock && axis_.state() != Axis::State::emergency_stop; }
 
 void Device::emergency_stop_by_input(Instant at, Out& out) {
     axis_.stop_fast(at, memory_.ram().sd);
-    if (memory_.ram().ic[3] == 0 || lock_) return;
-    lock_ = true;
+    if (memory_.ram().ic[3] == 0 || flags_.lock) return;
+    flags_.lock = true;
     raise(Alarm::emergency_lock, at, out);
 }
 
@@ -265,7 +234,7 @@ void Device::run_action(std::uint8_t action, std::size_t group, Instant at, Out&
     action &= 0x7F;  // FG is for power-on alone
     if (action == 0x04 || action >= 0x07) {
         if (!may_start()) return;
-        paif_ = false;
+        flags_.paif = false;
     }
     switch (action) {
         case 0x01:

@@ -7,10 +7,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/uim342/twin/axis.hpp"
+#include "adapters/uim342/twin/errors.hpp"
 #include "adapters/uim342/twin/inputs.hpp"
+#include "adapters/uim342/twin/link.hpp"
 #include "adapters/uim342/twin/memory.hpp"
 #include "adapters/uim342/twin/wire.hpp"
 #include "gateway/core/twin.hpp"
@@ -75,12 +78,20 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override;
 
 private:
-    struct ErrorEntry {
-        std::uint8_t code = 0;
-        std::uint8_t cw = 0;
-        std::uint8_t sub = 0;
+    /// What the next motion will be, as instructions have set it.
+    struct Wanted {
+        std::uint8_t pending_group = 0;   ///< MF
+        bool ptp = false;                 ///< DV[0]
+        bool target_is_relative = false;  ///< PR or PA was set last
+        std::int32_t speed = 0;           ///< DV[2], shared by JV and SP
+        std::int32_t relative = 0;
+        std::int32_t absolute = 0;
+        /// MF directs one parameter GET or SET, then falls back to 0.
+        [[nodiscard]] std::size_t take_group() noexcept { return std::exchange(pending_group, std::uint8_t{0}); }
     };
-    static constexpr std::size_t history_length = 9;  // ER[10]..ER[18]
+    struct Flags {  ///< of MS[0]
+        bool paif = false, tlif = false, err = false, lock = false, output = false;
+    };
 
     // --- life (device.cpp) ---
     void power_off(Instant now);
@@ -90,15 +101,12 @@ private:
     void settle(Instant now, Out& out);
     void step(Instant at, Out& out);
     [[nodiscard]] Instant earliest() const noexcept;
-    void send(const Telegram& telegram, Instant at, Out& out) const;
-    void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const;
     void raise(Alarm alarm, Instant at, Out& out);
     void on_edge(Edge edge, Instant at, Out& out);
     void run_action(std::uint8_t action, std::size_t group, Instant at, Out& out);
     void emergency_stop_by_input(Instant at, Out& out);
     void on_axis(Axis::Event event, Instant at, Out& out);
     void configure_axis(Instant now);
-    [[nodiscard]] bool on_the_bus() const noexcept { return !bus_rate_ || *bus_rate_ == bit_rate_; }
     [[nodiscard]] Axis::Values values_of(std::size_t group) const noexcept;
     [[nodiscard]] bool may_start() const noexcept;
     /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
@@ -106,7 +114,6 @@ private:
     void keep_position(Instant now) noexcept;
 
     // --- instructions (instructions.cpp, sets.cpp) ---
-    [[nodiscard]] bool is_for_me(std::uint8_t id) const noexcept { return id == node_ || id == global_id || id == group_; }
     void instruct(const Telegram& t, Instant now, Out& out);
     [[nodiscard]] Fault get(const Telegram& t, Instant now, Telegram& reply);
     [[nodiscard]] Fault get_indexed(const Telegram& t, Instant now, Telegram& reply) const;
@@ -116,31 +123,23 @@ private:
     [[nodiscard]] Fault begin_motion(Instant now);
     [[nodiscard]] Fault set_driver(std::uint8_t value, Instant now);
     [[nodiscard]] Fault clear_error(const Telegram& t, Telegram& reply);
-    [[nodiscard]] const ErrorEntry* error_slot(std::uint8_t index) const noexcept;
     void report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out);
     void fill_status(Telegram& reply, Instant now) const noexcept;
-    void fill_speed_and_position(Telegram& reply, Instant now) const noexcept;
-    void fill_ports(Telegram& reply) const noexcept;
-    [[nodiscard]] std::int32_t motor_current() const noexcept;
-    [[nodiscard]] std::size_t take_group() noexcept;
 
     // --- the hand (hand.cpp) ---
     [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now, Out& out);
     [[nodiscard]] std::string inject(std::int64_t code, Instant now, Out& out);
 
-    LineKind kind_;
     Identity identity_;
     Duration boot_time_;
-    std::optional<std::uint8_t> bus_rate_;
+    Link link_;
     Memory memory_;
     Axis axis_;
     Inputs inputs_;
     MessageReader reader_;
-    Form form_;
 
     // Outside conditions.
     bool powered_ = false;
-    bool silent_ = false;
     bool encoder_error_ = false;
     bool battery_low_ = false;
     double temperature_ = 25;  ///< deg C, of the motor
@@ -148,26 +147,14 @@ private:
 
     // Since boot.
     bool online_ = false;
-    std::uint8_t node_ = 5;
-    std::uint8_t group_ = 10;
-    std::uint8_t bit_rate_ = 2;  // PP[5], MT[0], QE[4] and IC[5] as they were at boot: later writes act after the next one
+    // MT[0], QE[4] and IC[5] as they were at boot: later writes act after the next one.
     std::uint16_t microsteps_ = 16;
     std::uint16_t pulses_per_turn_ = 3200;
     bool absolute_ = false;
     bool enable_at_boot_ = false;
-    bool paif_ = false;
-    bool tlif_ = false;
-    bool err_ = false;
-    bool lock_ = false;
-    bool output_ = false;
-    std::uint8_t pending_group_ = 0;   // MF
-    bool ptp_mode_ = false;            // DV[0]
-    bool target_is_relative_ = false;  // PR or PA was set last
-    std::int32_t desired_speed_ = 0;   // DV[2], shared by JV and SP
-    std::int32_t desired_relative_ = 0;
-    std::int32_t desired_absolute_ = 0;
-    std::array<ErrorEntry, history_length> history_{};
-    ErrorEntry power_on_error_{};
+    Flags flags_;
+    Wanted wanted_;
+    ErrorHistory history_;
     std::int32_t saved_position_ = 0;  // of the absolute encoder
 
     Instant boot_end_ = never;

@@ -41,7 +41,7 @@ constexpr std::array switches{Switch{"home_switch", 0, "a switch at IN1 (bit 0 o
 std::vector<HandItem> Device::hand() const {
     std::vector<HandItem> items;
     items.push_back({"power", powered_, true, "supply voltage; off loses everything that is not in FLASH or EEPROM"});
-    items.push_back({"silent", silent_, true, "the drive hears and acts, but nothing that it sends reaches the line"});
+    items.push_back({"silent", link_.silent, true, "the drive hears and acts, but nothing that it sends reaches the line"});
     items.push_back({"stall", axis_.held(), true,
                      "the shaft is held; in closed loop (IC[6] = 1) the drive detects it after QE[1] pulses, in open loop never"});
     items.push_back({"inputs", std::int64_t{inputs_.applied()}, true,
@@ -64,8 +64,8 @@ std::vector<HandItem> Device::hand() const {
                      "shaft position, pulses; can be turned by hand while the driver is off"});
     items.push_back({"shaft_turns", ever ? axis_.turns(last_) : 0.0, false,
                      "turns of the shaft, counter-clockwise positive: what MT[0], QE[0], QE[2], QE[4] and IC[1] make of the pulses"});
-    if (bus_rate_) {
-        items.push_back({"bit_rate_code", std::int64_t{bit_rate_}, true,
+    if (link_.bus_rate) {
+        items.push_back({"bit_rate_code", std::int64_t{link_.bit_rate}, true,
                          "bit rate of the CAN line that the drive hears, as a code of PP[5]; writing sets PP[5] and acts at once, as a "
                          "service tool at the drive would: the way back after a wrong PP[5]"});
     }
@@ -98,7 +98,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     }
     if (name == "silent") {
         if (!flag) return want_flag;
-        silent_ = *flag;
+        link_.silent = *flag;
         return {};
     }
     if (name == "stall") {
@@ -157,17 +157,17 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         return {};
     }
     if (name == "shaft_turns") return "shaft_turns: it is read only; position turns the shaft by hand";
-    if (name == "bit_rate_code" && bus_rate_) {
+    if (name == "bit_rate_code" && link_.bus_rate) {
         if (!number || *number < 0 || *number > 4)
             return "bit_rate_code: " + to_text(value) + " is not 0..4 (1000, 800, 500, 250, 125 kbit/s)";
         memory_.set_flash([&](Protocol& p) { p.bit_rate = static_cast<std::uint8_t>(*number); });
-        bit_rate_ = static_cast<std::uint8_t>(*number);
+        link_.bit_rate = static_cast<std::uint8_t>(*number);
         return {};
     }
     return "there is no '" + name +
            "' here; power, silent, stall, inputs, home_switch, limit_positive, limit_negative, temperature, inject_error, lost_pulses, "
            "encoder_error, battery_low, position" +
-           std::string(bus_rate_ ? ", bit_rate_code" : "");
+           std::string(link_.bus_rate ? ", bit_rate_code" : "");
 }
 
 /// An alarm is sent once when it comes in; the ones that the drive acts upon act.
@@ -185,7 +185,7 @@ std::string Device::inject(std::int64_t code, Instant now, Out& out) {
     switch (alarm) {
         case Alarm::emergency_lock:
             axis_.stop_fast(now, memory_.ram().sd);
-            lock_ = true;
+            flags_.lock = true;
             raise(alarm, now, out);
             break;
         case Alarm::lower_limit:

@@ -41,6 +41,21 @@ constexpr std::array<Shape, 128> make_shapes() {
 }
 constexpr auto shapes = make_shapes();
 
+/// MS[1] [L909-918]. The speed has 24 bits: it saturates, because a wrapped speed would show the wrong direction.
+void fill_speed_and_position(Telegram& reply, const Axis& axis, Instant now) noexcept {
+    const auto speed = std::clamp(whole(axis.speed(now)), -8'388'607, 8'388'607);
+    reply.d[0] = 1;
+    put(reply, 1, static_cast<std::uint32_t>(speed), 3);
+    put(reply, 4, static_cast<std::uint32_t>(axis.position(now)), 4);
+    reply.dl = 8;
+}
+
+/// DV[1], 0.1 A: nothing while off, the working current in motion, the idle share of it at rest.
+std::int32_t motor_current(const Axis& axis, const Settings& s) noexcept {
+    if (!axis.driver_on()) return 0;
+    return axis.moving() ? s.mt[1] : s.mt[1] * s.mt[2] / 100;
+}
+
 }  // namespace
 
 /// Order of validation: control word, length, sub-index, value, state (section 3.1 of our reading).
@@ -54,7 +69,7 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
         return;
     }
     Telegram reply;
-    reply.producer = node_;
+    reply.producer = link_.node;
     reply.consumer = t.producer;
     reply.cw = t.function();
     Fault fault{};
@@ -66,30 +81,22 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
     if (fault != Fault::none) {
         report(fault, t, sub, now, out);
     } else if (t.wants_ack() && t.function() != SY) {
-        send(reply, now, out);
+        link_.send(reply, now, out);
     }
 }
 
 /// Sent even if no acknowledgement was asked for; d2 keeps bit 7 of the instruction [L1183]. Spends a pending MF.
 void Device::report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out) {
-    pending_group_ = 0;
-    err_ = true;
-    std::ranges::move_backward(history_.begin(), history_.end() - 1, history_.end());
-    history_[0] = {static_cast<std::uint8_t>(fault), t.cw, sub};
+    wanted_.pending_group = 0;
+    flags_.err = true;
+    history_.add({static_cast<std::uint8_t>(fault), t.cw, sub});
     Telegram error;
-    error.producer = node_;
+    error.producer = link_.node;
     error.consumer = t.producer;
     error.cw = ER;
     error.dl = 6;
     error.d = {0, static_cast<std::uint8_t>(fault), t.cw, sub, 0, 0, 0, 0};
-    send(error, now, out);
-}
-
-/// MF directs one parameter GET or SET, then falls back to 0.
-std::size_t Device::take_group() noexcept {
-    const std::size_t group = pending_group_;
-    pending_group_ = 0;
-    return group;
+    link_.send(error, now, out);
 }
 
 // --- GET ----------------------------------------------------------------------------------------------------------------
@@ -111,15 +118,15 @@ Fault Device::get(const Telegram& t, Instant now, Telegram& reply) {
             put_value(reply, axis_.driver_on() ? 1 : 0, 1);
             return Fault::none;
         case MF:
-            put_value(reply, pending_group_, 1);
+            put_value(reply, wanted_.pending_group, 1);
             return Fault::none;
         case DI:
-            fill_ports(reply);
+            put_ports(reply, inputs_.latched(), flags_.output);
             return Fault::none;
         default:
             break;
     }
-    const std::size_t group = take_group();
+    const std::size_t group = wanted_.take_group();
     const Group& g = s.group[group];
     const auto present = [&](std::int32_t of_group, std::int32_t actual) {
         put_value(reply, static_cast<std::uint32_t>(group == 0 ? actual : of_group), 4);
@@ -172,12 +179,12 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
             if (i == 0) {
                 fill_status(reply, now);
             } else {
-                fill_speed_and_position(reply, now);
+                fill_speed_and_position(reply, axis_, now);
             }
             return Fault::none;
         case DV: {
-            const std::array<std::int32_t, 5> desired{ptp_mode_ ? 1 : 0, motor_current(), desired_speed_, desired_relative_,
-                                                      desired_absolute_};
+            const std::array<std::int32_t, 5> desired{wanted_.ptp ? 1 : 0, motor_current(axis_, s), wanted_.speed, wanted_.relative,
+                                                      wanted_.absolute};
             if (i >= desired.size()) return Fault::sub_index;
             put_indexed(reply, i, static_cast<std::uint32_t>(desired[i]), 4);
             return Fault::none;
@@ -193,7 +200,7 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
             return Fault::none;
         }
         case ER: {
-            const ErrorEntry* const e = error_slot(i);
+            const ErrorEntry* const e = history_.slot(i);
             if (e == nullptr) return Fault::sub_index;
             reply.d = {i, e->code, e->cw, e->sub, 0, 0, 0, 0};
             reply.dl = 6;
@@ -222,53 +229,21 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
 void Device::fill_status(Telegram& reply, Instant now) const noexcept {
     const auto bit = [](bool on, int n) { return on ? 1u << n : 0u; };
     reply.d = {};
-    reply.d[1] =
-        static_cast<std::uint8_t>(bit(ptp_mode_, 0) | bit(axis_.driver_on(), 2) | (unsigned{inputs_.latched()} << 3) | bit(output_, 6));
-    reply.d[2] = static_cast<std::uint8_t>(bit(!axis_.moving(), 0) | bit(paif_, 1) | bit(tlif_, 3) | bit(lock_, 5) | bit(err_, 7));
+    reply.d[1] = static_cast<std::uint8_t>(bit(wanted_.ptp, 0) | bit(axis_.driver_on(), 2) | (unsigned{inputs_.latched()} << 3) |
+                                           bit(flags_.output, 6));
+    reply.d[2] = static_cast<std::uint8_t>(bit(!axis_.moving(), 0) | bit(flags_.paif, 1) | bit(flags_.tlif, 3) | bit(flags_.lock, 5) |
+                                           bit(flags_.err, 7));
     put(reply, 4, static_cast<std::uint32_t>(axis_.relative(now)), 4);
     reply.dl = 8;
 }
 
-/// MS[1] [L909-918]. The speed has 24 bits: it saturates, because a wrapped speed would show the wrong direction.
-void Device::fill_speed_and_position(Telegram& reply, Instant now) const noexcept {
-    const auto speed = std::clamp(whole(axis_.speed(now)), -8'388'607, 8'388'607);
-    reply.d[0] = 1;
-    put(reply, 1, static_cast<std::uint32_t>(speed), 3);
-    put(reply, 4, static_cast<std::uint32_t>(axis_.position(now)), 4);
-    reply.dl = 8;
-}
-
-void Device::fill_ports(Telegram& reply) const noexcept {
-    reply.d = {inputs_.latched(), output_ ? std::uint8_t{1} : std::uint8_t{0}, 0, 0, 0, 0, 0, 0};
-    reply.dl = 4;
-}
-
-/// DV[1], 0.1 A: nothing while off, the working current in motion, the idle share of it at rest.
-std::int32_t Device::motor_current() const noexcept {
-    if (!axis_.driver_on()) return 0;
-    const Settings& s = memory_.ram();
-    return axis_.moving() ? s.mt[1] : s.mt[1] * s.mt[2] / 100;
-}
-
 // --- error history ------------------------------------------------------------------------------------------------------
 
-/// ER[0] and ER[10]: the latest; ER[11]..ER[18]: the ones before; ER[6]: power-on error [L1173-1179].
-const Device::ErrorEntry* Device::error_slot(std::uint8_t index) const noexcept {
-    if (index == 0) return history_.data();
-    if (index == 6) return &power_on_error_;
-    if (index >= 10 && index < 10 + history_length) return &history_[index - 10u];
-    return nullptr;
-}
-
 Fault Device::clear_error(const Telegram& t, Telegram& reply) {
-    const ErrorEntry* const e = error_slot(t.d[0]);
+    ErrorEntry* const e = history_.slot(t.d[0]);
     if (e == nullptr) return Fault::sub_index;
     if (t.d[1] != 0 || (t.dl == 3 && t.d[2] != 0)) return Fault::data;
-    if (t.d[0] == 6) {
-        power_on_error_ = {};
-    } else {
-        history_[t.d[0] == 0 ? 0u : t.d[0] - 10u] = {};
-    }
+    *e = {};
     reply.d = {t.d[0], 0, 0, 0, 0, 0, 0, 0};
     reply.dl = 6;
     return Fault::none;

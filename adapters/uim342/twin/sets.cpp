@@ -21,7 +21,7 @@ Fault Device::set(const Telegram& t, Instant now, Telegram& reply, Out&) {
             return Fault::none;
         case MF:
             if (t.d[0] == 1 || t.d[0] >= group_count) return Fault::data;
-            pending_group_ = t.d[0];
+            wanted_.pending_group = t.d[0];
             put_value(reply, t.d[0], 1);
             return Fault::none;
         case OG:
@@ -30,8 +30,8 @@ Fault Device::set(const Telegram& t, Instant now, Telegram& reply, Out&) {
             return Fault::none;
         case DI:  // d0 the output, d1 = 1; answered by the image of all ports, not by what was written [L1677]
             if (t.d[0] > 1 || t.d[1] != 1 || t.d[2] != 0 || t.d[3] != 0) return Fault::data;
-            output_ = t.d[0] == 1;
-            fill_ports(reply);
+            flags_.output = t.d[0] == 1;
+            put_ports(reply, inputs_.latched(), flags_.output);
             return Fault::none;
         default:
             return set_motion_value(t, reply);
@@ -41,7 +41,7 @@ Fault Device::set(const Telegram& t, Instant now, Telegram& reply, Out&) {
 Fault Device::set_driver(std::uint8_t value, Instant now) {
     if (value > 1) return Fault::data;
     if (value == 0) {
-        lock_ = false;  // the one way out of the lock besides a reboot
+        flags_.lock = false;  // the one way out of the lock besides a reboot
         enable_at_boot_ = false;
     }
     axis_.set_driver(value == 1, now);
@@ -50,17 +50,17 @@ Fault Device::set_driver(std::uint8_t value, Instant now) {
 
 Fault Device::begin_motion(Instant now) {
     if (!axis_.driver_on()) return Fault::driver_off;
-    if (lock_ || axis_.state() == Axis::State::emergency_stop) return Fault::stopping;
-    paif_ = false;
-    const double speed = std::abs(static_cast<double>(desired_speed_));  // the sign of SP says nothing here [L799]
-    if (!ptp_mode_) {
-        axis_.jog(now, desired_speed_, values_of(0));
-    } else if (target_is_relative_) {
+    if (flags_.lock || axis_.state() == Axis::State::emergency_stop) return Fault::stopping;
+    flags_.paif = false;
+    const double speed = std::abs(static_cast<double>(wanted_.speed));  // the sign of SP says nothing here [L799]
+    if (!wanted_.ptp) {
+        axis_.jog(now, wanted_.speed, values_of(0));
+    } else if (wanted_.target_is_relative) {
         // What the distance comes to from here: DV[4] is where the motion ends, whichever way it was given.
-        desired_absolute_ = wrap_i32(static_cast<double>(axis_.position(now)) + desired_relative_);
-        axis_.move_by(now, desired_relative_, speed, values_of(0));
+        wanted_.absolute = wrap_i32(static_cast<double>(axis_.position(now)) + wanted_.relative);
+        axis_.move_by(now, wanted_.relative, speed, values_of(0));
     } else {
-        axis_.move_to(now, desired_absolute_, speed, values_of(0));
+        axis_.move_to(now, wanted_.absolute, speed, values_of(0));
     }
     return Fault::none;
 }
@@ -71,7 +71,7 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
     const bool as_time = s.ic[4] == 1;
     const std::uint32_t n = value_of(t);
     const auto signed_n = static_cast<std::int32_t>(n);
-    const std::size_t group = take_group();
+    const std::size_t group = wanted_.take_group();
     switch (t.function()) {
         case AC:
             if (!ramp_takes(n, as_time)) return Fault::data;
@@ -99,14 +99,14 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
             put_value(reply, n, 4);
             return Fault::none;
         case JV:
-            desired_speed_ = signed_n;
-            ptp_mode_ = false;
+            wanted_.speed = signed_n;
+            wanted_.ptp = false;
             put_desired(reply, 2, signed_n);
             return Fault::none;
         case SP:
             if (group == 0) {
-                if (!ptp_mode_) return Fault::syntax;  // "error #50" [L1453]
-                desired_speed_ = signed_n;
+                if (!wanted_.ptp) return Fault::syntax;  // "error #50" [L1453]
+                wanted_.speed = signed_n;
             } else {
                 memory_.set(keep, [&](Settings& x) { x.group[group].sp = signed_n; });
             }
@@ -114,8 +114,8 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
             return Fault::none;
         case PR:
             if (group == 0) {
-                desired_relative_ = signed_n;
-                ptp_mode_ = target_is_relative_ = true;
+                wanted_.relative = signed_n;
+                wanted_.ptp = wanted_.target_is_relative = true;
             } else {
                 memory_.set(keep, [&](Settings& x) { x.group[group].pr = signed_n; });
             }
@@ -123,9 +123,9 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
             return Fault::none;
         case PA:
             if (group == 0) {
-                desired_absolute_ = signed_n;
-                ptp_mode_ = true;
-                target_is_relative_ = false;
+                wanted_.absolute = signed_n;
+                wanted_.ptp = true;
+                wanted_.target_is_relative = false;
             } else {
                 memory_.set(keep, [&](Settings& x) { x.group[group].pa = signed_n; });
             }
@@ -195,7 +195,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
         case MS:
             if (i != 0) return Fault::sub_index;
             if (t.d[1] != 0) return Fault::data;
-            paif_ = tlif_ = err_ = false;
+            flags_.paif = flags_.tlif = flags_.err = false;
             fill_status(reply, now);
             return Fault::none;
         case SY:

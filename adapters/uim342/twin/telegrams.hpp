@@ -66,6 +66,12 @@ inline void put_desired(Telegram& t, std::uint8_t index, std::int32_t value) {
     put_indexed(t, index, static_cast<std::uint32_t>(value), 4);
 }
 
+/// DI: what the inputs had last, and the output.
+inline void put_ports(Telegram& t, std::uint8_t inputs, bool output) {
+    t.d = {inputs, output ? std::uint8_t{1} : std::uint8_t{0}, 0, 0, 0, 0, 0, 0};
+    t.dl = 4;
+}
+
 inline std::uint32_t value_of(const Telegram& t) {
     std::uint32_t v = 0;
     for (std::size_t i = 0; i < std::min<std::size_t>(t.dl, 4); ++i)

@@ -83,6 +83,7 @@ AxisValues::AxisValues(DoorPort& port, registers::RegisterImage& image, std::int
 
 void AxisValues::use(Layout layout, bool anew) {
     layout_ = std::move(layout);
+    shown_.clear();
     if (anew) owners_.clear();
 }
 
@@ -100,10 +101,15 @@ void AxisValues::each_axis(std::uint32_t instance, Each&& each) const {
     }
 }
 
+const std::vector<registers::MapValue>& AxisValues::shown_of(const LayoutWindow& window) const {
+    const auto it = shown_.find(window.spec.instance);
+    return it != shown_.end() ? it->second : shown_.emplace(window.spec.instance, shown_values(image_, window.spec)).first->second;
+}
+
 void AxisValues::read(std::uint32_t instance, Instant now, Bytes& to) {
     const auto info = layout_.assembly(instance);
     if (!info) return;
-    if (const auto* w = layout_.window(instance)) return show_window(image_, w->spec, now, to);
+    if (const auto* w = layout_.window(instance)) return show_window(image_, w->spec, shown_of(*w), now, to);
     const std::size_t begin = to.size();
     const bool input = info->role == cip::AssemblyInfo::Role::input;
     const std::uint16_t from = input ? std::uint16_t{0} : reg::controlword;
@@ -131,7 +137,7 @@ void AxisValues::read(std::uint32_t instance, Instant now, Bytes& to) {
 }
 
 std::uint64_t AxisValues::revision(std::uint32_t instance) const {
-    if (const auto* w = layout_.window(instance)) return window_revision(image_, w->spec, port_.now());
+    if (const auto* w = layout_.window(instance)) return window_revision(image_, w->spec, shown_of(*w), port_.now());
     std::uint64_t sum = 0;
     each_axis(instance, [&](std::uint16_t, AxisId id) {
         if (id != no_axis) sum += port_.image().cell(id).revision();

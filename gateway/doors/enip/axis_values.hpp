@@ -105,6 +105,8 @@ private:
     void carry_out(std::uint32_t output, Owner& owner, AxisId axis, OutputLane::Step step, Instant now);
     void refused(const Asked& asked, const Result& result, Instant now);
     void lose(std::uint32_t output, LossCause cause);
+    /// shown_values(), looked up once per site and window.
+    [[nodiscard]] const std::vector<registers::MapValue>& shown_of(const LayoutWindow& window) const;
     template <class Each>
     void each_axis(std::uint32_t instance, Each&& each) const;
 
@@ -115,7 +117,8 @@ private:
     DoorNumber number_ = 0;
     Told told_;
     Layout layout_;
-    std::map<std::uint32_t, Owner> owners_;  // by output assembly
+    mutable std::map<std::uint16_t, std::vector<registers::MapValue>> shown_;  // by instance
+    std::map<std::uint32_t, Owner> owners_;                                    // by output assembly
     std::map<Ticket, Asked> asked_;
     std::map<cip::Token, OwnWrite> own_writes_;  // at most most_asked
     std::size_t questions_ = 0;

@@ -20,8 +20,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <map>
 #include <span>
+#include <unordered_map>
+#include <utility>
 
 #include "gateway/doors/enip/counters.hpp"
 #include "gateway/doors/enip/host_facts.hpp"
@@ -147,7 +148,8 @@ private:
     UdpSocket explicit_, implicit_;
     asio::steady_timer timer_;
     Instant armed_ = never, next_sweep_{};
-    std::map<cip::SessionKey, std::shared_ptr<TcpSession>> sessions_;
+    std::unordered_map<cip::SessionKey, std::unique_ptr<TcpSession>> sessions_;
+    std::vector<std::unique_ptr<TcpSession>> ended_;  // until the turn that ended them is over
     cip::SessionKey newest_ = 0;
     HostFacts facts_;
     std::uint32_t bound_ = 0;
@@ -262,28 +264,30 @@ bool Server::Impl::admit() {
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     (void)::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
     const cip::SessionKey key = ++newest_;
-    const bool watched = poller_.add(fd, key, EPOLLIN);
+    const bool watched = poller_.add(fd, key, TcpSession::watched);
     if (!watched || !adapter_.on_connected(key, endpoint_of(peer), port_.now())) {
         ::close(fd);
         return true;
     }
-    sessions_.emplace(key, std::make_shared<TcpSession>(
+    sessions_.emplace(key, std::make_unique<TcpSession>(
                                fd, poller_, key, most_unsent, [this, key](cip::View bytes) { adapter_.on_stream(key, bytes, port_.now()); },
                                [this, key] {
-                                   sessions_.erase(key);
+                                   if (auto it = sessions_.find(key); it != sessions_.end()) {
+                                       ended_.push_back(std::move(it->second));
+                                       sessions_.erase(it);
+                                   }
                                    adapter_.on_disconnected(key);
                                }));
     return true;
 }
 
-/// Sessions never call by themselves: they live as long as this does.
+/// Sessions never call by themselves: they live as long as this does, and one that ends until the turn is over.
 void Server::Impl::on_ready(std::span<const epoll_event> events) {
     for (const epoll_event& e : events) {
         const auto it = sessions_.find(std::uint64_t{e.data.u64});
-        if (it == sessions_.end()) continue;
-        const auto session = it->second;  // may be erased meanwhile
-        session->on_ready(e.events);
+        if (it != sessions_.end()) it->second->on_ready(e.events);
     }
+    ended_.clear();
     arm();
 }
 

@@ -15,22 +15,25 @@ bool would_block() noexcept { return errno == EAGAIN || errno == EWOULDBLOCK || 
 }  // namespace
 
 void TcpSession::on_ready(std::uint32_t events) {
-    const auto self = shared_from_this();  // what arrives may end the session
     if (!open_) return end();
     if (!unsent_.empty()) {
         // Whoever hangs up while answers wait for him is not watched for reading: his end is told with these.
         if (events & (EPOLLOUT | EPOLLERR | EPOLLHUP)) write();
-    } else if (events & (EPOLLIN | EPOLLERR | EPOLLHUP)) {
-        read();
+    } else if (events & (EPOLLIN | EPOLLRDHUP | EPOLLERR | EPOLLHUP)) {
+        read((events & (EPOLLRDHUP | EPOLLERR | EPOLLHUP)) != 0);
     }
 }
 
-void TcpSession::read() {
+/// Readiness is told when something comes, not as long as something is there: that spares the kernel a second look at the socket for each
+/// request. Where one read may have left something it is asked for again, behind the others that are ready.
+void TcpSession::read(bool other_end_gone) {
     std::array<std::uint8_t, 4096> bytes;
     const auto n = ::recv(fd_, bytes.data(), bytes.size(), 0);
     if (n == 0 || (n < 0 && !would_block())) return end();
     if (n > 0) arrived_({bytes.data(), static_cast<std::size_t>(n)});
-    if (!open_) end();
+    if (!open_) return end();
+    const bool all = n > 0 && static_cast<std::size_t>(n) < bytes.size() && !other_end_gone;
+    if (!all && unsent_.empty()) poller_.change(fd_, token_, watched);
 }
 
 void TcpSession::send(cip::View bytes) {
@@ -57,7 +60,7 @@ void TcpSession::write() {
     const auto n = ::send(fd_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
     if (n < 0 && !would_block()) return end();
     if (n > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + n);
-    if (unsent_.empty()) poller_.change(fd_, token_, EPOLLIN);
+    if (unsent_.empty()) poller_.change(fd_, token_, watched);
 }
 
 void TcpSession::hang_up() {

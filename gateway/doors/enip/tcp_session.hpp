@@ -12,10 +12,12 @@
 
 namespace axisgate::enip {
 
-class TcpSession : public std::enable_shared_from_this<TcpSession> {
+class TcpSession {
 public:
-    /// Owns `fd`, which `poller` watches for EPOLLIN under `token`. `arrived` gets what came; `ended` is called once, when the other end is
-    /// gone or does not read.
+    static constexpr std::uint32_t watched = EPOLLIN | EPOLLRDHUP | EPOLLET;  ///< what the poller tells of while nothing is unsent
+
+    /// Owns `fd`, which `poller` watches for `watched` under `token`. `arrived` gets what came; `ended` is called once, when the other end
+    /// is gone or does not read; it does not destroy the session, which is still busy.
     TcpSession(int fd, Poller& poller, std::uint64_t token, std::size_t most_unsent, std::function<void(cip::View)> arrived,
                std::function<void()> ended)
         : fd_(fd), poller_(poller), token_(token), most_unsent_(most_unsent), arrived_(std::move(arrived)), ended_(std::move(ended)) {}
@@ -28,7 +30,7 @@ public:
     void hang_up();
 
 private:
-    void read();
+    void read(bool other_end_gone);
     void write();
     void end();
     void close();

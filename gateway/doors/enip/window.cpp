@@ -49,24 +49,28 @@ void from_assembly(const AssemblySpec& a, const std::vector<MapValue>& values, c
     turn_all(a, values, from, to);
 }
 
-void show_window(registers::RegisterImage& image, const AssemblySpec& a, Instant now, cip::Bytes& to) {
+std::vector<MapValue> shown_values(registers::RegisterImage& image, const AssemblySpec& a) {
+    UnitMap* const map = image.unit(a.unit);
+    return map ? map->values(a.table, a.address, a.registers, false) : std::vector<MapValue>();
+}
+
+void show_window(registers::RegisterImage& image, const AssemblySpec& a, const std::vector<MapValue>& values, Instant now, cip::Bytes& to) {
     const std::size_t begin = to.size();
     to.resize(begin + a.bytes());
     UnitMap* const map = image.unit(a.unit);
     if (!map) return;
     std::uint8_t words[2 * most_assembly_registers];
     map->show(a.table, a.address, a.registers, now, words);
-    // What is read back of an output is what can be read of it.
-    to_assembly(a, map->values(a.table, a.address, a.registers, false), words, to.data() + begin);
+    to_assembly(a, values, words, to.data() + begin);
 }
 
-std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a, Instant now) {
+std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a, const std::vector<MapValue>& values, Instant now) {
     UnitMap* const map = image.unit(a.unit);
     std::uint64_t hash = 14695981039346656037u;  // FNV-1a
     if (!map) return hash;
     std::uint8_t words[2 * most_assembly_registers];
     map->show(a.table, a.address, a.registers, now, words);
-    for (const MapValue& v : map->values(a.table, a.address, a.registers, false)) {
+    for (const MapValue& v : values) {
         if (!v.steady()) continue;
         const std::size_t at = 2 * std::size_t(v.address - a.address);
         for (std::size_t i = at; i < at + 2 * std::size_t{v.registers}; ++i)

@@ -23,10 +23,14 @@ namespace axisgate::enip {
 void to_assembly(const AssemblySpec& a, const std::vector<registers::MapValue>& values, const std::uint8_t* from, std::uint8_t* to);
 void from_assembly(const AssemblySpec& a, const std::vector<registers::MapValue>& values, const std::uint8_t* from, std::uint8_t* to);
 
-/// Appends the assembly's bytes; zeros where nothing is behind it.
-void show_window(registers::RegisterImage& image, const AssemblySpec& a, Instant now, cip::Bytes& to);
+/// The values that a read of the assembly shows: of an output, too, those that can be read. Another list after a change of the site.
+[[nodiscard]] std::vector<registers::MapValue> shown_values(registers::RegisterImage& image, const AssemblySpec& a);
+/// Appends the assembly's bytes; zeros where nothing is behind it. `values`: shown_values(). Allocates nothing where `to` has the room.
+void show_window(registers::RegisterImage& image, const AssemblySpec& a, const std::vector<registers::MapValue>& values, Instant now,
+                 cip::Bytes& to);
 /// Another number after each change of what it shows, but for ages and heartbeats.
-[[nodiscard]] std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a, Instant now);
+[[nodiscard]] std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a,
+                                            const std::vector<registers::MapValue>& values, Instant now);
 /// A write of the whole at once, that of a message. Reason::none: every value of it was handed on; else nothing was.
 [[nodiscard]] Reason write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a,
                                   const Origin& origin, cip::View data, Instant now);

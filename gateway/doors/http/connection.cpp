@@ -320,7 +320,13 @@ void Connection::read_body() {
 void Connection::on_body(ErrorCode ec) {
     if (phase_ != Phase::body) return;
     if (ec) return read_failed(ec);
-    answer_request();
+    phase_ = Phase::answering;
+    since_ = std::chrono::steady_clock::now();
+    at_limit_.reset();
+    if (request_.method != Method::get && request_.method != Method::head) return answer_request();
+    host_->later->put([self = weak_from_this(), serial = ++serial_] {
+        if (const auto me = self.lock(); me && me->phase_ == Phase::answering && me->serial_ == serial) me->answer_request();
+    });
 }
 
 void Connection::read_failed(ErrorCode ec) {
@@ -394,10 +400,7 @@ void Connection::refuse(Response response) {
 
 void Connection::answer_request() {
     request_.body = std::move(parser_->get().body());
-    phase_ = Phase::answering;
-    since_ = std::chrono::steady_clock::now();
     const std::uint64_t serial = ++serial_;
-    at_limit_.reset();
     auto handled = host_->router.handle(request_, [self = weak_from_this(), serial](Response r) {
         if (const auto me = self.lock()) me->answer(serial, std::move(r));
     });

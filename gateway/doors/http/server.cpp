@@ -39,7 +39,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     std::function<void()> done;
 
     Parts(asio::io_context& c, const Ports& ports, Services& all, Settings s, AssetLookup asset)
-        : SessionHost(own_settings, own_router, own_counters, own_hub),
+        : SessionHost(own_settings, own_router, own_counters, own_hub, std::make_shared<Later>(c)),
           own_settings(std::move(s)),
           context(c),
           services(all),
@@ -145,9 +145,13 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
         hub_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
             const auto me = self.lock();
-            if (ec || !me || !me->own_hub.attached()) return;
-            me->own_hub.on_deadline(steady_instant());
-            me->rearm();
+            if (ec || !me) return;
+            me->later->put([self] {
+                const auto then = self.lock();
+                if (!then || !then->own_hub.attached()) return;
+                then->own_hub.on_deadline(steady_instant());
+                then->rearm();
+            });
         });
     }
 

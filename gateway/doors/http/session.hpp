@@ -9,6 +9,7 @@
 #include "gateway/core/instant.hpp"
 #include "gateway/core/places.hpp"
 #include "gateway/doors/http/counters.hpp"
+#include "gateway/doors/http/later.hpp"
 #include "gateway/doors/http/router.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/stream_hub.hpp"
@@ -52,10 +53,12 @@ struct SessionHost {
     std::shared_ptr<TlsIdentity> tls;  ///< nothing: plain HTTP
     bool stopping = false;
     ByteBudget budget;
+    std::shared_ptr<Later> later;  ///< for what only reads
 
     virtual void add(std::shared_ptr<Session> session) = 0;
     virtual void remove(const Session* session) = 0;
-    SessionHost(const Settings& s, const Router& r, Counters& c, StreamHub& h) : settings(s), router(r), counters(c), hub(h) {}
+    SessionHost(const Settings& s, const Router& r, Counters& c, StreamHub& h, std::shared_ptr<Later> l)
+        : settings(s), router(r), counters(c), hub(h), later(std::move(l)) {}
     SessionHost(const SessionHost&) = delete;
     SessionHost& operator=(const SessionHost&) = delete;
     virtual ~SessionHost() = default;

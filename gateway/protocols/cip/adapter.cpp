@@ -108,7 +108,12 @@ void Adapter::on_stream(SessionKey key, View bytes, Instant now) {
 }
 
 void Adapter::say(SessionKey key, const Header& header, PacketStatus status, View data) {
-    output_.stream(key, packet(header, status, data));
+    Header of = header;
+    of.status = static_cast<std::uint32_t>(status);
+    begin_packet(out_);
+    put_bytes(out_, data);
+    end_packet(out_, of);
+    output_.stream(key, out_);
 }
 
 bool Adapter::listing(const Header& header, View data, Bytes& to) const {
@@ -256,29 +261,29 @@ void Adapter::message(View bytes, Route route, Context context) {
     }
 }
 
+/// Written where it is sent from: an answer is copied once, by the kernel.
 void Adapter::answer(const Route& route, const Router::Parts& parts) {
-    const Bytes text = Router::answer(parts, route.most - 4);
-    Bytes body;
-    put32(body, 0);
-    put16(body, 0);
-    put16(body, static_cast<std::uint16_t>(2 + route.extra));
-    if (route.connection == 0) {
-        put_item(body, item::null_address, {});
-        put_item(body, item::unconnected_data, text);
-        put_bytes(body, route.items);
-        return say(route.session, route.header, PacketStatus::success, body);
-    }
-    Connection* const c = manager_.explicit_connection(route.connection, route.session);
-    if (!c) return;  // closed meanwhile
-    Bytes address, data;
-    put32(address, c->to_id);
-    put16(data, route.count);
-    put_bytes(data, text);
-    put_item(body, item::connected_address, address);
-    put_item(body, item::connected_data, data);
-    const Bytes out = packet(route.header, PacketStatus::success, body);
-    if (c->asked == route.count) c->answered = out;
-    output_.stream(route.session, out);
+    Connection* const c = route.connection == 0 ? nullptr : manager_.explicit_connection(route.connection, route.session);
+    if (route.connection != 0 && !c) return;  // closed meanwhile
+    Header header = route.header;
+    header.status = static_cast<std::uint32_t>(PacketStatus::success);
+    begin_packet(out_);
+    // Interface and time-out are 0. Then the items: an address, the data, whose length is set when it is known.
+    const std::size_t data_at = header_size + (c ? 16 : 12);
+    out_.resize(data_at + (c ? 6 : 4));
+    std::uint8_t* const items = out_.data() + header_size + 6;
+    set16(items, static_cast<std::uint16_t>(2 + route.extra));
+    set16(items + 2, c ? item::connected_address : item::null_address);
+    set16(items + 4, c ? 4 : 0);
+    if (c) set32(items + 6, c->to_id);
+    set16(out_.data() + data_at, c ? item::connected_data : item::unconnected_data);
+    if (c) set16(out_.data() + data_at + 4, route.count);
+    Router::put_answer(out_, parts, route.most - 4);
+    set16(out_.data() + data_at + 2, static_cast<std::uint16_t>(out_.size() - data_at - 4));
+    if (!c) put_bytes(out_, route.items);
+    end_packet(out_, header);
+    if (c && c->asked == route.count) c->answered = out_;
+    output_.stream(route.session, out_);
 }
 
 void Adapter::told(Token token, General general, View value) {

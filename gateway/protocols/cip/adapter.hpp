@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "gateway/protocols/cip/connection_manager.hpp"
@@ -104,13 +105,14 @@ private:
     QosObject qos_;
     ConnectionConfigurationObject configuration_;
     Router router_;
-    std::map<SessionKey, Session> sessions_;
+    std::unordered_map<SessionKey, Session> sessions_;
     std::map<std::uint64_t, Waiting> waiting_;  // by the upper bits of their tokens
     std::vector<Late> late_;
     std::uint64_t exchanges_ = 0;
     std::uint32_t handles_;
     Instant next_look_ = never;  // at sessions that are silent
     Counters counters_;
+    Bytes out_;  // the packet that is being written; kept for its room
 };
 
 }  // namespace axisgate::cip

@@ -48,8 +48,10 @@ private:
 };
 
 inline void put(Bytes& to, std::uint64_t value, std::size_t bytes) {
+    const std::size_t at = to.size();
+    to.resize(at + bytes);  // once, not byte by byte
     for (std::size_t i = 0; i < bytes; ++i)
-        to.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
+        to[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 inline void put8(Bytes& to, std::uint8_t v) { to.push_back(v); }
 inline void put16(Bytes& to, std::uint16_t v) { put(to, v, 2); }

@@ -9,6 +9,11 @@ namespace {
 using Kind = Connection::Kind;
 constexpr std::uint32_t multicast_base = 0xEFC00100;  // 239.192.1.0, volume 2, 3-5.3
 constexpr std::uint16_t groups_per_device = 32;
+
+Endpoint group_address(const Device& d, std::uint16_t number) {
+    const std::uint32_t host = ((d.address & ~d.mask) - 1) & 0x3FF;
+    return {multicast_base + host * groups_per_device + number % groups_per_device, default_io_port};
+}
 }  // namespace
 
 ConnectionManager::ConnectionManager(Values& values, Carrier& carrier, std::uint16_t incarnation)
@@ -179,12 +184,6 @@ Response ConnectionManager::open_io(const OpenRequest& request, Context& context
     return opened(*c);
 }
 
-Endpoint ConnectionManager::group_address(std::uint16_t number) const {
-    const Device& d = values_.device();
-    const std::uint32_t host = ((d.address & ~d.mask) - 1) & 0x3FF;
-    return {multicast_base + host * groups_per_device + number % groups_per_device, default_io_port};
-}
-
 Connection* ConnectionManager::group_of(std::uint32_t produced, const Connection* but) const {
     const auto it = std::ranges::find_if(
         places_, [&](const auto& c) { return c && c.get() != but && c->multicasts() && c->plan.produced == produced; });
@@ -194,7 +193,7 @@ Connection* ConnectionManager::group_of(std::uint32_t produced, const Connection
 /// Who reads the same by multicast reads the same datagrams, as often as the quickest of them wants.
 void ConnectionManager::join_group(Connection& c, Context& context) {
     c.to_id = c.ot_id;
-    c.produce_to = group_address(c.number);
+    c.produce_to = group_address(values_.device(), c.number);
     for (const auto& other : places_) {
         if (!other || other.get() == &c || !other->multicasts() || other->plan.produced != c.plan.produced) continue;
         c.to_id = other->to_id;

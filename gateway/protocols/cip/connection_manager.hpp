@@ -106,7 +106,6 @@ private:
     [[nodiscard]] Connection* place_for(const OpenRequest& request, const Context& context);
     [[nodiscard]] Connection* find(const Triad& triad) const;
     [[nodiscard]] Connection* group_of(std::uint32_t produced, const Connection* but) const;
-    [[nodiscard]] Endpoint group_address(std::uint16_t number) const;
     void join_group(Connection& connection, Context& context);
     void close(Connection& connection, End why, Instant now);
     void consume(Connection& connection, View data, Instant now);

@@ -18,16 +18,27 @@ Header read_header(View bytes) noexcept {
     return h;
 }
 
+void begin_packet(Bytes& to) {
+    to.clear();
+    to.resize(header_size);
+}
+
+void end_packet(Bytes& to, const Header& h) {
+    std::uint8_t* const p = to.data();
+    set16(p, h.command);
+    set16(p + 2, static_cast<std::uint16_t>(to.size() - header_size));
+    set32(p + 4, h.session);
+    set32(p + 8, h.status);
+    std::ranges::copy(h.context, p + 12);
+    set32(p + 20, 0);
+}
+
 Bytes packet(const Header& h, View data) {
     Bytes out;
     out.reserve(header_size + data.size());
-    put16(out, h.command);
-    put16(out, static_cast<std::uint16_t>(data.size()));
-    put32(out, h.session);
-    put32(out, h.status);
-    put_bytes(out, h.context);
-    put32(out, 0);
+    begin_packet(out);
     put_bytes(out, data);
+    end_packet(out, h);
     return out;
 }
 

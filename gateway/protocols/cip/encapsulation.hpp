@@ -46,6 +46,9 @@ struct Header {
 };
 /// Of header_size bytes or more.
 [[nodiscard]] Header read_header(View bytes) noexcept;
+/// A packet that is written in place: empties `to`, which keeps its room, and leaves room for the header; then the data; then the header.
+void begin_packet(Bytes& to);
+void end_packet(Bytes& to, const Header& header);
 /// A whole packet; the length is that of `data`.
 [[nodiscard]] Bytes packet(const Header& header, View data);
 [[nodiscard]] inline Bytes packet(Header header, PacketStatus status, View data = {}) {

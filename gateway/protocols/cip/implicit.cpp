@@ -61,7 +61,7 @@ void ConnectionManager::produce(Connection& c, Instant now) {
     const bool counts = c.request.transport_class() == 1;
     ++c.sent_count;
     write_implicit(datagram_, c.to_id, ++c.sent, counts ? std::optional(c.sent_count) : std::nullopt, data_);
-    c.sent_revision = values_.revision(c.plan.produced);
+    if (c.look > Duration::zero()) c.sent_revision = values_.revision(c.plan.produced);
     counters_.sent.add();
     carrier_.implicit(c.produce_to, datagram_, mark_of(c.request.to.priority));
 }

@@ -21,16 +21,18 @@ Bytes request(std::uint8_t service, View path, View data) {
     return out;
 }
 
+void put_response(Bytes& to, std::uint8_t service, const Response& response) {
+    const std::uint8_t head[] = {static_cast<std::uint8_t>(service | service::reply_bit), 0, static_cast<std::uint8_t>(response.general),
+                                 static_cast<std::uint8_t>(response.extended.size())};
+    put_bytes(to, head);
+    for (const std::uint16_t word : response.extended)
+        put16(to, word);
+    put_bytes(to, response.data);
+}
+
 Bytes encode(std::uint8_t service, const Response& response) {
     Bytes out;
-    out.reserve(4 + 2 * response.extended.size() + response.data.size());
-    put8(out, service | service::reply_bit);
-    put8(out, 0);
-    put8(out, static_cast<std::uint8_t>(response.general));
-    put8(out, static_cast<std::uint8_t>(response.extended.size()));
-    for (const std::uint16_t word : response.extended)
-        put16(out, word);
-    put_bytes(out, response.data);
+    put_response(out, service, response);
     return out;
 }
 

@@ -33,6 +33,8 @@ struct Response {
     }
     [[nodiscard]] bool good() const noexcept { return general == General::success; }
 };
+/// Appends the answer.
+void put_response(Bytes& to, std::uint8_t service, const Response& response);
 [[nodiscard]] Bytes encode(std::uint8_t service, const Response& response);
 /// What an originator sees: an answer taken apart. Nothing: it is none.
 struct Answer {

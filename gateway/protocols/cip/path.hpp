@@ -2,6 +2,7 @@
 // In: a padded path. Out: its segments in the form in which they are used, or where it is wrong. Never longer than 255 words.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ struct Path {
     std::optional<ElectronicKey> key;
     std::vector<Port> ports;                  ///< the route, before the first logical segment
     std::optional<std::uint32_t> class_id;    ///< the last one
-    std::vector<Place> places;                ///< each instance and connection point, with the class before it
+    /// Each instance and connection point, with the class before it: one of a request, three of a connection; more are taken, too.
+    boost::container::small_vector<Place, 3> places;
     std::optional<std::uint32_t> attribute;   ///< the last one
     std::optional<std::uint32_t> member;      ///< the last one
     std::vector<std::string> symbols;         ///< names; this device has none

@@ -9,6 +9,7 @@
 namespace axisgate::cip {
 namespace {
 bool names(const Path& path, std::uint32_t class_id) { return path.class_id == class_id && path.instance() == 1u; }
+std::uint8_t service_of(View message) { return message.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(message[0] & 0x7F); }
 
 /// The message inside, where the route ends here.
 std::optional<Response> unwrap(View data, View& inside) {
@@ -77,11 +78,9 @@ Response Router::route(const Request& request, const Path& path, Context& contex
     return r;
 }
 
-Response Router::one(View message, std::uint8_t& service, Context& context) {
-    service = message.empty() ? 0 : message[0] & 0x7F;
-    const auto request = read_request(message);
+/// `request` and `path`: what `message` is, as far as it can be read.
+Response Router::one(View message, const std::optional<Request>& request, const std::optional<Path>& path, Context& context) {
     if (!request) return Response::of(message.size() < 2 ? General::not_enough_data : General::path_size_invalid);
-    const auto path = read_path(request->path);
     if (!path || request->path.empty()) return Response::of(General::path_segment_error);
     if (request->service == service::multiple && names(*path, class_id::message_router))
         return Response::of(General::service_not_supported);
@@ -109,8 +108,8 @@ Router::Parts Router::handle(View message, Context& context) {
         several(request->data, parts, context);
     } else {
         Part& p = parts.parts.emplace_back();
-        p.response = one(message, p.service, context);
-        parts.service = p.service;
+        parts.service = p.service = service_of(message);
+        p.response = one(message, request, path, context);
     }
     parts.pending = static_cast<std::size_t>(std::ranges::count_if(parts.parts, [](const Part& p) { return p.response.pending; }));
     return parts;
@@ -119,7 +118,8 @@ Router::Parts Router::handle(View message, Context& context) {
 void Router::several(View data, Parts& into, Context& context) {
     const auto whole = [&](General g) {
         into.multiple = false;
-        into.parts.assign(1, {service::multiple, Response::of(g)});
+        into.parts.clear();
+        into.parts.push_back({service::multiple, Response::of(g)});
     };
     Reader r(data);
     const std::size_t count = r.u16();
@@ -135,24 +135,27 @@ void Router::several(View data, Parts& into, Context& context) {
     into.parts.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         Part& p = into.parts.emplace_back();
-        p.response = one(data.subspan(offsets[i], offsets[i + 1] - offsets[i]), p.service, context);
+        const View message = data.subspan(offsets[i], offsets[i + 1] - offsets[i]);
+        const auto request = read_request(message);
+        p.service = service_of(message);
+        p.response = one(message, request, request ? read_path(request->path) : std::nullopt, context);
         if (context.token != 0) ++context.token;
     }
 }
 
-Bytes Router::answer(const Parts& parts, std::size_t most) {
-    if (!parts.multiple) return encode(parts.parts.front().service, parts.parts.front().response);
+void Router::put_answer(Bytes& to, const Parts& parts, std::size_t most) {
+    if (!parts.multiple) return put_response(to, parts.parts.front().service, parts.parts.front().response);
     Response whole;
     put16(whole.data, static_cast<std::uint16_t>(parts.parts.size()));
     whole.data.resize(2 + 2 * parts.parts.size());
     for (std::size_t i = 0; i < parts.parts.size(); ++i) {
         const Part& p = parts.parts[i];
         set16(whole.data.data() + 2 + 2 * i, static_cast<std::uint16_t>(whole.data.size()));
-        put_bytes(whole.data, encode(p.service, p.response));
+        put_response(whole.data, p.service, p.response);
         if (!p.response.good()) whole.general = General::embedded_service_error;
     }
-    if (whole.data.size() > most) return encode(parts.service, Response::of(General::reply_data_too_large));
-    return encode(parts.service, whole);
+    if (whole.data.size() > most) whole = Response::of(General::reply_data_too_large);
+    put_response(to, parts.service, whole);
 }
 
 }  // namespace axisgate::cip

@@ -2,6 +2,8 @@
 // In: requests. Out: answers, one for each. Never goes deeper than one Multiple_Service_Packet in one Unconnected_Send.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
+#include <optional>
 #include <vector>
 
 #include "gateway/protocols/cip/objects.hpp"
@@ -26,13 +28,13 @@ public:
     struct Parts {
         std::uint8_t service = 0;  ///< of the whole
         bool multiple = false;
-        std::vector<Part> parts;
+        boost::container::small_vector<Part, 1> parts;
         std::size_t pending = 0;  ///< parts whose value comes later
     };
     /// `context.token` is that of the first part; each further one counts it up. 0: nothing can come later.
     [[nodiscard]] Parts handle(View message, Context& context);
-    /// When nothing is pending.
-    [[nodiscard]] static Bytes answer(const Parts& parts, std::size_t most);
+    /// Appends the answer, when nothing is pending.
+    static void put_answer(Bytes& to, const Parts& parts, std::size_t most);
 
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::message_router; }
     [[nodiscard]] std::uint16_t last_attribute() const override { return 4; }
@@ -41,7 +43,7 @@ public:
 
 private:
     [[nodiscard]] Response route(const Request& request, const Path& path, Context& context);
-    [[nodiscard]] Response one(View message, std::uint8_t& service, Context& context);
+    [[nodiscard]] Response one(View message, const std::optional<Request>& request, const std::optional<Path>& path, Context& context);
     void several(View data, Parts& into, Context& context);
 
     const Connections& connections_;

@@ -31,7 +31,7 @@ protected:
         std::array<int, 2> pair{};
         ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair.data()), 0);
         far = pair[1];
-        ASSERT_TRUE(poller.add(pair[0], 7, EPOLLIN));
+        ASSERT_TRUE(poller.add(pair[0], 7, TcpSession::watched));
         session = std::make_shared<TcpSession>(
             pair[0], poller, 7, bound,
             [this](cip::View bytes) {
@@ -94,6 +94,35 @@ TEST_F(TcpSessionTest, TheOtherEndsEndIsToldOnceAndWhatCameBeforeItIsRead) {
     turn();
     EXPECT_EQ(came.size(), 5u);
     EXPECT_EQ(ends, 1);
+}
+
+TEST_F(TcpSessionTest, WhatIsMoreThanOneReadTakesIsReadToItsEnd) {
+    write(30'000);
+    turn();
+    turn();
+    EXPECT_EQ(came.size(), 30'000u);
+    write(4096);  // as much as a read takes: nobody knows whether there is more
+    turn();
+    write(1);
+    turn();
+    EXPECT_EQ(came.size(), 34'097u);
+    EXPECT_EQ(ends, 0);
+}
+
+TEST_F(TcpSessionTest, WhatCameWhileAnswersWaitedIsReadWhenTheyAreOut) {
+    on_arrival = [this] { session->send(cip::Bytes(300'000, 9)); };
+    write(1);
+    turn();
+    on_arrival = {};
+    write(7);
+    turn();
+    EXPECT_EQ(came.size(), 1u);
+    std::size_t taken = 0;
+    for (int i = 0; i < 100 && taken < 300'000; ++i, turn())
+        taken += take().size();
+    turn();
+    EXPECT_EQ(taken, 300'000u);
+    EXPECT_EQ(came.size(), 8u);
 }
 
 TEST_F(TcpSessionTest, HungUpFromInsideWhatArrivedItEndsAfterItsAnswer) {

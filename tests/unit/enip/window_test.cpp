@@ -4,8 +4,49 @@
 
 #include "tests/unit/enip/window_desk.hpp"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define WINDOW_TEST_COUNTS 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define WINDOW_TEST_COUNTS 1
+#endif
+#endif
+#ifdef WINDOW_TEST_COUNTS
+#include <sanitizer/allocator_interface.h>
+#endif
+
 namespace axisgate::enip {
 namespace {
+
+#ifdef WINDOW_TEST_COUNTS
+std::size_t allocations_of_windows = 0;
+
+TEST(EnipWindow, NothingIsAllocatedForADatagram) {
+    WindowDesk d;
+    for (std::uint16_t i = 0; i < 20; ++i)
+        d.add(static_cast<std::uint16_t>(2 * i), i % 2 == 0 ? "feeder" : "slide", "position", MapType::i32);
+    d.state.site.assemblies = {d.spec(300, input, 0, 40)};
+    d.put_site();
+    Bytes data;
+    d.values.read(300, d.port.now(), data);  // from the second one on
+    static const bool counts = __sanitizer_install_malloc_and_free_hooks(
+                                   [](const volatile void*, std::size_t) { ++allocations_of_windows; }, [](const volatile void*) {}) != 0;
+    ASSERT_TRUE(counts);
+    const std::size_t before = allocations_of_windows;
+    for (int i = 0; i < 10; ++i) {
+        data.clear();
+        d.values.read(300, d.port.now(), data);
+        (void)d.values.revision(300);
+    }
+    EXPECT_EQ(allocations_of_windows, before);
+    d.maps.clear();
+    d.add(0, "feeder", "statusword", MapType::u16);
+    d.put_site();
+    d.port.edit(d.one, [](AxisPicture& p) { p.statusword = 0x1637; });
+    EXPECT_EQ(d.read(300)[0], 0x37) << "another site, another list";
+    EXPECT_EQ(d.read(300)[2], 0);
+}
+#endif
 
 TEST(EnipWindow, EachValueHasItsLowestByteFirstWhateverItsWordOrder) {
     WindowDesk d;

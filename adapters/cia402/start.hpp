@@ -1,0 +1,51 @@
+// Start: how a node is found, what is read of it, and how it is set up to be heard and led.
+// In: answers. Out: reads, then writes. A node that the site does not name (a scan) is read and never written to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/cia402/drive_node.hpp"
+#include "adapters/cia402/drive_steps.hpp"
+#include "adapters/cia402/parameters.hpp"
+#include "gateway/drive/part.hpp"
+#include "gateway/protocols/canopen/sdo_client.hpp"
+
+namespace axisgate::cia402_drive {
+class Axis;
+class Drive;
+
+class Start : public drive::Part<Drive> {
+public:
+    Start(Drive& drive, const Node& node) : Part(drive), expected_(expected_identity(node.catalogue())) {}
+
+    void probe(Turn& t);
+    void probed(const canopen::SdoEnd& end, Turn& t);
+    void begin();       ///< all of it anew
+    void begin_axes();  ///< those that are new to the node; the others go on
+    /// What was being set up may be gone: it is begun again when its turn comes.
+    void forget() noexcept { steps_.clear(); }
+    void next(Turn& t);
+    void answered(const canopen::SdoEnd& end, Turn& t);
+
+private:
+    struct StartStep {
+        Step step;
+        Axis* axis = nullptr;  ///< nullptr: of the node
+    };
+    void add_axes();
+    void set_up();
+    void set_up_watch();
+    void watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t);
+    void identity_read(Address address, const canopen::SdoEnd& end);
+    void done(Turn& t);
+
+    std::vector<StartStep> steps_;
+    std::size_t at_ = 0;
+    std::string identity_;
+    ExpectedIdentity expected_;  ///< of the description, if the site names one
+    Identity told_;
+    std::uint32_t watched_ = 0;  ///< 1016h:01 as it was found
+};
+
+}  // namespace axisgate::cia402_drive

@@ -1,0 +1,67 @@
+// Exchanges: what is sent and waited for, and which telegram is its answer.
+// In: requests, telegrams of this drive's ID. Out: bytes of the line. Never two exchanges at once; after a silence nothing for as long as
+// its answer may still come.
+#include "adapters/linmot/drive_exchange.hpp"
+
+#include "adapters/linmot/drive.hpp"
+
+namespace axisgate::linmot {
+
+void Exchanges::missed(Instant now) noexcept { late_.missed(now, drive_.bus.timing.reply_timeout); }
+
+void Exchanges::send(Request r, Turn& t) {
+    const Bus& bus = drive_.bus;
+    const auto bytes = pack(r.telegram, bus.checksum);
+    const Duration both = bus.wire(bytes.size() + wire_size(ram_size, bus.checksum));
+    const bool once =
+        r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
+    t.out.send(Frame::run(bytes), r.purpose == Purpose::stop                                  ? Priority::urgent
+                                  : r.purpose == Purpose::poll || r.purpose == Purpose::probe ? Priority::poll
+                                                                                              : Priority::command);
+    const auto period = r.purpose == Purpose::stream ? drive_.stream.patience() : std::nullopt;
+    exchange_.begin(std::move(r), t.now, period.value_or(bus.timing.reply_timeout + both), once ? 0 : bus.timing.retries);
+}
+
+bool Exchanges::answers(const Telegram& a) const noexcept {
+    if (!active() || a.main != 0) return false;
+    const Request& r = request();
+    if (r.any_length) return true;
+    const Telegram& q = r.telegram;
+    switch (static_cast<Main>(q.main)) {
+        case Main::parameters:
+        case Main::table:
+            return a.sub == static_cast<std::uint8_t>((q.main == 5 ? 0x50 : 0x80) + q.sub) && a.size == 7 &&
+                   (q.sub == 0x0B || q.size < 2 || (q.main == 8 && q.sub == 0) || a.u16(1) == q.u16(0));
+        case Main::curves:
+            return a.sub == 0x40 && a.size == 7 && (q.size < 2 || a.u16(1) == q.u16(0));
+        case Main::errors:
+            return a.sub == static_cast<std::uint8_t>(0x70 + q.sub);
+        case Main::program:
+            return a.sub == (q.sub == 4 || q.sub == 1 ? 0x60 : 0);
+        case Main::ram:
+            return a.size == ram_size;  // its sub ID is not known
+        default:
+            return a.sub == 0 && (r.purpose == Purpose::probe || a.size >= default_size);
+    }
+}
+
+Request Exchanges::answered() {
+    late_.settled();
+    return exchange_.answered(drive_.bus.counters);
+}
+
+bool Exchanges::on_deadline(Turn& t) {
+    const auto late = exchange_.on_deadline(t.now, drive_.bus.counters);
+    if (late == drive::Late::repeat) {
+        repeated_at_ = t.now;
+        t.out.send(Frame::run(pack(request().telegram, drive_.bus.checksum)),
+                   request().purpose == Purpose::stop ? Priority::urgent : Priority::command);
+    }
+    return late == drive::Late::over;
+}
+
+void Exchanges::no_repeats() noexcept {
+    if (active() && request().purpose == Purpose::job) exchange_.no_repeats();
+}
+
+}  // namespace axisgate::linmot

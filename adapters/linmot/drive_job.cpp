@@ -1,0 +1,105 @@
+// Jobs: which verb a command is, and how a job ends.
+// In: commands in order, answers. Out: the verb's telegrams, exactly one result. A streamed set-point is a job without a ticket.
+#include "adapters/linmot/drive_job.hpp"
+
+#include <fmt/core.h>
+
+#include "adapters/linmot/drive.hpp"
+
+namespace axisgate::linmot {
+
+Job& Verb::job() noexcept { return drive_.jobs.job(); }
+void Verb::refuse(Reason reason, std::string text, Turn& t, std::int32_t code) {
+    drive_.jobs.over(Outcome::refused, reason, std::move(text), t, code);
+}
+void Verb::fail(Reason reason, std::string text, Turn& t) { drive_.jobs.over(Outcome::failed, reason, std::move(text), t); }
+void Verb::accept(std::string text, Turn& t) { drive_.jobs.over(Outcome::accepted, Reason::none, std::move(text), t); }
+std::string Verb::refusal(std::uint8_t code) const { return fmt::format("drive {} refused: {}", drive_.title(), communication_text(code)); }
+
+Verb* Jobs::verb_of(const CommandBody& b) const noexcept {
+    if (std::holds_alternative<Enable>(b)) return &drive_.power;
+    if (std::holds_alternative<ResetFault>(b)) return &drive_.reset;
+    if (std::holds_alternative<Home>(b)) return &drive_.homing;
+    if (std::holds_alternative<Move>(b) || std::holds_alternative<SetPosition>(b)) return &drive_.moves;
+    if (std::holds_alternative<ReadParameter>(b) || std::holds_alternative<WriteParameter>(b)) return &drive_.parameters;
+    if (std::holds_alternative<Native>(b)) return &drive_.native;
+    if (std::holds_alternative<Action>(b)) return &drive_.actions;
+    return nullptr;
+}
+
+void Jobs::begin_next(Turn& t) {
+    job_ = {};
+    job_.command = queue.pop();
+    const CommandBody& body = job_.command.body;
+    job_.verb = verb_of(body);
+    if (job_.verb) return job_.verb->begin(t);
+    over(Outcome::refused, Reason::not_supported,
+         std::holds_alternative<StartTogether>(body) ? std::string("LinMot drives cannot be started together")
+                                                     : fmt::format("a LinMot drive has no {}", name_of(body)),
+         t);
+}
+
+bool Jobs::wants(Instant now) const noexcept { return idle() ? !queue.empty() || !set_points.empty() : now >= job_.not_before; }
+
+Instant Jobs::wish() const noexcept {
+    if (!idle()) return job_.not_before;
+    return queue.empty() && set_points.empty() ? never : Instant{};
+}
+
+bool Jobs::go(Turn& t) {
+    // Commands that end at once make room for the next one.
+    while (idle() && !queue.empty())
+        begin_next(t);
+    if (idle() && !set_points.empty()) {  // a move without a ticket; its answers say where the axis is, so no poll is held up
+        Command c;
+        c.axis = drive_.axis();
+        c.body = set_points.take().as_move();
+        (void)queue.push(std::move(c));
+        begin_next(t);
+    }
+    if (idle() || t.now < job_.not_before) return false;
+    auto telegram = job_.transfer.active ? drive_.transfers.request() : job_.verb->request(t);
+    if (!telegram) return false;
+    Request r{std::move(*telegram), Purpose::job};
+    r.any_length = std::holds_alternative<Native>(job_.command.body);
+    r.once = job_.transfer.active;
+    // The drive answers the start of its software after about 3 s: for so long no stop could pass on this line.
+    r.quiet = r.telegram.main == static_cast<std::uint8_t>(Main::program) && r.telegram.sub == 4;
+    drive_.exchanges.send(std::move(r), t);
+    return true;
+}
+
+void Jobs::answered(const Telegram& telegram, Turn& t) {
+    if (!idle()) job_.verb->answered(telegram, t);
+}
+
+void Jobs::look_later(Turn& t) noexcept {
+    if (!idle()) job_.not_before = t.now + std::chrono::milliseconds(200);
+}
+
+void Jobs::silent(Turn& t) {
+    if (idle() || drive_.transfers.again()) return;
+    drive_.motion.no_target();
+    drive_.demand.forget();
+    over(Outcome::failed, Reason::no_answer, fmt::format("drive {} does not answer", drive_.title()), t);
+}
+
+void Jobs::over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
+    const Ticket ticket = job_.command.ticket;
+    std::vector<std::uint8_t> bytes =
+        std::holds_alternative<Native>(job_.command.body) ? std::move(job_.bytes) : std::vector<std::uint8_t>();
+    if (outcome == Outcome::refused && reason == Reason::drive_refused) ++drive_.bus.counters.refused;
+    const bool streamed = ticket == no_ticket && std::holds_alternative<Move>(job_.command.body);
+    job_ = {};
+    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted)
+        t.out.stream_ends.push_back({drive_.axis(), reason, text});
+    drive_.tickets.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
+}
+
+void Jobs::forget() {
+    queue.clear();
+    set_points.clear();
+    job_ = {};
+}
+
+}  // namespace axisgate::linmot

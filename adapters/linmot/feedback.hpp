@@ -1,0 +1,48 @@
+// Feedback: what a drive's default response tells, turned into the axis' picture.
+// In: status word, StateVar, position. Out: feedback, alarms, samples of the drive's own words. Never shows what the drive did not say; the
+// speed is the change of its position over the last tenth of a second.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <utility>
+
+#include "adapters/linmot/drive_part.hpp"
+
+namespace axisgate::linmot {
+
+class Feedback : public Part {
+public:
+    using Part::Part;
+
+    void learn(const Status& status, Turn& t);
+    void publish(Turn& t);
+    /// The line was down, the drive was lost: what it said counts no more.
+    void unknown() noexcept { known_ = false; }
+    void forget() noexcept;
+    void homing_begins() noexcept { fb_.homing_attained = fb_.homing_error = false; }
+    void homing_attained() noexcept { fb_.homing_attained = true; }
+    void homing_failed() noexcept { fb_.homing_error = true; }
+
+    [[nodiscard]] bool known() const noexcept { return known_; }
+    [[nodiscard]] const Status& status() const noexcept { return status_; }
+    [[nodiscard]] const AxisFeedback& fb() const noexcept { return fb_; }
+    [[nodiscard]] bool in_error() const noexcept { return status_.state() == state::error || status_.state() == state::setup_error; }
+    [[nodiscard]] std::string error_text() const;
+    [[nodiscard]] std::string state_text() const;
+    [[nodiscard]] std::string error_or_state() const { return in_error() ? error_text() : state_text(); }
+
+private:
+    void watch_errors(Turn& t);
+    void track(const Status& status, Instant now);
+    void judge_motion();
+    void sample(std::string_view id, Value value, Turn& t);
+
+    bool known_ = false;
+    Status status_;
+    AxisFeedback fb_;
+    std::uint8_t told_error_ = 0;
+    std::deque<std::pair<Instant, std::int32_t>> track_;  ///< places of the last 100 ms
+};
+
+}  // namespace axisgate::linmot

@@ -1,0 +1,36 @@
+// Start: how a drive is found: its first answer, the values that moves rest on.
+// In: answers to probes and reads, silences. Out: presence, links. Never writes anything to a drive that was just found.
+#pragma once
+
+#include <string>
+
+#include "adapters/linmot/drive_part.hpp"
+#include "gateway/drive/polls.hpp"
+
+namespace axisgate::linmot {
+
+class Start : public Part {
+public:
+    using Part::Part;
+
+    void probe(Turn& t);
+    void probed(const Telegram& telegram, Turn& t);
+    /// A probe had no answer.
+    void absent(Turn& t);
+    /// It answers in a form that this gateway does not read: it cannot be served.
+    void not_ours(std::string why, Turn& t);
+    [[nodiscard]] std::string reconfigured(const Telegram& telegram) const;
+
+    [[nodiscard]] bool reads() const noexcept { return reading_.core_pending(); }
+    void read_next(Turn& t);
+    void read(const Telegram& telegram, Turn& t);
+    void read_silent(Turn& t);
+
+private:
+    void ready(std::string_view more, Turn& t);
+
+    drive::Reading reading_;
+    std::string not_ours_;  ///< why a drive that answers cannot be served
+};
+
+}  // namespace axisgate::linmot

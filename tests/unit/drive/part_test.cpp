@@ -1,0 +1,47 @@
+// Part of the kit: parts of one drive that reach each other by it, also before all of them are there.
+// In: a drive with two parts. Out: what one says of the other. Never a copy: it would be a part of a drive that does not have it.
+#include "gateway/drive/part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+namespace axisgate::drive {
+namespace {
+
+struct Machine;
+class Counter : public Part<Machine> {
+public:
+    using Part::Part;
+    void count() noexcept { ++counted_; }
+    [[nodiscard]] int counted() const noexcept { return counted_; }
+
+private:
+    int counted_ = 0;
+};
+class Button : public Part<Machine> {
+public:
+    using Part::Part;
+    void press() noexcept;
+};
+struct Machine {
+    Button button{*this};
+    Counter counter{*this};
+};
+void Button::press() noexcept { drive_.counter.count(); }
+
+TEST(Part, ReachesTheOthersOfItsOwnDriveAlone) {
+    Machine one, other;
+    one.button.press();
+    one.button.press();
+    EXPECT_EQ(one.counter.counted(), 2);
+    EXPECT_EQ(other.counter.counted(), 0);
+}
+
+TEST(Part, IsNeverCopied) {
+    static_assert(!std::is_copy_constructible_v<Counter> && !std::is_copy_assignable_v<Counter>);
+    static_assert(!std::is_copy_constructible_v<Machine>);
+}
+
+}  // namespace
+}  // namespace axisgate::drive

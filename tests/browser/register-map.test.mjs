@@ -92,7 +92,9 @@ test('a block is copied to another axis by a drag with Ctrl, and undone as one',
 });
 
 test('by keys alone: pick a point, carry, put down, resize, move, copy, open the form, delete', async () => {
-  await page.locator('[data-point=velocity]').focus();
+  await page.locator('[data-point=position]').focus();
+  await page.keyboard.press('ArrowDown');
+  await becomes('the arrows go from point to point', () => page.evaluate(() => document.activeElement.dataset.point), 'velocity');
   await page.keyboard.press('Enter');
   await until('it is in the hand, where it fits', async () => /velocity of slide\.x at \S+: free/.test(await told()) || (await told()));
   await becomes('Escape puts back first, and says so', () => page.locator('.stop-all kbd').innerText(), 'Esc Esc');

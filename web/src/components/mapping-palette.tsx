@@ -28,6 +28,7 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
   const named = useNamed();
   const no = useBarred('engineer');
   const wanted = useSignal('');
+  const current = useSignal('');
   // The map comes first; what else the axis has is asked for when it has been drawn.
   const later = useSignal(false);
   useEffect(() => {
@@ -41,6 +42,14 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
   const points = known.points.map((p) => ({ name: p.point, access: p.access as string, text: p.description }));
   const parameters = chosen === '' || !later.value ? [] : (known.parameters(chosen) ?? []).map((name) => ({ name, access: '', text: t('parameter of the drive') }));
   const all = [...points, ...parameters].filter((p) => words === '' || p.name.toLowerCase().includes(words) || p.text.toLowerCase().includes(words));
+  // One place for the Tab key; the arrows go from one to the next.
+  const here = Math.max(0, all.slice(0, most).findIndex((p) => p.name === current.value));
+  const walk = (e: KeyboardEvent & { currentTarget: HTMLElement }) => {
+    const way = { ArrowDown: 1, ArrowUp: -1 }[e.key];
+    if (way === undefined) return;
+    e.preventDefault();
+    e.currentTarget.querySelectorAll<HTMLElement>('.palette-item')[here + way]?.focus();
+  };
   const carried = (point: string): Carried => {
     const type: RegisterType = bits ? 'bool' : (naturalType(chosen, point, known) ?? 'i32');
     return { kind: 'new', axis: chosen, point, type, ...(type === 'string' ? { length: 16 } : {}) };
@@ -59,14 +68,16 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
       </label>
       <input type="search" class="search" aria-label={t('Filter points and parameters')} placeholder={t('Filter')} value={wanted.value} onInput={(e) => (wanted.value = e.currentTarget.value)} />
       <p class="where">{t('Drag one into a free place; or press it, then the place.')}</p>
-      <ul class="palette-list scroll">
-        {all.slice(0, most).map((p) => (
+      <ul class="palette-list scroll" onKeyDown={walk}>
+        {all.slice(0, most).map((p, i) => (
           <li key={p.name}>
             <button
               type="button"
               class="palette-item"
               title={p.text}
               data-point={p.name}
+              tabIndex={i === here ? 0 : -1}
+              onFocus={() => (current.value = p.name)}
               {...no}
               onPointerDown={(e) => !no.disabled && press(e, carried(p.name))}
               onClick={(e) => e.detail === 0 && pick(carried(p.name))}

@@ -80,13 +80,14 @@ test('wherever a simulated axis is named, that it is simulated stands beside it'
   await page.goto(`${program.url}/events`);
   await sim('.event').waitFor();
   await page.goto(`${program.url}/mappings`);
+  await page.getByRole('button', { name: 'What the HMI sees' }).click();
   await page.getByRole('button', { name: 'Look', exact: true }).click();
-  await sim('.hmi-table tr[data-address="2"]').waitFor();
-  if (!isMock) assert.match(await page.locator('.hmi-table tr[data-address="2"]').innerText(), /increments/);
+  await sim('.hmi-map [data-block="hmi/2"]').waitFor();
+  if (!isMock) assert.match(await page.locator('.hmi-map [data-block="hmi/2"]').innerText(), /increments/);
   await page.getByLabel('Count', { exact: true }).fill('0');
   await page.locator('[data-field=hmi-former]').waitFor();
   await page.getByRole('button', { name: 'Look', exact: true }).click();
-  await becomes('no answer stands below fields that it does not belong to', () => page.locator('.hmi-table').count(), 0);
+  await becomes('no answer stands below fields that it does not belong to', () => page.locator('.hmi-map').count(), 0);
   await page.getByLabel('Count', { exact: true }).fill('16');
   await page.emulateMedia({ media: 'print' });
   await until('it is printed', async () => /feeder \(simulated\)/.test(await page.locator('[data-field=printed]').innerText()));

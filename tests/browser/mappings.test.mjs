@@ -1,4 +1,5 @@
-// The page of mappings: entries by hand, conflicts while typing, a spreadsheet's table, changes undone, what an HMI sees, the list for paper.
+// The page of mappings: entries by form, conflicts while typing, a spreadsheet's table, changes undone, what an HMI sees, the list for paper. What is done on
+// the map by mouse and keys is in register-map.test.mjs.
 // In: the program. Out: counts; pictures under build/browser.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -56,7 +57,9 @@ test('a conflict is named while typing, nothing is sent, and the next free place
   await form().getByLabel('Type').selectOption('i32');
   await form().getByRole('button', { name: 'Add', exact: true }).click();
   await until('it is there', async () => (await all()).length === 2);
-  await page.getByRole('button', { name: 'Add at 2' }).waitFor();
+  await page.locator('[data-place="2"]').getByText('free').waitFor({ state: 'attached' });
+  await page.locator('[data-place="2"]').click();
+  await becomes('a free place is in the form by a press', () => form().getByLabel('Address').inputValue(), '2');
 });
 
 test('a wrong field says so, and what was typed stays', async () => {
@@ -69,7 +72,7 @@ test('a wrong field says so, and what was typed stays', async () => {
 
 test('an entry is changed; a change of somebody else is shown first, and what was typed stays', async () => {
   const [m] = await all();
-  await page.getByRole('button', { name: `Change ${m.id}` }).click();
+  await page.locator(`[data-mapping="${m.id}"]`).click();
   const edit = page.getByRole('form', { name: `Change mapping ${m.id}` });
   await edit.getByLabel('Scale').fill('0.5');
   const { id, ...rest } = m;
@@ -84,6 +87,7 @@ test('an entry is changed; a change of somebody else is shown first, and what wa
 
 test('a removal is undone, by the keyboard too', async () => {
   const before = await all();
+  await page.locator(`[data-mapping="${before[1].id}"]`).click();
   await page.getByRole('button', { name: `Remove ${before[1].id}` }).click();
   await until('it is gone', async () => (await all()).length === 1);
   await page.getByRole('button', { name: `Undo: removed ${before[1].id}`, exact: true }).waitFor(); // the page has heard of it, too
@@ -94,6 +98,7 @@ test('a removal is undone, by the keyboard too', async () => {
 });
 
 test('a table from a spreadsheet is checked row by row, tried, taken as one, and undone as one', async () => {
+  await page.getByRole('button', { name: 'Paste or import' }).click();
   const box = page.getByLabel('Table of mappings');
   await box.fill('unit\taddress\taxis\tpoint\ttype\n2\t20\tfeeder\tposition\ti32\n2\t21\tfeeder\tvelocity\ti32\n2\t0\tslide.x\tnonsense_type\tq');
   await until('both faults are counted', async () => /2 of 3 rows/.test(await told('table-count')) || (await told('table-count')));
@@ -108,11 +113,13 @@ test('a table from a spreadsheet is checked row by row, tried, taken as one, and
   await page.getByRole('button', { name: 'Add 2 rows' }).click();
   await until('they are there', async () => (await all()).length === count + 2);
   await until('the field is empty again', async () => (await box.inputValue()) === '');
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
   await page.getByRole('button', { name: /^Undo/ }).first().click();
   await until('both are gone', async () => (await all()).length === count);
 });
 
 test('a template is looked at first, added as a block at the next free place, and undone as one', async () => {
+  await page.getByRole('button', { name: 'Add a template' }).click();
   const f = page.getByRole('form', { name: 'Template' });
   const before = await all();
   await becomes('the page has heard of what was undone', () => page.locator('[data-mapping]').count(), before.length);
@@ -156,16 +163,19 @@ test('a template is looked at first, added as a block at the next free place, an
   await until('a taken place is refused', async () => /taken|conflict|overlap|mapping/i.test(await told('template-told')) || (await told('template-told')));
   assert.equal((await all()).length, before.length + shown);
   await f.getByLabel('Address').fill('');
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
   await page.getByRole('button', { name: /^Undo: added the standard map/ }).click();
   await until('it is gone as one', async () => (await all()).length === before.length || (await all()).length);
 });
 
 test('a row with a parameter that the axis does not have is marked in its line', async () => {
+  await page.getByRole('button', { name: 'Paste or import' }).click();
   await page.getByLabel('Table of mappings').fill('unit\taddress\taxis\tpoint\ttype\n2\t40\tslide.x\tno_such_parameter\ti32');
   const verdict = page.locator('[data-line="2"]');
   await until('it is judged', async () => /slide\.x has neither a point nor a parameter no_such_parameter/.test(await verdict.innerText()) || (await verdict.innerText()));
   await becomes('it is not sent', () => page.getByRole('button', { name: 'Check with the gateway' }).isDisabled(), true);
   await page.getByLabel('Table of mappings').fill('');
+  await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
 test('the export is what the gateway has', async () => {
@@ -174,23 +184,25 @@ test('the export is what the gateway has', async () => {
 });
 
 test('what an HMI sees: words, meaning, and an exception where nothing is', async () => {
+  await page.getByRole('button', { name: 'What the HMI sees' }).click();
   const hmi = page.getByRole('form', { name: 'Read registers' });
   await hmi.getByLabel('Unit').fill('2');
   await hmi.getByLabel('Address').fill('0');
   await hmi.getByLabel('Count').fill('2');
   await hmi.getByRole('button', { name: 'Look' }).click();
-  await hmi.locator('[data-address="1"]').waitFor();
-  assert.match(await hmi.locator('[data-address="0"]').innerText(), /[0-9A-F]{4}/);
+  await page.locator('.hmi-map [data-block="hmi/1"]').waitFor();
+  assert.match(await page.locator('.hmi-map [data-block="hmi/0"]').innerText(), /^0:\s+0 [0-9A-F]{4}[\s\S]* · /);
   await hmi.getByLabel('Address').fill('5000');
   await hmi.getByRole('button', { name: 'Look' }).click();
   await until('the exception is told', async () => /exception 2/.test(await told('hmi-told')) || (await told('hmi-told')));
   await hmi.getByLabel('Count').fill('126');
   await hmi.getByText('from 1 to 125').waitFor();
+  await page.getByRole('button', { name: 'Map', exact: true }).click();
 });
 
 test('lists of the gateway are linked, and each comes', async () => {
   const lists = page.locator('[data-field=lists]');
-  for (const name of ['Register list, CSV', 'Register list, HTML', 'PLC structure']) {
+  for (const name of ['Register list, CSV', 'PLC structure']) {
     const link = lists.getByRole('link', { name });
     await link.waitFor();
     const answer = await fetch(new URL(await link.getAttribute('href'), program.url));
@@ -202,7 +214,7 @@ test('lists of the gateway are linked, and each comes', async () => {
 
 test('paper gets the list and nothing else', async () => {
   await page.emulateMedia({ media: 'print' });
-  assert.equal(await page.locator('[data-field=printed]').isVisible(), true);
+  await page.locator('[data-field=printed]').waitFor();
   assert.equal(await form().isVisible(), false);
   assert.equal(await page.locator('.head').isVisible(), false);
   assert.match(await page.locator('[data-field=printed]').innerText(), /Unit 2, holding registers/);

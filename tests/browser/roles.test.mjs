@@ -82,7 +82,7 @@ async function pressAll(page, part) {
 
 // What is enabled, and what is not, for whom. `why`: the role in the reason.
 const reads = [
-  ['/site', 'link', 'Export the site'], ['/site', 'button', /^Difference to revision/], ['/mappings', 'button', 'Look'], ['/mappings', 'link', 'Export CSV'],
+  ['/site', 'link', 'Export the site'], ['/site', 'button', /^Difference to revision/], ['/mappings', 'button', 'What the HMI sees'], ['/mappings', 'link', 'Export CSV'],
   ['/axes/feeder/parameters', 'button', 'Export CSV'], ['/axes/feeder/parameters', 'button', /^Read (all|shown)/], ['/axes/feeder/parameters', 'button', 'Compare'],
   ['/events', 'button', /^Save \d+ as CSV/], ['/lines/can0', 'link', 'candump'], ['/axes/feeder', 'button', 'Quick stop'], ['/axes/feeder', 'button', 'Halt'],
 ];
@@ -90,7 +90,7 @@ const changes = [
   ['/', 'button', 'Enable feeder', 'operator'], ['/', 'button', 'Move to target of feeder', 'operator'], ['/axes/feeder', 'button', 'Take', 'operator'], ['/axes/feeder', 'button', 'Home', 'operator'], ['/axes/feeder', 'button', 'Disable', 'operator'],
   ['/events', 'button', /^Shelve/, 'operator'], ['/events', 'button', 'Acknowledge all shown', 'operator'], ['/recipes/there-and-back', 'button', 'Run', 'operator'], ['/recipes/there-and-back', 'button', 'Check only', 'operator'],
   ['/site', 'button', 'Add a line', 'engineer'], ['/site', 'button', 'Change axis feeder', 'engineer'], ['/site', 'button', 'Remove drive slide', 'engineer'], ['/site', 'button', /^Restore revision/, 'engineer'], ['/site', 'button', 'Wizard: to a moving axis', 'engineer'],
-  ['/mappings', 'button', 'Change m1', 'engineer'], ['/mappings', 'button', 'Remove m1', 'engineer'], ['/mappings', 'button', /^Undo/, 'engineer'], ['/mappings', 'button', /^Add at/, 'engineer'], ['/mappings', 'button', 'Check with the gateway', 'engineer'],
+  ['/mappings', 'button', 'Add a mapping', 'engineer'], ['/mappings', 'button', 'Add a template', 'engineer'], ['/mappings', 'button', /^Undo/, 'engineer'], ['/mappings', 'button', 'Paste or import', 'engineer'], ['/mappings', 'button', /^position i32/, 'engineer'],
   ['/axes/feeder/parameters', 'button', 'Save snapshot', 'engineer'], ['/axes/feeder/parameters', 'button', /^Remove first/, 'engineer'], ['/axes/feeder/parameters', 'button', /^Write /, 'engineer'],
   ['/axes/feeder/drive', 'button', 'Send', 'engineer'], ['/lines/can0', 'button', 'Look for drives', 'engineer'], ['/lines/can0', 'switch', 'Power', 'engineer'], ['/recipes', 'button', 'New recipe', 'engineer'], ['/recipes/there-and-back', 'button', 'Delete', 'engineer'],
   ['/site', 'button', 'Backup of everything', 'administrator'],

@@ -17,6 +17,7 @@ import './styles/axis.css';
 import './styles/table.css';
 import './styles/form.css';
 import './styles/mappings.css';
+import './styles/register-map.css';
 import './styles/parameters.css';
 import './styles/site.css';
 import './styles/recipes.css';

@@ -31,7 +31,7 @@ const comeBack = async () => {
 describe('opened while the gateway is away', () => {
   it.each([
     ['/mappings', '.register-grid', '[data-mapping=m1]', 'feeder'],
-    ['/mappings', '[data-field=lists]', '[data-field=lists]', 'Register list, HTML'],
+    ['/mappings', '[data-field=lists]', '[data-field=lists]', 'Register list, CSV'],
     ['/site', 'main', '[data-entry="axes/feeder"]', 'feeder'],
     ['/recipes', 'main', '[data-recipe=r]', '1 steps'],
     ['/recipes/r', 'main', '[data-step="/steps/0"]', 'Step 1'],

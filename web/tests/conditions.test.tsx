@@ -156,14 +156,18 @@ describe('registers', () => {
     await p.see('.register-grid', 'This gateway does not offer a look at its registers: parameters show no live value here.');
     expect([p.text('[data-mapping=a] [data-field=in-register]'), p.text('[data-mapping=w] [data-field=in-register]')]).toEqual(['not read yet', 'written only']);
   });
-  it('of more than 400 rows show the rest when they are asked for', async () => {
+  it('of 450 entries draw those in sight, count all, and draw the rest where one scrolls', async () => {
     door.world.site.mappings = Array.from({ length: 450 }, (_, i) => ({ id: `m${i}`, unit: 2, table: 'holding_registers', address: i, axis: 'feeder', point: 'statusword', type: 'u16', word_order: 'high_first', scale: 1, offset: 0, access: 'R' }));
     await open('/mappings');
-    await p.see('.register-grid', 'Show more (50 are not shown)');
-    expect(p.root.querySelectorAll('[data-mapping]')).toHaveLength(400);
-    await p.press('Show more (50 are not shown)');
-    await soon(() => expect(p.root.querySelectorAll('[data-mapping]')).toHaveLength(450));
-    expect(p.text('.register-grid')).not.toContain('Show more');
+    await p.see('[data-mapping=m0]', 'statusword');
+    const map = p.root.querySelector<HTMLElement>('.register-map')!;
+    expect(p.root.querySelectorAll('[data-mapping]').length).toBeLessThan(200);
+    expect(p.root.querySelector('[data-mapping=m449]')).toBeNull();
+    expect(map.getAttribute('aria-rowcount')).toBe('59'); // 57 rows of eight, one behind them, and the rest folded
+    map.scrollTop = 50 * 78;
+    map.dispatchEvent(new Event('scroll'));
+    await p.see('[data-mapping=m449]', 'statusword');
+    expect(p.root.querySelector('[data-mapping=m0]')).toBeNull();
   });
   it('a form that is sent with faults says so, and a table that is too long for the page', async () => {
     await open('/mappings');
@@ -172,6 +176,8 @@ describe('registers', () => {
     await p.see('[data-field=mapping-told]', 'Mend the fields that are marked.');
     expect(p.text('#mapping-form')).toContain('Choose an axis.');
     const rows = Array.from({ length: 301 }, (_, i) => `2,${i},feeder,statusword,u16`);
+    await p.press('Paste or import');
+    await p.see('[role=dialog]', 'Columns in any order');
     p.type(p.root.querySelector<HTMLTextAreaElement>('#mapping-table')!, ['unit,address,axis,point,type', ...rows].join('\n'));
     await p.see('.mapping-paste', '1 more rows are checked but not shown.');
     p.field('in place of all mappings').click();
@@ -184,7 +190,7 @@ describe('what a gateway does not offer is said in words', () => {
     ['/site/stage', '/site', '[data-field=stage]', 'This gateway does not offer staging: an applied change stays, there is no roll back by itself.'],
     ['/site/history', '/site', '[data-field=history]', 'This gateway does not offer a history of applied states.'],
     ['/axes/feeder/snapshots', '/axes/feeder/parameters', 'main', 'This gateway does not offer snapshots.'],
-    ['/mappings/list', '/mappings', '[data-field=lists]', 'This gateway does not offer generated lists (HTML, PLC structure).'],
+    ['/mappings/list', '/mappings', '[data-field=lists]', 'This gateway does not offer generated lists (CSV, PLC structure).'],
     ['/modbus', '/gateway', '[data-field=modbus-door]', 'This gateway does not say more about its Modbus door.'],
   ])('%s', async (path, page, where, words) => {
     without(path);
@@ -213,7 +219,10 @@ describe('what a gateway does not offer is said in words', () => {
     vi.restoreAllMocks();
     without('/registers');
     p.go('/mappings');
+    await soon(() => p.button('What the HMI sees'));
+    await p.press('What the HMI sees');
     await p.press('Look');
     await p.see('[data-field=hmi-told]', 'This gateway does not offer a look at its registers.');
+    await p.press('Map');
   });
 });

@@ -172,6 +172,8 @@ describe('a site that two people change', () => {
     expect(p.other('POST', '/mappings', { unit: 2, address: 0, axis: 'feeder', point: 'position', type: 'i32' }).status).toBe(201);
     await p.see('[data-mapping=m1]', 'feeder');
     p.other('POST', '/site/stage/apply', { confirm_within_s: 60, stage: bertStages(91) });
+    p.root.querySelector<HTMLElement>('[data-mapping=m1]')!.click();
+    await soon(() => p.button('Remove m1'));
     await p.press('Remove m1');
     await p.see('[data-field=grid-told]', 'A staged site is on trial: confirm it or roll it back before the site is changed otherwise');
     expect(siteOf().mappings).toHaveLength(1);

@@ -223,6 +223,7 @@ describe('the gateway', () => {
     for (const [name, value] of [['unit', '2'], ['table', 'holding_registers'], ['address', '0'], ['count', '4']] as const) persisted(`hmi.${name}`).value = value;
     await open('/mappings');
     await p.see('.register-grid', 'Nothing is mapped yet.');
+    await p.press('What the HMI sees');
     await p.press('Look');
     await p.see('[data-field=hmi-told]', 'The Modbus door answers exception 2: illegal data address. Not mapped: 0–3.');
     p.type(p.field('Count'), '126');
@@ -232,6 +233,7 @@ describe('the gateway', () => {
     await p.see('.hmi', 'Following each second');
     await p.press('Following each second');
     await p.see('.hmi', 'Follow');
+    await p.press('Map');
   });
 });
 

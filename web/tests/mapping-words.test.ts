@@ -1,6 +1,6 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, gridOf, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, spansOf, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
+import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
 import { bitName, notMapped } from '../src/text/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/text/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/text/table-text';
@@ -25,20 +25,12 @@ describe('places', () => {
     expect(conflictsOf(m('x', 4), all)).toEqual([]);
     expect(conflictsOf(m('a', 1), all, 'a')).toEqual([]);
   });
-  it('shows gaps between entries, none before the first', () => {
-    const grid = gridOf([m('b', 10), m('a', 4), m('c', 12)], 2, 'holding_registers');
-    expect(grid.map((r) => (r.kind === 'gap' ? `${r.first}-${r.last}` : r.mapping.id))).toEqual(['a', '6-9', 'b', 'c']);
-  });
   it.each([[2, 0, 2], [4, 0, 6], [2, 5, 6], [1, 20, 20], [65531, 0, null]])('the next %i free from %i begin at %s', (width, from, at) => {
     expect(nextFree([m('a', 0), m('b', 4)], 2, 'holding_registers', width, from)).toBe(at);
   });
   it('tells the neighbours', () => {
     expect(neighbourText(m('x', 4), [m('a', 0), m('b', 6)])).toBe('2 places free after a; b follows without a gap');
     expect(neighbourText(m('x', 4), [])).toBe('nothing before it; nothing behind it');
-  });
-  it('reads spans without gaps, none longer than 125', () => {
-    expect(spansOf([m('b', 2), m('a', 0), m('c', 8)])).toEqual([{ address: 0, count: 4 }, { address: 8, count: 2 }]);
-    expect(spansOf(Array.from({ length: 70 }, (_, i) => m(`m${i}`, i * 2))).every((s) => s.count <= 125)).toBe(true);
   });
 });
 

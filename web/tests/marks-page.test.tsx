@@ -60,15 +60,17 @@ it('who one is is not said while the head says that nobody is signed in', async 
 
 it('an answer of the registers goes, or is called the former one, when the fields say something else', async () => {
   await open('/mappings');
+  await p.press('What the HMI sees');
   await p.press('Look');
-  await p.see('.hmi-table', 'Address');
+  await p.see('.hmi-map', 'statusword');
   p.type(p.field('Count'), '8');
   await p.see('[data-field=hmi-former]', 'This is the former answer: unit 1, holding registers from 0 on.');
   p.type(p.field('Count'), '0');
   await p.press('Look');
-  await soon(() => expect(p.root.querySelector('.hmi-table')).toBeNull());
+  await soon(() => expect(p.root.querySelector('.hmi-map')).toBeNull());
   await p.see('[data-field=hmi-told]', 'Mend the fields that are marked; nothing was asked.');
   p.type(p.field('Count'), '16');
+  await p.press('Map');
 });
 
 it('a recipe that names no axis of the site is saved, and the step is named', async () => {

@@ -19,6 +19,13 @@ afterEach(() => p.close());
 const open = async (path: string) => (p = await openPage(path, { door }));
 const is = (value: string) => soon(() => expect(p.field('Type').value).toBe(value));
 
+/** By the keyboard's Enter or a screen reader's press: a click without a pointer. */
+const chooseEntry = async (id: string) => {
+  await p.see(`[data-mapping=${id}]`, 'feeder');
+  p.root.querySelector<HTMLElement>(`[data-mapping=${id}]`)!.click();
+  await p.see('.map-panel', `Change ${id}`);
+};
+
 describe('the type of a mapping', () => {
   it('follows the point, of a parameter too, until it is set by hand; the next one follows again', async () => {
     await open('/mappings');
@@ -48,10 +55,10 @@ describe('the type of a mapping', () => {
       { id: 'm2', unit: 2, table: 'holding_registers', address: 4, axis: 'feeder', point: 'position', type: 'f64', word_order: 'high_first', scale: 1, offset: 0, access: 'R' },
     ];
     await open('/mappings');
-    await p.press('Change m1');
+    await chooseEntry('m1');
     p.type(p.field('Point or parameter'), 'statusword');
     await is('u16');
-    await p.press('Change m2');
+    await chooseEntry('m2');
     await is('f64');
     p.type(p.field('Point or parameter'), 'statusword');
     await p.see('#mapping-form', 'the point’s own type is u16');
@@ -64,8 +71,10 @@ it('the printed list has the unit of each value, of parameters too', async () =>
   const m = { unit: 2, table: 'holding_registers', axis: 'feeder', type: 'i32', word_order: 'high_first', scale: 1, offset: 0, access: 'R' };
   door.world.site.mappings = [{ ...m, id: 'm1', address: 0, point: 'position_units' }, { ...m, id: 'm2', address: 4, point: parameter.id }, { ...m, id: 'm3', address: 8, point: 'statusword' }];
   await open('/mappings');
+  await p.see('[data-mapping=m3]', 'statusword');
+  dispatchEvent(new Event('beforeprint'));
   await p.see('.printed', 'Value in');
-  const cells = () => [...p.root.querySelectorAll('.printed tbody tr')].map((r) => r.querySelectorAll('td')[6]?.textContent);
+  const cells = () => [...p.root.querySelectorAll('.printed:not([data-field=printed-standard]) tbody tr')].map((r) => r.querySelectorAll('td')[6]?.textContent);
   await soon(() => expect(cells()).toEqual(['mm', parameter.unit?.replace('^2', '²'), '']));
 });
 

@@ -5,6 +5,7 @@ import { useMemo } from 'preact/hooks';
 import { AssemblyDoor, type Assemblies as Listed, type Assembly } from '../api/assemblies';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { assemblyWords, bytesWords, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
 import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
@@ -24,8 +25,8 @@ export function Assemblies({ revision }: { revision: unknown }) {
   const asking = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered('assemblies') : p.words));
-  if (!listed.value) return why ? <Section title="EtherNet/IP assemblies">{<p class="where">{why}</p>}</Section> : null;
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('assemblies')) : p.words));
+  if (!listed.value) return why ? <Section title={t('EtherNet/IP assemblies')}>{<p class="where">{why}</p>}</Section> : null;
   const { assemblies, most } = listed.value;
 
   const send = async (what: string, how: () => Promise<unknown>, good: string) => {
@@ -50,41 +51,41 @@ export function Assemblies({ revision }: { revision: unknown }) {
     const read = readAssembly(draft.value);
     faults.value = 'faults' in read ? read.faults : {};
     if ('faults' in read) {
-      told.value = { tone: 'refused', text: 'Mend the fields that are marked.' };
+      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
     const was = editing.value;
     if (was === null && assemblies.some((a) => a.instance === read.instance)) {
-      faults.value = { instance: `Instance ${read.instance} is there: change it, or choose another.` };
-      told.value = { tone: 'refused', text: 'Mend the fields that are marked.' };
+      faults.value = { instance: t('Instance {n} is there: change it, or choose another.', { n: read.instance }) };
+      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
-    const good = was === null ? `Instance ${read.instance} is served now.` : `Instance ${read.instance} is changed.`;
-    if (await send(was === null ? 'Adding …' : 'Changing …', () => door.put(read.instance, read.entry), good)) leave();
+    const good = was === null ? t('Instance {n} is served now.', { n: read.instance }) : t('Instance {n} is changed.', { n: read.instance });
+    if (await send(was === null ? t('Adding …') : t('Changing …'), () => door.put(read.instance, read.entry), good)) leave();
   };
   return (
-    <Section title="EtherNet/IP assemblies" class="assemblies">
+    <Section title={t('EtherNet/IP assemblies')} class="assemblies">
       <p class="where">
-        Instances of your own, beside 100+n and 150+n of the axes: a range of a unit's registers, byte by byte. {assemblies.filter((a) => !a.of_profile).length} of at most {most}. A change closes the connections that are open.
+        {t("Instances of your own, beside 100+n and 150+n of the axes: a range of a unit's registers, byte by byte. {n} of at most {most}. A change closes the connections that are open.", { n: assemblies.filter((a) => !a.of_profile).length, most })}
       </p>
       {assemblies.map((a) => (
         <details key={a.instance} class="card profile" data-assembly={a.instance}>
           <summary>
-            Instance {a.instance}: <strong>{a.name}</strong>, {assemblyWords(a)}
+            {t('Instance {n}:', { n: a.instance })} <strong>{a.name}</strong>, {assemblyWords(a)}
           </summary>
           <ByteList assembly={a} />
           <div class="form-foot">
             {a.of_profile ? (
-              <span class="where">It comes with the profile of unit {a.unit} and goes with it.</span>
+              <span class="where">{t('It comes with the profile of unit {unit} and goes with it.', { unit: a.unit })}</span>
             ) : asking.value === a.instance ? (
               <Ask
-                words={`Take instance ${a.instance} away? Connections that are open are closed.`}
-                yes="Take it away"
+                words={t('Take instance {n} away? Connections that are open are closed.', { n: a.instance })}
+                yes={t('Take it away')}
                 field="assembly-ask"
                 onYes={() => {
                   asking.value = null;
                   if (editing.value === a.instance) leave();
-                  void send('Removing …', () => door.remove(a.instance), `Instance ${a.instance} is gone.`);
+                  void send(t('Removing …'), () => door.remove(a.instance), t('Instance {n} is gone.', { n: a.instance }));
                 }}
                 onNo={() => (asking.value = null)}
               />
@@ -100,10 +101,10 @@ export function Assemblies({ revision }: { revision: unknown }) {
                     faults.value = {};
                   }}
                 >
-                  Change
+                  {t('Change')}
                 </button>
                 <button type="button" class="button" {...no} onClick={() => (asking.value = a.instance)}>
-                  Take it away
+                  {t('Take it away')}
                 </button>
               </>
             )}
@@ -113,56 +114,56 @@ export function Assemblies({ revision }: { revision: unknown }) {
       <form
         class="card form"
         noValidate
-        aria-label={editing.value === null ? 'Add an assembly' : `Change instance ${editing.value}`}
+        aria-label={editing.value === null ? t('Add an assembly') : t('Change instance {n}', { n: editing.value })}
         onSubmit={(e) => {
           e.preventDefault();
           if (!no.disabled) void save();
         }}
       >
         <div class="form-grid">
-          <TextField label="Instance" number value={draft.value.instance} onText={put('instance')} disabled={editing.value !== null} fault={faults.value.instance} hint="1 to 65535; 200 to 1000 are free of axes" />
+          <TextField label={t('Instance')} number value={draft.value.instance} onText={put('instance')} disabled={editing.value !== null} fault={faults.value.instance} hint={t('1 to 65535; 200 to 1000 are free of axes')} />
           <Choice
-            label="Direction"
+            label={t('Direction')}
             value={draft.value.direction}
             onChoice={put('direction')}
             choices={[
-              { value: 'input', text: 'input: the originator reads it' },
-              { value: 'output', text: 'output: the originator renews it' },
+              { value: 'input', text: t('input: the originator reads it') },
+              { value: 'output', text: t('output: the originator renews it') },
             ]}
             fault={faults.value.direction}
           />
-          <TextField label="Of unit" number value={draft.value.unit} onText={put('unit')} fault={faults.value.unit} hint="with mappings or a profile" />
+          <TextField label={t('Of unit')} number value={draft.value.unit} onText={put('unit')} fault={faults.value.unit} hint={t('with mappings or a profile')} />
           <Choice
-            label="Registers of"
+            label={t('Registers of')}
             value={draft.value.table}
             onChoice={put('table')}
             choices={[
-              { value: 'holding_registers', text: 'holding registers' },
-              { value: 'input_registers', text: 'input registers' },
+              { value: 'holding_registers', text: t('holding registers') },
+              { value: 'input_registers', text: t('input registers') },
             ]}
             fault={faults.value.table}
           />
-          <TextField label="First register" number value={draft.value.address} onText={put('address')} fault={faults.value.address} hint="counted from 0" />
-          <TextField label="Number of registers" number value={draft.value.registers} onText={put('registers')} fault={faults.value.registers} hint="two bytes each, at most 250" />
+          <TextField label={t('First register')} number value={draft.value.address} onText={put('address')} fault={faults.value.address} hint={t('counted from 0')} />
+          <TextField label={t('Number of registers')} number value={draft.value.registers} onText={put('registers')} fault={faults.value.registers} hint={t('two bytes each, at most 250')} />
           <Choice
-            label="Order of bytes"
+            label={t('Order of bytes')}
             value={draft.value.order}
             onChoice={put('order')}
             choices={[
-              { value: 'little_endian', text: 'each value, lowest byte first' },
-              { value: 'registers', text: 'as the registers are' },
+              { value: 'little_endian', text: t('each value, lowest byte first') },
+              { value: 'registers', text: t('as the registers are') },
             ]}
             fault={faults.value.order}
           />
-          <TextField label="Name" value={draft.value.comment} onText={put('comment')} fault={faults.value.comment} hint="in the EDS; may be empty" />
+          <TextField label={t('Name')} value={draft.value.comment} onText={put('comment')} fault={faults.value.comment} hint={t('in the EDS; may be empty')} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary" {...no}>
-            {editing.value === null ? 'Add the assembly' : 'Save the change'}
+            {editing.value === null ? t('Add the assembly') : t('Save the change')}
           </button>
           {editing.value !== null && (
             <button type="button" class="button" onClick={leave}>
-              Leave it as it was
+              {t('Leave it as it was')}
             </button>
           )}
           <Tell told={told.value} field="assembly-told" />
@@ -175,14 +176,14 @@ export function Assemblies({ revision }: { revision: unknown }) {
 function ByteList({ assembly }: { assembly: Assembly }) {
   const named = useNamed();
   return (
-    <div class="table-scroll" tabIndex={0} role="region" aria-label={`Bytes of instance ${assembly.instance}`}>
+    <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Bytes of instance {n}', { n: assembly.instance })}>
       <table class="table profile-registers">
         <thead>
           <tr>
-            <th scope="col">Bytes</th>
-            <th scope="col">What</th>
-            <th scope="col">Axis</th>
-            <th scope="col">Type</th>
+            <th scope="col">{t('Bytes')}</th>
+            <th scope="col">{t('What')}</th>
+            <th scope="col">{t('Axis')}</th>
+            <th scope="col">{t('Type')}</th>
           </tr>
         </thead>
         <tbody>

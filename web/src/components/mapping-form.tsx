@@ -4,6 +4,7 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { addressBase, addressField, forgetAddressField } from '../state/address-base';
 import { emptied, persisted } from '../state/persisted';
 import type { Clash, MappingBook } from '../state/mappings';
@@ -14,7 +15,7 @@ import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
 import { useNamed } from './name';
 import { Section } from './section';
 
-type Draft = Record<Field, Signal<string>>;
+export type Draft = Record<Field, Signal<string>>;
 const keptDraft = (): Draft => Object.fromEntries(fields.map((f) => [f, persisted(`mapping.${f}`, emptyTexts[f])])) as Draft;
 const draftOf = (m: Mapping): Draft => {
   const d = Object.fromEntries(Object.entries(textsOf(m)).map(([f, t]) => [f, signal(t)])) as Draft;
@@ -23,16 +24,23 @@ const draftOf = (m: Mapping): Draft => {
   return d;
 };
 const read = (d: Draft): Texts => Object.fromEntries(fields.map((f) => [f, d[f].value])) as Texts;
+/** Nothing was typed in the draft of this entry: it may follow what others make of it. */
+export function isUntouched(d: Draft | undefined, m: Mapping): boolean {
+  if (!d) return true;
+  const was = { ...textsOf(m), address: addressText(m.table, m.address, addressBase()) };
+  return fields.every((f) => d[f].peek() === was[f]);
+}
 
 const adding = keptDraft();
 addressField(adding.address, () => adding.table.peek() as Table);
 /** Not empty: the type was chosen by hand, and stays whatever the point is. Of an entry that is changed: unless its type is its point's own. */
 const byHand = new WeakMap<Draft, Signal<string>>([[adding, persisted('mapping.type_by_hand')]]);
-/** Puts a free place into the form for adding. */
-export function addAt(unit: number, table: Table, address: number): void {
+/** Puts a free place into the form for adding; null: the next free one. */
+export function addAt(unit: number, table: Table, address: number | null, focus: boolean): void {
   adding.unit.value = String(unit);
   adding.table.value = table;
-  adding.address.value = addressText(table as Table, address, addressBase());
+  adding.address.value = address === null ? '' : addressText(table, address, addressBase());
+  if (!focus) return;
   document.querySelector<HTMLElement>('#mapping-form')?.scrollIntoView({ block: 'nearest' });
   document.querySelector<HTMLElement>('#mapping-form select')?.focus({ preventScroll: true });
 }
@@ -42,15 +50,18 @@ export interface MappingFormProps {
   known: Known;
   /** The entry being changed; null: a new one. */
   editing: Mapping | null;
+  /** The keyboard goes into it. */
+  focus?: boolean;
+  /** What is typed for entries that are changed, by their id; kept while another one is looked at. */
+  drafts: Map<string, Draft>;
   done: () => void;
 }
 
-export function MappingForm({ book, known, editing, done }: MappingFormProps) {
+export function MappingForm({ book, known, editing, focus = true, drafts, done }: MappingFormProps) {
   const { store } = useGateway();
   const named = useNamed();
-  const drafts = useRef(new Map<string, Draft>());
-  if (editing && !drafts.current.has(editing.id)) drafts.current.set(editing.id, draftOf(editing));
-  const d = editing ? (drafts.current.get(editing.id) as Draft) : adding;
+  if (editing && !drafts.has(editing.id)) drafts.set(editing.id, draftOf(editing));
+  const d = editing ? (drafts.get(editing.id) as Draft) : adding;
   if (editing && !byHand.has(d)) byHand.set(d, signal(naturalType('', editing.point, known) === editing.type ? '' : 'yes'));
   const hand = byHand.get(d) as Signal<string>;
   const touched = useSignal(false);
@@ -61,8 +72,8 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     touched.value = false;
     clash.value = null;
     told.value = quiet;
-    if (editing) form.current?.querySelector<HTMLElement>('input, select')?.focus();
-  }, [editing?.id]);
+    if (editing && focus) form.current?.querySelector<HTMLElement>('input, select')?.focus();
+  }, [editing?.id, focus]);
 
   const base = addressBase();
   const texts = read(d);
@@ -91,9 +102,10 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     }
     if (f === 'table') d.type.value = text === 'coils' || text === 'discrete_inputs' ? 'bool' : d.type.peek() === 'bool' ? 'u16' : d.type.peek();
   };
-  const taken = conflicts.length > 0 ? `Taken by ${conflicts.slice(0, 3).map((c) => `${c.id} (${c.point} of ${c.axis}, ${placeText(c, base)})`).join(', ')}${conflicts.length > 3 ? ` and ${conflicts.length - 3} more` : ''}.` : undefined;
+  const others = conflicts.slice(0, 3).map((c) => t('{id} ({point} of {axis}, {place})', { id: c.id, point: c.point, axis: c.axis, place: placeText(c, base) })).join(', ');
+  const taken = conflicts.length === 0 ? undefined : conflicts.length > 3 ? t('Taken by {list} and {n} more.', { list: others, n: conflicts.length - 3 }) : t('Taken by {list}.', { list: others });
 
-  const typeHint = !natural || bits ? undefined : natural === texts.type ? 'the point’s own type' : `the point’s own type is ${natural}`;
+  const typeHint = !natural || bits ? undefined : natural === texts.type ? t('the point’s own type') : t('the point’s own type is {type}', { type: natural });
   const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 });
 
   const send = async (opened: Mapping | null) => {
@@ -103,7 +115,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
       requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
       return;
     }
-    told.value = { tone: 'busy', text: editing ? 'Changing …' : 'Adding …' };
+    told.value = { tone: 'busy', text: editing ? t('Changing …') : t('Adding …') };
     const sent = { ...texts };
     const outcome = editing ? await book.replace(editing.id, spec, opened) : await book.add(spec);
     told.value = toldOf(outcome);
@@ -112,7 +124,7 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     touched.value = false;
     if (editing) {
       forgetAddressField(d.address);
-      drafts.current.delete(editing.id);
+      drafts.delete(editing.id);
       done();
     } else {
       // Ready for the next one: the place behind it.
@@ -124,55 +136,55 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
     }
   };
   const names = known.parameters(texts.axis) ?? [];
-  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description })), ...names.map((n) => ({ value: n, text: 'parameter' }))];
+  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
   return (
-    <Section title={editing ? `Change ${editing.id}` : 'Add a mapping'} class="mapping-form">
+    <Section title={editing ? t('Change {id}', { id: editing.id }) : t('Add a mapping')} class="mapping-form">
       <form
         id="mapping-form"
         ref={form}
         class="card form"
         noValidate
-        aria-label={editing ? `Change mapping ${editing.id}` : 'Add a mapping'}
+        aria-label={editing ? t('Change mapping {id}', { id: editing.id }) : t('Add a mapping')}
         onSubmit={(e) => {
           e.preventDefault();
           void send(editing);
         }}
       >
         <div class="form-grid">
-          <Choice label="Axis" value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Point or parameter" class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder="position, MT[1] …" hint={known.points.find((p) => p.point === texts.point)?.description} />
-          <TextField label="Unit ID" number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
-          <Choice label="Table" value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((t) => ({ value: t.id, text: t.name }))} />
+          <Choice label={t('Axis')} value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: t('choose') }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
+          <TextField label={t('Point or parameter')} class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder={t('position, MT[1] …')} hint={known.points.find((p) => p.point === texts.point)?.description} />
+          <TextField label={t('Unit ID')} number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
+          <Choice label={t('Table')} value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((x) => ({ value: x.id, text: x.name }))} />
           <TextField
-            label="Address"
+            label={t('Address')}
             number
             value={texts.address}
             onText={set('address')}
-            placeholder={free === null ? '' : `free: ${addressText(place.table, free, base)}`}
+            placeholder={free === null ? '' : t('free: {address}', { address: addressText(place.table, free, base) })}
             fault={shown('address') ?? taken}
-            hint={placed ? `${doubtText(texts.address, base)} ${spanText(place.table, place.address, place.address + width - 1, base)} is ${otherText(place.table, place.address, base)}. Free: ${neighbourText(place, book.rows.value, editing?.id)}.`.trim() : `counted from ${base}`}
+            hint={placed ? t('{doubt} {place} is {other}. Free: {neighbours}.', { doubt: doubtText(texts.address, base), place: spanText(place.table, place.address, place.address + width - 1, base), other: otherText(place.table, place.address, base), neighbours: neighbourText(place, book.rows.value, editing?.id) }).trim() : t('counted from {base}', { base })}
           />
-          <Choice label="Type" value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? typeHint : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((t) => ({ value: t, text: t }))} />
-          {texts.type === 'string' && <TextField label="Length" number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint="registers" />}
-          {width > 1 && texts.type !== 'string' && <Choice label="Word order" value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: 'high word first' }, { value: 'low_first', text: 'low word first' }]} />}
-          {texts.type !== 'string' && !bits && <TextField label="Scale" number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint="register = value × scale + offset" />}
-          {texts.type !== 'string' && !bits && <TextField label="Offset" number value={texts.offset} onText={set('offset')} fault={shown('offset')} />}
-          {texts.type !== 'string' && !bits && <Choice label="Does not fit" value={texts.on_overflow} onChoice={set('on_overflow')} fault={shown('on_overflow')} hint="what the register shows then" choices={[{ value: 'mark', text: 'a mark: 8000h…, FFFFh… or NaN' }, { value: 'clamp', text: 'the nearest end of the type' }]} />}
-          <Choice label="Access" value={texts.access} onChoice={set('access')} fault={shown('access')} choices={[{ value: '', text: 'as the point allows' }, { value: 'R', text: 'read' }, { value: 'W', text: 'write' }, { value: 'RW', text: 'read and write' }]} />
-          <TextField label="Comment" class="wide" value={texts.comment} onText={set('comment')} fault={shown('comment')} />
+          <Choice label={t('Type')} value={texts.type} onChoice={set('type')} fault={shown('type')} hint={warning === '' ? typeHint : <span class="flag" data-field="sign-warning">{warning}</span>} choices={(bits ? (['bool'] as const) : types).map((x) => ({ value: x, text: x }))} />
+          {texts.type === 'string' && <TextField label={t('Length')} number value={texts.length} onText={set('length')} fault={shown('length')} placeholder="16" hint={t('registers')} />}
+          {width > 1 && texts.type !== 'string' && <Choice label={t('Word order')} value={texts.word_order} onChoice={set('word_order')} choices={[{ value: 'high_first', text: t('high word first') }, { value: 'low_first', text: t('low word first') }]} />}
+          {texts.type !== 'string' && !bits && <TextField label={t('Scale')} number value={texts.scale} onText={set('scale')} fault={shown('scale')} hint={t('register = value × scale + offset')} />}
+          {texts.type !== 'string' && !bits && <TextField label={t('Offset')} number value={texts.offset} onText={set('offset')} fault={shown('offset')} />}
+          {texts.type !== 'string' && !bits && <Choice label={t('Does not fit')} value={texts.on_overflow} onChoice={set('on_overflow')} fault={shown('on_overflow')} hint={t('what the register shows then')} choices={[{ value: 'mark', text: t('a mark: 8000h…, FFFFh… or NaN') }, { value: 'clamp', text: t('the nearest end of the type') }]} />}
+          <Choice label={t('Access')} value={texts.access} onChoice={set('access')} fault={shown('access')} choices={[{ value: '', text: t('as the point allows') }, { value: 'R', text: t('read') }, { value: 'W', text: t('write') }, { value: 'RW', text: t('read and write') }]} />
+          <TextField label={t('Comment')} class="wide" value={texts.comment} onText={set('comment')} fault={shown('comment')} />
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary">
-            {editing ? 'Save' : 'Add'}
+            {editing ? t('Save') : t('Add')}
           </button>
           {free !== null && (conflicts.length > 0 || texts.address.trim() === '') && (
             <button type="button" class="button" onClick={() => set('address')(addressText(place.table, free, base))}>
-              Next free place: {addressText(place.table, free, base)}
+              {t('Next free place: {address}', { address: addressText(place.table, free, base) })}
             </button>
           )}
           {clash.value && (
             <button type="button" class="button" onClick={() => void send(null)} disabled={clash.value.now === null}>
-              Save mine all the same
+              {t('Save mine all the same')}
             </button>
           )}
           {editing && (
@@ -181,11 +193,11 @@ export function MappingForm({ book, known, editing, done }: MappingFormProps) {
               class="button quiet"
               onClick={() => {
                 forgetAddressField(d.address);
-                drafts.current.delete(editing.id);
+                drafts.delete(editing.id);
                 done();
               }}
             >
-              Leave it as it is
+              {t('Leave it as it is')}
             </button>
           )}
           <Tell told={told.value} field="mapping-told" />

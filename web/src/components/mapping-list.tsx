@@ -1,48 +1,96 @@
-// Mapping list: everything that is mapped, for paper: one table per unit, with both ways of counting and the revision. In: the mappings.
-// Out: what the printer sees; on the screen it is not drawn. And the links to the lists that the gateway makes itself.
+// Mapping list: everything that is mapped, for paper: one table per unit, with both ways of counting and the revision, and the standard map once. In: the
+// mappings. Out: what the printer sees; on the screen it is not drawn, and not made before something is printed. And the links to the files of it.
+import { render } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
 import { listAddress, type MappingDoor } from '../api/mappings';
-import { useGateway } from '../gateway';
-import { endOf, oneBased, tables, type Known, type Mapping } from '../text/mapping';
+import { GatewayProvider, useGateway } from '../gateway';
+import { t } from '../language';
+import { endOf, oneBased, tables, widthOf, type Known, type Mapping } from '../text/mapping';
 import { valueUnit } from '../text/mapping-type';
+import { standardRegisters } from '../text/register-map';
 import { notOffered } from './form';
 import { useLoaded, waiting } from './loaded';
-import { scaleText } from './mapping-grid';
+import { scaleText } from './mapping-panel';
 import { useNamed } from './name';
 
-export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; known: Known; hash: string }) {
+export interface ListProps {
+  rows: readonly Mapping[];
+  known: Known;
+  hash: string;
+}
+
+/** Parameters have their unit in the catalogue of their axis, which is asked for when the page has been drawn: paper does not wait. */
+const catalogues_ms = 1000;
+const axesOfParameters = (rows: readonly Mapping[], known: Known) => new Set(rows.filter((m) => !known.points.some((p) => p.point === m.point)).map((m) => m.axis));
+
+/** The list, made when something is printed: of 4096 entries it is larger than the whole page. */
+export function PrintedOnPaper(props: ListProps) {
+  const gateway = useGateway();
+  const box = useRef<HTMLDivElement>(null);
+  const now = useRef(props);
+  now.current = props;
+  useEffect(() => {
+    const end = new AbortController();
+    const draw = () => {
+      if (!box.current) return;
+      render(
+        <GatewayProvider value={gateway}>
+          <PrintedList {...now.current} />
+        </GatewayProvider>,
+        box.current,
+      );
+    };
+    const paper = globalThis.matchMedia?.('print');
+    addEventListener('beforeprint', draw, { signal: end.signal });
+    paper?.addEventListener?.('change', (e) => e.matches && draw(), { signal: end.signal });
+    return () => {
+      end.abort();
+      if (box.current) render(null, box.current);
+    };
+  }, [gateway]);
+  useEffect(() => {
+    if (props.known.points.length === 0) return;
+    const timer = setTimeout(() => {
+      for (const axis of axesOfParameters(now.current.rows, now.current.known)) now.current.known.parameters(axis);
+    }, catalogues_ms);
+    return () => clearTimeout(timer);
+  }, [props.rows, props.known.points]);
+  return <div ref={box} class="print-only" />;
+}
+
+export function PrintedList({ rows, known, hash }: ListProps) {
   const { store } = useGateway();
   const named = useNamed();
-  // The units of parameters stand in the catalogue of their axis.
-  for (const a of new Set(rows.filter((m) => !known.points.some((p) => p.point === m.point)).map((m) => m.axis))) known.parameters(a);
+  for (const axis of axesOfParameters(rows, known)) known.parameters(axis);
   // Not followed: an axis is told ten times a second, its unit changes with the site.
   const unitOf = (m: Mapping) => valueUnit(store.axis(m.axis)?.peek().data, m.axis, m.point, known);
   const units = [...new Set(rows.map((m) => m.unit))].sort((a, b) => a - b);
   return (
     <div class="print-only" data-field="printed">
       <p>
-        axisgate register list · mapping revision {hash || 'not told by this gateway'} (registers 18 and 19 of each axis) · {rows.length} mappings
+        {t('axisgate register list · mapping revision {hash} (registers 18 and 19 of each axis) · {n} mappings', { hash: hash || t('not told by this gateway'), n: rows.length })}
       </p>
       {units.flatMap((u) =>
-        tables.flatMap((t) => {
-          const own = rows.filter((m) => m.unit === u && m.table === t.id).sort((a, b) => a.address - b.address);
+        tables.flatMap((table) => {
+          const own = rows.filter((m) => m.unit === u && m.table === table.id).sort((a, b) => a.address - b.address);
           if (own.length === 0) return [];
           return [
-            <table key={`${u}/${t.id}`} class="printed">
+            <table key={`${u}/${table.id}`} class="printed">
               <caption>
-                Unit {u}, {t.name.toLowerCase()}
+                {t('Unit {unit}, {table}', { unit: u, table: table.name.toLowerCase() })}
               </caption>
               <thead>
                 <tr>
-                  <th>From 0</th>
-                  <th>From 1</th>
-                  <th>Axis</th>
-                  <th>Point</th>
-                  <th>Type</th>
-                  <th>Word order</th>
-                  <th>Value in</th>
-                  <th>Scaling</th>
-                  <th>Access</th>
-                  <th>Comment</th>
+                  <th>{t('From 0')}</th>
+                  <th>{t('From 1')}</th>
+                  <th>{t('Axis')}</th>
+                  <th>{t('Point')}</th>
+                  <th>{t('Type')}</th>
+                  <th>{t('Word order')}</th>
+                  <th>{t('Value in')}</th>
+                  <th>{t('Scaling')}</th>
+                  <th>{t('Access')}</th>
+                  <th>{t('Comment')}</th>
                 </tr>
               </thead>
               <tbody>
@@ -53,7 +101,7 @@ export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; k
                     <td>{named(m.axis)}</td>
                     <td class="mono">{m.point}</td>
                     <td>{m.type}</td>
-                    <td>{endOf(m) === m.address ? '' : m.word_order.replace('_', ' ')}</td>
+                    <td>{endOf(m) === m.address ? '' : m.word_order === 'low_first' ? t('low first') : t('high first')}</td>
                     <td>{unitOf(m)}</td>
                     <td>{scaleText(m)}</td>
                     <td>{m.access}</td>
@@ -65,32 +113,63 @@ export function PrintedList({ rows, known, hash }: { rows: readonly Mapping[]; k
           ];
         }),
       )}
+      <StandardList />
     </div>
   );
 }
 
+/** Unit 1 once: where each axis begins, and what stands from there on. */
+function StandardList() {
+  const { store } = useGateway();
+  const named = useNamed();
+  const axes = store.axisNames.value.flatMap((n) => store.axis(n)?.peek().data ?? []);
+  if (axes.length === 0) return null;
+  return (
+    <table class="printed" data-field="printed-standard">
+      <caption>
+        {t('Unit 1, the standard map. The registers of an axis begin at: {list}', { list: axes.map((a) => t('{axis} {address}', { axis: named(a.name), address: (a.number - 1) * 64 })).join(', ') })}
+      </caption>
+      <thead>
+        <tr>
+          <th>{t('From there')}</th>
+          <th>{t('Point')}</th>
+          <th>{t('Type')}</th>
+          <th>{t('Access')}</th>
+        </tr>
+      </thead>
+      <tbody>
+        {standardRegisters.map((r) => (
+          <tr key={r.offset}>
+            <td>{widthOf(r.type) === 1 ? r.offset : `${r.offset}–${r.offset + widthOf(r.type) - 1}`}</td>
+            <td class="mono">{r.point || r.name}</td>
+            <td>{r.type}</td>
+            <td>{r.writable ? 'RW' : 'R'}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
 export function ListLinks({ door }: { door: MappingDoor }) {
-  const why = useLoaded(door.hasLists, [door], (p) => (p.status === 404 || p.status === 501 ? notOffered('generated lists (HTML, PLC structure)') : p.words));
+  const why = useLoaded(door.hasLists, [door], (p) => (p.status === 404 || p.status === 501 ? notOffered(t('generated lists (CSV, PLC structure)')) : p.words));
   return (
     <div class="list-links" data-field="lists">
       <a class="button" href="/api/v1/mappings.csv" download="mappings.csv">
-        Export CSV
+        {t('Export CSV')}
       </a>
       {!why && (
         <>
           <a class="button" href={listAddress('csv')} download="registers.csv">
-            Register list, CSV
-          </a>
-          <a class="button" href={listAddress('html')} target="_blank" rel="noopener">
-            Register list, HTML
+            {t('Register list, CSV')}
           </a>
           <a class="button" href={listAddress('st')} download="axisgate.st">
-            PLC structure
+            {t('PLC structure')}
           </a>
         </>
       )}
       <button type="button" class="button" onClick={() => print()}>
-        Print
+        {t('Print')}
       </button>
       {why && why !== waiting && <span class="where">{why}</span>}
     </div>

@@ -4,12 +4,12 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
 import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
 import { placeText, tableOf, type Known } from '../text/mapping';
 import { quiet, Tell, toldOf, type Told } from './form';
-import { Section } from './section';
 
 const text = persisted('mappings.paste');
 const mostShown = 200;
@@ -31,25 +31,25 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
   const take = async (file: File | undefined) => {
     if (!file) return;
     if (file.size > largest) {
-      told.value = { tone: 'refused', text: `${file.name} has ${file.size} bytes; at most ${largest} are read.` };
+      told.value = { tone: 'refused', text: t('{file} has {n} bytes; at most {most} are read.', { file: file.name, n: file.size, most: largest }) };
       return;
     }
     text.value = await file.text();
-    told.value = { tone: 'good', text: `${file.name} is in the field below. Nothing has been sent.` };
+    told.value = { tone: 'good', text: t('{file} is in the field below. Nothing has been sent.', { file: file.name }) };
   };
   const dryRun = async () => {
-    told.value = { tone: 'busy', text: 'The gateway checks …' };
+    told.value = { tone: 'busy', text: t('The gateway checks …') };
     const answer = await book.dryRun(csvOfSpecs(specs), replace.value);
     if (answer instanceof Problem) {
       report.value = { for: text.value, differences: [], lines: linesOf(answer, specs.length, read.rows.map((r) => r.line)) };
       told.value = { tone: 'refused', text: answer.words };
     } else {
       report.value = { for: text.value, differences: answer.differences, lines: new Map() };
-      told.value = { tone: 'good', text: `The gateway would take ${count(specs.length, 'row')}: ${count(answer.mappings, 'mapping')} afterwards.` };
+      told.value = { tone: 'good', text: t('The gateway would take {rows}: {mappings} afterwards.', { rows: rowsWords(specs.length), mappings: answer.mappings === 1 ? t('1 mapping') : t('{n} mappings', { n: answer.mappings }) }) };
     }
   };
   const send = async () => {
-    told.value = { tone: 'busy', text: 'Sending …' };
+    told.value = { tone: 'busy', text: t('Sending …') };
     const sent = text.value;
     const outcome = await book.table(csvOfSpecs(specs), replace.value);
     told.value = toldOf(outcome);
@@ -58,14 +58,14 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
     report.value = null;
   };
   return (
-    <Section title="Paste or import a table" class="mapping-paste">
-      <div class="card form">
+    <div class="mapping-paste">
+      <div class="form">
         <p class="where">
-          Columns in any order, named by the first line: <span class="mono">unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment, on_overflow, id</span>. Without such a line they are taken in
-          the order <span class="mono">unit, table, address, axis, point, type, scale, offset</span>. Separated by tabs, commas or semicolons.
+          {t('Columns in any order, named by the first line:')} <span class="mono">unit, table, address, axis, point, type, word_order, scale, offset, access, length, comment, on_overflow, id</span>.{' '}
+          {t('Without such a line they are taken in this order:')} <span class="mono">unit, table, address, axis, point, type, scale, offset</span>. {t('Separated by tabs, commas or semicolons.')}
         </p>
         <label class="visually-hidden" for="mapping-table">
-          Table of mappings
+          {t('Table of mappings')}
         </label>
         <textarea
           id="mapping-table"
@@ -82,40 +82,40 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
         <div class="form-foot">
           <label class="button">
             <input type="file" class="visually-hidden" accept=".csv,.tsv,.txt,text/csv,text/tab-separated-values" onChange={(e) => void take(e.currentTarget.files?.[0])} />
-            Choose a file
+            {t('Choose a file')}
           </label>
           <label class="check">
-            <input type="checkbox" checked={replace.value} onChange={(e) => (replace.value = e.currentTarget.checked)} /> in place of all mappings
+            <input type="checkbox" checked={replace.value} onChange={(e) => (replace.value = e.currentTarget.checked)} /> {t('in place of all mappings')}
           </label>
           <button type="button" class="button" disabled={specs.length === 0 || bad > 0 || waits !== ''} onClick={() => void dryRun()}>
-            Check with the gateway
+            {t('Check with the gateway')}
           </button>
           <button type="button" class="button primary" disabled={specs.length === 0 || bad > 0 || waits !== '' || !checked} onClick={() => void send()}>
-            {replace.value ? `Replace all by ${count(specs.length, 'row')}` : `Add ${count(specs.length, 'row')}`}
+            {replace.value ? t('Replace all by {rows}', { rows: rowsWords(specs.length) }) : t('Add {rows}', { rows: rowsWords(specs.length) })}
           </button>
           <Tell told={told.value} field="table-told" />
         </div>
         {read.rows.length > 0 && (
           <p class={`form-told${bad > 0 || read.problem ? ' is-fault' : ''}`} role="status" data-field="table-count">
-            {read.problem || waits || (bad > 0 ? `${bad} of ${count(read.rows.length, 'row')} must be mended before anything is sent.` : `${count(read.rows.length, 'row')}, none of them with a fault that this page can see.`)}
+            {read.problem || waits || (bad > 0 ? t('{bad} of {rows} must be mended before anything is sent.', { bad, rows: rowsWords(read.rows.length) }) : t('{rows}, none of them with a fault that this page can see.', { rows: rowsWords(read.rows.length) }))}
           </p>
         )}
         {report.value && report.value.for === text.value && report.value.differences.length > 0 && (
-          <ul class="differences" aria-label="What would change">
+          <ul class="differences" aria-label={t('What would change')}>
             {report.value.differences.slice(0, mostShown).map((d) => (
               <li key={d}>{d}</li>
             ))}
           </ul>
         )}
         {read.rows.length > 0 && (
-          <div class="table-scroll" tabIndex={0} role="region" aria-label="Rows of the table">
+          <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Rows of the table')}>
             <table class="table paste-table">
               <thead>
                 <tr>
-                  <th scope="col">Line</th>
-                  <th scope="col">Place</th>
-                  <th scope="col">Point</th>
-                  <th scope="col">Verdict</th>
+                  <th scope="col">{t('Line')}</th>
+                  <th scope="col">{t('Place')}</th>
+                  <th scope="col">{t('Point')}</th>
+                  <th scope="col">{t('Verdict')}</th>
                 </tr>
               </thead>
               <tbody>
@@ -125,23 +125,23 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
                   return (
                     <tr key={r.line} data-line={r.line} class={faults.length > 0 ? 'is-bad' : ''}>
                       <th scope="row" class="mono">{r.line}</th>
-                      <td data-label="Place">{r.spec ? `unit ${r.spec.unit}, ${tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase()} ${placeText({ type: 'i32', table: 'holding_registers', ...r.spec })}` : <span class="mono">{r.texts.address || '–'}</span>}</td>
-                      <td data-label="Point">{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
-                      <td data-label="Verdict">{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">waits</span> : <span class="good-text">good</span>}</td>
+                      <td data-label={t('Place')}>{r.spec ? t('unit {unit}, {table} {place}', { unit: r.spec.unit ?? '', table: tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase(), place: placeText({ type: 'i32', table: 'holding_registers', ...r.spec }) }) : <span class="mono">{r.texts.address || '–'}</span>}</td>
+                      <td data-label={t('Point')}>{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
+                      <td data-label={t('Verdict')}>{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">{t('waits')}</span> : <span class="good-text">{t('good')}</span>}</td>
                     </tr>
                   );
                 })}
               </tbody>
             </table>
-            {read.rows.length > mostShown && <p class="where">{read.rows.length - mostShown} more rows are checked but not shown.</p>}
+            {read.rows.length > mostShown && <p class="where">{t('{n} more rows are checked but not shown.', { n: read.rows.length - mostShown })}</p>}
           </div>
         )}
       </div>
-    </Section>
+    </div>
   );
 }
 
-const count = (n: number, word: string) => `${n} ${word}${n === 1 ? '' : 's'}`;
+const rowsWords = (n: number) => (n === 1 ? t('1 row') : t('{n} rows', { n }));
 
 /** The gateway names lines of the table that was sent: a head line and then one per row. */
 function linesOf(problem: Problem, rows: number, lines: readonly number[]): Map<number, string> {

@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { addressBase, addressField } from '../state/address-base';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
@@ -11,8 +12,8 @@ import { addressText, readAddress, spanText } from '../text/address';
 import { freeBlock, placeText, type Mapping } from '../text/mapping';
 import { parseNumber } from '../text/number';
 import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { accessWords } from './mapping-cell';
 import { useNamed } from './name';
-import { Section } from './section';
 
 const axis = persisted('template.axis');
 const unit = persisted('template.unit', '2');
@@ -34,75 +35,75 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
   const text = (n: number) => addressText('holding_registers', n, base);
   const free = u === null ? null : freeBlock(book.rows.value, u, blockWidth);
   const typed = readAddress(address.value, 'holding_registers', base);
-  const wrong = address.value.trim() === '' ? '' : !typed.good ? typed.why : typed.table !== 'holding_registers' ? 'The block lies in the holding registers.' : '';
+  const wrong = address.value.trim() === '' ? '' : !typed.good ? typed.why : typed.table !== 'holding_registers' ? t('The block lies in the holding registers.') : '';
   const at = address.value.trim() === '' ? free : typed.good && wrong === '' ? typed.address : null;
 
   const run = async (dry: boolean) => {
     if (axis.value === '' || u === null || at === null) {
-      told.value = { tone: 'refused', text: axis.value === '' ? 'Choose an axis.' : 'Mend the fields that are marked.' };
+      told.value = { tone: 'refused', text: axis.value === '' ? t('Choose an axis.') : t('Mend the fields that are marked.') };
       return;
     }
-    told.value = { tone: 'busy', text: dry ? 'The gateway checks …' : 'Adding …' };
+    told.value = { tone: 'busy', text: dry ? t('The gateway checks …') : t('Adding …') };
     try {
       if (dry) {
         const r = await door.template({ template: 'standard_map', axis: axis.value, unit: u, address: at, dry_run: true });
         // A gateway says the block entry by entry, or as sentences.
-        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => `${placeText(m, base)}: ${m.point} of ${m.axis}, ${m.type}, ${{ R: 'read', W: 'write', RW: 'read and write' }[m.access]}`) : (r.differences ?? []);
-        told.value = { tone: 'good', text: `${differences.value.length} mappings at ${spanText('holding_registers', at, at + blockWidth - 1, base)} of unit ${u}. Nothing has been changed.` };
+        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => t('{place}: {point} of {axis}, {type}, {access}', { place: placeText(m, base), point: m.point, axis: m.axis, type: m.type, access: accessWords[m.access] })) : (r.differences ?? []);
+        told.value = { tone: 'good', text: t('{n} mappings at {place} of unit {unit}. Nothing has been changed.', { n: differences.value.length, place: spanText('holding_registers', at, at + blockWidth - 1, base), unit: u }) };
         return;
       }
     } catch (error) {
       const p = asProblem(error);
-      told.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered('templates') : p.words };
+      told.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered(t('templates')) : p.words };
       return;
     }
     const sent = address.value;
     const outcome = await book.template(axis.value, u, at);
     differences.value = [];
-    told.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered('templates') } : toldOf(outcome);
+    told.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered(t('templates')) } : toldOf(outcome);
     if (outcome.good) emptied(address, sent);
   };
   return (
-    <Section title="Template: the standard map of an axis" class="mapping-templates">
+    <div class="mapping-templates">
       <form
-        class="card form"
+        class="form"
         noValidate
-        aria-label="Template"
+        aria-label={t('Template')}
         onSubmit={(e) => {
           e.preventDefault();
           void run(false);
         }}
       >
         <div class="form-grid">
-          <Choice label="Axis" value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: 'choose' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={u === null ? 'A whole number from 2 to 254.' : undefined} />
+          <Choice label={t('Axis')} value={axis.value} onChoice={(v) => (axis.value = v)} choices={[{ value: '', text: t('choose') }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
+          <TextField label={t('Unit ID')} number value={unit.value} onText={(x) => (unit.value = x)} fault={u === null ? t('A whole number from 2 to 254.') : undefined} />
           <TextField
-            label="Address"
+            label={t('Address')}
             number
             value={address.value}
-            onText={(t) => (address.value = t)}
-            placeholder={free === null ? 'none is free' : `next free block: ${text(free)}`}
+            onText={(x) => (address.value = x)}
+            placeholder={free === null ? t('none is free') : t('next free block: {address}', { address: text(free) })}
             fault={wrong || undefined}
-            hint={`${blockWidth} registers, as in unit 1, where each axis begins at a multiple of ${blockWidth}`}
+            hint={t('{n} registers, as in unit 1, where each axis begins at a multiple of {n}', { n: blockWidth })}
           />
         </div>
         <div class="form-foot">
           <button type="button" class="button" onClick={() => void run(true)}>
-            Show what it adds
+            {t('Show what it adds')}
           </button>
           <button type="submit" class="button primary">
-            Add the block
+            {t('Add the block')}
           </button>
           <Tell told={told.value} field="template-told" />
         </div>
         {differences.value.length > 0 && (
-          <ul class="differences" aria-label="What would be added">
+          <ul class="differences" aria-label={t('What would be added')}>
             {differences.value.slice(0, 200).map((d) => (
               <li key={d}>{d}</li>
             ))}
           </ul>
         )}
       </form>
-    </Section>
+    </div>
   );
 }

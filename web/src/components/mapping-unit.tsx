@@ -4,11 +4,12 @@ import { useSignal } from '@preact/signals';
 import { useCallback } from 'preact/hooks';
 import type { MappingDoor, ModbusUnit } from '../api/mappings';
 import { asProblem } from '../api/problem';
+import { t } from '../language';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { quiet, Tell, type Told } from './form';
 
-const words: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: 'read 0', refuse: 'are refused' };
+const words: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: t('read 0'), refuse: t('are refused') };
 
 export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit: number; revision: unknown }) {
   const units = useSignal<ModbusUnit[] | null>(null);
@@ -19,10 +20,10 @@ export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit:
   if (why || !units.value) return null;
   const here = units.value.find((u) => u.unit === unit);
   const set = async (gaps: ModbusUnit['gaps']) => {
-    told.value = { tone: 'busy', text: 'Changing …' };
+    told.value = { tone: 'busy', text: t('Changing …') };
     try {
       const now = await door.setGaps(unit, gaps);
-      told.value = { tone: 'good', text: `Gaps of unit ${unit} ${words[now.shown]} now.` };
+      told.value = { tone: 'good', text: now.shown === 'zero' ? t('Gaps of unit {unit} read 0 now.', { unit }) : t('Gaps of unit {unit} are refused now.', { unit }) };
       await load();
     } catch (error) {
       told.value = { tone: 'refused', text: asProblem(error).words };
@@ -30,10 +31,10 @@ export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit:
   };
   return (
     <>
-      <label class="select" title="What a client gets for addresses between and around what is mapped. Panels that read in blocks need 0; a client that must never read a wrong address wants a refusal.">
-        <span>Gaps</span>
+      <label class="select" title={t('What a client gets for addresses between and around what is mapped. Panels that read in blocks need 0; a client that must never read a wrong address wants a refusal.')}>
+        <span>{t('Gaps')}</span>
         <select data-field="gaps" value={here?.gaps ?? ''} {...no} onChange={(e) => void set((e.currentTarget.value || null) as ModbusUnit['gaps'])}>
-          <option value="">as the host has it{here && !here.gaps ? `: ${words[here.shown]}` : ''}</option>
+          <option value="">{here && !here.gaps ? t('as the host has it: {how}', { how: words[here.shown] }) : t('as the host has it')}</option>
           <option value="zero">{words.zero}</option>
           <option value="refuse">{words.refuse}</option>
         </select>

@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { capital } from '../state/commander';
 import { allowedWords, functionWords } from '../text/register-map';
 import { quiet, Tell, type Told } from './form';
@@ -17,43 +18,44 @@ export function ModbusDoor() {
   const no = useBarred('engineer');
   const door = useSignal<Door | null>(null);
   const told = useSignal<Told>(quiet);
-  const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? 'This gateway does not say more about its Modbus door.' : p.words));
+  const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? t('This gateway does not say more about its Modbus door.') : p.words));
   const change = async (read_only: boolean) => {
-    told.value = { tone: 'busy', text: 'Changing …' };
+    told.value = { tone: 'busy', text: t('Changing …') };
     try {
       door.value = await client.setModbus(read_only);
-      told.value = { tone: 'good', text: read_only ? 'Read-only now: writes are refused, a quick stop and switching off are not.' : 'Writing is allowed now.' };
+      told.value = { tone: 'good', text: read_only ? t('Read-only now: writes are refused, a quick stop and switching off are not.') : t('Writing is allowed now.') };
     } catch (error) {
       told.value = { tone: 'refused', text: capital(asProblem(error).words) };
     }
   };
   const d = door.value;
   return (
-    <Section title="Modbus door" help="door-modbus-tcp">
+    <Section title={t('Modbus door')} help="door-modbus-tcp">
       <div class="card" data-field="modbus-door">
         {why && <Empty text={why} />}
         {d && (
           <dl class="facts">
-            <div><dt>Address</dt><dd class="mono">{d.bind}</dd></div>
-            <div><dt>Allowed from</dt><dd><span class="mono" data-field="modbus-allow">{allowedWords(d.allow, d.bind)}</span></dd></div>
-            <div><dt>Functions</dt><dd data-field="modbus-functions">{functionWords(d.functions)}</dd></div>
+            <div><dt>{t('Address')}</dt><dd class="mono">{d.bind}</dd></div>
+            <div><dt>{t('Allowed from')}</dt><dd><span class="mono" data-field="modbus-allow">{allowedWords(d.allow, d.bind)}</span></dd></div>
+            <div><dt>{t('Functions')}</dt><dd data-field="modbus-functions">{functionWords(d.functions)}</dd></div>
             <div>
-              <dt>Writing</dt>
+              <dt>{t('Writing')}</dt>
               <dd>
-                <span data-field="modbus-writing">{d.read_only ? 'read-only: no write is taken but a quick stop or switching off by the control word alone' : 'allowed'}</span>{' '}
+                <span data-field="modbus-writing">{d.read_only ? t('read-only: no write is taken but a quick stop or switching off by the control word alone') : t('allowed')}</span>{' '}
                 <button type="button" class="button small" aria-pressed={d.read_only} disabled={told.value.tone === 'busy'} {...no} onClick={() => void change(!d.read_only)}>
-                  {d.read_only ? 'Allow writing' : 'Make it read-only'}
+                  {d.read_only ? t('Allow writing') : t('Make it read-only')}
                 </button>
               </dd>
             </div>
             <div>
-              <dt>Clients</dt>
+              <dt>{t('Clients')}</dt>
               <dd>
                 {d.connections.length === 0
-                  ? 'none now'
+                  ? t('none now')
                   : d.connections.slice(0, 50).map((c) => (
                       <div key={c.peer}>
-                        <span class="mono">{c.peer}</span> {c.requests} requests, {c.writes} writes, {c.exceptions} exceptions{c.holds.length > 0 ? `, holds ${c.holds.join(', ')}` : ''}
+                        <span class="mono">{c.peer}</span> {t('{requests} requests, {writes} writes, {exceptions} exceptions', { requests: c.requests, writes: c.writes, exceptions: c.exceptions })}
+                        {c.holds.length > 0 && t(', holds {axes}', { axes: c.holds.join(', ') })}
                       </div>
                     ))}
               </dd>
@@ -62,10 +64,10 @@ export function ModbusDoor() {
         )}
         {d && (
           <p class="where modbus-where" data-field="modbus-where">
-            Address, addresses allowed and functions are set in the gateway's TOML file, section <code class="mono">[modbus]</code>: <code class="mono">bind</code>, <code class="mono">allow</code>, <code class="mono">functions</code>; they count from its next start. Writing is switched here, and is kept.
+            {t("Address, addresses allowed and functions are set in the gateway's TOML file, section [modbus]: bind, allow, functions; they count from its next start. Writing is switched here, and is kept.")}
           </p>
         )}
-        {d && <Why need="engineer" what="Making the door read-only, or not," />}
+        {d && <Why need="engineer" what={t('Making the door read-only, or not,')} />}
         <Tell told={told.value} field="modbus-told" />
       </div>
     </Section>

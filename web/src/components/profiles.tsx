@@ -1,10 +1,11 @@
 // Profiles: units that speak another device's language: which there are, what stands at their registers, adding and taking away.
-// In: the HTTP door, the revision of the site, units that have mappings. Out: a section. Asks before a profile is taken away.
-import { useSignal } from '@preact/signals';
+// In: the HTTP door, the revision of the site, units that have mappings. Out: a section, and what it has loaded for others. Asks before a profile is taken away.
+import { useSignal, type Signal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { addressBase } from '../state/address-base';
 import { persisted } from '../state/persisted';
 import { instanceWords, profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
@@ -24,10 +25,9 @@ const input = persisted('profile.input');
 const output = persisted('profile.output');
 const object = persisted('profile.object');
 
-export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; revision: unknown }) {
+export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed | null>; mapped: ReadonlySet<number>; revision: unknown }) {
   const { client, store } = useGateway();
   const door = useMemo(() => new ProfileDoor(client), [client]);
-  const listed = useSignal<Listed | null>(null);
   const axes = useSignal<readonly string[]>(['']);
   const told = useSignal<Told>(quiet);
   const faults = useSignal<ProfileFaults>({});
@@ -35,8 +35,8 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
   const named = useNamed();
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered('profiles') : p.words));
-  if (!listed.value) return why ? <Section title="Profiles: another device's registers">{<p class="where">{why}</p>}</Section> : null;
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('profiles')) : p.words));
+  if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{why}</p>}</Section> : null;
   const { languages, profiles } = listed.value;
   const chosen = languages.find((l) => l.language === language.value);
   const title = (p: Profile) => languages.find((l) => l.language === p.language)?.title ?? p.language;
@@ -54,44 +54,44 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
     }
   };
   const add = async () => {
-    const taken = new Map<number, string>([...[...mapped].map((u) => [u, 'mappings'] as const), ...profiles.map((p) => [p.unit, `the profile ${title(p)}`] as const)]);
+    const taken = new Map<number, string>([...[...mapped].map((u) => [u, t('mappings')] as const), ...profiles.map((p) => [p.unit, t('the profile {title}', { title: title(p) })] as const)]);
     const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value, input: input.value, output: output.value, object: object.value }, languages, taken);
     faults.value = 'faults' in read ? read.faults : {};
     if ('faults' in read) {
-      told.value = { tone: 'refused', text: 'Mend the fields that are marked.' };
+      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
-    if (await send('Adding …', () => door.put(read.unit, read.entry), `Unit ${read.unit} speaks ${chosen?.title} now.`)) unit.value = input.value = output.value = object.value = '';
+    if (await send(t('Adding …'), () => door.put(read.unit, read.entry), t('Unit {unit} speaks {title} now.', { unit: read.unit, title: chosen?.title ?? '' }))) unit.value = input.value = output.value = object.value = '';
   };
   const place = (i: number, value: string) => {
     const next = axes.value.map((a, k) => (k === i ? value : a)).filter((a, k) => a !== '' || k === 0);
     axes.value = (chosen?.axes ?? 1) > next.length && next.at(-1) !== '' ? [...next, ''] : next;
   };
   return (
-    <Section title="Profiles: another device's registers" class="profiles" help="profiles">
-      <p class="where">A unit of its own speaks the registers that a machine's program was written for, whatever drive is behind.</p>
+    <Section title={t("Profiles: another device's registers")} class="profiles" help="profiles">
+      <p class="where">{t("A unit of its own speaks the registers that a machine's program was written for, whatever drive is behind.")}</p>
       {profiles.map((p) => (
         <details key={p.unit} class="card profile" data-profile={p.unit}>
           <summary>
-            Unit {p.unit}: <strong>{title(p)}</strong> in front of {profileWords(p)}
-            {instanceWords(p) !== '' && <span class="where"> EtherNet/IP: {instanceWords(p)}</span>}
+            {t('Unit {unit}:', { unit: p.unit })} <strong>{title(p)}</strong> {t('in front of {axes}', { axes: profileWords(p) })}
+            {instanceWords(p) !== '' && <span class="where"> {t('EtherNet/IP: {list}', { list: instanceWords(p) })}</span>}
           </summary>
           <RegisterList profile={p} listed={listed.value!} />
           <div class="form-foot">
             {asking.value === p.unit ? (
               <Ask
-                words={`Take the profile of unit ${p.unit} away? Clients of this unit are refused from then on.`}
-                yes="Take it away"
+                words={t('Take the profile of unit {unit} away? Clients of this unit are refused from then on.', { unit: p.unit })}
+                yes={t('Take it away')}
                 field="profile-ask"
                 onYes={() => {
                   asking.value = null;
-                  void send('Removing …', () => door.remove(p.unit), `Unit ${p.unit} has no profile now.`);
+                  void send(t('Removing …'), () => door.remove(p.unit), t('Unit {unit} has no profile now.', { unit: p.unit }));
                 }}
                 onNo={() => (asking.value = null)}
               />
             ) : (
               <button type="button" class="button" {...no} onClick={() => (asking.value = p.unit)}>
-                Take it away
+                {t('Take it away')}
               </button>
             )}
           </div>
@@ -100,16 +100,16 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
       <form
         class="card form"
         noValidate
-        aria-label="Add a profile"
+        aria-label={t('Add a profile')}
         onSubmit={(e) => {
           e.preventDefault();
           if (!no.disabled) void add();
         }}
       >
         <div class="form-grid">
-          <TextField label="Unit ID" number value={unit.value} onText={(t) => (unit.value = t)} fault={faults.value.unit} hint="2 to 254, without mappings" />
+          <TextField label={t('Unit ID')} number value={unit.value} onText={(x) => (unit.value = x)} fault={faults.value.unit} hint={t('2 to 254, without mappings')} />
           <Choice
-            label="Speaks"
+            label={t('Speaks')}
             value={language.value}
             onChoice={(v) => {
               language.value = v;
@@ -122,25 +122,25 @@ export function Profiles({ mapped, revision }: { mapped: ReadonlySet<number>; re
           {axes.value.map((a, i) => (
             <Choice
               key={i}
-              label={(chosen?.axes ?? 1) > 1 ? `Axis ${i + 1}` : 'Axis'}
+              label={(chosen?.axes ?? 1) > 1 ? t('Axis {n}', { n: i + 1 }) : t('Axis')}
               value={a}
               onChoice={(v) => place(i, v)}
-              choices={[{ value: '', text: i === 0 ? 'choose' : 'none' }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]}
+              choices={[{ value: '', text: i === 0 ? t('choose') : t('none') }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]}
               fault={i === 0 ? faults.value.axes : undefined}
             />
           ))}
-          <TextField label="Counts per unit" number value={counts.value} onText={(t) => (counts.value = t)} fault={faults.value.counts} hint="of the program, for one unit of the axis; empty: as the language has it" />
-          <TextField label="Full speed" number value={velocity.value} onText={(t) => (velocity.value = t)} fault={faults.value.velocity} hint="units/s; empty: the axis' limit" />
-          <TextField label="Full acceleration" number value={acceleration.value} onText={(t) => (acceleration.value = t)} fault={faults.value.acceleration} hint="units/s²; empty: the axis' limit" />
-          <TextField label="Input assembly" number value={input.value} onText={(t) => (input.value = t)} fault={faults.value.input} hint="EtherNet/IP instance; empty: none" />
-          <TextField label="Output assembly" number value={output.value} onText={(t) => (output.value = t)} fault={faults.value.output} hint="EtherNet/IP instance; empty: none" />
+          <TextField label={t('Counts per unit')} number value={counts.value} onText={(x) => (counts.value = x)} fault={faults.value.counts} hint={t('of the program, for one unit of the axis; empty: as the language has it')} />
+          <TextField label={t('Full speed')} number value={velocity.value} onText={(x) => (velocity.value = x)} fault={faults.value.velocity} hint={t("units/s; empty: the axis' limit")} />
+          <TextField label={t('Full acceleration')} number value={acceleration.value} onText={(x) => (acceleration.value = x)} fault={faults.value.acceleration} hint={t("units/s²; empty: the axis' limit")} />
+          <TextField label={t('Input assembly')} number value={input.value} onText={(x) => (input.value = x)} fault={faults.value.input} hint={t('EtherNet/IP instance; empty: none')} />
+          <TextField label={t('Output assembly')} number value={output.value} onText={(x) => (output.value = x)} fault={faults.value.output} hint={t('EtherNet/IP instance; empty: none')} />
           {language.value === 'lexium' && (
-            <TextField label="Instance of its objects" number value={object.value} onText={(t) => (object.value = t)} fault={faults.value.object} hint="of classes 64h to 6Ah; empty: none" />
+            <TextField label={t('Instance of its objects')} number value={object.value} onText={(x) => (object.value = x)} fault={faults.value.object} hint={t('of classes 64h to 6Ah; empty: none')} />
           )}
         </div>
         <div class="form-foot">
           <button type="submit" class="button primary" {...no}>
-            Add the profile
+            {t('Add the profile')}
           </button>
           <Tell told={told.value} field="profile-told" />
         </div>
@@ -154,16 +154,16 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
   const base = addressBase();
   const rows = useMemo(() => (page ? registerRows(page, profile.axes.length, base) : []), [page, profile.axes.length, base]);
   return (
-    <div class="table-scroll" tabIndex={0} role="region" aria-label={`Registers of unit ${profile.unit}`}>
+    <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Registers of unit {unit}', { unit: profile.unit })}>
       <table class="table profile-registers">
         <thead>
           <tr>
-            <th scope="col">Register</th>
-            <th scope="col">Name</th>
-            <th scope="col">Type</th>
-            <th scope="col">Access</th>
-            <th scope="col">What it is</th>
-            {profile.object_instance != null && <th scope="col">EtherNet/IP</th>}
+            <th scope="col">{t('Register')}</th>
+            <th scope="col">{t('Name')}</th>
+            <th scope="col">{t('Type')}</th>
+            <th scope="col">{t('Access')}</th>
+            <th scope="col">{t('What it is')}</th>
+            {profile.object_instance != null && <th scope="col">{t('EtherNet/IP')}</th>}
           </tr>
         </thead>
         <tbody>

@@ -1,12 +1,12 @@
 // The stops: one per axis, and one for all in the head of the page, which is also the Escape key, wherever the keyboard is; while something is
-// being typed, the first Escape empties the field and the next one stops.
+// being typed or carried over a map, the first Escape takes that back and the next one stops.
 // Never hidden, never waits for another answer; disabled only where the gateway has said that it serves nobody here without a sign-in, and then it
 // says so and names the machine's own emergency stop. It is a command over the network, not a safety function.
 import { useLayoutEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import type { Commander } from '../state/commander';
-import { emptyTyped, typing, watchTyping } from '../state/typing';
+import { emptyTyped, held, typing, watchTyping } from '../state/typing';
 import { Icon } from './icon';
 
 /** Filled where there is something to stop, outlined where nothing moves: always there, loud only when it matters. */
@@ -73,7 +73,7 @@ export function StopAll() {
     >
       <Icon name="octagon" size={16} />
       <span>{barred ? t('No stop from here') : t('Stop all')}</span>
-      <kbd aria-hidden="true">{typing.value ? 'Esc Esc' : 'Esc'}</kbd>
+      <kbd aria-hidden="true">{typing.value || held.value ? 'Esc Esc' : 'Esc'}</kbd>
     </button>
   );
 }

@@ -1,99 +1,93 @@
-// Mappings: the registers of one's own: a grid with live values, adding, changing, templates, tables, lists, and what an HMI sees. In: the HTTP
-// door, the axis stream. Out: a page. Registers of the shown table are read once a second where the gateway offers it; at most 8 spans a second.
+// Mappings: the register map of every unit, with live values, a palette to drag from and a panel to change in; a table to paste, templates, and what an
+// HMI sees. In: the HTTP door, the axis stream. Out: a page. Of the registers only those in sight are read, once a second.
 import { signal, useSignal, type Signal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useMemo, useRef } from 'preact/hooks';
 import { MappingDoor } from '../api/mappings';
-import { asProblem } from '../api/problem';
+import type { Profiles as ProfileList } from '../api/profiles';
 import { Assemblies } from '../components/assemblies';
-import { notOffered, quiet, Tell, toldOf, type Told } from '../components/form';
+import { notOffered, quiet, type Told, toldOf } from '../components/form';
 import { Gate, useBarred, Why } from '../components/gate';
-import { HmiView } from '../components/hmi-view';
+import { Icon } from '../components/icon';
 import { Empty } from '../components/lines';
 import { useLoaded } from '../components/loaded';
-import { addAt, MappingForm } from '../components/mapping-form';
-import { MappingGrid } from '../components/mapping-grid';
-import { ListLinks, PrintedList } from '../components/mapping-list';
+import { MappingDialog } from '../components/mapping-dialog';
+import { addAt } from '../components/mapping-form';
+import { MappingHmi } from '../components/mapping-hmi';
+import { ListLinks, PrintedOnPaper } from '../components/mapping-list';
+import type { MapHandle } from '../components/mapping-map';
 import { MappingPaste } from '../components/mapping-paste';
-import { MappingUnit } from '../components/mapping-unit';
 import { MappingTemplates } from '../components/mapping-templates';
+import { MappingUnit } from '../components/mapping-unit';
+import { MappingWorkspace } from '../components/mapping-workspace';
 import { Profiles } from '../components/profiles';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { addressBase, countFrom } from '../state/address-base';
-import { persisted } from '../state/persisted';
+import { usePolled } from '../state/mapping-poll';
 import { MappingBook, uncapital } from '../state/mappings';
-import { lookAt, type Heard } from '../state/register-look';
+import { persisted } from '../state/persisted';
+import type { Heard } from '../state/register-look';
+import { readAddress } from '../text/address';
+import { tables, type Known, type Table } from '../text/mapping';
+import { blocksOf, type Block } from '../text/mapping-blocks';
 import type { ParameterShape } from '../text/mapping-type';
-import { spansOf, tables, type Known, type Mapping, type Table } from '../text/mapping';
+import { isStandard } from '../text/register-map';
 
 const unitShown = persisted('mappings.unit', '2');
 const tableShown = persisted('mappings.table', 'holding_registers');
-const poll_ms = 1000;
-const spansAtOnce = 8;
+const mode = persisted('mappings.mode', 'map');
+const paletteAxis = persisted('mappings.palette_axis');
+const goTo = persisted('mappings.go_to');
+const noBlocks: readonly Block[] = [];
 
 export function MappingsPage() {
   const { client, store } = useGateway();
   const door = useMemo(() => new MappingDoor(client), [client]);
   const book = useMemo(() => new MappingBook(door), [door]);
-  const editing = useSignal<Mapping | null>(null);
   const told = useSignal<Told>(quiet);
   const heard: Signal<ReadonlyMap<string, Heard>> = useMemo(() => signal(new Map()), []);
-  const registers = useSignal<'asking' | 'there' | string>('asking');
+  const registers = useSignal('');
   const parameters: Signal<ReadonlyMap<string, ReadonlyMap<string, ParameterShape>>> = useMemo(() => signal(new Map()), []);
+  const listed = useSignal<ProfileList | null>(null);
+  const seen = useSignal(noBlocks);
+  const dialog = useSignal<'' | 'paste' | 'template'>('');
+  const open = useSignal<readonly number[]>([]);
+  const handle = useRef<MapHandle | null>(null);
   const no = useBarred('engineer');
-  const epoch = store.connection.value.epoch;
   const revision = store.siteRevision.value;
 
   const why = useLoaded(() => book.load(), [book, revision]);
 
   const unit = Number(unitShown.value);
   const table = tableShown.value as Table;
+  const base = addressBase();
   const rows = book.rows.value;
-  const units = [...new Set([...rows.map((m) => m.unit), unit])].sort((a, b) => a - b);
+  const profiles = listed.value?.profiles ?? [];
+  const units = [...new Set([1, ...rows.map((m) => m.unit), ...profiles.map((p) => p.unit), unit])].sort((a, b) => a - b);
   const mapped = useMemo(() => new Set(rows.map((m) => m.unit)), [rows]);
-  const shown = useMemo(() => rows.filter((m) => m.unit === unit && m.table === table), [rows, unit, table]);
+  // By name and number alone: an axis that moves draws its cells, not the map.
+  const axisNames = store.axisNames.value;
+  const blocks = useMemo(() => {
+    const axes = axisNames.flatMap((n) => store.axis(n)?.peek().data ?? []);
+    return blocksOf(unit, table, rows, axes, listed.value?.profiles, listed.value?.languages);
+  }, [unit, table, rows, axisNames, listed.value]);
+  const ofProfile = profiles.some((p) => p.unit === unit);
+  const fixed = isStandard(unit) ? t('Unit 1 is the standard map: it is not changed.') : ofProfile ? t('Unit {unit} speaks the registers of its profile: they are not changed.', { unit }) : '';
 
-  useEffect(() => {
-    if (shown.length === 0 || epoch === 0) return;
-    const end = new AbortController();
-    let timer: ReturnType<typeof setTimeout>;
-    let turn = 0;
-    const spans = spansOf(shown);
-    const again = async () => {
-      let offered = true;
-      if (!document.hidden && store.connected.peek()) {
-        const next = new Map(heard.peek());
-        for (let i = 0; i < Math.min(spans.length, spansAtOnce) && offered && !end.signal.aborted; i += 1) {
-          const s = spans[(turn + i) % spans.length]!;
-          const own = shown.filter((m) => m.address >= s.address && m.address < s.address + s.count);
-          try {
-            await lookAt(door, own, next, end.signal);
-            registers.value = 'there';
-          } catch (error) {
-            if (end.signal.aborted) return;
-            const p = asProblem(error);
-            offered = !(p.status === 404 || p.status === 405 || p.status === 501);
-            if (!offered) registers.value = notOffered('a look at its registers: parameters show no live value here');
-            for (const m of own) next.set(m.id, { words: null, value: undefined, text: offered ? p.words : '' });
-          }
-        }
-        turn += spansAtOnce;
-        heard.value = next;
-      }
-      if (offered && !end.signal.aborted) timer = setTimeout(() => void again(), poll_ms);
-    };
-    void again();
-    return () => {
-      end.abort();
-      clearTimeout(timer);
-    };
-  }, [shown, epoch]);
+  usePolled({
+    door,
+    seen: mode.value === 'map' ? seen.value : noBlocks,
+    heard,
+    asks: () => store.connected.peek(),
+    epoch: store.connection.value.epoch,
+    offered: (yes) => (registers.value = yes ? '' : notOffered(t('a look at its registers: parameters show no live value here'))),
+  });
 
   const asked = useMemo(() => new Set<string>(), []);
-  const base = addressBase();
   const known: Known = {
     base,
-    axes: store.axisNames.value,
+    axes: axisNames,
     points: book.points.value,
     parameters: (axis) => {
       if (axis && !asked.has(axis) && store.axisNames.peek().includes(axis)) {
@@ -110,97 +104,140 @@ export function MappingsPage() {
   };
 
   const undo = async () => {
-    told.value = { tone: 'busy', text: 'Undoing …' };
+    told.value = { tone: 'busy', text: t('Undoing …') };
     told.value = toldOf(await book.undo());
   };
-  const remove = async (m: Mapping) => {
-    told.value = { tone: 'busy', text: `Removing ${m.id} …` };
-    if (editing.peek()?.id === m.id) editing.value = null;
-    told.value = toldOf(await book.remove(m.id));
+  const show = () => {
+    const place = readAddress(goTo.peek(), table, base);
+    if (!place.good) return void (told.value = { tone: 'refused', text: place.why });
+    told.value = quiet;
+    if (place.table !== table) tableShown.value = place.table;
+    open.value = [...open.peek().slice(-19), place.address];
+    requestAnimationFrame(() => requestAnimationFrame(() => handle.current?.show(place.address)));
   };
   const last = book.changes.value.at(-1);
+  const count = store.connected.value ? t('{n} of at most 4096.', { n: rows.length }) : t('{n} of at most 4096, as last known.', { n: rows.length });
   return (
     <main
       class="page mappings-page"
       onKeyDown={(e) => {
-        const typing = e.target instanceof HTMLElement && /^(INPUT|TEXTAREA|SELECT)$/.test(e.target.tagName);
-        if (e.key.toLowerCase() === 'z' && (e.ctrlKey || e.metaKey) && !e.shiftKey && !typing && last && !no.disabled) {
+        const types = e.target instanceof HTMLElement && /^(INPUT|TEXTAREA|SELECT)$/.test(e.target.tagName);
+        if (e.key.toLowerCase() === 'z' && (e.ctrlKey || e.metaKey) && !e.shiftKey && !types && last && !no.disabled) {
           e.preventDefault();
           void undo();
         }
       }}
     >
-      <h1 tabIndex={-1}>Mappings</h1>
+      <h1 tabIndex={-1}>{t('Mappings')}</h1>
       <p class="where">
-        {(why === '' || rows.length > 0) && `${rows.length} of at most 4096${store.connected.value ? '' : ', as last known'}. `}Mapping revision <span class="mono" data-field="hash">{book.hash.value || 'not told here by this gateway'}</span>; registers 18 and 19 of each axis show it. Unit 1 is the{' '}
-        standard map and not changed here.
+        {(why === '' || rows.length > 0) && `${count} `}
+        {t('Mapping revision')} <span class="mono" data-field="hash">{book.hash.value || t('not told here by this gateway')}</span>
+        {'; '}
+        {t('registers 18 and 19 of each axis show it. Unit 1 is the standard map and not changed here.')}
       </p>
       <Section
-        title="Register grid"
+        title={t('Register map')}
         class="register-grid"
         beside={
           <>
-            <label class="select">
-              <span>Unit ID</span>
-              <select value={unitShown.value} onChange={(e) => (unitShown.value = e.currentTarget.value)}>
-                {units.map((u) => (
-                  <option key={u} value={String(u)}>
-                    {u}
-                  </option>
-                ))}
-              </select>
-            </label>
-            <label class="select" title="How register addresses are written everywhere on this page; tables and files count from 0">
-              <span>Addresses</span>
-              <select value={base} onChange={(e) => countFrom(e.currentTarget.value === '1' ? '1' : '0')}>
-                <option value="0">from 0</option>
-                <option value="1">from 1 (40001)</option>
-              </select>
-            </label>
-            <MappingUnit door={door} unit={unit} revision={revision} />
-            <div class="group tables" role="group" aria-label="Table">
-              {tables.map((t) => (
-                <button key={t.id} type="button" class="button" aria-pressed={table === t.id} title={t.name} onClick={() => (tableShown.value = t.id)}>
-                  {t.short} <span class="where">{rows.filter((m) => m.unit === unit && m.table === t.id).length}</span>
-                </button>
-              ))}
+            <div class="group" role="group" aria-label={t('View')}>
+              <button type="button" class="button" aria-pressed={mode.value === 'map'} onClick={() => (mode.value = 'map')}>
+                {t('Map')}
+              </button>
+              <button type="button" class="button" aria-pressed={mode.value === 'hmi'} onClick={() => (mode.value = 'hmi')}>
+                {t('What the HMI sees')}
+              </button>
             </div>
-            <button type="button" class="button" disabled={!last} title={last ? `${last.words} (Ctrl Z)` : 'Nothing was changed by this page yet'} {...no} onClick={() => void undo()}>
-              Undo{last ? `: ${uncapital(last.words)}` : ''}
-            </button>
+            {mode.value === 'map' && (
+              <label class="select">
+                <span>{t('Unit ID')}</span>
+                <select value={unitShown.value} onChange={(e) => (unitShown.value = e.currentTarget.value)}>
+                  {units.map((u) => (
+                    <option key={u} value={String(u)}>
+                      {u}
+                    </option>
+                  ))}
+                </select>
+              </label>
+            )}
+            <label class="select" title={t('How register addresses are written everywhere on this page; tables and files count from 0')}>
+              <span>{t('Addresses')}</span>
+              <select value={base} onChange={(e) => countFrom(e.currentTarget.value === '1' ? '1' : '0')}>
+                <option value="0">{t('from 0')}</option>
+                <option value="1">{t('from 1 (40001)')}</option>
+              </select>
+            </label>
+            {mode.value === 'map' && (
+              <>
+                {fixed === '' && <MappingUnit door={door} unit={unit} revision={revision} />}
+                <div class="group tables" role="group" aria-label={t('Table')}>
+                  {tables.map((x) => (
+                    <button key={x.id} type="button" class="button" aria-pressed={table === x.id} title={x.name} onClick={() => (tableShown.value = x.id)}>
+                      {x.short} <span class="where">{rows.filter((m) => m.unit === unit && m.table === x.id).length}</span>
+                    </button>
+                  ))}
+                </div>
+                <form
+                  class="map-go"
+                  onSubmit={(e) => {
+                    e.preventDefault();
+                    show();
+                  }}
+                >
+                  <label class="select">
+                    <span>{t('Go to')}</span>
+                    <input type="text" class="search" inputMode="decimal" value={goTo.value} onInput={(e) => (goTo.value = e.currentTarget.value)} />
+                  </label>
+                </form>
+                <button type="button" class="button" {...no} onClick={() => addAt(isStandard(unit) ? 2 : unit, table, null, true)}>
+                  <Icon name="plus" size={14} /> {t('Add a mapping')}
+                </button>
+                <button type="button" class="button" aria-expanded={dialog.value === 'template'} {...no} onClick={() => (dialog.value = dialog.peek() === 'template' ? '' : 'template')}>
+                  {t('Add a template')}
+                </button>
+                <button type="button" class="button" aria-expanded={dialog.value === 'paste'} {...no} onClick={() => (dialog.value = dialog.peek() === 'paste' ? '' : 'paste')}>
+                  {t('Paste or import')}
+                </button>
+                <button type="button" class="button" disabled={!last} title={last ? t('{what} (Ctrl Z)', { what: last.words }) : t('Nothing was changed by this page yet')} {...no} onClick={() => void undo()}>
+                  {last ? t('Undo: {what}', { what: uncapital(last.words) }) : t('Undo')}
+                </button>
+              </>
+            )}
           </>
         }
       >
-        <Why need="engineer" what="Changing the mappings" />
-        <Tell told={told.value} field="grid-told" />
-        {why ? (
+        <Why need="engineer" what={t('Changing the mappings')} />
+        {mode.value === 'hmi' ? (
+          <MappingHmi door={door} rows={rows} />
+        ) : why ? (
           <Empty text={why} />
         ) : (
-          <MappingGrid
-            rows={rows}
-            unit={unit}
-            table={table}
-            heard={heard}
-            edit={(m) => (editing.value = m)}
-            remove={(m) => void remove(m)}
-            addAt={(u, t, a) => {
-              editing.value = null;
-              addAt(u, t, a);
-            }}
-          />
+          <>
+            {fixed !== '' && <p class="where">{fixed}</p>}
+            {blocks.length === 0 && <Empty text={rows.length === 0 ? t('Nothing is mapped yet. Drag a point into a free place, add an entry by the form, or paste a table.') : t('Unit {unit} has nothing in this table.', { unit })} />}
+            <MappingWorkspace book={book} known={known} blocks={blocks} unit={unit} table={table} base={base} open={open.value} heard={heard} told={told} seen={(b) => (seen.value = b)} handle={handle} paletteAxis={paletteAxis} fixed={fixed} />
+          </>
         )}
-        {registers.value !== 'there' && registers.value !== 'asking' && <p class="where">{registers.value}</p>}
+        {registers.value !== '' && <p class="where">{registers.value}</p>}
         <ListLinks door={door} />
       </Section>
-      <Gate need="engineer">
-        <MappingForm book={book} known={known} editing={editing.value} done={() => (editing.value = null)} />
-        <MappingTemplates book={book} door={door} />
-        <MappingPaste book={book} known={{ ...known, base: '0' }} />
-      </Gate>
-      <Profiles mapped={mapped} revision={revision} />
+      {dialog.value === 'template' && (
+        <MappingDialog title={t('Template: the standard map of an axis')} onClose={() => (dialog.value = '')}>
+          <Gate need="engineer">
+            <MappingTemplates book={book} door={door} />
+          </Gate>
+        </MappingDialog>
+      )}
+      {dialog.value === 'paste' && (
+        <MappingDialog title={t('Paste or import a table')} onClose={() => (dialog.value = '')}>
+          <Gate need="engineer">
+            <MappingPaste book={book} known={{ ...known, base: '0' }} />
+          </Gate>
+        </MappingDialog>
+      )}
+      <Profiles listed={listed} mapped={mapped} revision={revision} />
       <Assemblies revision={revision} />
-      <HmiView door={door} rows={rows} />
-      <PrintedList rows={rows} known={known} hash={book.hash.value} />
+      <PrintedOnPaper rows={rows} known={known} hash={book.hash.value} />
     </main>
   );
 }

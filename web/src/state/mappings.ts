@@ -4,6 +4,7 @@
 import { signal, type Signal } from '@preact/signals';
 import type { MappingDoor, MappingImport, MappingList } from '../api/mappings';
 import { asProblem, Problem } from '../api/problem';
+import { t } from '../language';
 import { cellsOf, columns, differenceText, sameMapping, type Mapping, type MappingPoint, type MappingSpec } from '../text/mapping';
 import { csvOf } from '../text/table-text';
 
@@ -38,24 +39,42 @@ export class MappingBook {
   }
 
   add(spec: MappingSpec): Promise<Outcome> {
-    return this.change(`Added ${spec.point} of ${spec.axis}`, (list) => this.door.add(spec, list.revision));
+    return this.change(t('Added {point} of {axis}', { point: spec.point, axis: spec.axis ?? '' }), (list) => this.door.add(spec, list.revision));
   }
 
   /** `opened`: the entry as it was when the editing began; null: take whatever is there now. */
-  async replace(id: string, spec: MappingSpec, opened: Mapping | null): Promise<Outcome> {
-    return this.change(`Changed ${id}`, (list) => {
-      const now = list.rows.find((m) => m.id === id) ?? null;
-      if (opened && !sameMapping(now, opened)) throw new ClashError({ id, now, text: `Somebody else has changed ${id} meanwhile: ${differenceText(opened, now)}.` });
+  async replace(id: string, spec: MappingSpec, opened: Mapping | null, words = t('Changed {id}', { id })): Promise<Outcome> {
+    return this.change(words, (list) => {
+      unchanged(list, opened ? [opened] : [], id);
       return this.door.replace(id, { ...spec, id }, list.revision);
     });
   }
 
+  /** All or none of them: those with the id of a present entry take its place. `opened`: these entries as they were when they were picked up. */
+  place(specs: readonly MappingSpec[], words: string, opened: readonly Mapping[] = []): Promise<Outcome> {
+    return this.change(words, async (list) => {
+      unchanged(list, opened);
+      return (await this.door.table(csvOf([columns, ...specs.map((s) => cellsOf(s as Partial<Mapping>))]), { replace: false, dryRun: false, revision: list.revision })).revision;
+    });
+  }
+
   remove(id: string): Promise<Outcome> {
-    return this.change(`Removed ${id}`, (list) => this.door.remove(id, list.revision));
+    return this.change(t('Removed {id}', { id }), (list) => this.door.remove(id, list.revision));
+  }
+
+  /** Several at once, so that one undo brings all of them back. */
+  removeAll(gone: readonly Mapping[]): Promise<Outcome> {
+    if (gone.length === 1) return this.remove(gone[0]!.id);
+    return this.change(t('Removed {n} mappings', { n: gone.length }), async (list) => {
+      unchanged(list, gone);
+      const ids = new Set(gone.map((m) => m.id));
+      const left = list.rows.filter((m) => !ids.has(m.id));
+      return (await this.door.table(csvOf([columns, ...left.map(cellsOf)]), { replace: true, dryRun: false, revision: list.revision })).revision;
+    });
   }
 
   table(csv: string, replace: boolean): Promise<Outcome> {
-    return this.change(replace ? 'Replaced all by a table' : 'Added a table', async (list) => (await this.door.table(csv, { replace, dryRun: false, revision: list.revision })).revision);
+    return this.change(replace ? t('Replaced all by a table') : t('Added a table'), async (list) => (await this.door.table(csv, { replace, dryRun: false, revision: list.revision })).revision);
   }
 
   async dryRun(csv: string, replace: boolean): Promise<MappingImport | Problem> {
@@ -67,7 +86,7 @@ export class MappingBook {
   }
 
   template(axis: string, unit: number, address: number): Promise<Outcome> {
-    return this.change(`Added the standard map of ${axis}`, async () => {
+    return this.change(t('Added the standard map of {axis}', { axis }), async () => {
       await this.door.template({ template: 'standard_map', axis, unit, address, dry_run: false });
       return '';
     });
@@ -75,13 +94,13 @@ export class MappingBook {
 
   async undo(): Promise<Outcome> {
     const last = this.changes.peek().at(-1);
-    if (!last) return { good: false, text: 'There is nothing to undo.' };
+    if (!last) return { good: false, text: t('There is nothing to undo.') };
     try {
       const now = await this.read();
       const byId = new Map(now.rows.map((m) => [m.id, m]));
       for (const [id, e] of last.entries) {
         if (!sameMapping(byId.get(id) ?? null, e.after)) {
-          return { good: false, text: `Not undone: somebody else has changed ${id} since (${differenceText(e.after, byId.get(id))}). Nothing was touched.` };
+          return { good: false, text: t('Not undone: somebody else has changed {id} since ({difference}). Nothing was touched.', { id, difference: differenceText(e.after, byId.get(id)) }) };
         }
       }
       const restored = now.rows.flatMap((m) => {
@@ -92,10 +111,10 @@ export class MappingBook {
       await this.door.table(csvOf([columns, ...restored.map(cellsOf)]), { replace: true, dryRun: false, revision: now.revision });
       this.changes.value = this.changes.peek().slice(0, -1);
       await this.read();
-      return { good: true, text: `Undone: ${uncapital(last.words)}.` };
+      return { good: true, text: t('Undone: {what}.', { what: uncapital(last.words) }) };
     } catch (error) {
       const problem = asProblem(error);
-      return { good: false, text: `Not undone: ${problem.words}`, problem };
+      return { good: false, text: t('Not undone: {why}', { why: problem.words }), problem };
     }
   }
 
@@ -128,6 +147,14 @@ export class MappingBook {
     this.rows.value = list.rows;
     this.hash.value = list.hash;
     return list;
+  }
+}
+
+/** What was opened is still what is there, or the difference is thrown. */
+function unchanged(list: MappingList, opened: readonly Mapping[], only?: string): void {
+  for (const o of opened) {
+    const now = list.rows.find((m) => m.id === (only ?? o.id)) ?? null;
+    if (!sameMapping(now, o)) throw new ClashError({ id: o.id, now, text: t('Somebody else has changed {id} meanwhile: {difference}.', { id: o.id, difference: differenceText(o, now) }) });
   }
 }
 

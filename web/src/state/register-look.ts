@@ -1,7 +1,8 @@
-// Register look: what the Modbus door answers for a run of mappings. In: the door, a span without gaps and its mappings. Out: per mapping its raw words
-// and what they mean, or its own exception. An exception for a whole span says nothing about each of it: the span is halved until every mapping
+// Register look: what the Modbus door answers for a run of places. In: the door, a span without gaps and what stands in it. Out: for each its raw words
+// and what they mean, or its own exception. An exception for a whole span says nothing about each of it: the span is halved until every one
 // has its own answer. At most `most` requests for one look; what was not reached keeps what was said before.
 import type { MappingDoor, Registers } from '../api/mappings';
+import { t } from '../language';
 import { widthOf, type Mapping } from '../text/mapping';
 
 export interface Heard {
@@ -10,10 +11,12 @@ export interface Heard {
   /** Why there are no words: the exception, or what went wrong. */
   text: string;
 }
+/** `id`: of the mapping, or any name of one's own for what is none. */
+export type Looked = Pick<Mapping, 'id' | 'unit' | 'table' | 'address' | 'type' | 'length'>;
 
-export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly Mapping[], into: Map<string, Heard>, end: AbortSignal, most = 64): Promise<void> {
+export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly Looked[], into: Map<string, Heard>, end: AbortSignal, most = 64): Promise<void> {
   let left = most;
-  const read = async (rows: readonly Mapping[]): Promise<void> => {
+  const read = async (rows: readonly Looked[]): Promise<void> => {
     const first = rows[0];
     if (!first || left === 0 || end.aborted) return;
     left -= 1;
@@ -29,8 +32,8 @@ export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly
   await read([...own].sort((a, b) => a.address - b.address));
 }
 
-function heardOf(r: Registers, m: Mapping): Heard {
-  if (r.exception) return { words: null, value: undefined, text: `exception ${r.exception.code}: ${r.exception.text}` };
+function heardOf(r: Registers, m: Looked): Heard {
+  if (r.exception) return { words: null, value: undefined, text: t('exception {code}: {text}', { code: r.exception.code, text: r.exception.text }) };
   const raw = r.words ?? (r.bits ?? []).map(Number);
   const at = m.address - r.address;
   const decoded = r.decoded?.find((d) => d.mapping === m.id || (d.mapping === undefined && d.address === m.address));

@@ -23,8 +23,17 @@ export function watchTyping(at: EventTarget = document): () => void {
   return () => end.abort();
 }
 
-/** Takes back what is being typed; false: nothing is. */
+/** How to put back what somebody carries over a map; null: nothing is carried. As with typing, the first Escape puts it back, the next one stops. */
+export const held = signal<(() => void) | null>(null);
+
+/** Takes back what is being typed or carried; false: nothing is. */
 export function emptyTyped(): boolean {
+  const putBack = held.peek();
+  if (putBack) {
+    held.value = null;
+    putBack();
+    return true;
+  }
   const field = typing.peek();
   typing.value = null;
   if (!field?.isConnected || field.value === '' || field.readOnly || field.disabled) return false;

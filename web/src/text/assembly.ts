@@ -1,6 +1,7 @@
 // Assembly texts: what a person types into the form of an EtherNet/IP assembly, as an entry of the site, or what is wrong with it; its bytes in
 // words. In: texts. Out: an entry, or faults by field. Pure. Which instances are taken for axes is the gateway's to say.
 import type { Assembly, AssemblyEntry } from '../api/assemblies';
+import { t } from '../language';
 import { parseNumber } from './number';
 
 export interface AssemblyDraft {
@@ -25,15 +26,15 @@ const whole = (text: string, low: number, high: number): number | null => {
 export function readAssembly(d: AssemblyDraft): { instance: number; entry: AssemblyEntry } | { faults: AssemblyFaults } {
   const faults: AssemblyFaults = {};
   const instance = whole(d.instance, 1, 65535);
-  if (instance === null) faults.instance = 'A whole number from 1 to 65535; 200 to 1000 are free of axes.';
+  if (instance === null) faults.instance = t('A whole number from 1 to 65535; 200 to 1000 are free of axes.');
   const unit = whole(d.unit, 2, 254);
-  if (unit === null) faults.unit = 'A whole number from 2 to 254: a unit with mappings or a profile.';
+  if (unit === null) faults.unit = t('A whole number from 2 to 254: a unit with mappings or a profile.');
   const address = whole(d.address, 0, 65535);
-  if (address === null) faults.address = 'A whole number from 0 to 65535.';
+  if (address === null) faults.address = t('A whole number from 0 to 65535.');
   const registers = whole(d.registers, 1, 250);
-  if (registers === null) faults.registers = 'A whole number from 1 to 250.';
-  if (d.direction === 'output' && d.table !== 'holding_registers') faults.table = 'Input registers can only be read.';
-  if (new TextEncoder().encode(d.comment).length > 64) faults.comment = 'At most 64 bytes.';
+  if (registers === null) faults.registers = t('A whole number from 1 to 250.');
+  if (d.direction === 'output' && d.table !== 'holding_registers') faults.table = t('Input registers can only be read.');
+  if (new TextEncoder().encode(d.comment).length > 64) faults.comment = t('At most 64 bytes.');
   if (Object.keys(faults).length > 0 || instance === null || unit === null || address === null || registers === null) return { faults };
   const entry: AssemblyEntry = {
     direction: d.direction as AssemblyEntry['direction'],
@@ -60,10 +61,11 @@ export const draftOf = (a: Assembly): AssemblyDraft => ({
 
 /** "Instance 300, 24 bytes to the originator: unit 40, from register 0". */
 export function assemblyWords(a: Assembly): string {
-  const way = a.direction === 'input' ? 'to the originator' : 'from the originator';
-  const table = a.table === 'input_registers' ? 'input register' : 'register';
-  return `${a.bytes} bytes ${way}: unit ${a.unit}, ${table} ${a.address} to ${a.address + a.registers - 1}${a.byte_order === 'registers' ? ', in the order of registers' : ''}`;
+  const table = a.table === 'input_registers' ? t('input register') : t('register');
+  const order = a.byte_order === 'registers' ? t(', in the order of registers') : '';
+  const values = { n: a.bytes, unit: a.unit, table, first: a.address, last: a.address + a.registers - 1, order };
+  return a.direction === 'input' ? t('{n} bytes to the originator: unit {unit}, {table} {first} to {last}{order}', values) : t('{n} bytes from the originator: unit {unit}, {table} {first} to {last}{order}', values);
 }
 
 /** "4 to 7", or "4". */
-export const bytesWords = (offset: number, bytes: number): string => (bytes === 1 ? String(offset) : `${offset} to ${offset + bytes - 1}`);
+export const bytesWords = (offset: number, bytes: number): string => (bytes === 1 ? String(offset) : t('{first} to {last}', { first: offset, last: offset + bytes - 1 }));

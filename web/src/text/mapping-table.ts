@@ -1,6 +1,7 @@
 // Mapping table: rows of a spreadsheet into mappings, each with its faults, also among one another. In: text, what is known, what is there.
 // Out: rows in their order. A row with the id of a present mapping takes its place. Pure.
-import { checkTexts, cellsOf, columns, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
+import { t } from '../language';
+import { checkTexts, cellsOf, columns, columnWords, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
 import { csvOf, mostRows, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface ReadRow {
@@ -24,12 +25,12 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
   if (!first) return { rows: [], problem: '' };
   const named = first.cells.filter((c) => nameOf(c) !== null).length >= 2;
   const heads: (Column | null)[] = named ? first.cells.map(nameOf) : plain;
-  let problem = tooMany ? `At most ${mostRows} rows are read; the rest is not.` : '';
+  let problem = tooMany ? t('At most {n} rows are read; the rest is not.', { n: mostRows }) : '';
   if (named) {
     const unknown = first.cells.filter((c) => c !== '' && nameOf(c) === null);
-    if (unknown.length > 0) problem = `Column ${unknown.join(', ')} is not known and would be left out.`;
+    if (unknown.length > 0) problem = t('Column {name} is not known and would be left out.', { name: unknown.join(', ') });
     const twice = heads.find((h, i) => h !== null && heads.indexOf(h) !== i);
-    if (twice) problem = `Column ${twice} stands there twice.`;
+    if (twice) problem = t('Column {name} stands there twice.', { name: twice });
   }
   const taken: Mapping[] = [];
   const ids = new Map<string, number>();
@@ -39,18 +40,18 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
       if (h) texts[h] = h === 'scale' || h === 'offset' ? pointed(cells[i] ?? '', separator) : (cells[i] ?? '');
     });
     const { spec, faults } = checkTexts(texts, known);
-    const words: string[] = Object.entries(faults).map(([f, why]) => `${f.replace('_', ' ')}: ${why}`);
+    const words: string[] = Object.entries(faults).map(([f, why]) => t('{field}: {why}', { field: columnWords[f as Column], why }));
     const id = texts.id?.trim() ?? '';
-    if (cells.length > heads.length) words.push(`The row has ${cells.length} cells, the table ${heads.length} columns.`);
+    if (cells.length > heads.length) words.push(t('The row has {cells} cells, the table {columns} columns.', { cells: cells.length, columns: heads.length }));
     if (id !== '') {
-      if (!/^[A-Za-z0-9_.-]{1,64}$/.test(id)) words.push(`id: 1 to 64 letters, digits, - _ and .`);
-      else if (ids.has(id)) words.push(`id: line ${ids.get(id)} has ${id} too.`);
+      if (!/^[A-Za-z0-9_.-]{1,64}$/.test(id)) words.push(t('id: 1 to 64 letters, digits, - _ and .'));
+      else if (ids.has(id)) words.push(t('id: line {line} has {id} too.', { line: ids.get(id) ?? '', id }));
       ids.set(id, line);
     }
     if (spec) {
       if (id !== '') spec.id = id;
-      const whole = { type: 'i32', table: 'holding_registers', word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...spec, id: id || `line ${line}` } as Mapping;
-      for (const c of conflictsOf(whole, taken)) words.push(`Address: ${placeText(whole)} is taken by ${c.id} of this table.`);
+      const whole = { type: 'i32', table: 'holding_registers', word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...spec, id: id || t('line {line}', { line }) } as Mapping;
+      for (const c of conflictsOf(whole, taken)) words.push(t('Address: {place} is taken by {id} of this table.', { place: placeText(whole), id: c.id }));
       taken.push(whole);
     }
     return { line, texts, spec, faults: words };
@@ -60,7 +61,7 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
   for (const row of read) {
     if (!row.spec) continue;
     for (const c of conflictsOf({ type: 'i32', table: 'holding_registers', ...row.spec }, staying).slice(0, 2)) {
-      row.faults.push(`Address: taken by ${c.id} (${c.point} of ${c.axis}, ${placeText(c)}).`);
+      row.faults.push(t('Address: taken by {id} ({point} of {axis}, {place}).', { id: c.id, point: c.point, axis: c.axis, place: placeText(c) }));
     }
   }
   return { rows: read, problem };
@@ -71,8 +72,8 @@ export const csvOfSpecs = (specs: readonly MappingSpec[]): string => csvOf([colu
 /** What has to be known before rows can be called good: the points, and the parameters of an axis whose rows name none of them. Empty: all is there. */
 export function catalogueMissing(specs: readonly MappingSpec[], known: Known): string {
   if (specs.length === 0) return '';
-  if (known.points.length === 0) return 'Waiting for the list of points …';
+  if (known.points.length === 0) return t('Waiting for the list of points …');
   const simple = new Set(known.points.map((p) => p.point));
   const open = [...new Set(specs.filter((s) => !simple.has(s.point)).map((s) => s.axis ?? ''))].filter((a) => known.parameters(a) === null);
-  return open.length > 0 ? `Waiting for the parameters of ${open.join(', ')} …` : '';
+  return open.length > 0 ? t('Waiting for the parameters of {axes} …', { axes: open.join(', ') }) : '';
 }

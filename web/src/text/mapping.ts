@@ -2,6 +2,7 @@
 // In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
+import { t } from '../language';
 import { readAddress, spanText, type Base } from './address';
 import { parseNumber } from './number';
 
@@ -13,12 +14,12 @@ export type Table = Mapping['table'];
 export type RegisterType = Mapping['type'];
 
 export const tables: readonly { id: Table; name: string; short: string; digit: string; bits: boolean; writable: boolean }[] = [
-  { id: 'holding_registers', name: 'Holding registers', short: 'Holding', digit: '4', bits: false, writable: true },
-  { id: 'input_registers', name: 'Input registers', short: 'Input', digit: '3', bits: false, writable: false },
-  { id: 'coils', name: 'Coils', short: 'Coils', digit: '0', bits: true, writable: true },
-  { id: 'discrete_inputs', name: 'Discrete inputs', short: 'Discrete', digit: '1', bits: true, writable: false },
+  { id: 'holding_registers', name: t('Holding registers'), short: t('Holding'), digit: '4', bits: false, writable: true },
+  { id: 'input_registers', name: t('Input registers'), short: t('Input'), digit: '3', bits: false, writable: false },
+  { id: 'coils', name: t('Coils'), short: t('Coils'), digit: '0', bits: true, writable: true },
+  { id: 'discrete_inputs', name: t('Discrete inputs'), short: t('Discrete'), digit: '1', bits: true, writable: false },
 ];
-export const tableOf = (id: Table) => tables.find((t) => t.id === id) ?? tables[0]!;
+export const tableOf = (id: Table) => tables.find((x) => x.id === id) ?? tables[0]!;
 export const types: readonly RegisterType[] = ['bool', 'u16', 'i16', 'u32', 'i32', 'f32', 'u64', 'i64', 'f64', 'string'];
 
 const otherNames: Record<string, Table> = {
@@ -47,26 +48,6 @@ export function conflictsOf(m: Pick<Mapping, 'unit' | 'table' | 'address' | 'typ
   return all.filter((o) => o.id !== ownId && o.unit === m.unit && o.table === m.table && o.address <= endOf(m) && endOf(o) >= m.address);
 }
 
-export interface Gap {
-  first: number;
-  last: number;
-}
-
-/** One line of the grid: a mapping, or free places between two. */
-export type GridRow = { kind: 'mapping'; mapping: Mapping } | ({ kind: 'gap' } & Gap);
-
-export function gridOf(all: readonly Mapping[], unit: number, table: Table): GridRow[] {
-  const own = all.filter((m) => m.unit === unit && m.table === table).sort((a, b) => a.address - b.address);
-  const rows: GridRow[] = [];
-  let next = own[0]?.address ?? 0;
-  for (const mapping of own) {
-    if (mapping.address > next) rows.push({ kind: 'gap', first: next, last: mapping.address - 1 });
-    rows.push({ kind: 'mapping', mapping });
-    next = Math.max(next, endOf(mapping) + 1);
-  }
-  return rows;
-}
-
 /** First address from `from` on with so many free places; null: there is none. */
 export function nextFree(all: readonly Mapping[], unit: number, table: Table, width: number, from = 0): number | null {
   let at = from;
@@ -90,28 +71,22 @@ export function neighbourText(m: Pick<Mapping, 'unit' | 'table' | 'address' | 't
   const own = all.filter((o) => o.id !== ownId && o.unit === m.unit && o.table === m.table);
   const before = own.filter((o) => endOf(o) < m.address).sort((a, b) => endOf(b) - endOf(a))[0];
   const behind = own.filter((o) => o.address > endOf(m)).sort((a, b) => a.address - b.address)[0];
-  const free = (n: number) => (n === 1 ? '1 place' : `${n} places`);
-  const first = before ? (m.address - endOf(before) - 1 === 0 ? `follows ${before.id} without a gap` : `${free(m.address - endOf(before) - 1)} free after ${before.id}`) : 'nothing before it';
-  const last = behind ? (behind.address - endOf(m) - 1 === 0 ? `${behind.id} follows without a gap` : `${free(behind.address - endOf(m) - 1)} free up to ${behind.id}`) : 'nothing behind it';
-  return `${first}; ${last}`;
-}
-
-/** Spans without gaps of at most so many places, for reading: a request across an unmapped place is an exception. */
-export function spansOf(own: readonly Mapping[], most = 125): { address: number; count: number }[] {
-  const spans: { address: number; count: number }[] = [];
-  for (const m of [...own].sort((a, b) => a.address - b.address)) {
-    const last = spans.at(-1);
-    const width = widthOf(m.type, m.length);
-    if (last && last.address + last.count === m.address && last.count + width <= most) last.count += width;
-    else spans.push({ address: m.address, count: width });
-  }
-  return spans;
+    const room = before ? m.address - endOf(before) - 1 : 0;
+  const rest = behind ? behind.address - endOf(m) - 1 : 0;
+  const first = !before ? t('nothing before it') : room === 0 ? t('follows {id} without a gap', { id: before.id }) : room === 1 ? t('1 place free after {id}', { id: before.id }) : t('{n} places free after {id}', { n: room, id: before.id });
+  const last = !behind ? t('nothing behind it') : rest === 0 ? t('{id} follows without a gap', { id: behind.id }) : rest === 1 ? t('1 place free up to {id}', { id: behind.id }) : t('{n} places free up to {id}', { n: rest, id: behind.id });
+  return t('{before}; {behind}', { before: first, behind: last });
 }
 
 export const fields = ['unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment', 'on_overflow'] as const;
 export type Field = (typeof fields)[number];
 export type Texts = Record<Field, string>;
 export const columns = ['id', ...fields] as const;
+/** As people are told of them; in tables and files they keep their names. */
+export const columnWords: Readonly<Record<(typeof columns)[number], string>> = {
+  id: t('id'), unit: t('unit'), table: t('table'), address: t('address'), axis: t('axis'), point: t('point'), type: t('type'), word_order: t('word order'), scale: t('scale'),
+  offset: t('offset'), access: t('access'), length: t('length'), comment: t('comment'), on_overflow: t('on overflow'),
+};
 export const emptyTexts: Texts = { unit: '2', table: 'holding_registers', address: '', axis: '', point: '', type: 'i32', word_order: 'high_first', scale: '1', offset: '0', access: '', length: '', on_overflow: 'mark', comment: '' };
 
 export function textsOf(m: Mapping): Texts {
@@ -134,72 +109,72 @@ export interface Known {
 
 export type Checked = { spec: MappingSpec | null; faults: Partial<Record<Field, string>> };
 
-function whole(text: string, what: string, min: number, max: number): { value: number; why: string } {
+function whole(text: string, say: { none: string; range: string }, min: number, max: number): { value: number; why: string } {
   const p = parseNumber(text);
-  if (!p.good) return { value: 0, why: text.trim() === '' ? `Type ${what}.` : p.why };
-  if (!Number.isInteger(p.value) || p.value < min || p.value > max) return { value: 0, why: `${what.charAt(0).toUpperCase()}${what.slice(1)} is a whole number from ${min} to ${max}.` };
+  if (!p.good) return { value: 0, why: text.trim() === '' ? say.none : p.why };
+  if (!Number.isInteger(p.value) || p.value < min || p.value > max) return { value: 0, why: say.range };
   return { value: p.value, why: '' };
 }
 
 /** From what was typed to a specification, or why not, field by field. Empty optional fields are left to the gateway. */
-export function checkTexts(t: Partial<Texts>, known: Known): Checked {
+export function checkTexts(typed: Partial<Texts>, known: Known): Checked {
   const faults: Checked['faults'] = {};
   const fault = (f: Field, why: string) => (faults[f] ??= why);
-  const unit = whole(t.unit ?? '', 'the Modbus unit', 2, 254);
+  const unit = whole(typed.unit ?? '', { none: t('Type the Modbus unit.'), range: t('The Modbus unit is a whole number from 2 to 254.') }, 2, 254);
   if (unit.why) fault('unit', unit.why);
-  const given = (t.table || 'holding_registers').toLowerCase();
+  const given = (typed.table || 'holding_registers').toLowerCase();
   const table = otherNames[given] ?? (tables.find((x) => x.id === given)?.id as Table | undefined);
-  if (!table) fault('table', `“${t.table}” is no table: ${tables.map((x) => x.id).join(', ')}.`);
-  const address = readAddress(t.address ?? '', table ?? 'holding_registers', known.base ?? '0');
+  if (!table) fault('table', t('“{text}” is no table: {list}.', { text: typed.table ?? '', list: tables.map((x) => x.id).join(', ') }));
+  const address = readAddress(typed.address ?? '', table ?? 'holding_registers', known.base ?? '0');
   if (!address.good) fault('address', address.why);
-  else if (table && address.table !== table) fault('address', `${t.address?.trim()} is one of the ${tableOf(address.table).name.toLowerCase()}, and the table is ${tableOf(table).name.toLowerCase()}.`);
+  else if (table && address.table !== table) fault('address', t('{text} is one of the {other}, and the table is {table}.', { text: typed.address?.trim() ?? '', other: tableOf(address.table).name.toLowerCase(), table: tableOf(table).name.toLowerCase() }));
 
-  let axis = t.axis?.trim() ?? '';
-  let point = t.point?.trim() ?? '';
+  let axis = typed.axis?.trim() ?? '';
+  let point = typed.point?.trim() ?? '';
   if (axis === '' && point.includes('.')) {
     const owner = known.axes.find((a) => point.startsWith(`${a}.`));
     if (owner) [axis, point] = [owner, point.slice(owner.length + 1)];
   }
-  if (axis === '') fault('axis', 'Choose an axis.');
-  else if (!known.axes.includes(axis)) fault('axis', `There is no axis ${axis}.`);
-  if (point === '') fault('point', 'Choose a point or a parameter.');
+  if (axis === '') fault('axis', t('Choose an axis.'));
+  else if (!known.axes.includes(axis)) fault('axis', t('There is no axis {axis}.', { axis }));
+  if (point === '') fault('point', t('Choose a point or a parameter.'));
   const simple = known.points.find((p) => p.point === point);
   const parameters = known.parameters(axis);
   if (point !== '' && !simple && known.points.length > 0 && parameters && !parameters.includes(point) && !parameters.includes(point.replace(/\[\d+\]$/, ''))) {
-    fault('point', `${axis} has neither a point nor a parameter ${point}.`);
+    fault('point', t('{axis} has neither a point nor a parameter {point}.', { axis, point }));
   }
 
   const kind = table ? tableOf(table) : null;
-  const typeText = (t.type ?? '').trim().toLowerCase().replace(/^boolean$/, 'bool');
-  if (typeText !== '' && !types.includes(typeText as RegisterType)) fault('type', `“${t.type}” is no type: ${types.join(', ')}.`);
+  const typeText = (typed.type ?? '').trim().toLowerCase().replace(/^boolean$/, 'bool');
+  if (typeText !== '' && !types.includes(typeText as RegisterType)) fault('type', t('“{text}” is no type: {list}.', { text: typed.type ?? '', list: types.join(', ') }));
   const type = (typeText || (kind?.bits ? 'bool' : 'i32')) as RegisterType;
-  if (kind?.bits && type !== 'bool') fault('type', `${kind.name} hold bits: the type is bool.`);
-  const order = (t.word_order ?? '').trim() || 'high_first';
-  if (order !== 'high_first' && order !== 'low_first') fault('word_order', 'high_first or low_first.');
+  if (kind?.bits && type !== 'bool') fault('type', t('{table} hold bits: the type is bool.', { table: kind.name }));
+  const order = (typed.word_order ?? '').trim() || 'high_first';
+  if (order !== 'high_first' && order !== 'low_first') fault('word_order', t('high_first or low_first.'));
   const number = (f: 'scale' | 'offset', fallback: number) => {
-    if ((t[f] ?? '').trim() === '') return fallback;
-    const p = parseNumber(t[f] as string);
+    if ((typed[f] ?? '').trim() === '') return fallback;
+    const p = parseNumber(typed[f] as string);
     if (!p.good) fault(f, p.why);
     return p.good ? p.value : fallback;
   };
   const scale = number('scale', 1);
-  if (scale === 0) fault('scale', 'The scale must not be 0.');
+  if (scale === 0) fault('scale', t('The scale must not be 0.'));
   const offset = number('offset', 0);
-  const access = (t.access ?? '').trim().toUpperCase();
-  if (access !== '' && !['R', 'W', 'RW'].includes(access)) fault('access', 'R, W or RW.');
-  if (access.includes('W') && kind && !kind.writable) fault('access', `${kind.name} can only be read.`);
-  else if (access.includes('W') && simple?.access === 'R') fault('access', `${point} can only be read.`);
+  const access = (typed.access ?? '').trim().toUpperCase();
+  if (access !== '' && !['R', 'W', 'RW'].includes(access)) fault('access', t('R, W or RW.'));
+  if (access.includes('W') && kind && !kind.writable) fault('access', t('{what} can only be read.', { what: kind.name }));
+  else if (access.includes('W') && simple?.access === 'R') fault('access', t('{what} can only be read.', { what: point }));
   let length: number | undefined;
-  if (type === 'string' && (t.length ?? '').trim() !== '') {
-    const n = whole(t.length as string, 'the length', 1, 64);
+  if (type === 'string' && (typed.length ?? '').trim() !== '') {
+    const n = whole(typed.length as string, { none: t('Type the length.'), range: t('The length is a whole number from 1 to 64.') }, 1, 64);
     if (n.why) fault('length', n.why);
     else length = n.value;
   }
-  if (address.good && address.address + widthOf(type, length) > 65536) fault('address', 'The value would end beyond address 65535.');
-  const overflow = (t.on_overflow ?? '').trim() || 'mark';
-  if (overflow !== 'mark' && overflow !== 'clamp') fault('on_overflow', 'mark or clamp.');
-  const comment = t.comment?.trim() ?? '';
-  if (comment.length > 256) fault('comment', 'At most 256 characters.');
+  if (address.good && address.address + widthOf(type, length) > 65536) fault('address', t('The value would end beyond address 65535.'));
+  const overflow = (typed.on_overflow ?? '').trim() || 'mark';
+  if (overflow !== 'mark' && overflow !== 'clamp') fault('on_overflow', t('mark or clamp.'));
+  const comment = typed.comment?.trim() ?? '';
+  if (comment.length > 256) fault('comment', t('At most 256 characters.'));
   if (Object.keys(faults).length > 0 || !table || !address.good) return { spec: null, faults };
   const spec: MappingSpec = { unit: unit.value, table, address: address.address, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
   if (access) spec.access = access as Mapping['access'];
@@ -222,12 +197,12 @@ export const sameMapping = (a: Mapping | undefined | null, b: Mapping | undefine
 
 /** What differs between two states of one mapping: "address 4 → 6, scale 1 → 0.1". */
 export function differenceText(before: Mapping | null | undefined, after: Mapping | null | undefined): string {
-  if (!before) return after ? 'added' : 'not there';
-  if (!after) return 'removed';
+  if (!before) return after ? t('added') : t('not there');
+  if (!after) return t('removed');
   const a = cellsOf(before);
   const b = cellsOf(after);
-  const parts = columns.flatMap((c, i) => (a[i] === b[i] ? [] : [`${c.replace('_', ' ')} ${a[i] || 'empty'} → ${b[i] || 'empty'}`]));
-  return parts.join(', ') || 'the same';
+  const parts = columns.flatMap((c, i) => (a[i] === b[i] ? [] : [t('{what} {before} → {after}', { what: columnWords[c], before: a[i] || t('empty'), after: b[i] || t('empty') })]));
+  return parts.join(', ') || t('the same');
 }
 
 const doors = ['none', 'modbus', 'enip', 'http', 'dds'];
@@ -276,7 +251,7 @@ const signedOf: Partial<Record<RegisterType, RegisterType>> = { u16: 'i16', u32:
 /** What to think of before a point that can be negative goes into a type that cannot; empty: nothing. An offset may be meant to lift it. */
 export function signWarning(m: { point: string; type: string; offset: number }): string {
   const better = signedOf[m.type as RegisterType];
-  return better && m.offset <= 0 && signedPoints.has(m.point) ? `${m.point} can be negative, and ${m.type} holds no negative value: reading it then is an exception. ${better} holds it.` : '';
+  return better && m.offset <= 0 && signedPoints.has(m.point) ? t('{point} can be negative, and {type} holds no negative value: reading it then is an exception. {better} holds it.', { point: m.point, type: m.type, better }) : '';
 }
 
 /** Reads raw words as a type, as an HMI does. */

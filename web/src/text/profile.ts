@@ -1,6 +1,7 @@
 // Profile texts: what a person types into the form of a profile, as an entry of the site, or what is wrong with it. In: texts. Out: an entry, or
 // faults by field; the registers of a language as rows to read. Pure.
 import type { Language, LanguageRegister, Profile, ProfileEntry } from '../api/profiles';
+import { t } from '../language';
 import { addressText, type Base } from './address';
 import { parseNumber } from './number';
 
@@ -34,18 +35,18 @@ export function readProfile(d: ProfileDraft, languages: readonly Language[], tak
   const faults: ProfileFaults = {};
   const unit = parseNumber(d.unit);
   const n = unit.good && Number.isInteger(unit.value) && unit.value >= 2 && unit.value <= 254 ? unit.value : null;
-  if (n === null) faults.unit = 'A whole number from 2 to 254.';
-  else if (taken.has(n)) faults.unit = `Unit ${n} has ${taken.get(n)}.`;
+  if (n === null) faults.unit = t('A whole number from 2 to 254.');
+  else if (taken.has(n)) faults.unit = t('Unit {n} has {what}.', { n, what: taken.get(n) ?? '' });
   const language = languages.find((l) => l.language === d.language);
-  if (!language) faults.language = 'Choose a language.';
+  if (!language) faults.language = t('Choose a language.');
   const axes = d.axes.filter((a) => a !== '');
-  if (axes.length === 0) faults.axes = 'Choose an axis.';
-  else if (language && axes.length > language.axes) faults.axes = language.axes === 1 ? `${language.title} has one axis.` : `${language.title} has at most ${language.axes} axes.`;
-  else if (new Set(axes).size < axes.length) faults.axes = 'Each axis once.';
+  if (axes.length === 0) faults.axes = t('Choose an axis.');
+  else if (language && axes.length > language.axes) faults.axes = language.axes === 1 ? t('{title} has one axis.', { title: language.title }) : t('{title} has at most {n} axes.', { title: language.title, n: language.axes });
+  else if (new Set(axes).size < axes.length) faults.axes = t('Each axis once.');
   const numbers = { counts: above(d.counts), velocity: above(d.velocity), acceleration: above(d.acceleration) };
-  for (const k of ['counts', 'velocity', 'acceleration'] as const) if (numbers[k] === 'wrong') faults[k] = 'A number above 0, or nothing.';
+  for (const k of ['counts', 'velocity', 'acceleration'] as const) if (numbers[k] === 'wrong') faults[k] = t('A number above 0, or nothing.');
   const instances = { input: place(d.input), output: place(d.output), object: place(d.object) };
-  for (const k of ['input', 'output', 'object'] as const) if (instances[k] === 'wrong') faults[k] = `A whole number from 1 to ${k === 'object' ? 255 : 65535}, or nothing.`;
+  for (const k of ['input', 'output', 'object'] as const) if (instances[k] === 'wrong') faults[k] = t('A whole number from 1 to {most}, or nothing.', { most: k === 'object' ? 255 : 65535 });
   if (typeof instances.object === 'number' && instances.object > 255) faults.object = 'A whole number from 1 to 255, or nothing.';
   if (Object.keys(faults).length > 0 || n === null || !language) return { faults };
   const number = (v: number | null | 'wrong') => (typeof v === 'number' ? v : undefined);
@@ -62,7 +63,7 @@ export function readProfile(d: ProfileDraft, languages: readonly Language[], tak
 export function profileWords(p: Profile): string {
   return p.axes
     .map((a) => {
-      const more = [a.counts_per_unit != null && `${a.counts_per_unit} counts per unit`, a.velocity != null && `${a.velocity} units/s`, a.acceleration != null && `${a.acceleration} units/s²`].filter(Boolean);
+      const more = [a.counts_per_unit != null && t('{n} counts per unit', { n: a.counts_per_unit }), a.velocity != null && t('{n} units/s', { n: a.velocity }), a.acceleration != null && t('{n} units/s²', { n: a.acceleration })].filter(Boolean);
       return more.length > 0 ? `${a.axis} (${more.join(', ')})` : a.axis;
     })
     .join(', ');
@@ -70,11 +71,11 @@ export function profileWords(p: Profile): string {
 
 /** Where it stands on EtherNet/IP; empty: nowhere. */
 export function instanceWords(p: Profile): string {
-  const parts = [p.input_assembly != null && `input assembly ${p.input_assembly}`, p.output_assembly != null && `output assembly ${p.output_assembly}`, p.object_instance != null && `objects with instance ${p.object_instance}`];
+  const parts = [p.input_assembly != null && t('input assembly {n}', { n: p.input_assembly }), p.output_assembly != null && t('output assembly {n}', { n: p.output_assembly }), p.object_instance != null && t('objects with instance {n}', { n: p.object_instance })];
   return parts.filter(Boolean).join(', ');
 }
 
-const accessWords = { R: 'read', W: 'write', RW: 'read and write' } as const;
+const accessWords = { R: t('read'), W: t('write'), RW: t('read and write') } as const;
 export interface RegisterRow {
   key: string;
   where: string;
@@ -98,9 +99,9 @@ export function registerRows(language: Language, axes: number, base: Base): Regi
         where: width(r) === 1 ? from : `${from}, ${addressText(table, r.address + 1, base)}`,
         name: r.name,
         type: r.type,
-        access: `${accessWords[r.access]}${r.tables.length === 1 && table === 'input_registers' ? ', input register' : ''}`,
+        access: r.tables.length === 1 && table === 'input_registers' ? t('{access}, input register', { access: accessWords[r.access] }) : accessWords[r.access],
         text: r.description,
-        object: r.object ? `class ${r.object.class.toString(16).toUpperCase()}h, attribute ${r.object.attribute}` : '',
+        object: r.object ? t('class {class}h, attribute {attribute}', { class: r.object.class.toString(16).toUpperCase(), attribute: r.object.attribute }) : '',
       };
     });
 }

@@ -24,7 +24,7 @@ API = Description((TOP / "schema/openapi.yaml").read_text())
 SECRET = "four words nobody guesses"
 # Of what two gateways answer, what cannot be the same: when, on which port, and what the line's load is just now.
 OF_THE_MOMENT = re.compile(r"^(now|at|age_ms|uptime_s|last_sign_in_at|load|bind|doors|queued|counters|frames_.*|bytes_.*)$")
-NOT_COMPARED = {"/metrics", "/api/v1/stream", "/api/v1/events", "/api/v1/backup", "/api/v1/lines/{line}/trace", "/api/v1/recorder/trends", "/api/v1/recorder/recordings",
+NOT_COMPARED = {"/metrics", "/api/v1/stream", "/api/v1/events", "/api/v1/backup", "/api/v1/lines/{line}/trace", "/api/v1/recorder/trends", "/api/v1/recorder/steps", "/api/v1/recorder/recordings",
                 "/api/v1/recorder/recordings/{recording}", "/api/v1/session", "/api/v1/eds", "/api/v1/fleet", "/readyz"}
 
 

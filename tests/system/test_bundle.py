@@ -11,7 +11,7 @@ import stat
 import tarfile
 
 import harness
-from harness import Gateway, run
+from harness import Gateway, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PASSWORD = "a long sentence of mine 42"
@@ -102,7 +102,11 @@ def test_the_bundle_of_a_gateway_that_does_not_run_or_never_ran(folder):
 def test_a_gateway_that_asks_for_a_sign_in_is_asked_nothing(folder):
     with Gateway(folder, harness.DEMO, "--set", "users.local_role=none") as g:
         out = folder / "b.tar"
-        run("bundle", str(out), "--data", str(folder / "data"), "--set", "http.bind=" + ":".join(g.http), check=0)
+
+        def made():  # the site of a first start is stored behind its being ready
+            run("bundle", str(out), "--data", str(folder / "data"), "--set", "http.bind=" + ":".join(g.http), check=0)
+            return "site.json" in members(out)
+        until(made, 20, "the site is stored")
         files = members(out)
     assert "axes.json" not in files and "asks for a sign-in" in files["README.txt"].decode()
     assert "site.json" in files and io.BytesIO(files["events.jsonl"]).readline()

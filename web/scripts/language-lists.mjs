@@ -20,4 +20,25 @@ export const exempt = {
   'components/icon.tsx': [/^false$/],
   'pages/gateway.tsx': [/^API$/, /^openapi\.yaml$/],
   'pages/sign-in.tsx': [/^K7QF/],
+  // What stands in a file that programs read, or in the file that the gateway writes: its columns and keys are the same in every language.
+  'text/alarm.ts': [/^\(code \{…\}\)$/, /^by \{…\}$/],
+  'state/scope.ts': [/^ ?\(mixed: \{…\}\)$/],
+  'text/transfer.ts': [/^\{"parameter", "value"\}$/],
+  'text/site.ts': [/^URI$/, /^twin, can:can0/, /^lines, drives, axes/],
+  'components/mapping-paste.tsx': [/^unit[,\t]/],
+  'components/mapping-list.tsx': [/^RW$/],
+  // Words of a recipe's JSON, by which its steps are told apart; the label beside each is said through t().
+  'text/recipe.ts': [/^(enable|disable|home|command|set_parameter|read_parameter|action|write_register|simulate|wait_for|check|wait_s|if|repeat|message)$/],
+  // Keys of lists and choices.
+  'text/errors.ts': [/^(axis|line|drive|offline) \{…\}( \{…\})?$/],
+  'components/parameter-compare.tsx': [/^snapshot:\{…\}$/],
+  // Measures of the style sheet, and names within a drawing.
+  'components/mapping-map.tsx': [/^\{…\}px$/, /^\{…\} \/ span \{…\}$/],
+  'components/state-machine.tsx': [/^url\(#arrow\)$/, /^auto-start-reverse$/],
+  // Forms of files, and the line of a program, as a shell takes it.
+  'components/trace.tsx': [/^(pcapng|candump)$/],
+  'text/hmi-line.ts': [/^mbpoll /],
+  // Units.
+  'text/site-files.ts': [/^\{…\} (KiB|MiB)$/],
+  'text/site-tree.ts': [/^\{…\} bit\/s$/],
 };

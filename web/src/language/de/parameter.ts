@@ -3,7 +3,6 @@
 import type { Table } from '../index';
 
 export const parameter: Table = {
-  ', read only': ', nur lesbar',
   '1 more fits now': '1 weiterer passt jetzt',
   '1 parameter': '1 Parameter',
   'A list of {form} is expected, or an object of values by parameter.': 'Erwartet wird eine Liste von {form} oder ein Objekt mit den Werten je Parameter.',
@@ -17,6 +16,7 @@ export const parameter: Table = {
   'Comparing …': 'Wird verglichen …',
   'CSV with the columns parameter and value, or JSON as it is exported': 'CSV mit den Spalten parameter und value oder JSON wie exportiert',
   'differs': 'verschieden',
+  'differs, read only': 'verschieden, nur lesbar',
   'End after this one': 'Nach diesem beenden',
   'End reading': 'Lesen beenden',
   'Ended: {done} of {n} were written.': 'Beendet: {done} von {n} wurden geschrieben.',

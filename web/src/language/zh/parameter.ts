@@ -3,7 +3,6 @@
 import type { Table } from '../index';
 
 export const parameter: Table = {
-  ', read only': '，只读',
   '1 more fits now': '现另有 1 个符合',
   '1 parameter': '1 个参数',
   'A list of {form} is expected, or an object of values by parameter.': '应为 {form} 的列表，或按参数给出值的对象。',
@@ -17,6 +16,7 @@ export const parameter: Table = {
   'Comparing …': '正在比较 …',
   'CSV with the columns parameter and value, or JSON as it is exported': '含 parameter 和 value 列的 CSV，或导出格式的 JSON',
   'differs': '不同',
+  'differs, read only': '不同，只读',
   'End after this one': '写完当前后结束',
   'End reading': '结束读取',
   'Ended: {done} of {n} were written.': '已结束：{n} 个中已写入 {done} 个。',

@@ -8,7 +8,7 @@ import { t } from '../language';
 import type { Commander } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { setPositionWords, unitOf } from '../text/axis';
-import { parseQuantity } from '../text/number';
+import { parseQuantity, typedNumber } from '../text/number';
 import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
@@ -19,7 +19,7 @@ import { JogButton } from './jog-button';
 type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
 
 /** A slow speed to begin with: a tenth of the limit, or 10 units (1000 increments) a second. */
-const gentle = (axis: Axis): string => String(axis.velocity_max ? axis.velocity_max / 10 : axis.unit ? 10 : 1000);
+const gentle = (axis: Axis): string => typedNumber(axis.velocity_max ? axis.velocity_max / 10 : axis.unit ? 10 : 1000);
 
 export function useControls(axis: Axis) {
   const { commander } = useGateway();

@@ -2,6 +2,7 @@
 // Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
 import { errorsNow, type ErrorEntry } from '../text/errors';
@@ -27,8 +28,8 @@ export function ErrorList() {
   if (all.length === 0) return null;
   const shown = whole.value ? all : all.slice(0, most);
   return (
-    <Section title="What is wrong" class="wrong">
-      <ul class="card" aria-label="What is wrong" data-field="wrong">
+    <Section title={t('What is wrong')} class="wrong">
+      <ul class="card" aria-label={t('What is wrong')} data-field="wrong">
         {shown.map((w) => (
           <li key={w.key}>
             <a class={`wrong-item tone-${w.word.tone}`} href={w.path} data-wrong={w.key}>
@@ -49,7 +50,7 @@ export function ErrorList() {
         {all.length > most && (
           <li class="wrong-item">
             <button type="button" class="link" aria-expanded={whole.value} data-field="wrong-more" onClick={() => (whole.value = !whole.value)}>
-              {whole.value ? 'Show less' : `and ${all.length - most} more`}
+              {whole.value ? t('Show less') : t('and {n} more', { n: all.length - most })}
             </button>
           </li>
         )}
@@ -63,13 +64,13 @@ function ErrorAxes({ of }: { of: ErrorEntry }) {
   const shown = whole.value ? of.axes : of.axes.slice(0, mostAxes);
   return (
     <p class="wrong-axes" data-wrong-axes={of.key}>
-      <span>{of.axes.length === 1 ? 'Axis:' : 'Axes:'}</span>
+      <span>{of.axes.length === 1 ? t('Axis:') : t('Axes:')}</span>
       {shown.map((n) => (
         <AxisName key={n} name={n} />
       ))}
       {of.axes.length > mostAxes && (
         <button type="button" class="link" aria-expanded={whole.value} onClick={() => (whole.value = !whole.value)}>
-          {whole.value ? 'show less' : `and ${of.axes.length - mostAxes} more`}
+          {whole.value ? t('show less') : t('and {n} more', { n: of.axes.length - mostAxes })}
         </button>
       )}
     </p>

@@ -1,6 +1,6 @@
 // Fail-safe: what happens to each axis when who commands it is lost, by cause; and the rehearsal on models, with its report. In: the HTTP door.
 // Out: a section. One change at a time, in force at once. Never moves anything: the rehearsal plays on models of the drives.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -53,7 +53,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
         <details key={row.axis} class="card profile" data-fail-safe={row.axis}>
           <summary>
             <strong>{row.axis}</strong>: {namedWords(row)}
-            {row.last_cause && <span class="where">{' '}{t('stopped last: {n}', { n: causeText(row.last_cause).toLowerCase() })}</span>}
+            {row.last_cause && <span class="where">{' '}{t('stopped last: {n}', { n: midSentence(causeText(row.last_cause)) })}</span>}
           </summary>
           <div class="form-grid">
             {causes.map((c) => (
@@ -151,7 +151,9 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
         <>
           <h3 class="print-only">{t('Fail-safe rehearsal')}</h3>
           <p data-field="rehearsal-report">
-            {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}. {n} cells{n2}.', { ended_at: dateTime(report.ended_at), who: report.who, site_revision: report.site_revision, on: report.on, n: report.cells.length, n2: report.without_figures > 0 ? t(', {without_figures} without figures', { without_figures: report.without_figures }) : '' })}{report.without_set_points.length > 0 && t(' Follow no streamed set-points: {n}.', { n: report.without_set_points.join(', ') })}
+            {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.', { ended_at: dateTime(report.ended_at), who: report.who, site_revision: report.site_revision, on: report.on })}{' '}
+            {report.without_figures > 0 ? t('{n} cells, {without_figures} without figures.', { n: report.cells.length, without_figures: report.without_figures }) : t('{n} cells.', { n: report.cells.length })}{' '}
+            {report.without_set_points.length > 0 && t('Follow no streamed set-points: {n}.', { n: report.without_set_points.join(', ') })}
           </p>
           <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Report of the rehearsal')}>
             <table class="table">

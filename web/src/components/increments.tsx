@@ -7,7 +7,7 @@ import { Choice, TextField } from './form';
 export function Increments({ unit, onTake }: { unit: string; onTake: (text: string) => void }) {
   const m = useSignal<Mechanics>(plainMechanics);
   const by = useSignal<'steps' | 'counts'>('steps');
-  const u = unit.trim() || t('unit');
+  const u = unit.trim() || t('unit of measurement');
   const reckoned = incrementsOf(m.value);
   const field = (key: keyof Mechanics, label: string, hint: string) => (
     <TextField

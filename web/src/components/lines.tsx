@@ -1,11 +1,11 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
 import type { Word } from '../text/axis';
-import { formatExact } from '../text/number';
+import { formatExact, localFigures } from '../text/number';
 import { Icon } from './icon';
 import { AxisName } from './name';
 import { Pill } from './pill';
@@ -35,7 +35,7 @@ function Load({ share }: { share: number }) {
   return (
     <span class="load" title={t('Share of the bit rate used in the last second')}>
       <meter min={0} max={100} high={70} optimum={0} value={percent} aria-label={t('Load')} />
-      <span class="figure-small">{percent < 10 ? percent.toFixed(1) : Math.round(percent)} %</span>
+      <span class="figure-small">{percent < 10 ? localFigures(percent.toFixed(1)) : Math.round(percent)} %</span>
     </span>
   );
 }
@@ -63,7 +63,7 @@ export function LineCard({ name }: { name: string }) {
         <h3>
           <a href={linePath(name)}>{name}</a>
         </h3>
-        <Pill label={t('State')} word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: t('Was {state}', { state: lineWord(s.state).text.toLowerCase() }) }} />
+        <Pill label={t('State')} word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: t('Was {state}', { state: midSentence(lineWord(s.state).text) }) }} />
         <Load share={s.load} />
       </div>
       <p class="where">
@@ -101,21 +101,21 @@ function DriveCard({ name }: { name: string }) {
     <li class={`row${live ? '' : ' is-old'}`} data-drive={name}>
       <div class="row-head">
         <h3>{name}</h3>
-        <Pill label={t('Presence')} word={live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: word.text.toLowerCase() }) }} />
+        <Pill label={t('Presence')} word={live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) }} />
       </div>
       <p class="where">
         {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {wanted[drive.presence]}
       </p>
       <p class="why">{s.text || '\u00a0'}</p>
       <p class="where">
-        {drive.axes.length === 0 ? t('no axis') : t('Axes: ')}
+        {drive.axes.length === 0 ? t('no axis') : <>{t('Axes:')} </>}
         {drive.axes.map((a, i) => (
           <>
             {i > 0 && ', '}
             <AxisName name={a} />
           </>
         ))}
-        {s.silent_exchanges > 0 && t(' · silent {silent_exchanges} times, next try within {retry_pause_ms} ms', { silent_exchanges: s.silent_exchanges, retry_pause_ms: s.retry_pause_ms })}
+        {s.silent_exchanges > 0 && <> · {t('silent {silent_exchanges} times, next try within {retry_pause_ms} ms', { silent_exchanges: s.silent_exchanges, retry_pause_ms: s.retry_pause_ms })}</>}
       </p>
     </li>
   );

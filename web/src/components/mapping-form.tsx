@@ -111,7 +111,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   const send = async (opened: Mapping | null) => {
     touched.value = true;
     if (!spec || conflicts.length > 0) {
-      told.value = { tone: 'refused', text: taken ?? 'Mend the fields that are marked.' };
+      told.value = { tone: 'refused', text: taken ?? t('Mend the fields that are marked.') };
       requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
       return;
     }

@@ -7,7 +7,7 @@ import type { MappingDoor, Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import type { Axis } from '../api/types';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { addressBase, addressField } from '../state/address-base';
 import { persisted } from '../state/persisted';
 import { addressText, otherText, readAddress } from '../text/address';
@@ -132,7 +132,7 @@ export function MappingHmi({ door, rows }: { door: MappingDoor; rows: readonly M
         </div>
         {a && !a.exception && former && (
           <p class="form-told" role="status" data-field="hmi-former">
-            {t('This is the former answer: unit {unit}, {table} from {address} on. Press Look for what the fields say now.', { unit: a.unit, table: tableOf(a.table).name.toLowerCase(), address: addressText(a.table, a.address, base) })}
+            {t('This is the former answer: unit {unit}, {table} from {address} on. Press Look for what the fields say now.', { unit: a.unit, table: midSentence(tableOf(a.table).name), address: addressText(a.table, a.address, base) })}
           </p>
         )}
       </form>

@@ -4,7 +4,7 @@ import { render } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { listAddress, type MappingDoor } from '../api/mappings';
 import { GatewayProvider, useGateway } from '../gateway';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { endOf, oneBased, tables, widthOf, type Known, type Mapping } from '../text/mapping';
 import { valueUnit } from '../text/mapping-type';
 import { standardRegisters } from '../text/register-map';
@@ -77,7 +77,7 @@ export function PrintedList({ rows, known, hash }: ListProps) {
           return [
             <table key={`${u}/${table.id}`} class="printed">
               <caption>
-                {t('Unit {unit}, {table}', { unit: u, table: table.name.toLowerCase() })}
+                {t('Unit {unit}, {table}', { unit: u, table: midSentence(table.name) })}
               </caption>
               <thead>
                 <tr>

@@ -75,7 +75,7 @@ function BlockFacts({ block: b, heard }: { block: Block; heard: ReadonlySignal<R
         <span class="mono">{b.name}</span> {b.axis && <AxisName name={b.axis} />}
       </h3>
       <dl class="facts">
-        <div><dt>{t('Place')}</dt><dd><span class="mono">{placeText(b, base)}</span> <span class="where">{otherText(b.table, b.address, base)}</span></dd></div>
+        <div><dt>{t('Register place')}</dt><dd><span class="mono">{placeText(b, base)}</span> <span class="where">{otherText(b.table, b.address, base)}</span></dd></div>
         <div><dt>{t('Type')}</dt><dd><span class="mono">{b.type}</span>{m && b.width > 1 && b.type !== 'string' ? ` ${m.word_order === 'low_first' ? t('low word first') : t('high word first')}` : ''}, {accessWords[b.access]}</dd></div>
         <div><dt>{t('Value')}</dt><dd><ValueOf said={said} /></dd></div>
         <div><dt>{t('In the register')}</dt><dd><RawOf said={said} /></dd></div>

@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
 import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
@@ -112,8 +112,8 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
             <table class="table paste-table">
               <thead>
                 <tr>
-                  <th scope="col">{t('Line')}</th>
-                  <th scope="col">{t('Place')}</th>
+                  <th scope="col">{t('Row')}</th>
+                  <th scope="col">{t('Register place')}</th>
                   <th scope="col">{t('Point')}</th>
                   <th scope="col">{t('Verdict')}</th>
                 </tr>
@@ -125,7 +125,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
                   return (
                     <tr key={r.line} data-line={r.line} class={faults.length > 0 ? 'is-bad' : ''}>
                       <th scope="row" class="mono">{r.line}</th>
-                      <td data-label={t('Place')}>{r.spec ? t('unit {unit}, {table} {place}', { unit: r.spec.unit ?? '', table: tableOf(r.spec.table ?? 'holding_registers').short.toLowerCase(), place: placeText({ type: 'i32', table: 'holding_registers', ...r.spec }) }) : <span class="mono">{r.texts.address || '–'}</span>}</td>
+                      <td data-label={t('Register place')}>{r.spec ? t('unit {unit}, {table} {place}', { unit: r.spec.unit ?? '', table: midSentence(tableOf(r.spec.table ?? 'holding_registers').short), place: placeText({ type: 'i32', table: 'holding_registers', ...r.spec }) }) : <span class="mono">{r.texts.address || '–'}</span>}</td>
                       <td data-label={t('Point')}>{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
                       <td data-label={t('Verdict')}>{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">{t('waits')}</span> : <span class="good-text">{t('good')}</span>}</td>
                     </tr>

@@ -154,9 +154,9 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
                         <span class="name">{r.name.replaceAll('_', ' ')}</span>
                       </span>
                     </th>
-                    <td class="num mono" data-label={fromSnapshot ? 'Snapshot' : 'Now'}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
+                    <td class="num mono" data-label={fromSnapshot ? t('Snapshot') : t('Now')}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
                     <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.other, r.unit)}</span></td>
-                    <td data-label={t('Verdict')}>{r.same ? t('equal') : r.known === false ? t('not known') : <span class="flag">{t('differs')}{r.writable ? '' : t(', read only')}</span>}</td>
+                    <td data-label={t('Verdict')}>{r.same ? t('equal') : r.known === false ? t('not known') : <span class="flag">{r.writable ? t('differs') : t('differs, read only')}</span>}</td>
                   </tr>
                 ))}
               </tbody>

@@ -12,6 +12,7 @@ import { capital } from '../state/commander';
 import { readAt } from '../state/plot';
 import { joined, trendPart } from '../state/recorder';
 import { formatNumber } from '../text/number';
+import { plainWord } from '../text/plain';
 import { instantText, registerWords } from '../text/recorder';
 import { CursorTable, Plot, PlotButtons, PlotView } from './plot';
 import { trendCurves } from './recorder-trends';
@@ -167,7 +168,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                   {(now.axes as unknown as AxisRow[]).map((a) => (
                     <tr key={a.name} data-axis={a.name}>
                       <th scope="row">{a.name}</th>
-                      <td>{a.state.replaceAll('_', ' ')}{a.presence === 'twin' ? ' (simulated)' : a.presence === 'offline' ? ' (offline)' : ''}</td>
+                      <td>{a.presence === 'twin' ? t('{state} (simulated)', { state: plainWord(a.state) }) : a.presence === 'offline' ? t('{state} (offline)', { state: plainWord(a.state) }) : plainWord(a.state)}</td>
                       <td class="num">{formatNumber(a.position, 3)} {a.unit}</td>
                       <td class="num">{formatNumber(a.velocity, 3)}</td>
                       <td class="num">{formatNumber(a.following_error, 3)}</td>
@@ -184,7 +185,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                 {(now.frames as unknown as FrameRow[]).toReversed().map((f, i) => (
                   <li key={i} class="frame-row">
                     <span>{f.at.slice(11, 23)}</span>
-                    <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? '→ drive' : '← drive'}</span>
+                    <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? t('→ drive') : t('← drive')}</span>
                     <span>{f.line}</span>
                     <span class="bytes">{f.text || f.data}</span>
                     <span class="reading">{f.decoded.join(' · ')}</span>

@@ -127,7 +127,7 @@ export function RunHead({ run, saved }: { run: Run; saved: boolean }) {
                   aria-label={t('Argument {key}', { key })}
                   title={p.description}
                   list={p.type === 'axis' ? 'recipe-axes' : undefined}
-                  placeholder={p.default === undefined ? 'needed' : typedOf(p.default)}
+                  placeholder={p.default === undefined ? t('needed') : typedOf(p.default)}
                   value={typed.value[key] ?? ''}
                   onInput={(e) => (typed.value = { ...typed.peek(), [key]: e.currentTarget.value })}
                 />

@@ -1,6 +1,6 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
@@ -70,7 +70,7 @@ function StepList({ path, name }: { path: Path; name: string }) {
         ))}
       </ol>
       <label class="select step-add">
-        <span class="visually-hidden">{t('Add a step to {n}', { n: name.toLowerCase() })}</span>
+        <span class="visually-hidden">{t('Add a step to {n}', { n: midSentence(name) })}</span>
         <select
           value=""
           onChange={(e) => {
@@ -155,7 +155,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
       {open && kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
           {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? t('Then') : t('Else')}</p>}
-          <StepList path={[...path, kind.word, l]} name={`${title}, ${l}`} />
+          <StepList path={[...path, kind.word, l]} name={l === 'then' ? t('{title}, then', { title }) : l === 'else' ? t('{title}, else', { title }) : t('{title}, steps', { title })} />
         </div>
       ))}
     </li>
@@ -246,7 +246,7 @@ function StepInput({ field, path, value, title, unit }: { field: StepField; path
         spellcheck={false}
         list={field.kind === 'axis' ? 'recipe-axes' : field.kind === 'input' ? `offers-${pointerOf(path)}` : undefined}
         aria-label={label}
-        placeholder={field.optional ? 'none' : undefined}
+        placeholder={field.optional ? t('none') : undefined}
         value={typedOf(value)}
         onDone={(typed) => {
           if (field.kind === 'text' || field.kind === 'axis' || field.kind === 'input') put(typed === '' && field.optional ? undefined : typed);

@@ -1,6 +1,6 @@
 // Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
 // triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -183,7 +183,7 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
           const ink = inks[n % inks.length] as string;
           const round = Math.floor(n / inks.length);
           n += 1;
-          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${midSentence(pointNames[p])}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
         }),
       ),
     );

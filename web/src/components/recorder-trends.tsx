@@ -1,6 +1,6 @@
 // Trends: what the gateway remembers of the last minutes of any axes, in one plot: axes and points to choose, zoom, cursors, a table as CSV.
 // In: GET /recorder/trends, asked for what is seen, at most every second and soon after each zoom. Out: a plot that a reload does not empty.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -171,7 +171,7 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         curves={curves}
         data={() => (drawn.current.columns.length === curves.length ? ([drawn.current.at, ...drawn.current.columns] as never) : ([[]] as never))}
         version={version.value}
-        marks={at_ms === undefined ? [] : [{ at: at_ms / 1000, text: 'alarm' }]}
+        marks={at_ms === undefined ? [] : [{ at: at_ms / 1000, text: t('alarm') }]}
         timeText={(instant, _end, s) => instantText(instant, s)}
         label={t('Trends of {n}. Drag to come closer, 0 shows all. Arrow keys move the cursor {n2}, Delete takes it away, plus and minus zoom, page keys move.', { n: axes.join(', '), n2: v.active.value === 0 ? 'A' : 'B' })}
       />
@@ -200,7 +200,7 @@ export function trendCurves(doc: Pick<Trends, 'axes'> | null, axes: readonly str
       const ink = inks[n % inks.length] as string;
       const round = Math.floor(n / inks.length);
       n += 1;
-      return { id: `${a} ${p}`, name: `${a} ${pointNames[p].toLowerCase()}`, unit: pointUnit(p, unit), scale: `${p === 'demand' ? 'position' : p} ${unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+      return { id: `${a} ${p}`, name: `${a} ${midSentence(pointNames[p])}`, unit: pointUnit(p, unit), scale: `${p === 'demand' ? 'position' : p} ${unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
     });
   });
 }

@@ -1,7 +1,7 @@
 // Scope: position, demand, velocity, following error and target over time. In: the axis' history. Out: plots on one time axis, newest at the
 // right; two cursors with their readings; a trigger; the picture as CSV. Follows the gateway's clock; holds still when told to, or when the
 // trigger has fired; a gap stays a gap. Redrawn at most 20 times a second (once with reduced motion), with at most two rows per pixel.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { useEffect, useRef } from 'preact/hooks';
 import { computed, signal, useComputed } from '@preact/signals';
 import type uPlot from 'uplot';
@@ -10,7 +10,7 @@ import { persisted } from '../state/persisted';
 import { channels, columnOf, csvOf, needsDemand, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
 import type { AxisHistory, HistoryColumns } from '../state/history';
 import { demandWords } from '../text/axis';
-import { parseNumber } from '../text/number';
+import { localFigures, parseNumber } from '../text/number';
 import { CursorTable, Plot, PlotView, type Curve } from './plot';
 import { saveText } from './save';
 
@@ -192,7 +192,7 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
             <select value={setting.channel} onChange={(e) => change({ channel: e.currentTarget.value as Channel })}>
               {channels.map((c) => (
                 <option key={c} value={c}>
-                  {names[c].toLowerCase()}
+                  {midSentence(names[c])}
                 </option>
               ))}
             </select>
@@ -235,5 +235,5 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
 
 const secondsBefore = (instant: number, end: number): string => {
   const s = Math.round((instant - end) * 10) / 10;
-  return s === 0 ? '0 s' : `${s < 0 ? '−' : ''}${Math.abs(s) < 10 ? Math.abs(s).toFixed(1).replace(/\.0$/, '') : Math.abs(Math.round(s))} s`;
+  return s === 0 ? '0 s' : `${s < 0 ? '−' : ''}${Math.abs(s) < 10 ? localFigures(Math.abs(s).toFixed(1).replace(/\.0$/, '')) : Math.abs(Math.round(s))} s`;
 };

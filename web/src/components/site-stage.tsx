@@ -17,13 +17,14 @@ import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
 
 const usual = persisted('site.within_s', '60');
 const mostShown = 200;
+const kindWords: Record<Difference['kind'], string> = { added: t('added'), removed: t('removed'), changed: t('changed') };
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
   return (
     <ul class="differences site-diff" aria-label={label}>
       {list.slice(0, mostShown).map((d) => (
         <li key={d.what} data-diff={d.what} class={`is-${d.kind}`}>
-          <span class="diff-kind">{d.kind}</span> <span>{differenceWords(d)}</span>
+          <span class="diff-kind">{kindWords[d.kind]}</span> <span>{differenceWords(d)}</span>
         </li>
       ))}
       {list.length > mostShown && <li class="where">{t('and {n} more', { n: list.length - mostShown })}</li>}

@@ -3,7 +3,7 @@
 import { useSignal, type Signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { axisPath, linePath } from '../router';
 import type { SiteDraft } from '../state/site-draft';
 import { stateWord, type Word } from '../text/axis';
@@ -227,7 +227,7 @@ function Node({ room, e, tree, fold, children }: NodeProps) {
 /** What it is now, at the gateway: of the site in force, not of the draft. */
 function State({ room, name }: { room: Room; name: string }) {
   const { store } = useGateway();
-  const told = (word: Word, live: boolean): Word => (live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: word.text.toLowerCase() }) });
+  const told = (word: Word, live: boolean): Word => (live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) });
   if (room === 'axes') {
     const a = store.axis(name)?.value;
     return a ? <Pill label={t('State')} id="tree-state" word={stateWord(a.data, store.trustOf(a))} /> : null;

@@ -224,7 +224,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
             {(r.report.skipped?.length ?? 0) > 0 && <LeftOut skipped={r.report.skipped ?? []} shapes={shapes.value} />}
             <div class="form-foot">
               <button type="button" class="button primary" disabled={r.chosen.size === 0} {...no} onClick={restore}>
-                {t('Write {n} to the drive', { n: r.chosen.size === 1 ? '1 value' : t('{size} values', { size: r.chosen.size }) })}
+                {r.chosen.size === 1 ? t('Write 1 value to the drive') : t('Write {n} values to the drive', { n: r.chosen.size })}
               </button>
               <button type="button" class="button quiet" onClick={() => (restoring.value = null)}>
                 {t('Change nothing')}

@@ -124,8 +124,8 @@ function Row({ frame: f, open, toggle }: { frame: Frame; open: boolean; toggle: 
     <li class={open ? 'is-open' : undefined} data-sequence={f.sequence}>
       <button type="button" class="frame-row" aria-expanded={open} onClick={toggle}>
         <span>{f.at.slice(11, 23)}</span>
-        <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? '→ drive' : '← drive'}</span>
-        <span>{f.simulated ? 'simulated' : 'cable'}</span>
+        <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? t('→ drive') : t('← drive')}</span>
+        <span>{f.simulated ? t('simulated') : t('cable')}</span>
         <span class="bytes">{f.text || f.data}</span>
         <span class="reading">{f.decoded.map((d) => readingOf(f, d)).join(' · ')}</span>
       </button>

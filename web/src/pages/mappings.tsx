@@ -22,10 +22,10 @@ import { MappingWorkspace } from '../components/mapping-workspace';
 import { Profiles } from '../components/profiles';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { addressBase, countFrom } from '../state/address-base';
 import { usePolled } from '../state/mapping-poll';
-import { MappingBook, uncapital } from '../state/mappings';
+import { MappingBook } from '../state/mappings';
 import { persisted } from '../state/persisted';
 import type { Heard } from '../state/register-look';
 import { readAddress } from '../text/address';
@@ -199,7 +199,7 @@ export function MappingsPage() {
                   {t('Paste or import')}
                 </button>
                 <button type="button" class="button" disabled={!last} title={last ? t('{what} (Ctrl Z)', { what: last.words }) : t('Nothing was changed by this page yet')} {...no} onClick={() => void undo()}>
-                  {last ? t('Undo: {what}', { what: uncapital(last.words) }) : t('Undo')}
+                  {last ? t('Undo: {what}', { what: midSentence(last.words) }) : t('Undo')}
                 </button>
               </>
             )}

@@ -1,6 +1,6 @@
 // Recorder: what the gateway remembers: trends of axes, fast captures, recordings; each a tab with an address of its own.
 // In: which tab, perhaps an axis and an instant (a link from an alarm). Out: a page.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { CapturesPart } from '../components/recorder-captures';
 import { RecordingsPart } from '../components/recorder-recordings';
 import { TrendsPart } from '../components/recorder-trends';
@@ -10,7 +10,7 @@ import { recorderTitles } from '../text/recorder';
 export function RecorderPage({ tab, axis, at_ms }: { tab: RecorderTab; axis?: string | undefined; at_ms?: number | undefined }) {
   return (
     <main class="page recorder-page">
-      <h1 tabIndex={-1}>{t('Recorder: {n}', { n: recorderTitles[tab].toLowerCase() })}</h1>
+      <h1 tabIndex={-1}>{t('Recorder: {n}', { n: midSentence(recorderTitles[tab]) })}</h1>
       <nav class="axis-tabs" aria-label={t('Parts of the recorder')}>
         {recorderTabs.map((part) => (
           <a key={part} href={recorderPath(part)} aria-current={part === tab ? 'page' : undefined}>

@@ -187,7 +187,7 @@ export function ReportPage() {
           {w.rehearsal.report ? (
             <>
               <p>
-                {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}{n}.', { ended_at: dateTime(w.rehearsal.report.ended_at), who: w.rehearsal.report.who, site_revision: w.rehearsal.report.site_revision, on: w.rehearsal.report.on, n: String(w.rehearsal.report.site_revision) === String(store.siteRevision.value) ? '' : t('. The site has changed since: rehearse again') })}
+                {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.', { ended_at: dateTime(w.rehearsal.report.ended_at), who: w.rehearsal.report.who, site_revision: w.rehearsal.report.site_revision, on: w.rehearsal.report.on })}{String(w.rehearsal.report.site_revision) !== String(store.siteRevision.value) && <> {t('The site has changed since: rehearse again.')}</>}
               </p>
               <Table head={[t('Axis'), t('Cause'), t('Action'), t('Gateway acted'), t('Motor slower'), t('Stood'), t('Way')]}>
                 {w.rehearsal.report.cells.map((c) => {

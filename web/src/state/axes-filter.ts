@@ -2,6 +2,7 @@
 // Not kept over a reload: whoever opens the page sees every axis.
 import { signal } from '@preact/signals';
 import type { Axis } from '../api/types';
+import { t } from '../language';
 import { motionWord, stateWord } from '../text/axis';
 import type { Trust } from './store';
 
@@ -12,10 +13,10 @@ export function axisMatches(axis: Axis, trust: Trust, text: string): boolean {
   const wanted = text.trim().toLowerCase();
   if (wanted === '') return true;
   const words = [axis.name, axis.group ?? '', axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
-  // What the strip counts, by the same rule as there.
-  if (!axis.online) words.push('offline');
-  else words.push(motionWord(axis, trust).text, axis.moving ? 'moving' : '', axis.stale ? 'stale' : '');
-  if (axis.fault) words.push('in fault');
-  words.push(axis.simulated ? 'simulated' : axis.presence === 'device' ? 'real' : '');
+  // What the strip counts, by the same rule and word as there.
+  if (!axis.online) words.push(t('offline'));
+  else words.push(motionWord(axis, trust).text, axis.moving ? t('moving') : '', axis.stale ? t('stale') : '');
+  if (axis.fault) words.push(t('in fault'));
+  words.push(axis.simulated ? t('simulated') : axis.presence === 'device' ? t('real') : '');
   return words.some((w) => w.toLowerCase().includes(wanted));
 }

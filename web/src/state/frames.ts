@@ -1,6 +1,7 @@
 // Frames: which of the recorded frames are shown, and one of them byte by byte. In: frames as the stream tells them. Out: values.
 // At most `mostFrames` are kept; the oldest give way.
 import type { components } from '../api/schema';
+import { t } from '../language';
 
 export type Frame = components['schemas']['Frame'];
 export const mostFrames = 2000;
@@ -21,7 +22,7 @@ export function matches(f: Frame, filter: FrameFilter): boolean {
   if (filter.direction !== 'both' && f.to_drive !== (filter.direction === 'to')) return false;
   const words = filter.text.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length === 0) return true;
-  const all = `${f.text} ${f.data} ${f.decoded.join(' ')} ${f.simulated ? 'simulated' : 'cable'} ${f.kind}`.toLowerCase();
+  const all = `${f.text} ${f.data} ${f.decoded.join(' ')} ${f.simulated ? t('simulated') : t('cable')} ${f.kind}`.toLowerCase();
   return words.every((w) => (w.length > 1 && w.startsWith('-') ? !all.includes(w.slice(1)) : all.includes(w)));
 }
 
@@ -50,5 +51,7 @@ export function bytesOf(data: string): ByteRow[] {
 export function idWords(f: Frame): string {
   if (f.id === null) return '';
   const digits = f.extended ? 8 : 3;
-  return `${f.id.toString(16).toUpperCase().padStart(digits, '0')} (${f.extended ? 'extended, 29 bits' : 'standard, 11 bits'}${f.remote ? ', remote' : ''}), decimal ${f.id}`;
+  const values = { id: f.id.toString(16).toUpperCase().padStart(digits, '0'), n: f.id };
+  if (f.remote) return f.extended ? t('{id} (extended, 29 bits, remote), decimal {n}', values) : t('{id} (standard, 11 bits, remote), decimal {n}', values);
+  return f.extended ? t('{id} (extended, 29 bits), decimal {n}', values) : t('{id} (standard, 11 bits), decimal {n}', values);
 }

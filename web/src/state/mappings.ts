@@ -4,7 +4,7 @@
 import { signal, type Signal } from '@preact/signals';
 import type { MappingDoor, MappingImport, MappingList } from '../api/mappings';
 import { asProblem, Problem } from '../api/problem';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { cellsOf, columns, differenceText, sameMapping, type Mapping, type MappingPoint, type MappingSpec } from '../text/mapping';
 import { csvOf } from '../text/table-text';
 
@@ -111,7 +111,7 @@ export class MappingBook {
       await this.door.table(csvOf([columns, ...restored.map(cellsOf)]), { replace: true, dryRun: false, revision: now.revision });
       this.changes.value = this.changes.peek().slice(0, -1);
       await this.read();
-      return { good: true, text: t('Undone: {what}.', { what: uncapital(last.words) }) };
+      return { good: true, text: t('Undone: {what}.', { what: midSentence(last.words) }) };
     } catch (error) {
       const problem = asProblem(error);
       return { good: false, text: t('Not undone: {why}', { why: problem.words }), problem };
@@ -163,5 +163,3 @@ class ClashError extends Error {
     super(clash.text);
   }
 }
-/** Names of points and parameters keep their capitals. */
-export const uncapital = (s: string) => s.charAt(0).toLowerCase() + s.slice(1);

@@ -3,6 +3,7 @@
 // A gateway that names no states (no ETag) takes the last one that is saved, as it always did.
 import type { Client } from '../api/client';
 import { asProblem, Problem } from '../api/problem';
+import { t } from '../language';
 import { editable, type RecipeDocument } from '../text/recipe';
 
 export interface RecipeClash {
@@ -71,7 +72,7 @@ export class RecipeFile {
       const was = this.there;
       try {
         const now = await this.read();
-        const text = !now ? `Somebody else has deleted ${this.name} meanwhile.` : was ? `Somebody else has changed ${this.name} meanwhile.` : `Somebody else has made a recipe ${this.name} meanwhile.`;
+        const text = !now ? t('Somebody else has deleted {name} meanwhile.', { name: this.name }) : was ? t('Somebody else has changed {name} meanwhile.', { name: this.name }) : t('Somebody else has made a recipe {name} meanwhile.', { name: this.name });
         return { good: false, problem, clash: { now, text } };
       } catch {
         return { good: false, problem };

@@ -1,6 +1,6 @@
 // Addresses of registers as people write them: counted from 0, or the numbers of HMI and PLC editors, which count from 1 and carry the table in front
 // (40001, 400001). In: text, the table that is chosen, how this page counts. Out: an address from 0 and perhaps a table, or why not; text. Pure.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { oneBased, tableOf, tables, type Table } from './mapping';
 import { parseNumber } from './number';
 
@@ -17,7 +17,7 @@ export function readAddress(text: string, table: Table, base: Base): ReadAddress
   if (written) {
     const named = tables.find((x) => x.digit === written[1])!;
     const number = Number(written[2]);
-    if (number < 1 || number > 65536) return { good: false, why: t('{text} is no register: the first one of the {table} is {first}, the last {last}.', { text: typed, table: named.name.toLowerCase(), first: oneBased(named.id, 0), last: oneBased(named.id, 65535) }) };
+    if (number < 1 || number > 65536) return { good: false, why: t('{text} is no register: the first one of the {table} is {first}, the last {last}.', { text: typed, table: midSentence(named.name), first: oneBased(named.id, 0), last: oneBased(named.id, 65535) }) };
     return { good: true, address: number - 1, table: named.id };
   }
   const p = parseNumber(typed);
@@ -25,7 +25,7 @@ export function readAddress(text: string, table: Table, base: Base): ReadAddress
   const first = Number(base);
   if (!Number.isInteger(p.value) || p.value < first || p.value > 65535 + first) {
     const { name, digit } = tableOf(table);
-    return { good: false, why: t('The address is a whole number from {first} to {last}, or {example} and the like with the {digit} of the {table}.', { first, last: 65535 + first, example: oneBased(table, 0), digit, table: name.toLowerCase() }) };
+    return { good: false, why: t('The address is a whole number from {first} to {last}, or {example} and the like with the {digit} of the {table}.', { first, last: 65535 + first, example: oneBased(table, 0), digit, table: midSentence(name) }) };
   }
   return { good: true, address: p.value - first, table };
 }
@@ -44,5 +44,5 @@ export function doubtText(text: string, base: Base): string {
   const n = five ? Number(five[2]) : 0;
   if (!five || n === 0) return '';
   const named = tables.find((x) => x.digit === five[1])!;
-  return t('If {text} is the number of an editor, it is {address} of the {table}: let the page count from 1, or write {six}.', { text: text.trim(), address: n - 1, table: named.name.toLowerCase(), six: `${five[1]}0${five[2]}` });
+  return t('If {text} is the number of an editor, it is {address} of the {table}: let the page count from 1, or write {six}.', { text: text.trim(), address: n - 1, table: midSentence(named.name), six: `${five[1]}0${five[2]}` });
 }

@@ -74,7 +74,7 @@ export function eventFile(events: readonly GatewayEvent[], format: 'csv' | 'text
   return rows
     .map((e) => {
       const change = e.parameter ? ` [${e.parameter}: ${e.old ?? ''} -> ${e.new ?? ''}]` : '';
-      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? t(' (code {code})', { code: e.code }) : ''}${e.who ? t(' by {who}', { who: e.who }) : ''}`;
+      const line = `${e.at} ${e.severity.padEnd(7)} ${e.kind.padEnd(12)} ${(e.axis ?? e.drive ?? e.line ?? '-').padEnd(16)} ${e.text}${change}${e.code ? ` (code ${e.code})` : ''}${e.who ? ` by ${e.who}` : ''}`;
       return `${line.replace(/[\u0000-\u001f\u007f]/g, ' ')}\n`;
     })
     .join('');

@@ -1,6 +1,6 @@
 // An axis in words: its condition, its state, its motion. In: the axis document and how much it is trusted. Out: words, an icon, a tone.
 // The tone only underlines the words: no state is told by colour alone.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
 import { decimalsOf, formatNumber } from './number';
@@ -26,12 +26,12 @@ const states: Record<AxisStateName, Word> = {
   fault: { text: t('Fault'), icon: 'triangle', tone: 'fault', long: t('Fault: reset it when its cause is gone') },
 };
 
-export const stateName = (s: AxisStateName): string => states[s].long.split(':')[0] as string;
+export const stateName = (s: AxisStateName): string => states[s].long.split(/[:：]/)[0] as string;
 
 export function stateWord(axis: Pick<Axis, 'state'>, trust: Trust): Word {
   if (trust === 'disconnected') {
     const w = states[axis.state];
-    return { ...w, tone: 'muted', text: t('Was {list}', { list: w.text.toLowerCase() }), long: t('Not live. Last known state: {long}', { long: w.long }) };
+    return { ...w, tone: 'muted', text: t('Was {list}', { list: midSentence(w.text) }), long: t('Not live. Last known state: {long}', { long: w.long }) };
   }
   if (trust === 'offline') return { text: t('Offline'), icon: 'unplugged', tone: 'muted', long: t('Offline: nobody answers for this axis') };
   return states[axis.state];
@@ -89,7 +89,7 @@ export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown:
     return { text: t('Offline: {why}', { why }), icon: 'unplugged', tone: 'warning', long: t('Offline: {why}', { why }) };
   }
   if (axis.fault || axis.error.code !== 0) {
-    const text = `${axis.fault ? 'Fault' : 'Error'} ${axis.error.code}: ${axis.error.text || t('the drive says no more')}`;
+    const text = axis.fault ? t('Fault {code}: {n}', { code: axis.error.code, n: axis.error.text || t('the drive says no more') }) : t('Error {code}: {n}', { code: axis.error.code, n: axis.error.text || t('the drive says no more') });
     return { text, icon: 'triangle', tone: axis.fault ? 'fault' : 'warning', long: text };
   }
   if (trust === 'stale') return { text: t('Stale: the drive has not said anything new'), icon: 'clock', tone: 'warning', long: t('Stale data') };

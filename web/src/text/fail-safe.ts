@@ -1,6 +1,7 @@
 // Fail-safe in words: causes, actions, what an axis has named, and the cells of a rehearsal. In: documents of the gateway. Out: texts. Pure.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import type { Action, Cell, Choice, FailSafeRow, Matrix } from '../api/fail-safe';
+import { localFigures } from './number';
 
 export type Cause = Matrix['causes'][number]['cause'];
 const causes: Record<Cause, string> = {
@@ -21,7 +22,7 @@ const gone = 'gateway_gone'; // in a rehearsal alone: nobody acts but the drive
 export const causeText = (cause: string): string => causes[cause as Cause] ?? (cause === gone ? t('Gateway without supply') : cause.replaceAll('_', ' '));
 export const actionText = (action: Action): string => actions[action];
 export const actionChoices = (cause: Matrix['causes'][number]) => [
-  { value: '', text: t('default: {n}', { n: actionText(cause.default_endless).toLowerCase() }) },
+  { value: '', text: t('default: {n}', { n: midSentence(actionText(cause.default_endless)) }) },
   ...(Object.keys(actions) as Action[]).map((a) => ({ value: a as string, text: actionText(a) })),
 ];
 
@@ -35,7 +36,7 @@ export function causeHint(cause: Matrix['causes'][number]): string {
 export function namedWords(row: FailSafeRow): string {
   const own = (Object.keys(causes) as Cause[]).flatMap((c) => {
     const action = row.fail_safe[c];
-    return action ? [`${causeText(c).toLowerCase().replace('modbus', 'Modbus').replace('ethernet/ip', 'EtherNet/IP').replace('dds', 'DDS')}: ${actionText(action).toLowerCase()}`] : [];
+    return action ? [t('{cause}: {action}', { cause: midSentence(causeText(c)), action: midSentence(actionText(action)) })] : [];
   });
   if (row.fail_safe.watchdog_ms != null) own.push(t('Modbus clients watched for {watchdog_ms} ms', { watchdog_ms: row.fail_safe.watchdog_ms }));
   return own.length === 0 ? t('all as by default') : own.join('; ');
@@ -62,7 +63,7 @@ export function readWatchdog(text: string): { good: true; value: number | null }
   return /^\d+$/.test(trimmed) && n <= 600_000 ? { good: true, value: n } : { good: false, why: t('A whole number of ms from 0 (never) to 600000; empty: as the gateway is set.') };
 }
 
-const ms = (n: number | null): string => (n === null ? '' : n < 10 ? t('{n} ms', { n: n.toFixed(1) }) : t('{n} ms', { n: Math.round(n) }));
+const ms = (n: number | null): string => (n === null ? '' : n < 10 ? t('{n} ms', { n: localFigures(n.toFixed(1)) }) : t('{n} ms', { n: Math.round(n) }));
 export interface CellRow {
   key: string;
   axis: string;

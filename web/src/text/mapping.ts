@@ -2,9 +2,9 @@
 // In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import { readAddress, spanText, type Base } from './address';
-import { parseNumber } from './number';
+import { parseNumber, typedNumber } from './number';
 
 type Schemas = components['schemas'];
 export type Mapping = Schemas['Mapping'];
@@ -92,7 +92,7 @@ export const emptyTexts: Texts = { unit: '2', table: 'holding_registers', addres
 export function textsOf(m: Mapping): Texts {
   return {
     unit: String(m.unit), table: m.table, address: String(m.address), axis: m.axis, point: m.point, type: m.type, word_order: m.word_order,
-    scale: String(m.scale), offset: String(m.offset), access: m.access, length: m.length ? String(m.length) : '', on_overflow: m.on_overflow ?? 'mark', comment: m.comment ?? '',
+    scale: typedNumber(m.scale), offset: typedNumber(m.offset), access: m.access, length: m.length ? String(m.length) : '', on_overflow: m.on_overflow ?? 'mark', comment: m.comment ?? '',
   };
 }
 
@@ -127,7 +127,7 @@ export function checkTexts(typed: Partial<Texts>, known: Known): Checked {
   if (!table) fault('table', t('“{text}” is no table: {list}.', { text: typed.table ?? '', list: tables.map((x) => x.id).join(', ') }));
   const address = readAddress(typed.address ?? '', table ?? 'holding_registers', known.base ?? '0');
   if (!address.good) fault('address', address.why);
-  else if (table && address.table !== table) fault('address', t('{text} is one of the {other}, and the table is {table}.', { text: typed.address?.trim() ?? '', other: tableOf(address.table).name.toLowerCase(), table: tableOf(table).name.toLowerCase() }));
+  else if (table && address.table !== table) fault('address', t('{text} is one of the {other}, and the table is {table}.', { text: typed.address?.trim() ?? '', other: midSentence(tableOf(address.table).name), table: midSentence(tableOf(table).name) }));
 
   let axis = typed.axis?.trim() ?? '';
   let point = typed.point?.trim() ?? '';

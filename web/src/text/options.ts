@@ -85,12 +85,14 @@ export function optionsFrom(texts: Texts, before: unknown): Options {
 export function optionsTitle(family: string, specs: readonly OptionSpec[], texts: Texts): string {
   const set = Object.keys(texts).filter((k) => k.startsWith(optionPrefix) && (texts[k] ?? '').trim() !== '').map((k) => k.slice(optionPrefix.length));
   const of = family ? t('Options of {family}', { family }) : t('Options');
-  return `${of}${specs.length > 0 ? `: ${specs.length}` : ''}${set.length > 0 ? t('; set: {list}', { list: set.join(', ') }) : specs.length > 0 ? ', none set' : ''}`;
+  const list = set.join(', ');
+  if (specs.length === 0) return set.length > 0 ? t('{of}; set: {list}', { of, list }) : of;
+  return set.length > 0 ? t('{of}: {n}; set: {list}', { of, n: specs.length, list }) : t('{of}: {n}, none set', { of, n: specs.length });
 }
 
 /** What an increment of the drive is, beside the field that asks how many of them make a unit. */
 export function incrementHint(family: Family | undefined, unit: string): string {
-  const what = t('how many increments of the drive make one {unit}', { unit: unit.trim() || t('unit') });
+  const what = unit.trim() ? t('how many increments of the drive make one {unit}', { unit: unit.trim() }) : t('how many increments of the drive make one unit');
   const own = family?.position_unit;
   if (typeof own !== 'string' || own === '') return what;
   return t('{what}; one increment of {name} is {own}', { what, name: family?.name ?? '', own: /^\d/.test(own) ? own : t('one {own}', { own }) });

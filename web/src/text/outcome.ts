@@ -1,7 +1,7 @@
 // Outcome: how a command went that the drive has taken, by what its axis shows afterwards. In: the command, the axis as it is told from then on.
 // Out: nothing yet, or how it ended, in words. Pure. What was read before the drive took the command says nothing about it; a motion that neither
 // moves nor has arrived is not called ended at the first look, since a drive may need a moment to get going.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import type { Axis, Command } from '../api/types';
 import { positionText, stateWord, unitOf } from './axis';
 
@@ -26,20 +26,20 @@ const watched = new Set([...motions, 'enable', 'disable']);
 export const isWatched = (c: Command): boolean => watched.has(c.command) && !('prepare' in c && c.prepare);
 
 const failed = (text: string): Outcome => ({ tone: 'refused', text });
-const done: Outcome = { tone: 'good', text: 'done' };
+const done: Outcome = { tone: 'good', text: t('done') };
 
 export function outcomeOf(w: Watched, axis: Axis): Outcome | null {
   const after_ms = axis.at === null ? -Infinity : Date.parse(axis.at) - w.taken_ms;
   if (!axis.online) return failed(t('the axis went offline; whether it has finished is not known'));
   if (after_ms < fresh_ms) return null;
   const kind = w.command.command;
-  if (axis.fault) return failed(t('ended by a fault{n}', { n: axis.error.code ? `, ${axis.error.code}: ${axis.error.text || t('the drive says no more')}` : '' }));
+  if (axis.fault) return failed(axis.error.code ? t('ended by a fault, {code}: {text}', { code: axis.error.code, text: axis.error.text || t('the drive says no more') }) : t('ended by a fault'));
   if (kind === 'enable') return axis.state === 'operation_enabled' ? done : null;
   if (kind === 'disable') return axis.state === 'switch_on_disabled' || axis.state === 'ready_to_switch_on' ? done : null;
   w.moved ||= axis.moving;
   if (w.target === undefined) w.target = axis.target_position;
   const at = `${positionText(axis)} ${unitOf(axis)}`;
-  if (axis.state !== 'operation_enabled') return failed(t('interrupted: the axis is {n} now, at {at}', { n: stateWord(axis, 'live').text.toLowerCase(), at }));
+  if (axis.state !== 'operation_enabled') return failed(t('interrupted: the axis is {n} now, at {at}', { n: midSentence(stateWord(axis, 'live').text), at }));
   if (kind === 'move_velocity') return w.moved && !axis.moving ? { tone: 'none', text: '' } : null;
   if (kind !== 'home' && w.target !== axis.target_position) return failed(t('ended: another command took its place'));
   if (axis.moving || (!w.moved && after_ms < begin_ms)) return null;

@@ -47,7 +47,7 @@ export function readProfile(d: ProfileDraft, languages: readonly Language[], tak
   for (const k of ['counts', 'velocity', 'acceleration'] as const) if (numbers[k] === 'wrong') faults[k] = t('A number above 0, or nothing.');
   const instances = { input: place(d.input), output: place(d.output), object: place(d.object) };
   for (const k of ['input', 'output', 'object'] as const) if (instances[k] === 'wrong') faults[k] = t('A whole number from 1 to {most}, or nothing.', { most: k === 'object' ? 255 : 65535 });
-  if (typeof instances.object === 'number' && instances.object > 255) faults.object = 'A whole number from 1 to 255, or nothing.';
+  if (typeof instances.object === 'number' && instances.object > 255) faults.object = t('A whole number from 1 to {most}, or nothing.', { most: 255 });
   if (Object.keys(faults).length > 0 || n === null || !language) return { faults };
   const number = (v: number | null | 'wrong') => (typeof v === 'number' ? v : undefined);
   const more = { counts_per_unit: number(numbers.counts), velocity: number(numbers.velocity), acceleration: number(numbers.acceleration) };

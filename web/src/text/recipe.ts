@@ -1,6 +1,7 @@
 // A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
 // Never changes a document in place, and keeps members that it does not know.
 import { t } from '../language';
+import { localFigures } from './number';
 import { plain, plainWord } from './plain';
 import { duration } from './time';
 import type { Word } from './axis';
@@ -153,7 +154,7 @@ export const titleOf = (path: Path): string =>
   t('Step {n}', { n: path
     .flatMap((p) => (typeof p === 'number' ? [String(p + 1)] : p === 'then' || p === 'else' ? [p] : []))
     .join('.')
-    .replace(/\.(then|else)\./g, ' $1 ') });
+    .replace(/\.(then|else)\./g, (_, side: string) => ` ${side === 'then' ? t('then') : t('else')} `) });
 
 export function at(document: unknown, path: Path): unknown {
   return path.reduce<unknown>((o, key) => (o as Record<string | number, unknown> | undefined)?.[key], document);
@@ -267,7 +268,7 @@ export function recipeDifferences(before: unknown, after: unknown, place = ''): 
   if (inner(before) && inner(after) && Array.isArray(before) === Array.isArray(after)) {
     return [...new Set([...Object.keys(before), ...Object.keys(after)])].flatMap((k) => recipeDifferences(before[k], after[k], `${place}/${k}`));
   }
-  const said = (v: unknown) => (v === undefined ? 'nothing' : JSON.stringify(v));
+  const said = (v: unknown) => (v === undefined ? t('nothing') : JSON.stringify(v));
   return [`${place}: ${said(before)} → ${said(after)}`];
 }
 /** Without what the gateway adds by itself. */
@@ -283,7 +284,7 @@ export function stepWhat(s: { label?: string; step: string }): string {
   return said.startsWith(s.step) ? said.slice(s.step.length).trim() : said;
 }
 /** How long a step took, as exactly as one compares steps: "12 ms", "0.85 s", "2 min". */
-export const tookText = (ms: number): string => (ms < 0 ? '' : ms < 100 ? t('{n} ms', { n: Math.round(ms) }) : ms < 10_000 ? t('{n} s', { n: (ms / 1000).toFixed(2) }) : duration(ms));
+export const tookText = (ms: number): string => (ms < 0 ? '' : ms < 100 ? t('{n} ms', { n: Math.round(ms) }) : ms < 10_000 ? t('{n} s', { n: localFigures((ms / 1000).toFixed(2)) }) : duration(ms));
 /** A step of the document in one line, for the folded form: "feeder, Move to, 12". */
 export function stepSummary(step: Step): string {
   const kind = kindOf(step);

@@ -1,7 +1,7 @@
 // The recorder in words: trends, captures and recordings of the gateway. In: its documents. Out: words, curves' names, instants. Pure.
-import { t } from '../language';
+import { midSentence, t } from '../language';
 import type { Capture, CaptureTrigger, Recording } from '../api/types';
-import { formatNumber } from './number';
+import { formatNumber, localFigures } from './number';
 import type { Word } from './axis';
 
 export const recorderTitles = { trends: t('Trends'), captures: t('Captures'), recordings: t('Recordings') } as const;
@@ -32,7 +32,7 @@ export function triggerWords(trigger: CaptureTrigger | null, unit = ''): string 
     return trigger.edge === 'falling' ? t('“{state}” of {axis} goes', { state, axis }) : t('“{state}” of {axis} comes', { state, axis });
   }
   const point = trigger.point ?? 'position';
-  const values = { point: pointNames[point].toLowerCase(), axis, level: `${formatNumber(trigger.level ?? 0, 3)} ${pointUnit(point, unit)}`.trim() };
+  const values = { point: midSentence(pointNames[point]), axis, level: `${formatNumber(trigger.level ?? 0, 3)} ${pointUnit(point, unit)}`.trim() };
   return trigger.edge === 'falling' ? t('{point} of {axis} falls through {level}', values) : t('{point} of {axis} rises through {level}', values);
 }
 
@@ -70,7 +70,7 @@ export const recordingWord = (r: Recording): Word =>
 export const bytesWords = (n: number): string => (n < 10_000 ? t('{n} bytes', { n }) : n < 10_000_000 ? t('{n} kB', { n: formatNumber(n / 1000, 0) }) : t('{n} MB', { n: formatNumber(n / 1_000_000, 0) }));
 
 /** "20.0 Hz", or why there is none. */
-export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? t('told {n} times a second', { n: rate_hz < 10 ? rate_hz.toFixed(1) : Math.round(rate_hz) }) : t('not told now'));
+export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? t('told {n} times a second', { n: rate_hz < 10 ? localFigures(rate_hz.toFixed(1)) : Math.round(rate_hz) }) : t('not told now'));
 
 /** Registers 0 to 11 of an axis as they were, in hexadecimal. */
 export const registerWords = (r: { address: number; words: readonly number[] } | undefined): string =>
@@ -88,7 +88,7 @@ export function instantText(t_s: number, span_s: number): string {
 }
 export const sinceText = (t_s: number, span_s: number): string => {
   const text = Math.abs(t_s).toFixed(span_s < 0.05 ? 4 : span_s < 0.5 ? 3 : span_s < 5 ? 2 : 1);
-  return `${t_s < 0 && Number(text) !== 0 ? '−' : ''}${text} s`;
+  return `${t_s < 0 && Number(text) !== 0 ? '−' : ''}${localFigures(text)} s`;
 };
 
 export const nameFault = (name: string): string | undefined => (/^[A-Za-z0-9_-][A-Za-z0-9_.-]{0,63}$/.test(name) ? undefined : t('A name has 1 to 64 letters, digits, - _ or . and does not begin with a dot.'));

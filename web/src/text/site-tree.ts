@@ -1,6 +1,7 @@
 // The site as a tree: lines, the drives on each, the axes of each; what belongs to nothing that is there stands apart. In: a site. Out: places. Pure.
 import type { Entry, Room, Site } from './site';
 import { t } from '../language';
+import { formatExact } from './number';
 
 export interface DriveBranch {
   drive: Entry;
@@ -45,7 +46,7 @@ export function summaryOf(room: Room, e: Entry): string {
     t('no. {number}', { number: String(e.number) }),
     t('channel {channel}', { channel: String(e.channel ?? 1) }),
     e.group,
-    e.unit ? t('{n} increments per {unit}', { n: String(e.increments_per_unit ?? 1), unit: String(e.unit) }) : t('increments'),
+    e.unit ? t('{n} increments per {unit}', { n: formatExact(Number(e.increments_per_unit ?? 1)), unit: String(e.unit) }) : t('increments'),
   );
 }
 

@@ -1,7 +1,7 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
 import { t } from '../language';
-import { parseNumber } from './number';
+import { parseNumber, typedNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 
 export type Entry = { name: string } & Record<string, unknown>;
@@ -119,7 +119,7 @@ export function textsOfEntry(room: Room, entry: Entry | null): Texts {
     fieldsOf[room].map((f) => {
       const v = entry ? at(entry, f.key) : undefined;
       if ((v === undefined || v === null) && f.key === 'presence') return [f.key, 'auto'];
-      return [f.key, v === undefined || v === null ? '' : String(v)];
+      return [f.key, v === undefined || v === null ? '' : typeof v === 'number' ? typedNumber(v) : String(v)];
     }),
   );
   return room === 'axes' ? own : { ...own, ...optionTexts(entry?.options) };
@@ -252,7 +252,7 @@ export function differenceOf(before: Site, after: Site): Difference[] {
   });
 }
 
-const shown = (v: unknown): string => (v === undefined || v === null ? 'nothing' : typeof v === 'object' ? JSON.stringify(v) : String(v));
+const shown = (v: unknown): string => (v === undefined || v === null ? t('nothing') : typeof v === 'object' ? JSON.stringify(v) : String(v));
 
 /** "axis feeder: unit mm → deg, number 1 → 2". */
 export function differenceWords(d: { kind: string; what: string; before?: Record<string, unknown> | null | undefined; after?: Record<string, unknown> | null | undefined }): string {

@@ -1,0 +1,61 @@
+// Languages: chosen by the browser or by the reader, loaded only then; in each of them, at three widths, no page is wider than the screen, every
+// stop can be pressed, and the words are in that language.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open, shot, tooWide } from './lib/browser.mjs';
+import { furnish, parts } from './lib/parts.mjs';
+import { Program } from './lib/program.mjs';
+
+const words = { en: ['Axes', 'Stop all'], de: ['Achsen', 'Alle stoppen'], zh: ['轴', '全部停止'] };
+let program, browser;
+before(async () => {
+  program = await Program.start();
+  browser = await launch();
+  await furnish(program);
+});
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
+
+test('the language is the browser’s, its table is loaded only then, and another one can be chosen', async () => {
+  for (const [locale, language] of [['de-CH', 'de'], ['zh-CN', 'zh'], ['fr', 'en']]) {
+    const p = await open(browser, program.url + '/users', { locale });
+    const loaded = [];
+    p.on('request', (r) => loaded.push(...(/\/(de|zh)-[\w-]+\.js$/.exec(r.url())?.slice(1) ?? [])));
+    await p.reload();
+    await p.locator('main h1').first().waitFor();
+    assert.equal(await p.evaluate(() => document.documentElement.lang), language);
+    assert.deepEqual(loaded, language === 'en' ? [] : [language]);
+    assert.equal((await p.locator('.nav a').first().innerText()).trim(), words[language][0]);
+    await p.evaluate((l) => localStorage.setItem('axisgate.language', l), language === 'de' ? 'zh' : 'de');
+    await p.reload();
+    await p.locator('main h1').first().waitFor();
+    assert.equal((await p.locator('.nav a').first().innerText()).trim(), words[language === 'de' ? 'zh' : 'de'][0], 'what is chosen holds after a reload');
+    await p.context().close();
+  }
+});
+
+for (const language of ['de', 'zh']) {
+  test(`${language}: no page is wider than the screen, and the stop of all is there, at three widths`, async () => {
+    const wrong = [];
+    for (const [width, height] of [[360, 740], [768, 1024], [1280, 900]]) {
+      const p = await open(browser, program.url + '/', { locale: language, viewport: { width, height }, hasTouch: width < 800, isMobile: width < 800 });
+      for (const part of parts) {
+        await p.goto(program.url + part.path);
+        await p.locator('main h1').first().waitFor();
+        await p.locator('.stop-all').first().waitFor();
+        const wide = await tooWide(p);
+        if (wide > 0) wrong.push(`${part.path} at ${width} px is ${wide} px too wide`);
+        const stop = await p.locator('.stop-all').first().evaluate((e) => {
+          const r = e.getBoundingClientRect();
+          return { whole: r.left >= 0 && r.right <= innerWidth + 0.5 && r.bottom <= innerHeight + 0.5, on_top: e.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)), text: e.innerText };
+        });
+        if (!stop.whole || !stop.on_top || !stop.text.includes(words[language][1])) wrong.push(`${part.path} at ${width} px: stop ${JSON.stringify(stop)}`);
+        if (width === 1280) await shot(p, `${language}-${part.name}`, { fullPage: true });
+      }
+      await p.context().close();
+    }
+    assert.deepEqual(wrong, []);
+  });
+}

@@ -52,6 +52,8 @@ for (const language of ['de', 'zh']) {
           return { whole: r.left >= 0 && r.right <= innerWidth + 0.5 && r.bottom <= innerHeight + 0.5, on_top: e.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)), text: e.innerText };
         });
         if (!stop.whole || !stop.on_top || !stop.text.includes(words[language][1])) wrong.push(`${part.path} at ${width} px: stop ${JSON.stringify(stop)}`);
+        const hidden = await p.locator('.nav').evaluate((e) => e.scrollWidth - e.clientWidth);
+        if (hidden > 0) wrong.push(`${part.path} at ${width} px: ${hidden} px of the navigation are out of sight`);
         if (width === 1280) await shot(p, `${language}-${part.name}`, { fullPage: true });
       }
       await p.context().close();

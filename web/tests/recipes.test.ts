@@ -1,4 +1,5 @@
 // Recipes as a tree that is edited: every change is a copy, what is typed becomes the value that it reads as, every step kind has its form.
+import { speak } from '../src/language';
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { fieldsOfStep, unitOfField, withCommand, added, changed, defaultOf, documentOf, editable, freshStep, kindOf, moved, parameterFault, pointerOf, removed, renamedParameter, runWord, stepKinds, takesTolerance, titleOf, typedOf, valueOf, withoutParameter, withParameter, type RecipeDocument } from '../src/text/recipe';
@@ -92,4 +93,15 @@ describe('a command step', () => {
     expect(['position', 'velocity', 'acceleration', 'wait_s'].map((k) => unitOfField(k, 'mm'))).toEqual(['mm', 'mm/s', 'mm/s²', '']);
     expect(['position', 'velocity', 'acceleration'].map((k) => unitOfField(k, null))).toEqual(['', '', '']);
   });
+});
+
+it('values are read and written in the reader’s figures, and what may be two numbers is none', () => {
+  speak('de');
+  try {
+    expect([valueOf('1,5'), valueOf('1.234,5'), valueOf('1.234'), valueOf('MT[1]'), valueOf('7')]).toEqual([1.5, 1234.5, '1.234', 'MT[1]', 7]);
+    expect(typedOf(1.5)).toBe('1,5');
+    expect(valueOf(typedOf(-0.125))).toBe(-0.125);
+  } finally {
+    speak('en');
+  }
 });

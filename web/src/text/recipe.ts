@@ -1,7 +1,7 @@
 // A recipe in words and as a tree that can be edited. In: the document as the gateway keeps it. Out: a changed copy, the fields of each step, words.
 // Never changes a document in place, and keeps members that it does not know.
 import { t } from '../language';
-import { localFigures } from './number';
+import { localFigures, parseNumber, typedNumber } from './number';
 import { plain, plainWord } from './plain';
 import { duration } from './time';
 import type { Word } from './axis';
@@ -188,9 +188,13 @@ export function valueOf(typed: string): Json | undefined {
   const trimmed = typed.trim();
   if (trimmed === '') return undefined;
   if (trimmed === 'true' || trimmed === 'false') return trimmed === 'true';
-  return /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(trimmed) ? Number(trimmed) : trimmed;
+  // In the reader's figures; what may be two numbers there stays as it was typed, and the gateway says that it is none.
+  if (!/^[-+]?[\d.,]*\d[\d.,]*(e[-+]?\d+)?$/i.test(trimmed)) return trimmed;
+  const number = parseNumber(trimmed);
+  return number.good ? number.value : trimmed;
 }
-export const typedOf = (value: unknown): string => (value === undefined || value === null ? '' : typeof value === 'string' ? value : JSON.stringify(value));
+export const typedOf = (value: unknown): string =>
+  value === undefined || value === null ? '' : typeof value === 'string' ? value : typeof value === 'number' ? typedNumber(value) : JSON.stringify(value);
 
 export const parameterTypes = ['number', 'integer', 'boolean', 'text', 'axis'] as const;
 const mostParameters = 64;

@@ -6,6 +6,7 @@ import shutil
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 import tomllib
 
@@ -52,21 +53,21 @@ def test_the_unit_is_sound_and_hardened():
 
 
 class Manager:
-    """The socket of a service manager."""
+    """The socket of a service manager, read all the time as one does: the kernel keeps no more than ten words for it."""
 
     def __init__(self, folder):
         self.path = str(folder / "notify")
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         self.socket.bind(self.path)
-        self.socket.setblocking(False)
         self.told = []
+        threading.Thread(target=self.listen, daemon=True).start()
+
+    def listen(self):
+        while True:
+            self.told += [(time.monotonic(), line) for line in self.socket.recv(4096).decode().splitlines()]
 
     def read(self):
-        while True:
-            try:
-                self.told += [(time.monotonic(), line) for line in self.socket.recv(4096).decode().splitlines()]
-            except BlockingIOError:
-                return self.told
+        return list(self.told)
 
     def last(self, kind):
         return next((text for _, text in reversed(self.read()) if text.startswith(kind)), "")

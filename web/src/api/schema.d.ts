@@ -4018,7 +4018,7 @@ export interface components {
              */
             begins: string | null;
             steps: components["schemas"]["RecipeStep"][];
-            /** @description what was done and is no step */
+            /** @description what was done and is no step, and why */
             left_out: string[];
         };
         /**

@@ -127,7 +127,7 @@ test('recordings: made, played back by the slider, downloaded, deleted', { skip 
   await page.getByRole('button', { name: 'Play back crash' }).click();
   const playback = page.locator('[data-field=playback]');
   const feeder = () => playback.locator('tr[data-axis="feeder"]').innerText();
-  await until('its end is shown', async () => /operation enabled/.test(await feeder().catch(() => '')));
+  await until('its end is shown', async () => /\benabled/.test(await feeder().catch(() => '')));
   const end = await feeder();
   assert.match(end, /[0-9A-F]{4} [0-9A-F]{4}/, 'its registers');
   assert.ok((await playback.getByRole('region', { name: /^Frames/ }).locator('li').count()) > 5);

@@ -72,7 +72,10 @@ test('the report is printed alone, with its date, and the page is whole again af
   await page.emulateMedia({ media: 'print' });
   await section().getByRole('heading', { name: 'Fail-safe rehearsal' }).waitFor();
   assert.equal(await section().getByRole('region', { name: 'Report of the rehearsal' }).isVisible(), true);
-  for (const other of ['.site-tree', '.site-history', '[data-fail-safe]', '.rehearsal > .form-foot']) assert.equal(await page.locator(other).first().isVisible(), false, other);
+  for (const other of ['.site-tree', '.site-history', '[data-fail-safe]', '.rehearsal > .form-foot']) {
+    assert.ok((await page.locator(other).count()) > 0, `${other} is there`);
+    assert.equal(await page.locator(other).first().isVisible(), false, other);
+  }
   await shot(page, 'fail-safe-printed', { fullPage: true });
   await page.emulateMedia({ media: 'screen' });
   await page.evaluate(() => dispatchEvent(new Event('afterprint')));

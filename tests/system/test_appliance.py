@@ -79,7 +79,7 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
         os.environ.update(NOTIFY_SOCKET=manager.path, WATCHDOG_USEC="1000000")
         try:
             with harness.Folder() as data, Gateway(data) as g:
-                until(lambda: manager.last("READY=1"), 20, "READY")
+                until(lambda: manager.last("READY=1"), 5, "READY")
                 until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 0 moving", 5, "status")
                 g.command("feeder", {"command": "enable"})
                 g.command("feeder", {"command": "move_absolute", "position": 30, "velocity": 5}, wait=0)

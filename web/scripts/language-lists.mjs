@@ -24,7 +24,7 @@ export const exempt = {
   'text/alarm.ts': [/^\(code \{…\}\)$/, /^by \{…\}$/],
   'state/scope.ts': [/^ ?\(mixed: \{…\}\)$/],
   'text/transfer.ts': [/^\{"parameter", "value"\}$/],
-  'text/site.ts': [/^URI$/, /^twin, can:can0/, /^lines, drives, axes/],
+  'text/site.ts': [/^URI$/, /^can:can0/, /^lines, drives, axes/],
   'components/mapping-paste.tsx': [/^unit[,\t]/],
   'components/mapping-list.tsx': [/^RW$/],
   // Words of a recipe's JSON, by which its steps are told apart; the label beside each is said through t().

@@ -167,7 +167,7 @@ export function ReportPage() {
           <p>
             {t('Hash of the mapping:')}{' '}<span class="mono">{w.mappings.hash || t('not told by this gateway')}</span>{' '}{t('(registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.')}
           </p>
-          <div class="report-registers">
+          <div class="report-registers" tabIndex={0} role="region" aria-label={t('Register map')}>
             <PrintedList rows={w.mappings.rows} known={{ ...plainKnown, axes: names, points: w.points }} hash={w.mappings.hash} />
           </div>
 

@@ -26,7 +26,8 @@ export const cut = (page) =>
 
     const styles = new Map();
     const styleOf = (e) => styles.get(e) ?? styles.set(e, getComputedStyle(e)).get(e);
-    const told = (e) => Boolean(e.closest('[title]:not([title=""])') ?? e.closest('[aria-hidden=true]')?.parentElement?.closest('[title]:not([title=""])'));
+    // A finger sees no tooltip.
+    const told = (e) => matchMedia('(hover: hover)').matches && Boolean(e.closest('[title]:not([title=""])') ?? e.closest('[aria-hidden=true]')?.parentElement?.closest('[title]:not([title=""])'));
     const stays = (e) => {
       for (let at = e; at && at !== document.body; at = at.parentElement) if (['fixed', 'sticky'].includes(styleOf(at).position)) return at;
       return null;

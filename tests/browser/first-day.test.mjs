@@ -159,6 +159,7 @@ async function day(program, language) {
   await press('Print');
   assert.equal(await page.evaluate(() => globalThis.printed), true);
   await page.emulateMedia({ media: 'print' });
+  assert.deepEqual(await cutShort(report), [], 'all of it is on the paper');
   await picture('report');
   await page.emulateMedia({ media: 'screen' });
   assert.equal(await page.evaluate(() => document.documentElement.lang), language, 'the choice has held all day');
@@ -169,6 +170,10 @@ async function day(program, language) {
   const { stdout } = await promisify(execFile)(binary, ['replay', file]);
   assert.match(stdout, /^\d{4,} inputs, \d{4,} outcomes compared, 0 differences/);
 }
+
+/** Parts of the report that are lower than what they hold: it would lie upon what stands below, or not be printed. */
+const cutShort = (report) =>
+  report.evaluate((e) => [...e.querySelectorAll('*')].filter((p) => p.scrollHeight > p.clientHeight + 2 && getComputedStyle(p).display !== 'inline' && !p.closest('.scope-plot')).map((p) => `${p.className}: ${p.clientHeight} of ${p.scrollHeight} px`));
 
 /** From the middle of one to the middle of the other, in steps, as a hand does. */
 async function drag(page, from, to) {

@@ -138,6 +138,7 @@ async function day(program, language) {
   const feeder = page.locator('[data-field=playback] tr[data-axis="feeder"]');
   await feeder.waitFor();
   const happened = page.locator('.playback-happened');
+  assert.match(await feeder.locator('td').nth(4).innerText(), /^29\b/, 'the code of the fault stands at the axis');
   await until('the held shaft is in it', async () => /stall/i.test(await happened.innerText()) || (await happened.innerText()));
   const reads = page.locator('[data-field=playback] .cursor-table tr').filter({ has: page.getByRole('rowheader', { name: 'A', exact: true }) }).locator('td').nth(1);
   await until('the cursor reads the place at the end', async () => Math.abs(Number((await reads.innerText()).replace(',', '.')) - 20) < 0.1 || (await reads.innerText()));

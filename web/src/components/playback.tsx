@@ -36,7 +36,7 @@ interface AxisRow {
   position: number | null;
   velocity: number | null;
   following_error: number | null;
-  error_code: number;
+  error: { code: number; text: string };
   presence: string;
 }
 
@@ -173,7 +173,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                       <td class="num">{formatNumber(a.position, 3)} {a.unit}</td>
                       <td class="num">{formatNumber(a.velocity, 3)}</td>
                       <td class="num">{formatNumber(a.following_error, 3)}</td>
-                      <td class="num">{a.error_code || '–'}</td>
+                      <td class="num" title={a.error.text || undefined}>{a.error.code || '–'}</td>
                       <td class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
                     </tr>
                   ))}

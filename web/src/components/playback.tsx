@@ -94,8 +94,9 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
   const doc = whole.value;
   const now = moment.value;
   const curve = doc?.curves.find((c) => c.axis === axis.value);
+  // The last word of each axis holds until the recording ends, which is where it is opened.
   const { drawn, curves } = useMemo(
-    () => ({ drawn: curve ? joined([trendPart(curve, ['position', 'velocity'], v.whole.peek()[1])]) : { at: [], columns: [] }, curves: curve ? trendCurves({ axes: [curve] }, [curve.axis], ['position', 'velocity']) : [] }),
+    () => ({ drawn: curve ? joined([trendPart({ ...curve, newest: v.whole.peek()[1] * 1000 }, ['position', 'velocity'], v.whole.peek()[1])]) : { at: [], columns: [] }, curves: curve ? trendCurves({ axes: [curve] }, [curve.axis], ['position', 'velocity']) : [] }),
     [doc, axis.value],
   );
   const [low, high] = v.whole.value;

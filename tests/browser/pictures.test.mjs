@@ -1,7 +1,7 @@
 // Pictures of README and handbook: each that a paper names is there, in light and dark, small, and named by a paper; the script that makes them makes
 // just these, and leaves alone what looks as it did. In: the papers, the program. Out: judgements; the pictures go to a temporary folder.
 import assert from 'node:assert/strict';
-import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { test } from 'node:test';
@@ -34,6 +34,10 @@ test('the script makes them all, of about the same size, and a second run leaves
       const kept = statSync(join(folder, `${p.name}.webp`)).size;
       assert.ok(p.bytes <= most && p.bytes > kept / 2 && p.bytes < kept * 2, `${p.name}: ${p.bytes} bytes, kept ${kept}`);
     }
+    // A machine that has just been started, at another time: the tree of its site looks the same, and a map is no tree.
+    const again = scenes.filter((s) => s.name === 'site');
+    writeFileSync(join(into, 'site-dark.webp'), readFileSync(join(into, 'map-dark.webp')));
+    assert.deepEqual((await make(into, again)).map((p) => [p.name, p.kept]), [['site-light', true], ['site-dark', false]]);
   } finally {
     rmSync(into, { recursive: true, force: true });
   }

@@ -92,8 +92,8 @@ const apart = (blank, one, other) =>
     return n / (a.data.length / 4);
   }, [one.toString('base64'), other.toString('base64')]);
 
-/** Makes them all. What it tells of each: its name, its bytes, whether the file was written. */
-export async function make(into) {
+/** Makes them, `wanted` of them. What it tells of each: its name, its bytes, whether the file that was there is kept. */
+export async function make(into, wanted = scenes) {
   mkdirSync(into, { recursive: true });
   const program = await Program.start({ site: { ...demo, drives: demo.drives.filter((d) => !d.description), axes: demo.axes.filter((a) => a.drive !== 'spindle') } });
   const browser = await launch();
@@ -102,7 +102,7 @@ export async function make(into) {
     await until('the feeder answers', async () => (await program.axis('feeder')).online === true);
     await furnish(program);
     const blank = await (await browser.newContext()).newPage();
-    for (const { name, path, ready, see } of scenes) {
+    for (const { name, path, ready, see } of wanted) {
       const page = await open(browser, program.url + path, { viewport: size, locale: 'en-GB', timezoneId: 'UTC' });
       await page.locator(ready).first().waitFor();
       await see?.(page, program);

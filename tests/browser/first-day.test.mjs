@@ -45,6 +45,7 @@ for (const language of ['en', 'de', 'zh']) {
 async function day(program, language) {
   // The reader's browser speaks English, and the language is switched on the page: at the end the choice still holds.
   const page = await open(browser, program.url, { locale: 'en', viewport: { width: 1280, height: 900 } });
+  page.setDefaultTimeout(30_000); // a day is long beside other tests
   const part = (path) => page.locator(`.nav a[href="${path}"]`).click();
   await page.locator('[data-axis=feeder] [data-live=true]').first().waitFor();
   if (language !== 'en') {

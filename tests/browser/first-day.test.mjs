@@ -124,7 +124,7 @@ async function day(program, language) {
   // What if who commands is lost: on models, with times.
   await part('/site');
   await press('Rehearse on models');
-  await page.locator('[data-field="rehearsal-report"]').waitFor({ timeout: 30_000 });
+  await page.locator('[data-field="rehearsal-report"]').waitFor({ timeout: 90_000 });
 
   // What happened goes to a colleague.
   await page.goto(`${program.url}/recorder/recordings/`);

@@ -13,7 +13,6 @@ LIMIT = 40
 NOT_MENDED = {
     ("adapters/linmot/twin/drive.hpp", "Drive"): 101,
     ("adapters/mcode/twin/device.hpp", "Device"): 50,
-    ("adapters/mcode/twin/motor.hpp", "Motor"): 112,
     ("adapters/pacontrol/twin/control.hpp", "Control"): 85,
     ("gateway/engine/engine.hpp", "Engine"): 117,
     ("gateway/runtime/hot.hpp", "Hot"): 45,

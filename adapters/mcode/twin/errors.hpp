@@ -74,6 +74,7 @@ inline constexpr int max_count = 105;
 inline constexpr int lead_reached = 106;
 inline constexpr int lag_reached = 107;
 inline constexpr int calibration_lost = 109;
+inline constexpr int makeup_stopped = 108;
 inline constexpr int makeup_disabled = 110;
 
 }  // namespace axisgate::mcode::twin::err

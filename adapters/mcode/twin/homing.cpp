@@ -1,100 +1,100 @@
-// Motor: homing by switch (HM), encoder index (HI) and index offset (HF), types 1 to 4 [L3184-3210].
-// In: HM, HI, HF, the mark's edges and crossings. Out: legs of motion.
-// Never searches for ever in one direction if a limit is there: LM says what a limit does.
-#include <algorithm>
+// Homing: its legs, the mark and the limits.
+// In: types, edges of the home switch, crossings of the index. Out: slews, and where it is home.
+// Never ends at speed: what passes in the seek is come back to at VI.
+#include "adapters/mcode/twin/homing.hpp"
+
 #include <cmath>
 
 #include "adapters/mcode/twin/errors.hpp"
-#include "adapters/mcode/twin/motor.hpp"
 
 namespace axisgate::mcode::twin {
 
-int Motor::start_homing(Word word, std::span<const Number> f, Instant now) {
+int Homing::start(Word word, std::span<const Number> f, Instant now) {
     if (f.size() != 1) return err::bad_value;
     const std::int64_t type = f[0].as_integer();
     if (type < 1 || type > 4) return err::bad_type;
-    if (word == Word::HM && !inputs_.with_type(InputType::home)) return err::no_home_switch;
-    if (const int code = may_move(word, now); code != 0) return code;
-    home_ = {};
-    home_.word = word;
-    home_.type = static_cast<int>(type);
-    home_.way = type <= 2 ? -1 : 1;
-    home_.creep_way = type == 1 || type == 4 ? 1 : -1;
-    const bool here = word == Word::HM ? inputs_.active(InputType::home) : word == Word::HI && index_here(now);
-    if (!here && held_limit(home_.way, now) != 0) {
+    if (word == Word::HM && !p_.inputs.with_type(InputType::home)) return err::no_home_switch;
+    if (const int code = course_.may_move(word); code != 0) return code;
+    is_ = {};
+    is_.word = word;
+    is_.type = static_cast<int>(type);
+    is_.way = type <= 2 ? -1 : 1;
+    is_.creep_way = type == 1 || type == 4 ? 1 : -1;
+    const bool here = word == Word::HM ? p_.inputs.active(InputType::home) : word == Word::HI && p_.shaft.index_here(now);
+    if (const int held = p_.limits.held(is_.way, now); !here && held != 0) {
         // A held limit lets a homing begin only where it would turn back anyway.
-        const std::int64_t mode = whole(Word::LM);
-        if (word != Word::HM || (mode != 1 && mode != 4)) return held_limit(home_.way, now);
-        home_.reversed = true;
-        home_.way = -home_.way;
+        const std::int64_t mode = p_.settings.whole(Word::LM);
+        if (word != Word::HM || (mode != 1 && mode != 4)) return held;
+        is_.reversed = true;
+        is_.way = -is_.way;
     }
-    resync(now);
-    task_ = Task::homing;
-    braking_ = aborted_ = go_on_ = false;
-    second_.reset();
-    corrections_ = 0;
+    course_.begin(Course::Task::homing, now);
+    course_.forget_corrections();
     if (!here) {
-        seek(home_.way, now);
+        seek(is_.way, now);
     } else if (word == Word::HM) {
-        home_.seen = true;
-        home_creep(now);
+        is_.seen = true;
+        creep(now);
     } else {
-        command(Profile::rest(command_.at(now).position), now);  // on the index already
-        home_.stage = Homing::Stage::creep;
+        course_.command(Profile::rest(p_.shaft.commanded(now).position), now);  // on the index already
+        is_.stage = Stage::creep;
     }
     return 0;
 }
 
-void Motor::seek(int way, Instant now) {
-    home_.way = way;
-    home_.stage = Homing::Stage::seek;
-    command(Profile::slew(now, command_.at(now), way * setting(Word::VM), kinematics()), now);
-    if (home_.word == Word::HM && inputs_.active(InputType::home)) mark(true, now);
+void Homing::seek(int way, Instant now) {
+    is_.way = way;
+    is_.stage = Stage::seek;
+    course_.slew(way * p_.settings[Word::VM], now);
+    if (is_.word == Word::HM && p_.inputs.active(InputType::home)) mark(true, now);
 }
 
-void Motor::home_creep(Instant now) {
-    home_.stage = Homing::Stage::creep;
-    command(Profile::slew(now, command_.at(now), home_.creep_way * std::max(1.0, setting(Word::VI)), kinematics()), now);
+void Homing::creep(Instant now) {
+    is_.stage = Stage::creep;
+    course_.slew(is_.creep_way * p_.settings.creep_speed(), now);
 }
 
-/// The switch changes, or the index passes (`active` only).
-void Motor::mark(bool active, Instant now) {
-    if (task_ != Task::homing || phase_ != Phase::steps || braking_) return;
-    if (home_.stage == Homing::Stage::seek && active) {
-        if (home_.way == home_.creep_way) {
-            home_.seen = home_.word == Word::HM;
-            home_creep(now);
+void Homing::switched(bool active, Instant now) {
+    if (is_.word == Word::HM) mark(active, now);
+}
+
+void Homing::mark(bool active, Instant now) {
+    if (!course_.steps(Course::Task::homing) || course_.aim.braking) return;
+    if (is_.stage == Stage::seek && active) {
+        if (is_.way == is_.creep_way) {
+            is_.seen = is_.word == Word::HM;
+            creep(now);
         } else {
-            home_.stage = Homing::Stage::turn;
-            command(Profile::slew(now, command_.at(now), 0, kinematics()), now);
+            is_.stage = Stage::turn;
+            course_.slew(0, now);
         }
         return;
     }
-    if (home_.stage != Homing::Stage::creep) return;
-    const bool slow = std::abs(command_.at(now).velocity) <= setting(Word::VI) * 1.0001;
-    if (home_.word != Word::HM) {
+    if (is_.stage != Stage::creep) return;
+    const bool slow = std::abs(p_.shaft.commanded(now).velocity) <= p_.settings[Word::VI] * 1.0001;
+    if (is_.word != Word::HM) {
         if (slow) homed(now);  // the slew's own index has passed at speed; the next one counts
         return;
     }
     if (active) {
-        home_.seen = true;
-    } else if (home_.seen) {
+        is_.seen = true;
+    } else if (is_.seen) {
         if (slow) {
             homed(now);
         } else {
-            brake(now);  // a switch shorter than the ramp
+            course_.brake(now);  // a switch shorter than the ramp
         }
     }
 }
 
-void Motor::home_leg_over(Instant now) {
-    switch (braking_ ? Homing::Stage::creep : home_.stage) {
-        case Homing::Stage::turn:
-            home_.seen = home_.word == Word::HM && inputs_.active(InputType::home);
-            home_creep(now);
+void Homing::leg_over(Instant now) {
+    switch (course_.aim.braking ? Stage::creep : is_.stage) {
+        case Stage::turn:
+            is_.seen = is_.word == Word::HM && p_.inputs.active(InputType::home);
+            creep(now);
             return;
-        case Homing::Stage::back:
-            seek(-home_.way, now);
+        case Stage::back:
+            seek(-is_.way, now);
             return;
         default:
             homed(now);
@@ -102,29 +102,40 @@ void Motor::home_leg_over(Instant now) {
     }
 }
 
-void Motor::homed(Instant now) {
-    const double here = std::round(position(now).position);
-    // Less than a unit is lost in rounding, in command and rotor alike.
-    command_ = Profile::rest(here);
-    if (rotor_state_ == Rotor::catching_up) {
-        rotor_state_ = Rotor::follows;
-        meeting_ = never;
-    }
-    if (feedback()) slip_ = 0;
-    target_ = here;
-    braking_ = false;
-    phase_ = Phase::settling;
-    phase_end_ = now + std::chrono::milliseconds(whole(Word::MT));
+void Homing::homed(Instant now) {
+    const double here = std::round(p_.shaft.position(now).position);
+    p_.shaft.settle_at(here);
+    course_.aim.target = here;
+    course_.settle(now);
 }
 
-/// When the rotor stands at the next index (HF: at the offset from it) in its direction.
-Instant Motor::mark_crossing(Instant now) const noexcept {
-    const double v = command_.at(now + Duration{1}).velocity;
+Instant Homing::index_due(Instant now) const noexcept {
+    if (!course_.steps(Course::Task::homing) || is_.word == Word::HM) return never;
+    const double v = p_.shaft.commanded(now + Duration{1}).velocity;
     if (v == 0) return never;
-    const double offset = home_.word == Word::HF ? index_offset_ / 51200.0 : 0.0;  // FS = counts * 12.8 [L3003]
-    const double t = turns(now) - offset;
-    const double next = v * direction() > 0 ? std::floor(t + 1e-7) + 1 : std::ceil(t - 1e-7) - 1;
-    return shaft_crossing(next + offset, now);
+    const double offset = is_.word == Word::HF ? p_.settings[Word::FS] / 51200.0 : 0.0;  // FS = counts * 12.8 [L3003]
+    const double t = p_.shaft.turns(now) - offset;
+    const double next = v * p_.settings.direction() > 0 ? std::floor(t + 1e-7) + 1 : std::ceil(t - 1e-7) - 1;
+    return p_.shaft.turns_crossing(next + offset, now);
+}
+
+bool Homing::answers_limit() const noexcept {
+    const std::int64_t mode = p_.settings.whole(Word::LM);
+    return course_.aim.task == Course::Task::homing && is_.word == Word::HM && (mode == 1 || mode == 4) && !course_.aim.braking;
+}
+
+bool Homing::turn_back(bool at_once, Instant now) {
+    if (is_.stage == Stage::back) return true;  // the same limit again, while braking at it
+    if (is_.stage != Stage::seek || is_.reversed) return false;
+    is_.reversed = true;
+    if (at_once) {
+        p_.shaft.give(Profile::rest(std::round(p_.shaft.commanded(now).position)));
+        seek(-is_.way, now);
+    } else {
+        is_.stage = Stage::back;
+        course_.slew(0, now);
+    }
+    return true;
 }
 
 }  // namespace axisgate::mcode::twin

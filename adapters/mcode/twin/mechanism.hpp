@@ -3,6 +3,8 @@
 // Never knows labels, programs or text lines: a trip is a condition here, and its subroutine is the language's.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +22,13 @@ struct MechanismSetup {
     std::uint8_t product = lmdc;
     int frame_size = 23;  ///< NEMA 17, 23 or 34; 17 has fewer inputs and outputs [L6919]
 };
+
+/// The trips, in the order of their bits in TE.
+inline constexpr std::array trip_words{Word::TI, Word::TP, Word::TC, Word::TT, Word::TR, Word::TA, Word::TM};
+/// Its place in `trip_words`; past the end: no trip.
+[[nodiscard]] constexpr std::size_t trip_index(Word w) noexcept {
+    return static_cast<std::size_t>(std::ranges::find(trip_words, w) - trip_words.begin());
+}
 
 struct MotorEvent {
     enum class Kind : std::uint8_t {

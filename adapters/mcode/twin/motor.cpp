@@ -1,46 +1,21 @@
-// Motor: the passing of time, events and trips.
-// Motion is in twin_motor_motion.cpp, words in twin_motor_words.cpp, points and supply in twin_motor_io.cpp, the hand in
-// twin_motor_hand.cpp, the frame and the encoder in twin_encoder.cpp, and twin_homing.cpp, twin_limits.cpp, twin_hmt.cpp say what they are.
-// In: instants. Out: events.
-// Never loses an event silently within its bound: beyond 64 waiting ones the newest is dropped, and no error raises more than one at once.
+// Motor: the passing of time, edges of inputs, types of outputs, supply and temperature.
+// Words are in motor_words.cpp, the hand is in motor_hand.cpp.
+// In: instants, edges, figures. Out: events, stops, states of outputs.
+// Never works off more than 256 happenings in one call; the rest stay due.
 #include "adapters/mcode/twin/motor.hpp"
-#include "adapters/mcode/twin/errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/mcode/twin/errors.hpp"
+
 namespace axisgate::mcode::twin {
 namespace {
-constexpr std::size_t event_limit = 64;
-/// Happenings that one call works off; the rest stay due.
 constexpr int happenings_per_call = 256;
-/// 20 kHz, the highest rate of position trips [L5844]; those in between are lost.
-constexpr Duration trip_pause = std::chrono::microseconds(50);
 
 }  // namespace
 
 std::unique_ptr<Mechanism> make_mechanism(const MechanismSetup& setup) { return std::make_unique<Motor>(setup); }
-
-Motor::Motor(const MechanismSetup& setup)
-    : setup_(setup),
-      inputs_(setup.frame_size == 17 ? 3 : input_count, (setup.product & lmd) != 0),
-      outputs_(setup.frame_size == 17, (setup.product & lmdc) != 0) {
-    supply_.has_aux = (setup.product & lmd) != 0;
-    defaults();
-    inputs_.factory({});
-    outputs_.factory();
-}
-
-void Motor::emit(const MotorEvent& e) {
-    if (events_.size() < event_limit) events_.push_back(e);
-}
-
-std::optional<MotorEvent> Motor::next_event() {
-    if (events_.empty()) return std::nullopt;
-    const MotorEvent e = events_.front();
-    events_.pop_front();
-    return e;
-}
 
 void Motor::advance(Instant now) {
     for (int n = 0; n < happenings_per_call && next_ <= now; ++n) {
@@ -52,196 +27,242 @@ void Motor::advance(Instant now) {
     last_ = std::max(last_, now);
 }
 
-Instant Motor::position_crossing(double x, Instant now, int way) const noexcept {
-    return feedback() ? rotor_crossing(x, now, way) : command_.crossing(now, x, way);
-}
-
 void Motor::replan(Instant now) {
     due_ = {};
-    if (phase_ == Phase::steps) {
-        if (soft_on_[0]) due_.soft = position_crossing(soft_limit_[0], now, -1);
-        if (soft_on_[1]) due_.soft = std::min(due_.soft, position_crossing(soft_limit_[1], now, 1));
-        if (task_ == Task::homing && home_.word != Word::HM) due_.mark = mark_crossing(now);
-        if ((te_ & 2) != 0) due_.tp = position_crossing(tp_, now);
-        if ((te_ & 16) != 0 && now < tr_pause_until_) {
-            due_.trip_pause = tr_pause_until_;
-        } else if ((te_ & 16) != 0) {
-            // Multiples that passed within the pause are lost.
-            if (tr_pause_until_ != Instant::min()) {
-                tr_from_ += std::trunc((position(now).position - tr_from_) / tr_) * tr_;
-                tr_pause_until_ = Instant::min();
-            }
-            due_.tr = std::min(position_crossing(tr_from_ + tr_, now), position_crossing(tr_from_ - tr_, now));
-        }
-        if (rotor_state_ == Rotor::held && encoder_mode() && !stall_told_) {
-            const double sf = setting(Word::SF);
-            due_.stall = std::min(command_.crossing(now, held_at_ + sf, 1), command_.crossing(now, held_at_ - sf, -1));
-        }
-        if (rotor_state_ == Rotor::held && (hmt_mode() == 1 || hmt_mode() == 2)) {
-            for (const double limit : {bound(), setting(Word::LG), setting(Word::LD)}) {
-                due_.lag = std::min({due_.lag, command_.crossing(now, held_at_ + limit, 1), command_.crossing(now, held_at_ - limit, -1)});
-            }
-        }
-        if (hmt_mode() != 0) due_.wrap = std::min(position_crossing(2147483647.0, now, 1), position_crossing(-2147483648.0, now, -1));
-        due_.cam = cam_crossing(now);
+    if (course_.steps()) {
+        due_.soft = p_.limits.crossing(now);
+        due_.index = homing_.index_due(now);
+        due_.stall = course_.stall_due(now);
+        due_.lag = p_.loop.lag_due(now);
+        if (p_.settings.hmt_mode() != 0)
+            due_.wrap = std::min(p_.shaft.position_crossing(2147483647.0, now, 1), p_.shaft.position_crossing(-2147483648.0, now, -1));
+        due_.cam = p_.cams.crossing(now);
     }
-    next_ = std::min({due_.soft, due_.mark, due_.tp, due_.tr, due_.trip_pause, due_.stall, due_.lag, due_.wrap, due_.cam,
-                      inputs_.deadline(), passing_, phase_end_, hmt_.lock_due});
-    if (rotor_state_ == Rotor::catching_up) next_ = std::min(next_, meeting_);
-    if (phase_ == Phase::steps && !waits_for_rotor()) next_ = std::min(next_, command_.end());
+    p_.trips.plan(course_.steps(), now);
+    next_ = std::min({due_.soft, due_.index, p_.trips.deadline(), due_.stall, due_.lag, due_.wrap, due_.cam, p_.inputs.deadline(),
+                      course_.aim.passing, course_.phase_end(), p_.loop.lock_due(), p_.shaft.meeting(), course_.steps_end()});
 }
 
 /// Everything that is due at `t`, causes before effects.
 void Motor::handle(Instant t) {
     const Due due = due_;
     due_ = {};
-    if (due.cam <= t) judge_cams(t);
-    while (const auto e = inputs_.next_edge(t))
+    if (due.cam <= t) p_.cams.judge(t);
+    while (const auto e = p_.inputs.next_edge(t))
         edge(*e, t);
-    if (passing_ <= t) {
-        passing_ = never;
-        emit({MotorEvent::Kind::finished, 0, {}});
+    if (course_.aim.passing <= t) {
+        course_.aim.passing = never;
+        p_.events.emit(MotorEvent::Kind::finished);
     }
-    if (rotor_state_ == Rotor::catching_up && meeting_ <= t) caught_up(t);
-    if (due.stall <= t) stalled(t);
-    if (due.lag <= t) judge_lag(t);
-    if (hmt_.lock_due <= t) locked(t);
-    if (due.wrap <= t) raise(err::max_count);
-    if (due.tp <= t) trip(Word::TP, t, false);
-    if (due.tr <= t) {
-        trip(Word::TR, t, false);
-        const double way = position(t).position < tr_from_ ? -1 : 1;
-        tr_from_ += way * tr_;
-        tr_pause_until_ = t + trip_pause;
-    }
-    if (due.soft <= t) limit_met(command_.at(t).velocity < 0 ? -1 : 1, t);
-    if (due.mark <= t) mark(true, t);
-    if (phase_ == Phase::steps && !waits_for_rotor() && command_.end() <= t) {
-        steps_over(t);
-    } else if (phase_end_ <= t) {
-        phase_end_ = never;
-        if (phase_ == Phase::settling) {
-            settled(t);
-        } else if (phase_ == Phase::holding) {
-            finish(t);
-        }
+    if (p_.shaft.meeting() <= t) p_.loop.caught_up();
+    if (due.stall <= t) course_.stalled(t);
+    if (due.lag <= t) p_.loop.judge_lag(t);
+    if (p_.loop.lock_due() <= t) course_.locked(t);
+    if (due.wrap <= t) p_.events.raise(err::max_count);
+    p_.trips.pass(t);
+    if (due.soft <= t) moves_.limit_met(p_.shaft.commanded(t).velocity < 0 ? -1 : 1, t);
+    if (due.index <= t) homing_.index(t);
+    if (course_.steps_end() <= t) {
+        moves_.steps_over(t);
+    } else if (course_.phase_end() <= t) {
+        moves_.phase_over(t);
     }
 }
 
-void Motor::trip(Word w, Instant now, bool capture) {
-    if (capture) captured_ = std::llround(position(now).position);
-    if (outputs_.has(OutputType::trip)) ++trip_pulses_;
-    emit({MotorEvent::Kind::trip, 0, w});
-}
-
-void Motor::capture(Instant now) {
-    advance(now);
-    captured_ = std::llround(position(now).position);
-    if (outputs_.has(OutputType::trip)) ++trip_pulses_;
-}
-
-int Motor::arm(Word w, std::span<const Number> f, Instant now) {
-    advance(now);
-    if (const int code = available(w); code != 0) return code;
-    const auto first = [&] { return f.empty() ? std::int64_t{0} : f[0].as_integer(); };
-    switch (w) {
-        case Word::TI:
-            if (f.size() != 1 || first() < 1 || first() > static_cast<std::int64_t>(inputs_.fitted())) return err::bad_value;
-            ti_input_ = static_cast<int>(first());
+void Motor::edge(const InputEdge& e, Instant now) {
+    using Kind = MotorEvent::Kind;
+    p_.trips.input(e, now);
+    switch (e.type) {
+        case InputType::home:
+            homing_.switched(e.active, now);
             break;
-        case Word::TP:
-            if (f.size() != 1 || std::abs(first()) > 2147483648LL) return err::bad_value;
-            if ((te_ & 16) != 0) return err::two_trips;
-            tp_ = static_cast<double>(first());
+        case InputType::limit_plus:
+            if (e.active) moves_.limit_met(1, now);
             break;
-        case Word::TR:
-            if (f.empty() || first() == 0 || std::abs(first()) > 2147483647LL) return err::bad_value;
-            if ((te_ & 2) != 0) return err::two_trips;
-            tr_ = static_cast<double>(std::abs(first()));
-            tr_from_ = position(now).position;
+        case InputType::limit_minus:
+            if (e.active) moves_.limit_met(-1, now);
             break;
-        case Word::TC:
-            if (!inputs_.with_type(InputType::capture)) return err::no_capture;
+        case InputType::go:
+            if (e.active) p_.events.emit(Kind::go);
             break;
-        case Word::TA:
-            if (f.size() != 1 || first() < 0 || first() > 31) return err::bad_value;
-            ta_mask_ = static_cast<int>(first());
+        case InputType::soft_stop:
+            if (e.active) moves_.soft_stop(program_running_, now);
+            break;
+        case InputType::pause:
+            p_.events.emit(e.active ? Kind::pause : Kind::resume);
+            break;
+        case InputType::jog_plus:
+        case InputType::jog_minus:
+            moves_.jog(now);
+            break;
+        case InputType::reset:
+            if (e.active) p_.events.emit(Kind::reset);
             break;
         default:
             break;
     }
-    replan(now);
-    return 0;
+}
+
+bool Motor::output(std::size_t n, Instant now) const noexcept {
+    const bool moves = !course_.rests();
+    switch (p_.outputs.type(n)) {
+        case OutputType::general:
+            return p_.outputs.value(n);
+        case OutputType::moving:
+            return moves;
+        case OutputType::error:
+            return error_flag_;
+        case OutputType::stall:
+            return course_.stall_flag();
+        case OutputType::velocity_changing:
+            return course_.velocity_changing(now);
+        case OutputType::locked_rotor:
+            return p_.loop.locked();
+        case OutputType::to_position:
+            return course_.to_position();
+        case OutputType::hmt_active:
+            return p_.settings.hmt_mode() != 0 && (p_.loop.at_bounds() || p_.shaft.state() == Shaft::Rotor::catching_up);
+        case OutputType::makeup_active:
+            return p_.shaft.state() == Shaft::Rotor::catching_up;
+        case OutputType::encoder_a:
+        case OutputType::encoder_b: {
+            const auto phase = static_cast<std::int64_t>(std::floor(p_.shaft.c2(now))) & 3;
+            return p_.outputs.type(n) == OutputType::encoder_a ? phase == 1 || phase == 2 : phase >= 2;
+        }
+        case OutputType::attention: {
+            const auto mask = static_cast<std::uint64_t>(p_.settings[Word::AO]);
+            std::uint64_t on = 0;  // the bits that the damaged table leaves [E-32]
+            if (error_flag_) on |= 1;
+            if (p_.loop.lead_limit()) on |= 4;
+            if (p_.loop.lag_limit()) on |= 8;
+            if (!moves && course_.current(now) == p_.settings.whole(Word::HC)) on |= 512;
+            if (moves) on |= 16384;
+            if (course_.stall_flag()) on |= 32768;
+            return (mask & on) != 0;
+        }
+        default:
+            return false;  // trip: a pulse of CW*50 ns, over before anybody looks; trip_pulses counts
+    }
+}
+
+void Motor::judge_supply(Instant now) {
+    Supply& supply = p_.power.supply;
+    // Both out: 78 first and 79 last [E-33]. An unused aux supply is no error.
+    const bool aux_bad = supply.has_aux && !supply.aux_unused() && !supply.aux_good();
+    if (aux_bad && !supply.aux_told) p_.events.raise(err::aux_out);
+    supply.aux_told = aux_bad;
+    const bool plus_bad = !supply.plus_v_good();
+    if (plus_bad && !supply.plus_v_told) {
+        p_.events.raise(err::plus_v_out);
+        if (supply.plus_v < plus_v_low && supply.aux_good()) p_.trips.supply_low(now);
+        bridges_off(now);
+    }
+    supply.plus_v_told = plus_bad;
+    const bool is_warm = supply.hottest() > p_.settings[Word::WT];
+    if (is_warm && !supply.warned) p_.events.raise(err::warm);
+    supply.warned = is_warm;
+    const bool is_hot = supply.hottest() >= shut_down_temperature;
+    if (is_hot && !supply.over_temperature) {
+        p_.events.raise(err::hot);
+        p_.settings.set(Word::DE, 0);
+        bridges_off(now);
+    }
+    supply.over_temperature = is_hot;
+}
+
+void Motor::bridges_off(Instant now) {
+    if (!course_.rests()) course_.abort(now);
+}
+
+bool Motor::owes(Instant now) const noexcept { return p_.settings.makes_up() && std::abs(p_.shaft.lag(now)) >= 1; }
+
+int Motor::arm(Word w, std::span<const Number> f, Instant now) {
+    advance(now);
+    if (const int code = p_.settings.available(w); code != 0) return code;
+    const int code = p_.trips.arm(w, f, now);
+    if (code == 0) replan(now);
+    return code;
 }
 
 void Motor::enable_trips(int te, Instant now) {
     advance(now);
-    // TR counts from where it is switched on [L5828].
-    if ((te & 16) != 0 && (te_ & 16) == 0) tr_from_ = position(now).position;
-    te_ = te;
+    p_.trips.enable(te, now);
     replan(now);
+}
+
+void Motor::capture(Instant now) {
+    advance(now);
+    p_.trips.capture(now);
 }
 
 void Motor::restart(Instant now) {
     advance(now);
-    events_.clear();
-    const double shaft = turns(now);
-    hmt_ = {};
-    task_ = Task::none;
-    phase_ = Phase::rest;
-    phase_end_ = passing_ = meeting_ = never;
-    braking_ = go_on_ = aborted_ = paused_ = false;
-    second_.reset();
-    after_pause_.reset();
-    last_way_ = 0;
-    way_ = 1;
-    corrections_ = 0;
-    slip_ = held_at_ = 0;
-    rotor_state_ = held_ ? Rotor::held : Rotor::follows;
-    command_ = Profile::rest(0);
-    put_back({0, 0, shaft}, now);
-    captured_ = 0;
-    stall_flag_ = stall_told_ = false;
-    last_motion_ = Word::MR;
-    index_offset_ = 0;
-    te_ = 0;
-    bridge_off_ = !enable_input_;
+    p_.events.clear();
+    p_.loop.restart();
+    course_.restart(now);
+    moves_.restart();
+    p_.trips.restart();
+    p_.settings.set(Word::FS, 0);
+    p_.power.off = !p_.power.enable_input;
     error_flag_ = program_running_ = false;
-    supply_.warned = supply_.over_temperature = supply_.plus_v_told = supply_.aux_told = false;
+    Supply& supply = p_.power.supply;
+    supply.warned = supply.over_temperature = supply.plus_v_told = supply.aux_told = false;
     replan(now);
+}
+
+int Motor::start(Word word, std::span<const Number> fields, Instant now) {
+    advance(now);
+    int code = p_.settings.available(word);
+    if (code == 0 && word == Word::SL && fields.size() != 1) return err::bad_value;
+    if (code == 0) code = moves_.start(word, fields, now);
+    replan(now);
+    return code;
 }
 
 void Motor::stop_at_once(Instant now) {
     advance(now);
-    const bool unfinished = (hmt_mode() == 1 || hmt_mode() == 2) && phase_ == Phase::steps && std::abs(lag(now)) >= 1;
-    freeze(now);
-    if (unfinished) raise(108);
+    const bool unfinished = course_.steps() && owes(now);
+    course_.freeze(now);
+    if (unfinished) p_.events.raise(err::makeup_stopped);
+    replan(now);
+}
+
+void Motor::pause(Instant now) {
+    advance(now);
+    moves_.pause(now);
+    replan(now);
+}
+
+void Motor::resume(Instant now) {
+    advance(now);
+    const auto code = moves_.resume(now);
+    if (!code) return;
+    if (*code != 0) p_.events.raise(*code);
     replan(now);
 }
 
 bool Motor::moving(Instant now) {
     advance(now);
-    return phase_ != Phase::rest;
+    return !course_.rests();
 }
 
 bool Motor::busy(bool any, Instant now) {
-    advance(now);
-    if (phase_ == Phase::rest) return false;
-    return any || task_ == Task::position || task_ == Task::homing || task_ == Task::calibration || task_ == Task::correction;
+    using Task = Course::Task;
+    if (!moving(now)) return false;
+    const Task task = course_.aim.task;
+    return any || task == Task::position || task == Task::homing || task == Task::calibration || task == Task::correction;
 }
 
 void Motor::tell(bool error_flag, bool program_running, Instant) {
     error_flag_ = error_flag;
     program_running_ = program_running;
-    if (program_running) return;
     // A program that was ended while it was paused takes its pause along.
-    paused_ = false;
-    after_pause_.reset();
+    if (!program_running) moves_.forget_pause();
 }
 
 TwinMechanics Motor::mechanics(Instant now) const {
-    const Travel r = rotor(std::max(now, last_));
-    return {r.position, r.velocity, setting(Word::DE) != 0 && !bridge_off_ && supply_.plus_v_good()};
+    const Travel r = p_.shaft.rotor(std::max(now, last_));
+    return {r.position, r.velocity, p_.power.good()};
 }
 
 }  // namespace axisgate::mcode::twin

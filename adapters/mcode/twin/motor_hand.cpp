@@ -23,11 +23,8 @@ constexpr std::array figures{Figure{"load", 0, 1, "part of the full torque"},
                              Figure{"analog_signal", 0, 24, "V or mA"},
                              Figure{"position", -2147483648.0, 2147483647.0, "unit of P"},
                              Figure{"clock_pulses", -1e9, 1e9, "pulses"}};
-struct CamName {
-    const char* name;
-    std::size_t cam;
-};
-constexpr std::array cam_names{CamName{"limit_negative_position", 0}, CamName{"limit_positive_position", 1}, CamName{"home_position", 2}};
+/// In the order of Cams.
+constexpr std::array cam_names{"limit_negative_position", "limit_positive_position", "home_position"};
 struct SwitchName {
     const char* name;
     InputType type;
@@ -40,42 +37,45 @@ constexpr std::array switch_names{SwitchName{"limit_positive", InputType::limit_
 std::vector<HandItem> Motor::hand(Instant asked) const {
     const Instant now = std::max(asked, last_);
     std::vector<HandItem> items;
-    items.push_back({"stall", held_, true,
+    items.push_back({"stall", course_.touch.held, true,
                      "the shaft is held: lost steps without encoder, error 86 with EE=1, lag and then locked rotor with AS=1..3"});
+    items.push_back({"load", course_.touch.load, true,
+                     "0..1 of the full torque; above the present current (RC, or TQ with AS=3) the moving shaft stops"});
     items.push_back(
-        {"load", load_, true, "0..1 of the full torque; above the present current (RC, or TQ with AS=3) the moving shaft stops"});
-    items.push_back({"position", std::llround(rotor(now).position), true, "shaft position in the unit of P; can be turned at rest"});
-    items.push_back({"inputs", std::int64_t{inputs_.levels()}, true, "levels of the inputs, bit 0 = input 1; 1 is 5 to 24 V or open"});
-    items.push_back({"active_inputs", std::int64_t{inputs_.active_mask()}, true,
+        {"position", std::llround(p_.shaft.rotor(now).position), true, "shaft position in the unit of P; can be turned at rest"});
+    items.push_back({"inputs", std::int64_t{p_.inputs.levels()}, true, "levels of the inputs, bit 0 = input 1; 1 is 5 to 24 V or open"});
+    items.push_back({"active_inputs", std::int64_t{p_.inputs.active_mask()}, true,
                      "switches at the inputs, bit 0 = input 1; 1 is active, whatever level IS makes that"});
     for (const auto& s : switch_names) {
         // A switch beside the axis has a state of its own, also while no input is of its type.
-        const auto cam = s.type == InputType::limit_minus ? 0U : s.type == InputType::limit_plus ? 1U : 2U;
-        items.push_back({s.name, inputs_.with_type(s.type) || !cams_[cam].turns ? inputs_.active(s.type) : cam_active(cam, now), true,
-                         "the input that IS has given type " + std::to_string(static_cast<int>(s.type)) + " becomes active"});
+        const auto cam = static_cast<std::size_t>(std::ranges::find(Cams::types, s.type) - Cams::types.begin());
+        items.push_back({s.name, p_.inputs.with_type(s.type) || !p_.cams.place(cam) ? p_.inputs.active(s.type) : p_.cams.active(cam, now),
+                         true, "the input that IS has given type " + std::to_string(static_cast<int>(s.type)) + " becomes active"});
     }
-    for (const auto& c : cam_names) {
-        items.push_back({c.name, cams_[c.cam].turns ? Value{*cams_[c.cam].turns} : Value{std::string("none")}, true,
+    for (std::size_t i = 0; i < cam_names.size(); ++i) {
+        const auto turns = p_.cams.place(i);
+        items.push_back({cam_names[i], turns ? Value{*turns} : Value{std::string("none")}, true,
                          "turn of the shaft where this switch begins, counted from power-up of the model; none: no switch"});
     }
-    items.push_back({"analog", std::llround(inputs_.analog_raw()), true, "analog input in counts, 0..4095"});
+    items.push_back({"analog", std::llround(p_.inputs.analog_raw()), true, "analog input in counts, 0..4095"});
     items.push_back({"analog_signal", 0.0, true, "writing: V (mA with IS=5,10), converted to counts as IS says"});
     items.push_back({"clock_pulses", clock_pulses_, true, "writing: pulses that come at inputs 3 and 4; reading: how many have come"});
-    items.push_back({"temperature", supply_.bridge, true, "of the bridge, deg C: above WT error 71, from 85 error 72"});
-    items.push_back({"controller_temperature", supply_.controller, true, "deg C"});
-    items.push_back({"supply_voltage", supply_.plus_v, true, "+V in V; 10..60 is good"});
-    if (supply_.has_aux) items.push_back({"aux_voltage", supply_.aux, true, "in V; 10..30 is good, 0 unused"});
-    items.push_back({"encoder_fault", std::int64_t{encoder_fault_}, true, "what SC 1 finds: 0 nothing, 1 resolution, 2 direction, 3 both"});
-    if ((setup_.product & lmd) != 0)
+    items.push_back({"temperature", p_.power.supply.bridge, true, "of the bridge, deg C: above WT error 71, from 85 error 72"});
+    items.push_back({"controller_temperature", p_.power.supply.controller, true, "deg C"});
+    items.push_back({"supply_voltage", p_.power.supply.plus_v, true, "+V in V; 10..60 is good"});
+    if (p_.power.supply.has_aux) items.push_back({"aux_voltage", p_.power.supply.aux, true, "in V; 10..30 is good, 0 unused"});
+    items.push_back(
+        {"encoder_fault", std::int64_t{course_.touch.encoder}, true, "what SC 1 finds: 0 nothing, 1 resolution, 2 direction, 3 both"});
+    if (p_.settings.is(lmd))
         items.push_back({"output_fault", std::int64_t{output_fault_}, true, "over-current: bit 0 output 1, bit 1 output 2"});
-    if ((setup_.product & lmm) != 0)
-        items.push_back({"enable_input", enable_input_, true, "hardware enable of the module; off is error 14"});
+    if (p_.settings.is(lmm))
+        items.push_back({"enable_input", p_.power.enable_input, true, "hardware enable of the module; off is error 14"});
     std::int64_t outputs = 0;
     for (std::size_t i = 0; i < output_count; ++i)
-        outputs |= outputs_.fitted(i) && output(i, now) ? std::int64_t{1} << i : 0;
+        outputs |= p_.outputs.fitted(i) && output(i, now) ? std::int64_t{1} << i : 0;
     items.push_back({"outputs", outputs, false, "outputs that are active, bit 0 = output 1"});
-    items.push_back({"current", std::int64_t{current(now)}, false, "percent"});
-    items.push_back({"trip_pulses", trip_pulses_, false, "pulses that output 3 of type 28 has given"});
+    items.push_back({"current", std::int64_t{course_.current(now)}, false, "percent"});
+    items.push_back({"trip_pulses", p_.trips.pulses(), false, "pulses that output 3 of type 28 has given"});
     return items;
 }
 
@@ -85,32 +85,26 @@ std::optional<std::string> Motor::set_hand(const std::string& name, const Value&
     const auto flag = as_flag(value);
     const auto mask = as_integer(value);
     const auto number = as_number(value);
+    Power& power = p_.power;
     const std::string want_flag = name + ": " + shown + " is not true or false";
-    std::string fault;
 
     for (const Figure& f : figures) {
         if (name == f.name && (!number || !(*number >= f.low && *number <= f.high)))
             return name + ": " + shown + " is not " + axisgate::to_text(Value{f.low}) + " to " + axisgate::to_text(Value{f.high}) + ", " +
                    f.unit;
     }
-    for (const auto& c : cam_names) {
-        if (name != c.name) continue;
-        if (number && std::isfinite(*number)) {
-            cams_[c.cam].turns = *number;
-        } else if (shown == "none") {
-            cams_[c.cam].turns.reset();
-        } else {
-            return name + ": " + shown + " is not a number of turns, or none";
-        }
-        cams_[c.cam].was = false;
-        place_switches(now);
+    for (std::size_t i = 0; i < cam_names.size(); ++i) {
+        if (name != cam_names[i]) continue;
+        const bool none = !number || !std::isfinite(*number);
+        if (none && shown != "none") return name + ": " + shown + " is not a number of turns, or none";
+        p_.cams.place(i, none ? std::nullopt : number, now);
         replan(now);
         return "";
     }
     for (const auto& s : switch_names) {
         if (name != s.name) continue;
         if (!flag) return want_flag;
-        if (!inputs_.drive(s.type, *flag, now)) {
+        if (!p_.inputs.drive(s.type, *flag, now)) {
             const std::string type = std::to_string(static_cast<int>(s.type));
             return name + ": no input is of type " + type + "; IS=1," + type + ",0 makes input 1 one";
         }
@@ -120,72 +114,55 @@ std::optional<std::string> Motor::set_hand(const std::string& name, const Value&
     }
     if (name == "stall") {
         if (!flag) return want_flag;
-        held_ = *flag;
-        judge_rotor(now);
+        course_.touch.held = *flag;
+        course_.judge_rotor(now);
     } else if (name == "load") {
-        load_ = *number;
-        judge_rotor(now);
+        course_.touch.load = *number;
+        course_.judge_rotor(now);
     } else if (name == "position") {
-        if (phase_ == Phase::steps) return "position: the motor is moving; the shaft can be turned at rest";
-        const bool free = setting(Word::DE) == 0 || bridge_off_;
-        if (rotor_state_ == Rotor::held) {
-            held_at_ = *number;
-        } else {
-            slip_ = command_.at(now).position - *number;
-            if (hmt_mode() == 1 || hmt_mode() == 2) {
-                if (free) {
-                    resync(now);
-                } else if (std::abs(slip_) > 1e-9) {
-                    judge_lag(now);
-                    held_at_ = *number;
-                    rotor_state_ = Rotor::held;  // where make-up takes it from
-                    make_up(now);
-                }
-            }
-            maintain(now);
-        }
-        judge_cams(now);
+        if (course_.steps()) return "position: the motor is moving; the shaft can be turned at rest";
+        course_.turn_to(*number, now);
     } else if (name == "inputs" || name == "active_inputs") {
-        const std::int64_t top = (std::int64_t{1} << inputs_.fitted()) - 1;
+        const std::int64_t top = (std::int64_t{1} << p_.inputs.fitted()) - 1;
         if (!mask || *mask < 0 || *mask > top) return name + ": " + shown + " is not 0.." + std::to_string(top) + " (bit 0 = input 1)";
         if (name == "inputs") {
-            inputs_.levels(static_cast<std::uint8_t>(*mask), now);
+            p_.inputs.levels(static_cast<std::uint8_t>(*mask), now);
         } else {
-            inputs_.switches(static_cast<std::uint8_t>(*mask), now);
+            p_.inputs.switches(static_cast<std::uint8_t>(*mask), now);
         }
     } else if (name == "analog") {
-        inputs_.analog_counts(*number, now);
+        p_.inputs.analog_counts(*number, now);
     } else if (name == "analog_signal") {
-        inputs_.analog_signal(*number, now);
+        p_.inputs.analog_signal(*number, now);
     } else if (name == "clock_pulses") {
         clock_pulses_ += static_cast<std::int64_t>(*number);
-        follow(std::trunc(*number), now);
+        moves_.follow(std::trunc(*number), now);
     } else if (name == "temperature" || name == "controller_temperature") {
-        (name == "temperature" ? supply_.bridge : supply_.controller) = *number;
+        (name == "temperature" ? p_.power.supply.bridge : p_.power.supply.controller) = *number;
         judge_supply(now);
     } else if (name == "supply_voltage") {
-        supply_.plus_v = *number;
+        power.supply.plus_v = *number;
         judge_supply(now);
-    } else if (name == "aux_voltage" && supply_.has_aux) {
-        supply_.aux = *number;
+    } else if (name == "aux_voltage" && p_.power.supply.has_aux) {
+        power.supply.aux = *number;
         judge_supply(now);
     } else if (name == "encoder_fault") {
         if (!mask || *mask < 0 || *mask > 3) return "encoder_fault: " + shown + " is not 0..3";
-        encoder_fault_ = static_cast<int>(*mask);
-    } else if (name == "output_fault" && (setup_.product & lmd) != 0) {
+        course_.touch.encoder = static_cast<int>(*mask);
+    } else if (name == "output_fault" && p_.settings.is(lmd)) {
         if (!mask || *mask < 0 || *mask > 3) return "output_fault: " + shown + " is not 0..3 (bit 0: output 1, bit 1: output 2)";
         for (int n = 0; n < 2; ++n) {
-            if ((*mask & ~std::int64_t{output_fault_}) >> n & 1) raise(n + 1);
+            if ((*mask & ~std::int64_t{output_fault_}) >> n & 1) p_.events.raise(n + 1);
         }
         output_fault_ = static_cast<int>(*mask);
-    } else if (name == "enable_input" && (setup_.product & lmm) != 0) {
+    } else if (name == "enable_input" && p_.settings.is(lmm)) {
         if (!flag) return want_flag;
-        if (enable_input_ && !*flag) {
-            raise(err::lmm_disabled);
+        if (power.enable_input && !*flag) {
+            p_.events.raise(err::lmm_disabled);
             bridges_off(now);
         }
-        enable_input_ = *flag;
-        bridge_off_ = !enable_input_ || (hmt_.locked && hmt_mode() != 3);
+        power.enable_input = *flag;
+        power.off = !power.enable_input || (p_.loop.locked() && p_.settings.hmt_mode() != 3);
     } else if (name == "outputs" || name == "current" || name == "trip_pulses") {
         return name + " can only be read";
     } else {

@@ -7,14 +7,6 @@
 #include "adapters/mcode/twin/errors.hpp"
 
 namespace axisgate::mcode::twin {
-namespace {
-/// Bits of TE in order: TI TP TC TT TR TA TM.
-constexpr std::array trip_words{Word::TI, Word::TP, Word::TC, Word::TT, Word::TR, Word::TA, Word::TM};
-
-std::size_t trip_index(Word w) noexcept { return static_cast<std::size_t>(std::ranges::find(trip_words, w) - trip_words.begin()); }
-
-}  // namespace
-
 int Device::declare(const Statement& s, std::span<const Number> fields) {
     if (s.name.size() == 2 && (setup_.product & lmm) != 0 && word_named(s.name) == Word::PW) return err::illegal_data;
     Symbols& names = program_.symbols();

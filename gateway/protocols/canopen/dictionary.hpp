@@ -31,10 +31,10 @@ struct Entry {
     DataType type = DataType::unsigned32;
     EntryAccess access = EntryAccess::read_write;
     Mappable mappable = Mappable::no;
-    std::string name;
-    std::vector<std::uint8_t> bytes;        ///< of the type's length; strings and domains any
-    std::optional<std::int64_t> low, high;  ///< of whole numbers
-    std::size_t most_bytes = 0;             ///< of strings and domains; 0: as long as the server's limit
+    std::string name{};
+    std::vector<std::uint8_t> bytes{};          ///< of the type's length; strings and domains any
+    std::optional<std::int64_t> low{}, high{};  ///< of whole numbers
+    std::size_t most_bytes = 0;                 ///< of strings and domains; 0: as long as the server's limit
 };
 
 class Dictionary : public SdoStore {

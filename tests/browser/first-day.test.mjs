@@ -180,11 +180,11 @@ const cutShort = (report) =>
 /** From the middle of one to the middle of the other, in steps, as a hand does. */
 async function drag(page, from, to) {
   const middle = async (what) => {
-    await page.locator(what).first().scrollIntoViewIfNeeded();
     const b = await page.locator(what).first().boundingBox();
     return [b.x + b.width / 2, b.y + b.height / 2];
   };
-  const [a, b] = [await middle(from), await middle(to)];
+  for (const what of [to, from]) await page.locator(what).first().scrollIntoViewIfNeeded();
+  const [a, b] = [await middle(from), await middle(to)]; // both where they are now: the second may have scrolled the first
   await page.mouse.move(...a);
   await page.mouse.down();
   await page.mouse.move((a[0] + b[0]) / 2, (a[1] + b[1]) / 2, { steps: 4 });

@@ -45,6 +45,7 @@ for (const language of ['en', 'de', 'zh']) {
 async function day(program, language) {
   // The reader's browser speaks English, and the language is switched on the page: at the end the choice still holds.
   const page = await open(browser, program.url, { locale: 'en', viewport: { width: 1280, height: 900 } });
+  page.setDefaultTimeout(30_000); // a day is long beside other tests
   const part = (path) => page.locator(`.nav a[href="${path}"]`).click();
   await page.locator('[data-axis=feeder] [data-live=true]').first().waitFor();
   if (language !== 'en') {
@@ -123,7 +124,7 @@ async function day(program, language) {
   // What if who commands is lost: on models, with times.
   await part('/site');
   await press('Rehearse on models');
-  await page.locator('[data-field="rehearsal-report"]').waitFor({ timeout: 30_000 });
+  await page.locator('[data-field="rehearsal-report"]').waitFor({ timeout: 90_000 });
 
   // What happened goes to a colleague.
   await page.goto(`${program.url}/recorder/recordings/`);

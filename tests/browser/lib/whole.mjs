@@ -1,9 +1,9 @@
 // Whole: every part of the page in one language at three widths, with its folds, forms, dialogs and modes: every text is seen whole.
-// In: the language; lib/cut.mjs says what is not. Out: a test for each width; pictures under build/browser, whole-LANGUAGE-WIDTH-NAME.png.
-// A file for each language, since each goes through the whole page three times.
+// In: the language; lib/cut.mjs says what is not. Out: a test for each kind of screen.
+// A file for each language, since each goes through the whole page.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { drawn, launch, open, quiet, shot } from './browser.mjs';
+import { drawn, launch, open, quiet } from './browser.mjs';
 import { cut, unfold } from './cut.mjs';
 import { furnish, parts } from './parts.mjs';
 import { Program } from './program.mjs';
@@ -34,12 +34,17 @@ export function whole(language) {
     await browser?.close();
     await program?.end();
   });
-  for (const [width, height] of [[1280, 900], [768, 1024], [360, 740]]) {
-    test(`${language} at ${width} px: every text is seen whole, in its button and beside all others; every choice shows its longest`, async () => {
-      const p = await open(browser, program.url + '/', { locale: language, viewport: { width, height }, hasTouch: width < 800, isMobile: width < 800 });
+  // A desk with a mouse, and a hand-held screen that is turned: each part is loaded once for it.
+  for (const [what, touch, widths] of [['a desk', false, [1280]], ['a touch screen', true, [768, 360]]]) {
+    test(`${language} on ${what}, ${widths.join(' and ')} px: every text is seen whole, in its button and beside all others; every choice shows its longest`, async () => {
+      const p = await open(browser, program.url + '/', { locale: language, viewport: { width: widths[0], height: 900 }, hasTouch: touch, isMobile: touch });
       const wrong = new Map();
       const look = async (where) => {
-        for (const fault of await cut(p)) if (!wrong.has(fault)) wrong.set(fault, where);
+        for (const width of widths) {
+          if (widths.length > 1) await p.setViewportSize({ width, height: 900 });
+          await drawn(p);
+          for (const fault of await cut(p)) if (!wrong.has(fault)) wrong.set(fault, `${where} at ${width} px`);
+        }
       };
       for (const part of looks) {
         await p.goto(program.url + part.path);
@@ -48,18 +53,15 @@ export function whole(language) {
         await quiet(p);
         await look(part.name);
         await p.emulateMedia({ colorScheme: 'dark' });
-        await drawn(p);
-        await look(`${part.name}, dark`);
-        await p.emulateMedia({ colorScheme: 'light' });
         await unfold(p);
-        await look(`${part.name}, unfolded`);
+        await look(`${part.name}, unfolded and dark`);
+        await p.emulateMedia({ colorScheme: 'light' });
         for (const [name, ...presses] of part.open) {
           for (const press of presses) await p.locator(press).first().click();
           await quiet(p);
           await unfold(p);
           await look(`${part.name}, ${name}`);
         }
-        await shot(p, `whole-${language}-${width}-${part.name}`, { fullPage: true });
       }
       await p.context().close();
       assert.deepEqual([...wrong].map(([fault, where]) => `${where}: ${fault}`), []);

@@ -290,9 +290,12 @@ json::value text_or_null(std::string_view text) {
 
 std::string csv_cell(std::string_view text) {
     std::string s(text);
-    const bool formula = !s.empty() && (s[0] == '=' || s[0] == '@' || ((s[0] == '+' || s[0] == '-') && !parse_number(s)));
+    // Behind marks that are its own as well, so that the reader, which takes one away, gives back what was written.
+    const auto first = s.find_first_not_of('\'');
+    const bool formula =
+        first != std::string::npos && std::string_view("=+-@").find(s[first]) != std::string_view::npos && !parse_number(s);
     if (formula) s.insert(s.begin(), '\'');
-    if (s.find_first_of(",;\"\r\n") == std::string::npos) return s;
+    if (s.find_first_of(",;\"\t\r\n") == std::string::npos) return s;
     std::string out = "\"";
     for (const char c : s) {
         if (c == '"') out += '"';

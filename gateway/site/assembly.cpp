@@ -149,7 +149,7 @@ void read_assemblies(const boost::json::value* list, Site& site, std::vector<Sit
         site.assemblies.push_back(read_one(entries[i], fmt::format("/assemblies/{}", i), faults));
 }
 
-void check_assemblies(const Site& site, std::vector<SiteFault>& faults) {
+void check_assemblies(const Site& site, std::vector<SiteFault>& faults, const std::function<std::string(std::size_t)>& called) {
     std::map<std::uint16_t, std::string> held;
     const auto take = [&](std::uint16_t instance, const std::string& pointer, std::string by) {
         if (instance == 0) return;  // it was not read, and its fault is told
@@ -160,11 +160,16 @@ void check_assemblies(const Site& site, std::vector<SiteFault>& faults) {
                               "choose another, such as one from 200 to 1000", true});
         held.emplace(instance, std::move(by));
     };
-    for (std::size_t i = 0; i < site.assemblies.size(); ++i) {
-        const AssemblySpec& a = site.assemblies[i];
-        take(a.instance, fmt::format("/assemblies/{}/instance", i), fmt::format("the assembly of {}", range_text(a)));
-        check_range(site, a, fmt::format("/assemblies/{}", i), faults);
-    }
+    const auto own = [&] {
+        for (std::size_t i = 0; i < site.assemblies.size(); ++i) {
+            const AssemblySpec& a = site.assemblies[i];
+            const std::string name = called ? called(i) : std::string();
+            take(a.instance, fmt::format("/assemblies/{}/instance", i),
+                 name.empty() ? fmt::format("the assembly of {}", range_text(a)) : fmt::format("{} ({})", name, range_text(a)));
+            check_range(site, a, fmt::format("/assemblies/{}", i), faults);
+        }
+    };
+    if (!called) own();
     std::map<std::uint16_t, std::uint8_t> objects;
     for (std::size_t i = 0; i < site.profiles.size(); ++i) {
         const ProfileSpec& p = site.profiles[i];
@@ -177,6 +182,7 @@ void check_assemblies(const Site& site, std::vector<SiteFault>& faults) {
                               fmt::format("instance {} is taken by the profile of unit {}", *p.object_instance, it->second),
                               "give each profile its own", true});
     }
+    if (called) own();
 }
 
 boost::json::object to_json(const AssemblySpec& a) {

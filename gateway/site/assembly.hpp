@@ -3,13 +3,19 @@
 // its place and what holds an instance that is taken. Never knows what a byte means: that is the map behind the unit.
 #pragma once
 
+#include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "gateway/core/csv.hpp"
 
 namespace axisgate {
 
@@ -47,9 +53,16 @@ struct AssemblySpec {
 
 /// Reads `assemblies` into the site.
 void read_assemblies(const boost::json::value* list, Site& site, std::vector<SiteFault>& faults);
-/// Faults of entries against each other, the profiles and the mappings of the site, which must have been read.
-void check_assemblies(const Site& site, std::vector<SiteFault>& faults);
+/// Faults of entries against each other, the profiles and the mappings of the site, which must have been read. `called`: how people call
+/// the entry with this index where another one is in its way, such as "row 3"; by its range where it is empty or gives nothing. With it, an
+/// instance that a profile has, too, is the entry's fault and not the profile's.
+void check_assemblies(const Site& site, std::vector<SiteFault>& faults, const std::function<std::string(std::size_t index)>& called = {});
 [[nodiscard]] boost::json::object to_json(const AssemblySpec& assembly);
+
+/// The entries as CSV with a header line, and back, as rows_from_csv says.
+[[nodiscard]] std::string assemblies_to_csv(std::span<const AssemblySpec> assemblies);
+[[nodiscard]] std::optional<boost::json::array> assemblies_from_csv(std::string_view csv, std::vector<std::size_t>& lines,
+                                                                    std::vector<CsvFault>& faults);
 
 /// One that is served: an entry of the site, or what a profile has for itself.
 struct SiteAssembly {

@@ -117,14 +117,8 @@ inline constexpr std::size_t most_mappings = 4096;
 /// The entry in its full form; parse_mappings of it gives the same.
 [[nodiscard]] boost::json::object to_json(const Mapping& mapping);
 
-/// The whole list as CSV with a header line, and back. A row's faults name its line.
+/// The whole list as CSV with a header line, and back, as rows_from_csv says.
 [[nodiscard]] std::string mappings_to_csv(std::span<const Mapping> mappings);
-struct CsvFault {
-    std::size_t line = 0;  ///< 1-based
-    std::string text;
-};
-/// The rows that can be read, with the line of each in `lines`, and the faults of those that cannot: only without any may the rows be used;
-/// with some they still tell what else is wrong with the file. Nothing if the columns cannot be read. `faults` comes empty.
 [[nodiscard]] std::optional<boost::json::array> mappings_from_csv(std::string_view csv, std::vector<std::size_t>& lines,
                                                                   std::vector<CsvFault>& faults);
 

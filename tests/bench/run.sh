@@ -56,7 +56,7 @@ bench stream 60 /usr/bin/python3 "$here/bench_stream_program.py" "$(find_program
 # What a browser shows. Chromium and the packages of tests/browser must be there; run.sh of that folder installs the latter.
 AXISGATE_BIN=$(realpath "$(find_program axisgate)")
 export AXISGATE_BIN
-bench page 60 node "$here/bench_page.mjs"
+bench page 120 node "$here/bench_page.mjs"
 bench scope 150 node "$here/bench_scope.mjs"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -74,6 +74,38 @@ test('the instances of a profile stand among them and are changed there', async 
   assert.equal(await card.getByRole('button', { name: 'Change' }).count(), 0);
 });
 
+test('a table is tried, refused with its line, taken as one, and comes out as it went in', async () => {
+  const box = section().locator('[data-field="assembly-table"]');
+  const said = () => page.locator('[data-field="assembly-table-told"]').innerText();
+  await box.locator('summary').click();
+  const field = box.getByLabel('Table of assemblies');
+  await field.fill('instance;direction;unit;address;registers\n400;input;40;10;3\n401;input;40;11;2');
+  assert.equal(await box.getByRole('button', { name: 'Take the table' }).isDisabled(), true, 'it is tried first');
+  await box.getByRole('button', { name: 'Check with the gateway' }).click();
+  await until('the line is named', async () => /cuts mapping/.test(await box.locator('[data-line="3"]').innerText().catch(() => '')) || (await said()));
+  assert.match(await box.locator('[data-line="3"]').innerText(), /^Line 3: /);
+  assert.equal(await box.getByRole('button', { name: 'Take the table' }).isDisabled(), true);
+  await shot(page, 'assembly-table');
+  await field.fill('instance;direction;unit;address;registers\n400;input;40;10;3\n401;input;40;12;1');
+  await box.getByRole('button', { name: 'Check with the gateway' }).click();
+  await until('the gateway would take it', async () => /would take the table: 3 of its assemblies/.test(await said()) || (await said()));
+  assert.match(await box.getByRole('list', { name: 'What would change' }).innerText(), /assembly 400: not set ->/);
+  assert.equal((await program.call('GET', '/assemblies/400')).status, 404, 'nothing is done yet');
+  await box.getByRole('button', { name: 'Take the table' }).click();
+  await until('it is taken', async () => /is taken: 3/.test(await said()) || (await said()));
+  await section().locator('[data-assembly="401"]').waitFor();
+  assert.equal(await field.inputValue(), '');
+  const [file] = await Promise.all([page.waitForEvent('download'), box.getByRole('link', { name: 'Export CSV' }).click()]);
+  assert.equal(file.suggestedFilename(), 'assemblies.csv');
+  await box.locator('input[type=file]').setInputFiles(await file.path());
+  await until('it is in the field', async () => /401,input,40,holding_registers,12,1/.test(await field.inputValue()) || (await field.inputValue()));
+  await box.getByLabel('in place of all of its own').check();
+  await box.getByRole('button', { name: 'Check with the gateway' }).click();
+  await until('it is what is there', async () => /would take the table: 3/.test(await said()) || (await said()));
+  assert.equal(await box.getByRole('list', { name: 'What would change' }).count(), 0);
+  for (const instance of [400, 401]) await program.call('DELETE', `/assemblies/${instance}`);
+});
+
 test('an assembly goes after a question', async () => {
   const card = section().locator('[data-assembly="300"]');
   await card.getByRole('button', { name: 'Take it away' }).click();

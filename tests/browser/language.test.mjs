@@ -36,6 +36,21 @@ test('the language is the browser’s, its table is loaded only then, and anothe
   }
 });
 
+test('what the gateway says is marked as English; what it names by an identifier is told in the reader’s language', async () => {
+  const p = await open(browser, program.url + '/events', { locale: 'de' });
+  for (const [path, selector] of [['/events', '.event-what [lang=en]'], ['/events', '.alarm-what [lang=en]'], ['/axes/feeder', '.error-help [lang=en]'], ['/axes/feeder/parameters', '.name [lang=en]']]) {
+    await p.goto(program.url + path);
+    await p.locator(selector).first().waitFor();
+    assert.match(await p.locator(selector).first().innerText(), /[A-Za-z]{3}/, `${path} ${selector}`);
+  }
+  await p.goto(program.url + '/axes/feeder');
+  await p.locator('.bits li').first().waitFor();
+  const bits = await p.locator('.bits li').allTextContents();
+  assert.ok(bits.some((b) => b.includes('Störung')) && bits.some((b) => b.includes('Fernsteuerung')), bits.join());
+  assert.ok(!bits.some((b) => /Fault|Warning|Remote|Stale|Referenced|Simulated/.test(b)), bits.join());
+  await p.context().close();
+});
+
 for (const language of ['de', 'zh']) {
   test(`${language}: no page is wider than the screen, and the stop of all is there, at three widths`, async () => {
     const wrong = [];

@@ -237,4 +237,20 @@ test('a snapshot of another family says so, and can be neither restored nor comp
   await program.call('DELETE', `/axes/feeder/snapshots/${mine.n}`);
 });
 
+test('what was read before the connection was lost is old while it is away, and live again only when the drive has said it anew', async () => {
+  const other = await open(browser, program.url + path);
+  for (const p of [page, other]) p.expectLoss(true);
+  const id = list.find((p) => p.access !== 'W' && !p.count).id;
+  const value = other.locator(`tr[data-parameter="${id}"] [data-live]`);
+  await becomes('it is live', () => value.getAttribute('data-live'), 'true');
+  await program.stop();
+  await becomes('it is old', () => value.getAttribute('data-live'), 'false');
+  assert.ok(await value.evaluate((e) => e.classList.contains('is-old-value')), 'it is grey');
+  const asked = other.waitForRequest((r) => r.method() === 'GET' && new URL(r.url()).pathname.endsWith(`/parameters/${encodeURIComponent(id)}`), { timeout: 30_000 });
+  await program.run();
+  await becomes('it is live again', () => value.getAttribute('data-live'), 'true', 30_000);
+  assert.ok(await asked, 'the drive was asked for it');
+  await other.context().close();
+});
+
 test('nothing on the way was a fault of the page', () => assert.deepEqual(page.faults(), []));

@@ -1,8 +1,9 @@
-// Fuzz: user maps as CSV, and as JSON entries against a site with one axis of every family.
+// Fuzz: user maps and assemblies as CSV, and as JSON entries against a site with one axis of every family.
 // In: the fuzzer's bytes as the file. Out: nothing; laws: rows or faults with their lines; what is taken can be written and read back and
 // is the same; values survive the registers of their mapping.
 #include <boost/json.hpp>
 
+#include "gateway/site/assembly.hpp"
 #include "gateway/site/mapping.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
@@ -44,10 +45,34 @@ std::optional<std::vector<Mapping>> read(std::string_view csv, bool& readable) {
     require(list.has_value() == wrong.empty(), "mappings or faults, never both and never neither");
     return list;
 }
+
+/// The same text as a table of assemblies: rows or faults; what is read is written and read as the same.
+std::optional<std::vector<AssemblySpec>> read_assembly_table(std::string_view csv) {
+    std::vector<std::size_t> lines;
+    std::vector<CsvFault> faults;
+    const auto rows = assemblies_from_csv(csv, lines, faults);
+    require(rows || !faults.empty(), "rows, or why not");
+    if (!rows || !faults.empty()) return std::nullopt;
+    require(lines.size() == rows->size() && rows->size() <= most_assemblies, "every row has its line");
+    Site with = site();
+    std::vector<SiteFault> wrong;
+    const json::value entries(*rows);
+    read_assemblies(&entries, with, wrong);
+    const bool readable = wrong.empty();
+    check_assemblies(with, wrong, [&](std::size_t i) { return "row " + std::to_string(lines[i]); });
+    for (const auto& f : wrong)
+        require(f.pointer.starts_with("/assemblies") && !f.text.empty(), "a fault has its place and words");
+    if (!readable) return std::nullopt;  // what nothing is mapped for is not served, but it is read
+    return with.assemblies;
+}
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size > 32 * 1024) return 0;
+    if (const auto assemblies = read_assembly_table({reinterpret_cast<const char*>(data), size})) {
+        const auto again = read_assembly_table(assemblies_to_csv(*assemblies));
+        require(again && *again == *assemblies, "assemblies that were written can be read and are the same");
+    }
     bool readable = false;
     const auto list = read({reinterpret_cast<const char*>(data), size}, readable);
     if (!list) return 0;

@@ -1,11 +1,15 @@
-"""Capture files of golden frames, and what tshark makes of a capture with the dissectors of deploy/wireshark.
+"""Capture files of golden frames, what tshark makes of a capture with the dissectors of deploy/wireshark, and captures of a test's own traffic.
 
 In: adapters/*/vectors.txt; runs of bytes, CAN frames, TCP payloads. Out: pcapng files as the gateway's own traces are; per packet the messages, with fields and words.
 """
+import contextlib
+import os
 import pathlib
 import re
+import socket
 import struct
 import subprocess
+import time
 import xml.etree.ElementTree
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
@@ -125,3 +129,57 @@ def dissect(path, *arguments):
 
 def messages(packets, protocol):
     return [m for p in packets for m in p if m.protocol == protocol]
+
+
+class Traffic:
+    """What went over EtherNet/IP during a block. `hostile`: frames that the test itself has made wrong, each by its first bytes in hex."""
+
+    def __init__(self):
+        self.hostile = {}
+
+    def expect_bad(self, head, count=1):
+        """`count` datagrams to the device that begin so are no frames on purpose; another number of them is a failure."""
+        self.hostile[head.hex()] = self.hostile.get(head.hex(), 0) + count
+
+
+@contextlib.contextmanager
+def judged(path, port, io_port):
+    """Captures the loopback's frames of these ports; behind the block each must be one that tshark knows, without a warning."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as marker:
+        marker.bind(("127.0.0.1", 0))
+        end = marker.getsockname()[1]
+        dump = subprocess.Popen(["dumpcap", "-q", "-i", "lo", "-B", "64", "-w", str(path), "-f", f"port {port} or port {io_port} or udp port {end}"], stderr=subprocess.PIPE)
+        try:
+            for line in dump.stderr:
+                if line.startswith(b"File:"):
+                    break
+            traffic = Traffic()
+            yield traffic
+            mark, deadline = os.urandom(16), time.monotonic() + 1
+            marker.sendto(mark, marker.getsockname())  # behind everything else: when it is in the file, all is
+            while mark not in path.read_bytes() and time.monotonic() < deadline:
+                time.sleep(0.1)
+        finally:
+            dump.terminate()
+            dump.wait(5)
+            dump.stderr.close()
+        # What dumpcap had not written yet it writes at its end.
+        assert mark in path.read_bytes(), "the capture has not come to its end"
+    judge(path, port, io_port, traffic)
+
+
+def judge(path, port, io_port, traffic):
+    fields = ["frame.number", "udp.dstport", "udp.payload", "tcp.payload", "_ws.expert.message"]
+    # A reset is no frame of ours: what TCP itself has to say has no layer of EtherNet/IP above it.
+    of_device = f"(tcp.port == {port} || udp.port == {port} || udp.port == {io_port})"
+    bad = of_device + " && (_ws.malformed || ((enip || cip || cipcm || cipio) && _ws.expert.severity >= 0x600000))"
+    p = subprocess.run(["tshark", "-r", str(path), "-d", f"tcp.port=={port},enip", "-d", f"udp.port=={port},enip", "-d", f"udp.port=={io_port},cipio", "-Y", bad, "-T", "fields", "-E", "separator=|",
+                        *[x for f in fields for x in ("-e", f)]], capture_output=True, text=True, timeout=300)
+    assert p.returncode == 0, p.stderr
+    left = dict(traffic.hostile)
+    for line in p.stdout.splitlines():
+        number, to, udp, tcp, words = line.split("|", 4)
+        head = next((h for h, n in left.items() if n > 0 and to == str(io_port) and udp.startswith(h)), None)
+        assert head, f"frame {number} of {path.name}: {words or 'malformed'}: {udp or tcp}"
+        left[head] -= 1
+    assert not any(left.values()), f"named as wrong, but tshark knows them: {left}"

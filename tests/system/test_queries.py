@@ -9,7 +9,8 @@ from test_openapi import API, Client, RECIPE, check, quoted
 from test_refusals import NAMES
 
 BODIES = {"commandAxis": {"command": "halt"}, "actOnAxis": {"name": "nothing"}, "startMoves": {"axes": ["feeder"]}, "replaceSite": DEMO, "putRecipe": RECIPE,
-          "importParameters": "parameter,value\nAC,20000\n", "addMappings": "unit,address,axis,point\n3,0,feeder,position\n", "replaceMappings": "unit,address,axis,point\n3,0,feeder,position\n"}
+          "importParameters": "parameter,value\nAC,20000\n", "addMappings": "unit,address,axis,point\n3,0,feeder,position\n", "replaceMappings": "unit,address,axis,point\n3,0,feeder,position\n",
+          "addAssemblies": "instance,direction,unit,registers\n300,input,2,2\n", "replaceAssemblies": "instance,direction,unit,registers\n300,input,2,2\n"}
 # Texts with a grammar of their own.
 TEXTS = {"points": ["speed", "position,x"], "since": ["yesterday", "-1", "2020-13-45T00:00:00Z", ""], "with": ["moon", "", "snapshot", "Default"]}
 # Texts that may be anything: what is not there is found nowhere, and that is no fault of the request.

@@ -1,8 +1,8 @@
 // Makes the handbook's pages: docs/handbook/README.md names the chapters and their order, each becomes dist/help/NAME.html, with a search index.
-// In: Markdown of docs/, adapters/ and gateway/doors/. Out: dist/help/. Ends with a failure where a link or an anchor leads nowhere.
+// In: Markdown of docs/, adapters/ and gateway/doors/. Out: dist/help/. Ends with a failure where a link, an anchor or a picture leads nowhere.
 // Nothing inline and nothing from elsewhere, as the content security policy has it; the chapters can be read without any script.
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { dirname, join, normalize, relative } from 'node:path';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { basename, dirname, join, normalize, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import MarkdownIt from 'markdown-it';
 
@@ -92,6 +92,20 @@ rules.link_close = (/** @type {any} */ _t, /** @type {any} */ _i, /** @type {any
 for (const tag of ['th', 'td']) {
   rules[`${tag}_open`] = (/** @type {any} */ tokens, /** @type {number} */ i) => `<${tag}${/right/.test(tokens[i]?.attrGet('style') ?? '') ? ' class="right"' : ''}>`;
 }
+/** The pictures that chapters show, by their files. @type {Set<string>} */
+const pictures = new Set();
+/** NAME-light.webp has NAME-dark.webp beside it; the styles show the one of the theme, and what is not shown is not fetched. */
+rules.image = (/** @type {any} */ tokens, /** @type {number} */ i, /** @type {any} */ _o, /** @type {any} */ env) => {
+  const src = String(tokens[i]?.attrGet('src'));
+  return ['light', 'dark']
+    .map((theme) => {
+      const file = join(top, dirname(env.chapter.file), src.replace(/-light\.webp$/, `-${theme}.webp`));
+      if (!/^[\w./-]+-light\.webp$/.test(src) || !existsSync(file)) faults.push(`${env.chapter.file} shows ${src}: there is no such picture for ${theme}`);
+      else pictures.add(file);
+      return `<img class="picture ${theme}" src="/help/${escape(basename(file))}" alt="${escape(words(tokens[i]))}" width="1200" height="760" loading="lazy">`;
+    })
+    .join('');
+};
 let tables = 0;
 rules.table_open = () => `<div class="table" tabindex="0" role="group" aria-label="Table ${++tables}"><table>`;
 rules.table_close = () => '</table></div>';
@@ -175,6 +189,7 @@ for (const c of chapters) {
   if (/<style|\sstyle=|\son\w+=|<script(?![^>]*\bsrc=)/i.test(html.replace(/<code>[^]*?<\/code>/g, ''))) faults.push(`${c.file}: something inline`);
   writeFileSync(join(out, `${c.name}.html`), html);
 }
+for (const file of pictures) copyFileSync(file, join(out, basename(file)));
 writeFileSync(join(out, 'help.css'), ['src/styles/tokens.css', 'help/help.css'].map((f) => readFileSync(join(web, f), 'utf8')).join('\n'));
 writeFileSync(join(out, 'help.js'), readFileSync(join(web, 'help/help.js')));
 writeFileSync(join(out, 'search.json'), JSON.stringify(index()));

@@ -24,8 +24,9 @@ export const exempt = {
   'text/alarm.ts': [/^\(code \{…\}\)$/, /^by \{…\}$/],
   'state/scope.ts': [/^ ?\(mixed: \{…\}\)$/],
   'text/transfer.ts': [/^\{"parameter", "value"\}$/],
-  'text/site.ts': [/^URI$/, /^twin, can:can0/, /^lines, drives, axes/],
+  'text/site.ts': [/^URI$/, /^can:can0/, /^lines, drives, axes/],
   'components/mapping-paste.tsx': [/^unit[,\t]/],
+  'components/assembly-table.tsx': [/^instance(, |\t)direction/],
   'components/mapping-list.tsx': [/^RW$/],
   // Words of a recipe's JSON, by which its steps are told apart; the label beside each is said through t().
   'text/recipe.ts': [/^(enable|disable|home|command|set_parameter|read_parameter|action|write_register|simulate|wait_for|check|wait_s|if|repeat|message)$/],

@@ -41,7 +41,7 @@ describe('words', () => {
   });
   it('shows a cell, and says where it has no figure', () => {
     expect(cellRow(cell, 'mm')).toMatchObject({ action: 'Halt, by default', acted: '0.1 ms', slower: '15 ms', stood: '105 ms', way: '1.235 mm' });
-    expect(cellRow({ ...cell, chosen: 'halt', noticed_ms: null, standstill_ms: null }, '')).toMatchObject({ action: 'Halt', acted: 'not', stood: 'not within 2000 ms', way: '1.235' });
+    expect(cellRow({ ...cell, chosen: 'halt', noticed_ms: null, standstill_ms: null }, '')).toMatchObject({ action: 'Halt', acted: 'never', stood: 'not within 2000 ms', way: '1.235' });
     expect(cellRow({ ...cell, cause: 'gateway_gone', taken: 'nothing', noticed_ms: null }, '')).toMatchObject({ action: "the drive's own", acted: '' });
   });
 });

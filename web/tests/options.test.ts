@@ -1,7 +1,11 @@
 // Options of a family as fields: ranges, defaults, switches, values with commas, what the family does not know; and what an increment is.
-import { describe, expect, it } from 'vitest';
+import { afterEach, describe, expect, it } from 'vitest';
 import { families as told } from '../dev/mock/families.mjs';
-import { familyOf, incrementHint, optionFault, optionField, optionsFor, optionsFrom, optionsTitle, optionTexts, unknownOptions, type Family } from '../src/text/options';
+import { familyOf, incrementHint, optionFault, optionField, optionsFor, optionsFrom, optionsTitle, optionTexts, unknownOptions, type Family, type OptionSpec } from '../src/text/options';
+import { speak } from '../src/language';
+import { incrementsOf, incrementsText } from '../src/text/increments';
+import { parseQuantity } from '../src/text/number';
+import { editText, fileText, readValue } from '../src/text/parameter';
 import { checkEntry, textsOfEntry, type Entry, type Site } from '../src/text/site';
 
 const families = new Map((told as Family[]).map((f) => [f.name, f]));
@@ -71,4 +75,29 @@ it('who may hold an axis goes into the member that the gateway reads', () => {
   const own = { name: 'f', drive: 'f', number: 1, authority_mode: 'lease' } as Entry;
   expect(textsOfEntry('axes', own).authority_mode).toBe('lease');
   expect(checkEntry('axes', { ...textsOfEntry('axes', own), authority_mode: 'free' }, site, own).entry?.authority_mode).toBe('free');
+});
+
+describe('figures of fields, in each language', () => {
+  afterEach(() => speak('en'));
+  const whole: readonly OptionSpec[] = [{ name: 'n', of: ['drive'], min: 0, max: 60000, unit: 'ms', default: 1500, description: 'a time' } as unknown as OptionSpec];
+  it.each([['en', '1.5', '3200.25', '0.04'], ['zh', '1.5', '3200.25', '0.04'], ['de', '1,5', '3200,25', '0,04']] as const)('%s: an option, increments and a parameter are written and read back alike', (language, option, increments, parameter) => {
+    speak(language);
+    const texts = optionTexts({ n: 1.5, list: '1:0.5,2:4' });
+    expect(texts).toEqual({ 'options.n': option, 'options.list': '1:0.5,2:4' });
+    expect(optionsFrom(texts, { n: 1.5, list: '1:0.5,2:4' })).toEqual({ n: 1.5, list: '1:0.5,2:4' });
+    expect(optionsFrom({ 'options.n': increments }, { n: 1.5 })).toEqual({ n: '3200.25' });
+    expect(incrementsText(3200.25)).toBe(increments);
+    expect(parseQuantity(incrementsText(3200.25))).toEqual({ good: true, value: 3200.25 });
+    expect(incrementsOf({ per_turn: '200', microsteps: '16', motor_turns: '1', output_turns: '1', travel: option })).toMatchObject({ good: true, value: 3200 / 1.5 });
+    expect(editText(0.04)).toBe(parameter);
+    expect(readValue(editText(0.04), { type: 'f32', unit: null, allowed: null, min: null, max: null } as never)).toEqual({ good: true, value: 0.04 });
+    expect(fileText(0.04), 'files keep the point').toBe('0.04');
+  });
+  it('a whole number may be grouped as the reader does it, and goes to the gateway without', () => {
+    speak('de');
+    expect(optionFault(whole[0] as OptionSpec, '10.000,0')).toBe('');
+    expect(optionsFrom({ 'options.n': '10 000' }, {}, whole)).toEqual({ n: '10000' });
+    expect(optionFault(whole[0] as OptionSpec, '1,5')).toBe('A whole number.');
+    expect(optionField(whole[0] as OptionSpec, 'drives').hint).toContain('0 to 60\u202f000 ms');
+  });
 });

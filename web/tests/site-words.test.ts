@@ -30,7 +30,7 @@ describe('an entry', () => {
     ['lines', { name: 'a b', uri: 'twin', family: 'x' }, 'name', 'letters'],
     ['lines', { name: 'can0', uri: 'twin', family: 'x' }, 'name', 'already a line can0'],
     ['lines', { name: 'a', uri: '', family: 'x' }, 'uri', 'needed'],
-    ['lines', { name: 'a', uri: 'twin', family: 'x', 'timing.retries': '21' }, 'timing.retries', 'From -1 to 20'],
+    ['lines', { name: 'a', uri: 'twin', family: 'x', 'timing.retries': '21' }, 'timing.retries', 'From −1 to 20'],
     ['drives', { name: 'a', line: 'nowhere' }, 'line', 'no line nowhere'],
     ['drives', { name: 'a', line: 'can0', address: '5' }, 'address', 'feeder'],
     ['axes', { name: 'a', drive: 'feeder', number: '1', channel: '2' }, 'number', 'feeder'],

@@ -223,5 +223,27 @@ TEST(LinmotTwin, HomingEndsInStateNineUntilTheBitIsReleased) {
     EXPECT_EQ(b.drive().warn_word() & 0x80, 0);
 }
 
+TEST(LinMotTwinTable, AnEntryThatStartsItselfGoesOnForEverAndStopsAtAStop) {
+    Bench b;
+    b.enable();
+    twin::TableEntry entry{};
+    entry[2] = entry[3] = 0xFF;
+    entry[5] = 0x20;
+    entry[6] = 2;  // each starts the other
+    b.drive().table[1] = entry;
+    entry[6] = 1;
+    b.drive().table[2] = entry;
+    b.motion("200xh", {1});
+    const auto before = b.drive().commands_done();
+    EXPECT_LT(before, 100u) << "one instant has an end";
+    b.run(100ms);
+    EXPECT_GT(b.drive().commands_done(), before + 300) << "it goes on";
+    EXPECT_EQ(b.state(), 8);
+    b.motion("017xh", {1'000'000});
+    const auto stopped = b.drive().commands_done();
+    b.run(100ms);
+    EXPECT_EQ(b.drive().commands_done(), stopped);
+}
+
 }  // namespace
 }  // namespace axisgate::linmot::test

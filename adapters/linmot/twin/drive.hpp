@@ -326,6 +326,7 @@ private:
     Instant wait_until_ = never;
     bool wait_edge_ = false;
     std::uint16_t branch_ = 0;  ///< entry that a branch has chosen
+    int starts_ = 0;            ///< of entries by one another, at this instant
 };
 
 }  // namespace axisgate::linmot::twin

@@ -6,6 +6,9 @@
 #include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
+namespace {
+constexpr int most_starts = 16;  ///< entries that start one another at one instant; the next one waits a cycle, as one that is linked does
+}
 
 /// Offsets in an entry: 0 version, 2 linked entry (FFFFh: none), 4 header, 6 parameters.
 void Drive::start_entry(std::uint16_t id, Instant now) {
@@ -22,7 +25,9 @@ void Drive::start_entry(std::uint16_t id, Instant now) {
     for (std::size_t i = 0; i < b.size() && i + 4 < it->second.size(); ++i)
         b[i] = it->second[i + 4];
     const std::uint16_t running = entry_;
+    ++starts_;
     execute(at16(b, 0), b, true, now);
+    --starts_;
     if (entry_ == running) step_at_ = now + cycle;
 }
 
@@ -98,7 +103,11 @@ void Drive::table_command(std::uint16_t header, const Bytes& b, bool from_table,
     };
     switch (master) {
         case 0x20:
-            if (sub == 0) return start_entry(at16(b, 2), now);
+            if (sub == 0 && starts_ < most_starts) return start_entry(at16(b, 2), now);
+            if (sub == 0) {  // an entry may start itself: it does so for ever, a round per cycle
+                branch_ = at16(b, 2);
+                return;
+            }
             if (sub <= 2) {
                 event_ = {};
                 event_.kind = sub == 1 ? Event::Kind::rising : Event::Kind::falling;

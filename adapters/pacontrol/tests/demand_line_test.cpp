@@ -75,7 +75,7 @@ TEST(PacontrolDemandLine, AnEpTellsItsDemandWhileItStandsAndWhileItMoves) {
     r.run(1500ms);
     EXPECT_EQ(r.fb().demand_source, DemandSource::drive);
     EXPECT_NEAR(static_cast<double>(r.behind()), 20, 1) << "1 ms at 20000 increments/s; position and demand belong together";
-    EXPECT_NEAR(static_cast<double>(r.fb().position_demand), 1e3 * r.axis(0).position(r.fb().at), 20.0 * 160)
+    EXPECT_NEAR(static_cast<double>(r.fb().position_demand), 1e3 * r.axis(0).shaft().position(r.fb().at), 20.0 * 160)
         << "the counter, as it was told within the last cycle";
     EXPECT_EQ(r.answer(go).outcome, Outcome::done);
     r.run(500ms);
@@ -92,7 +92,7 @@ TEST(PacontrolDemandLine, AHeldShaftStandsAndTheDemandGoesOnInBothDirections) {
         const Ticket go = r.command(move_to(sign * 60'000, 4'000), 0, true);
         r.run(2s);
         r.hand("stall", true);
-        const auto held = static_cast<std::int64_t>(std::llround(1e3 * r.axis(0).shaft(r.now)));
+        const auto held = static_cast<std::int64_t>(std::llround(1e3 * r.axis(0).shaft().place(r.now)));
         r.run(500ms);
         std::int64_t before = r.behind();
         for (int i = 1; i <= 300; ++i) {
@@ -120,7 +120,7 @@ TEST(PacontrolDemandLine, LostStepsStayVisibleAtRestAndAFaultlessAxisIsNotAskedM
     r.hand("stall", true);
     r.run(300ms);
     r.hand("stall", false);
-    const double lost = 1e3 * r.axis(0).lag(r.now);
+    const double lost = 1e3 * r.axis(0).shaft().lag(r.now);
     EXPECT_GT(lost, 1500);
     EXPECT_EQ(r.answer(go).outcome, Outcome::done) << "an open motor does not know";
     r.run(500ms);
@@ -231,7 +231,7 @@ TEST(PacontrolDemandLine, RelativeMovesRetargetsAndStopsAreFollowed) {
     r.run(500ms);
     EXPECT_EQ(r.sources(), Sources{DemandSource::computed}) << "never in doubt";
     EXPECT_LE(r.greatest(), 30 * 8) << "a stop's acknowledgement is as long as a position's, its beginning is not seen";
-    EXPECT_EQ(r.fb().position_demand, std::llround(1e3 * r.axis(0).position(r.now))) << "the place where it stands is taken over";
+    EXPECT_EQ(r.fb().position_demand, std::llround(1e3 * r.axis(0).shaft().position(r.now))) << "the place where it stands is taken over";
 }
 
 TEST(PacontrolDemandLine, VelocityMovesEndAtTheTraverseArea) {
@@ -308,7 +308,7 @@ TEST(PacontrolDemandLine, ALimitSwitchEndsTheDemandUntilAnotherOrder) {
     EXPECT_EQ(r.ask(Enable{}, 0), Outcome::accepted);
     r.run(500ms);
     EXPECT_EQ(r.fb().demand_source, DemandSource::computed);
-    EXPECT_EQ(r.fb().position_demand, std::llround(1e3 * r.axis(0).position(r.now)));
+    EXPECT_EQ(r.fb().position_demand, std::llround(1e3 * r.axis(0).shaft().position(r.now)));
 }
 
 TEST(PacontrolDemandLine, AConditionEndsTheMoveAndTheAxisRestsWhereItStands) {

@@ -122,21 +122,21 @@ TEST(PacontrolStop, ADisableTakesThePowerThatTheEnableModeGivesAtHome) {
     Rig r(2);  // the model's axes have enable mode 1
     r.run(2s);
     for (const int axis : {0, 1})
-        ASSERT_EQ(r.axis(axis).power(), twin::AxisPower::on) << "by its own rule";
+        ASSERT_EQ(r.axis(axis).state().power, twin::AxisPower::on) << "by its own rule";
     r.handed.clear();
     const Result off = r.answer(r.command(Disable{}, 0, true));
     EXPECT_EQ(off.outcome, Outcome::done) << off.text;
-    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle);
-    EXPECT_EQ(r.axis(1).power(), twin::AxisPower::on) << "the other one was not asked for";
+    EXPECT_EQ(r.axis(0).state().power, twin::AxisPower::idle);
+    EXPECT_EQ(r.axis(1).state().power, twin::AxisPower::on) << "the other one was not asked for";
     EXPECT_EQ(std::ranges::count_if(r.handed, [](const auto& x) { return x.text.starts_with("0603"); }), 1);
     r.run(5s);
-    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle) << "it is not given back to where it would have power";
+    EXPECT_EQ(r.axis(0).state().power, twin::AxisPower::idle) << "it is not given back to where it would have power";
     // A way over home position, to leave a fault, gives power to both: what was disabled is disabled again.
     r.hand("axis2.inject_error", Value{std::int64_t{531}});
     r.run(1s);
     EXPECT_TRUE(good(r.answer(r.command(ResetFault{}, 1, true))));
     r.run(2s);
-    EXPECT_EQ(r.axis(0).power(), twin::AxisPower::idle);
+    EXPECT_EQ(r.axis(0).state().power, twin::AxisPower::idle);
 }
 
 TEST(PacontrolStop, ADisableThatCannotTakeThePowerIsNotCalledDone) {

@@ -181,7 +181,7 @@ TEST(PacontrolImage, G26KeepsTheLimitsG29ShiftsThem) {  // T-16
         r.axis(1, on | what | start, x);
         r.cycle();
         const std::uint32_t e = r.get(r.module(1) + 4, 2);
-        r.control.axis(1).finish(r.now);
+        r.control.axis(1).traverse().finish(r.now);
         r.wait_for_rest(1);
         r.axis(1, on);
         r.cycle();
@@ -226,7 +226,7 @@ TEST(PacontrolImage, AnAxisErrorStopsItsOwnAxisAndBlocksNothingElse) {  // T-19
     EXPECT_EQ(r.get(r.module(1) + 6, 2), 529u);
     EXPECT_EQ(r.status(2) & axis_error, 0u);
     r.wait_for_rest(2);
-    EXPECT_NEAR(r.control.axis(2).position(r.now), 200, 1e-3);
+    EXPECT_NEAR(r.control.axis(2).shaft().position(r.now), 200, 1e-3);
     r.control.axis(1).set_limit(true, false, r.now);
     r.axis(1, on | 1u << 16);
     r.cycle();
@@ -342,7 +342,7 @@ TEST(PacontrolImage, InterbusZerosAreAnEmergencyStopOnceCommandsHaveCome) {  // 
     r.in.assign(8, 0);
     r.run(2s);
     EXPECT_FALSE(r.control.axis(1).running());
-    EXPECT_LT(r.control.axis(1).position(r.now), 100);
+    EXPECT_LT(r.control.axis(1).shaft().position(r.now), 100);
     EXPECT_EQ(r.control.status(), 39) << "stopped with malfunction";
 }
 

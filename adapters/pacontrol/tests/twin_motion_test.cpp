@@ -165,7 +165,7 @@ TEST(TwinMotion, ReferenceRun) {
     EXPECT_EQ(f.type, 0);
     EXPECT_EQ(b.quit("1900;1;0;0"), 20);
     b.pass(400ms);
-    EXPECT_LT(b.control().axis(1).velocity(b.now), -49) << "reference speed";
+    EXPECT_LT(b.control().axis(1).shaft().velocity(b.now), -49) << "reference speed";
     b.pass(2s);
     f = b.get_poll();
     EXPECT_EQ(f.end, 1);
@@ -310,7 +310,7 @@ TEST(TwinMotion, Conditions) {
     b.online();
     b.good("0AA3;1;0;16842757");  // while input 5 = 1
     EXPECT_EQ(b.ask("0A87;1;1;1000"), "0;1;31;0;1;0.000000");
-    EXPECT_TRUE(b.control().axis(1).stopped_by_condition());
+    EXPECT_TRUE(b.control().axis(1).traverse().stopped_by_condition());
     EXPECT_EQ(b.axis_status(1), 2);
     b.hand("I5", true);
     b.good("0AA3;1;0;16842757");
@@ -376,7 +376,7 @@ TEST(TwinMotion, DisplacedWhileOff) {
     EXPECT_EQ(b.position(1), 5) << "the encoder sees it";
     b.good("0A97;1;0;0");
     EXPECT_EQ(b.quit("0A94;1;1;0"), 56);
-    EXPECT_TRUE(b.control().axis(1).displaced_while_off());
+    EXPECT_TRUE(b.control().axis(1).state().displaced);
     b.home();
     b.online();
     b.good("0A94;1;1;0");
@@ -391,9 +391,9 @@ TEST(TwinMotion, EnableModes) {
         b.online();
         b.good("0A97;1;0;0");
         b.good("0A98;1;0;0");
-        EXPECT_EQ(b.control().axis(1).power(), state) << mode;
+        EXPECT_EQ(b.control().axis(1).state().power, state) << mode;
         b.home();
-        EXPECT_EQ(b.control().axis(1).power() == AxisPower::on, mode == 1) << "1: operational again after ONLINE [L722]";
+        EXPECT_EQ(b.control().axis(1).state().power == AxisPower::on, mode == 1) << "1: operational again after ONLINE [L722]";
     }
 }
 
@@ -405,7 +405,7 @@ TEST(TwinMotion, AHeldShaft) {
     b.hand("stall", true);
     const double held = b.twin().mechanics(1, b.now).position / 1000;
     b.pass(10ms);
-    EXPECT_NEAR(b.control().axis(1).lag(b.now), 5, 0.01);
+    EXPECT_NEAR(b.control().axis(1).shaft().lag(b.now), 5, 0.01);
     b.pass(1s);
     const Fields f = b.get_poll();
     EXPECT_EQ(f.end, 1);
@@ -479,7 +479,7 @@ TEST(TwinMotion, AxisModules) {
     EXPECT_EQ(b.axis_status(2), 1);
     EXPECT_EQ(b.status(), 31);
     EXPECT_EQ(b.value("1909;0;0;0"), 0);
-    EXPECT_EQ(b.control().axis(1).fault(), 529);
+    EXPECT_EQ(b.control().axis(1).state().fault, 529);
     b.hand("limit_positive", false);
     b.control().reset_axis_error(1, b.now);
     EXPECT_EQ(b.control().start_task(1, task, b.now), 0);

@@ -169,23 +169,24 @@ CommandReply of_axis(Control& k, const Call& c, F&& f) {
 }
 
 CommandReply get_position(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say_real(a.position(c.now)); });
+    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shaft().position(c.now)); });
 }
 
 CommandReply get_speed(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say_real(a.velocity(c.now)); });
+    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shaft().velocity(c.now)); });
 }
 
 CommandReply get_encoder(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return a.model().ep ? say_real(a.encoder(c.now)) : refuse(quit::not_executable); });
+    return of_axis(k, c, [&](const Axis& a) { return a.model().ep ? say_real(a.shaft().encoder(c.now)) : refuse(quit::not_executable); });
 }
 
 double microsteps(const Axis& a, double ae) { return ae / std::max(1e-9, static_cast<double>(a.parameters()[ap::gear])) * 3200; }
 
 /// The largest that has occurred since power on, in the microsteps of 1915. Only the EP has it; others: 15h (E-26).
 CommandReply get_greatest_lag(Control& k, const Call& c) {
-    return of_axis(
-        k, c, [&](const Axis& a) { return a.model().ep ? say_real(microsteps(a, a.greatest_lag(c.now))) : refuse(quit::not_executable); });
+    return of_axis(k, c, [&](const Axis& a) {
+        return a.model().ep ? say_real(microsteps(a, a.shaft().greatest_lag(c.now))) : refuse(quit::not_executable);
+    });
 }
 
 CommandReply get_axis_status(Control& k, const Call& c) {
@@ -212,19 +213,20 @@ CommandReply get_area_max(Control& k, const Call& c) {
 CommandReply get_lag(Control& k, const Call& c) {
     return of_axis(k, c, [&](const Axis& a) {
         if (!a.model().ep) return refuse(quit::not_executable);
-        return say_real(microsteps(a, a.lag(c.now)));
+        return say_real(microsteps(a, a.shaft().lag(c.now)));
     });
 }
 
 CommandReply get_temperature(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return a.model().ep ? say_real(a.temperature()) : refuse(quit::not_executable); });
+    return of_axis(k, c,
+                   [&](const Axis& a) { return a.model().ep ? say_real(a.state().outside.temperature) : refuse(quit::not_executable); });
 }
 
 /// Byte 0 (highest) power pack ready, 1 positive and 2 negative limit switch free, 3 axis status [L3164-3194].
 CommandReply get_extended(Control& k, const Call& c) {
     return of_axis(k, c, [&](const Axis& a) {
-        return say((a.power_pack() ? 0x01000000 : 0) + (a.limit_actuated(true) ? 0 : 0x00010000) +
-                   (a.limit_actuated(false) ? 0 : 0x00000100) + a.status());
+        return say((a.state().outside.power_pack ? 0x01000000 : 0) + (a.switches().limit(true) ? 0 : 0x00010000) +
+                   (a.switches().limit(false) ? 0 : 0x00000100) + a.status());
     });
 }
 
@@ -282,7 +284,7 @@ CommandReply move(Control& k, const Call& c) {
     const int n = axis_of(c);
     const bool relative = c.code == 0x0A89 || c.code == 0x0A91 || c.code == 0x0A95;
     const bool manual = c.code == 0x0A90 || c.code == 0x0A91;
-    const double from = k.axis(n).position(c.now);
+    const double from = k.axis(n).shaft().position(c.now);
     const std::uint16_t q = k.start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
@@ -296,7 +298,7 @@ CommandReply set_speed(Control& k, const Call& c) {
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
         if (a.running() && !a.model().ep) return refuse(quit::moves);  // while moving only on the EP [L3496]
         k.overrides(axis_of(c)).speed = v;
-        if (a.running() && a.task() == Task::position) a.change_speed(v, c.now);
+        if (a.running() && a.traverse().task() == Task::position) a.traverse().change_speed(v, c.now);
         k.settle(c.now);
         return say_real(v);
     });
@@ -314,18 +316,18 @@ CommandReply set_acceleration(Control& k, const Call& c) {
 
 CommandReply renew(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
-        a.renew(c.now);
-        return say_real(a.position(c.now));
+        a.traverse().renew(c.now);
+        return say_real(a.shaft().position(c.now));
     });
 }
 
 /// 0A93: end of processing at standstill; 0A9A: at once.
 CommandReply abort_move(Control& k, const Call& c) {
     if (!k.has_axis(c.parameter)) return refuse(quit::no_axis);
-    k.axis(axis_of(c)).finish(c.now);
+    k.axis(axis_of(c)).traverse().finish(c.now);
     k.settle(c.now);
     if (c.code == 0x0A93) return k.begin_pending(Kind::halt, axis_of(c), c.now);
-    return say_real(k.axis(axis_of(c)).position(c.now));
+    return say_real(k.axis(axis_of(c)).shaft().position(c.now));
 }
 
 CommandReply axis_on(Control& k, const Call& c) {

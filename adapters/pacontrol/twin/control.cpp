@@ -18,7 +18,7 @@ Control::Control(const ControlSetup& setup) : setup_(setup), mode_(setup.times) 
     if (setup_.programs.empty()) setup_.programs.push_back({"START", std::chrono::seconds(10), 0});
     elements_ = {Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}};
     for (std::size_t i = 0; i < n; ++i)
-        axes_.push_back(new_axis(i));
+        add_axis();
     kept_.assign(n, {});
     overrides_.assign(n, {});
     next_condition_.assign(n, {});
@@ -34,10 +34,10 @@ AxisParameters Control::factory_axis() const {
     return p;
 }
 
-Axis Control::new_axis(std::size_t place) const {
-    Axis a{setup_.axis, factory_axis()};
-    if (const auto it = setup_.rotary.find(static_cast<int>(place) + 1); it != setup_.rotary.end()) a.set_revolution(it->second);
-    return a;
+void Control::add_axis() {
+    AxisModel model = setup_.axis;
+    if (const auto it = setup_.rotary.find(static_cast<int>(axes_.size()) + 1); it != setup_.rotary.end()) model.revolution = it->second;
+    axes_.emplace_back(model, factory_axis());
 }
 
 void Control::fit_axes(int n, Instant now) {
@@ -50,7 +50,7 @@ void Control::fit_axes(int n, Instant now) {
     }
     setup_.axes = static_cast<int>(after);
     for (std::size_t i = before; i < after; ++i)
-        axes_.push_back(new_axis(i));
+        add_axis();
     kept_.resize(after);
     overrides_.resize(after);
     next_condition_.resize(after);
@@ -82,7 +82,7 @@ std::uint8_t Control::status() const noexcept {
 Instant Control::deadline() const noexcept {
     Instant next = mode_.deadline();
     for (const Axis& a : axes_)
-        next = std::min(next, a.deadline());
+        next = std::min(next, a.traverse().deadline());
     return next;
 }
 
@@ -97,7 +97,7 @@ void Control::advance(Instant now) {
 
 void Control::step(Instant now) {
     for (Axis& a : axes_)
-        a.advance(now);
+        a.traverse().advance(now);
     settle(now);
 }
 
@@ -124,7 +124,7 @@ void Control::run_program(Instant now) {
         return;
     }
     for (std::size_t tried = 0; tried < moves.size(); ++tried) {
-        if (program_axis_ && axis(*program_axis_).busy()) return;
+        if (program_axis_ && axis(*program_axis_).traverse().busy()) return;
         const ProgramMove& next = moves[program_move_ % moves.size()];
         if (!has_axis(next.axis)) return;
         Axis& a = axis(next.axis);
@@ -132,9 +132,9 @@ void Control::run_program(Instant now) {
         m.target = next.target;
         m.speed = static_cast<double>(a.parameters()[ap::traverse_speed]);
         m.acceleration = static_cast<double>(a.parameters()[ap::acceleration]);
-        if (const std::uint16_t q = a.may_start(m, now); q != quit::ok)
+        if (const std::uint16_t q = a.traverse().may_start(m, now); q != quit::ok)
             return raise(q == quit::no_reference ? error::no_reference : error::program_move, now);
-        a.start(m, now);
+        a.traverse().start(m, now);
         ++program_move_;
         program_axis_ = next.axis;
     }
@@ -160,9 +160,9 @@ void Control::entered(Mode::Entered what, Instant now) {
             // Errors of online and automatic go on the way to home position [L2774]; so do overrides and what was interrupted.
             if (error_ >= 500) error_ = 0;
             for (std::size_t i = 0; i < axes_.size(); ++i) {
-                axes_[i].forget_interrupted();
-                axes_[i].finish(now);
-                if (axes_[i].fault() >= 500 || axes_[i].fault() == 0) axes_[i].clear_fault();
+                axes_[i].traverse().forget_interrupted();
+                axes_[i].traverse().finish(now);
+                if (axes_[i].state().fault >= 500 || axes_[i].state().fault == 0) axes_[i].clear_fault();
                 axes_[i].clear_displaced();
                 overrides_[i] = {};
                 next_condition_[i].reset();
@@ -209,7 +209,7 @@ std::uint16_t Control::start_automatic(Instant now) {
         if (system_[sp::stop_input] != 0 && !external_stop_powered()) return quit::no_external_stop;
         if (!mode_.resume_automatic(now)) return quit::inadmissible;
         for (Axis& a : axes_)
-            a.resume(now);
+            a.traverse().resume(now);
         settle(now);
         return quit::ok;
     }
@@ -230,7 +230,7 @@ std::uint16_t Control::start_online(Instant now) {
     if (stopped) {
         (void)mode_.resume_online();
         for (Axis& a : axes_)
-            a.resume(now);
+            a.traverse().resume(now);
     } else {
         if (const auto fault = parameters_fault(); fault != 0) return fault;
         (void)mode_.start_online(now);
@@ -241,7 +241,7 @@ std::uint16_t Control::start_online(Instant now) {
 
 void Control::interrupt_all(Instant now) {
     for (Axis& a : axes_)
-        a.interrupt(now);
+        a.traverse().interrupt(now);
 }
 
 std::uint16_t Control::stop(Instant now) {
@@ -259,8 +259,8 @@ std::uint16_t Control::stop(Instant now) {
 
 void Control::leave_to(std::uint8_t target, Instant now) {
     for (Axis& a : axes_) {
-        a.forget_interrupted();
-        a.finish(now);
+        a.traverse().forget_interrupted();
+        a.traverse().finish(now);
     }
     mode_.leave(target);
     settle(now);
@@ -289,8 +289,8 @@ void Control::emergency_stop(Instant now) {
     advance(now);
     interrupt_all(now);
     for (Axis& a : axes_) {
-        a.finish(now);
-        a.forget_interrupted();
+        a.traverse().finish(now);
+        a.traverse().forget_interrupted();
     }
     (void)mode_.malfunction(now);
     settle(now);
@@ -320,15 +320,15 @@ std::string Control::panel(const std::string& mode, Instant now) {
 void Control::jog(int n, int direction, Instant now) {
     advance(now);
     Axis& a = axis(n);
-    a.finish(now);
+    a.traverse().finish(now);
     if (direction == 0 || a.running() || mode_.column() != gate::manual) return settle(now);
     Motion m;
     m.task = Task::jog;
     m.free = true;
-    m.target = direction > 0 ? a.area_max() : a.area_min();
+    m.target = direction > 0 ? a.traverse().area_max() : a.traverse().area_min();
     m.speed = static_cast<double>(a.parameters()[ap::manual_speed]);
     m.acceleration = static_cast<double>(a.parameters()[ap::acceleration]);
-    if (a.may_start(m, now) == quit::ok) a.start(m, now);
+    if (a.traverse().may_start(m, now) == quit::ok) a.traverse().start(m, now);
     settle(now);
 }
 
@@ -344,8 +344,8 @@ void Control::raise(std::uint16_t number, Instant now) {
     if (error_ == 0 || number < error_) error_ = number;  // the graver class stays
     if (mode_.malfunction(now)) {
         for (Axis& a : axes_) {
-            a.forget_interrupted();
-            a.finish(now);
+            a.traverse().forget_interrupted();
+            a.traverse().finish(now);
         }
     }
     settle(now);
@@ -413,9 +413,9 @@ CommandReply Control::pending_reply(Instant now) {
         case Pending::Kind::reference:
         case Pending::Kind::halt: {
             const Axis& a = axis(pending_.axis);
-            r.data = pending_.kind == Pending::Kind::reference ? Datum{} : Datum::number(a.position(now));
-            r.done = pending_.kind == Pending::Kind::halt ? !a.running() : !a.busy();
-            if (r.done && pending_.kind != Pending::Kind::halt) r.quit = a.ended_with();
+            r.data = pending_.kind == Pending::Kind::reference ? Datum{} : Datum::number(a.shaft().position(now));
+            r.done = pending_.kind == Pending::Kind::halt ? !a.running() : !a.traverse().busy();
+            if (r.done && pending_.kind != Pending::Kind::halt) r.quit = a.traverse().ended_with();
             break;
         }
         case Pending::Kind::mode: {

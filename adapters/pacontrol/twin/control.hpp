@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -193,7 +194,7 @@ private:
     void interrupt_all(Instant now);
     void run_program(Instant now);
     [[nodiscard]] AxisParameters factory_axis() const;
-    [[nodiscard]] Axis new_axis(std::size_t place) const;
+    void add_axis();
     void check_conditions(Instant now);
     void check_stop_input(Instant now);
     [[nodiscard]] bool fulfilled(const Condition& c) const noexcept;
@@ -204,7 +205,7 @@ private:
     ControlSetup setup_;
     Mode mode_;
     Elements elements_;
-    std::vector<Axis> axes_;
+    std::deque<Axis> axes_;
     SystemParameters system_{};
     std::vector<Overrides> overrides_;
     std::vector<std::optional<Condition>> next_condition_;  ///< of 0AA3, for the next move

@@ -16,15 +16,15 @@ bool Control::fulfilled(const Condition& c) const noexcept {
 
 std::uint16_t Control::start_with(int n, const Motion& m, const std::optional<Condition>& c, Instant now) {
     Axis& a = axis(n);
-    if (const std::uint16_t q = a.may_start(m, now); q != 0) return q;
+    if (const std::uint16_t q = a.traverse().may_start(m, now); q != 0) return q;
     if (mode_.status() != status::online) return quit::not_executable;  // starting, stopped, malfunction: nothing begins
     condition_[static_cast<std::size_t>(n - 1)] = c;
     if (c && !fulfilled(*c)) {
-        a.finish(now);
-        a.skipped_by_condition();  // counts as finished, no error [L820]
+        a.traverse().finish(now);
+        a.traverse().skipped_by_condition();  // counts as finished, no error [L820]
         return quit::ok;
     }
-    a.start(m, now);
+    a.traverse().start(m, now);
     settle(now);
     return quit::ok;
 }
@@ -34,7 +34,7 @@ std::uint16_t Control::start_move(int n, double value, bool relative, Task task,
     const Axis& a = axis(n);
     Motion m;
     m.task = task;
-    m.target = relative ? a.position(now) + value : value;
+    m.target = relative ? a.shaft().position(now) + value : value;
     const double own = static_cast<double>(
         a.parameters()[task == Task::manual && !setup_.axis.manual_at_traverse ? ap::manual_speed : ap::traverse_speed]);
     m.speed = task == Task::manual && !setup_.axis.manual_at_traverse ? own : overrides_[i].speed.value_or(own);
@@ -63,9 +63,9 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
     std::optional<Condition> condition;
     switch (task.kind) {
         case AxisTask::Kind::reference:
-            if (const std::uint16_t q = a.may_reference(); q != 0) return q;
+            if (const std::uint16_t q = a.traverse().may_reference(); q != 0) return q;
             if (mode_.status() != status::online) return quit::not_executable;
-            a.start_reference(now);
+            a.traverse().start_reference(now);
             settle(now);
             return quit::ok;
         case AxisTask::Kind::set_g26:
@@ -85,7 +85,7 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
             m.target = task.value;
             break;
         case AxisTask::Kind::relative:
-            m.target = a.position(now) + task.value;
+            m.target = a.shaft().position(now) + task.value;
             break;
         case AxisTask::Kind::to_max:
             m.target = static_cast<double>(a.parameters()[ap::area_max]);  // "the axis parameter as absolute position" [L814]
@@ -98,7 +98,7 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
             const bool positive = task.kind == AxisTask::Kind::free_positive;
             m.free = true;
             m.target = task.value;
-            if (positive ? m.target < a.position(now) : m.target > a.position(now)) return quit::outside_range;
+            if (positive ? m.target < a.shaft().position(now) : m.target > a.shaft().position(now)) return quit::outside_range;
             break;
         }
     }
@@ -127,20 +127,20 @@ void Control::disable_drive(int n, bool disabled, Instant now) {
 
 void Control::interrupt_axis(int n, Instant now) {
     advance(now);
-    axis(n).interrupt(now);
+    axis(n).traverse().interrupt(now);
     settle(now);
 }
 
 void Control::resume_axis(int n, Instant now) {
     advance(now);
-    if (mode_.status() == status::online) axis(n).resume(now);
+    if (mode_.status() == status::online) axis(n).traverse().resume(now);
     settle(now);
 }
 
 void Control::change_axis_speed(int n, std::uint32_t permille, Instant now) {
     advance(now);
     if (!setup_.axis.ep || permille == 0 || permille > 1000) return;
-    axis(n).change_speed(static_cast<double>(axis(n).parameters()[ap::traverse_speed]) * permille / 1000, now);
+    axis(n).traverse().change_speed(static_cast<double>(axis(n).parameters()[ap::traverse_speed]) * permille / 1000, now);
     settle(now);
 }
 
@@ -153,9 +153,9 @@ void Control::set_condition(int n, const Condition& c) {
 void Control::check_conditions(Instant now) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (!axes_[i].running()) {
-            if (!axes_[i].busy()) condition_[i].reset();
+            if (!axes_[i].traverse().busy()) condition_[i].reset();
         } else if (condition_[i] && !fulfilled(*condition_[i])) {
-            axes_[i].finish_by_condition(now);
+            axes_[i].traverse().finish_by_condition(now);
         }
     }
     settle(now);
@@ -234,9 +234,9 @@ std::optional<bool> Control::system_flag(std::int64_t n) const {
         return n - first < axes() ? &axis(static_cast<int>(n - first + 1)) : nullptr;
     };
     const auto within = [&](std::int64_t first) { return n >= first && n < first + 16; };
-    if (within(51)) return of(51) != nullptr && of(51)->referenced();
-    if (within(91)) return of(91) != nullptr && of(91)->busy();
-    if (within(231)) return of(231) != nullptr && of(231)->fault() != 0;
+    if (within(51)) return of(51) != nullptr && of(51)->state().referenced;
+    if (within(91)) return of(91) != nullptr && of(91)->traverse().busy();
+    if (within(231)) return of(231) != nullptr && of(231)->state().fault != 0;
     return std::nullopt;
 }
 
@@ -247,8 +247,8 @@ std::optional<std::int32_t> Control::system_integer(std::int64_t n) const {
 }
 
 std::optional<double> Control::system_real(std::int64_t n) const {
-    if (n >= 51 && n < 67) return n - 51 < axes() ? axis(static_cast<int>(n - 50)).position_when_off() : 0.0;
-    if (n >= 71 && n < 87) return n - 71 < axes() ? axis(static_cast<int>(n - 70)).last_target() : 0.0;
+    if (n >= 51 && n < 67) return n - 51 < axes() ? axis(static_cast<int>(n - 50)).state().off_position : 0.0;
+    if (n >= 71 && n < 87) return n - 71 < axes() ? axis(static_cast<int>(n - 70)).traverse().last_target() : 0.0;
     return std::nullopt;
 }
 

@@ -46,21 +46,23 @@ std::vector<HandItem> Device::hand() const {
     for (int n = 1; n <= control_.axes(); ++n) {
         const Axis& a = control_.axis(n);
         const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
-        items.push_back({p + "stall", a.held(), true, "the shaft is held: the following error grows up to the monitor's limit"});
-        items.push_back({p + "limit_positive", a.limit_hand(true), true, "positive limit switch actuated, or its cable broken"});
-        items.push_back({p + "limit_negative", a.limit_hand(false), true, "negative limit switch actuated, or its cable broken"});
-        items.push_back({p + "home_switch", a.home_switch(), true,
-                         "reference switch held actuated; without it the switch is actuated at shaft positions below 0"});
-        items.push_back({p + "temperature", a.temperature(), true, "deg C, as 1920 tells"});
-        items.push_back({p + "load", a.load(), true, "0..1: the axis lags by 1 ms of its way at full load"});
-        items.push_back({p + "following_error", a.extra_lag() * 1000, true, "0.001 AE, added to the axis' own"});
-        items.push_back({p + "power_pack", a.power_pack(), true, "the power pack is ready"});
+        items.push_back({p + "stall", a.shaft().held(), true, "the shaft is held: the following error grows up to the monitor's limit"});
         items.push_back(
-            {p + "encoder_broken", a.encoder_broken(), true, "no encoder edges: E560 when measuring ends with synchronisation"});
+            {p + "limit_positive", a.switches().limit_by_hand(true), true, "positive limit switch actuated, or its cable broken"});
+        items.push_back(
+            {p + "limit_negative", a.switches().limit_by_hand(false), true, "negative limit switch actuated, or its cable broken"});
+        items.push_back({p + "home_switch", a.switches().home_by_hand(), true,
+                         "reference switch held actuated; without it the switch is actuated at shaft positions below 0"});
+        items.push_back({p + "temperature", a.state().outside.temperature, true, "deg C, as 1920 tells"});
+        items.push_back({p + "load", a.shaft().load(), true, "0..1: the axis lags by 1 ms of its way at full load"});
+        items.push_back({p + "following_error", a.shaft().extra_lag() * 1000, true, "0.001 AE, added to the axis' own"});
+        items.push_back({p + "power_pack", a.state().outside.power_pack, true, "the power pack is ready"});
+        items.push_back({p + "encoder_broken", a.state().outside.encoder_broken, true,
+                         "no encoder edges: E560 when measuring ends with synchronisation"});
         items.push_back({p + "jog", std::int64_t{0}, true, "front panel in manual mode: -1, 1 moves at manual speed, 0 stops"});
-        items.push_back({p + "position", last_ == Instant::min() ? 0.0 : std::round(a.shaft(last_) * 1000), true,
+        items.push_back({p + "position", last_ == Instant::min() ? 0.0 : std::round(a.shaft().place(last_) * 1000), true,
                          "shaft position, 0.001 AE; can be pushed while the axis is off or in measuring mode"});
-        items.push_back({"axis" + std::to_string(n) + ".inject_error", std::int64_t{a.fault()}, true,
+        items.push_back({"axis" + std::to_string(n) + ".inject_error", std::int64_t{a.state().fault}, true,
                          "error number of this axis, 1..999; 0 takes it away"});
     }
     return items;

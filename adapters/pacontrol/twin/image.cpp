@@ -40,20 +40,20 @@ bool blocked(std::uint16_t code) {
 /// Status bits 0 to 6 and 8 to 13 [L788-L836]. Axis groups have no parameter number in the manual: all axes count as one group.
 std::uint32_t status_bits(const Control& control, int channel) {
     const Axis& a = control.axis(channel);
-    const bool powered = a.enabled();
+    const bool powered = a.state().enabled();
     std::uint32_t s = powered ? bit_of(0) : bit_of(2);
-    s |= a.power() == AxisPower::halt ? bit_of(1) : 0u;
-    s |= a.power() == AxisPower::safe ? bit_of(3) : 0u;
-    s |= a.power() == AxisPower::idle ? bit_of(4) : 0u;
-    s |= a.power() == AxisPower::disabled ? bit_of(5) : 0u;
-    s |= a.fault() != 0 ? bit_of(6) : 0u;
-    s |= a.referenced() ? bit_of(8) : 0u;
-    s |= a.limit_actuated(false) ? 0u : bit_of(9);  // 0 is actuated, whatever the type of the switch
-    s |= a.limit_actuated(true) ? 0u : bit_of(10);
-    s |= a.stopped_by_condition() ? bit_of(11) : 0u;
-    s |= a.displaced_while_off() ? bit_of(12) : 0u;
+    s |= a.state().power == AxisPower::halt ? bit_of(1) : 0u;
+    s |= a.state().power == AxisPower::safe ? bit_of(3) : 0u;
+    s |= a.state().power == AxisPower::idle ? bit_of(4) : 0u;
+    s |= a.state().power == AxisPower::disabled ? bit_of(5) : 0u;
+    s |= a.state().fault != 0 ? bit_of(6) : 0u;
+    s |= a.state().referenced ? bit_of(8) : 0u;
+    s |= a.switches().limit(false) ? 0u : bit_of(9);  // 0 is actuated, whatever the type of the switch
+    s |= a.switches().limit(true) ? 0u : bit_of(10);
+    s |= a.traverse().stopped_by_condition() ? bit_of(11) : 0u;
+    s |= a.state().displaced ? bit_of(12) : 0u;
     for (int n = 1; n <= control.axes(); ++n)
-        s |= control.axis(n).displaced_while_off() ? bit_of(13) : 0u;
+        s |= control.axis(n).state().displaced ? bit_of(13) : 0u;
     return s;
 }
 
@@ -275,7 +275,7 @@ void Image::axis(Control& control, std::size_t k, Instant now) {
         if (changed & 2u) control.disable_drive(channel, (w & 2u) != 0, now);
         // A level [L727-L738]: an axis that is on by its enable mode is switched off by a 0 that has stood there from the start.
         const Axis& a = control.axis(channel);
-        if (!(w & 2u) && (w & 1u) == (a.switched_off() || !a.enabled() ? 1u : 0u)) control.set_axis_on(channel, (w & 1u) != 0, now);
+        if (!(w & 2u) && (w & 1u) == (a.state().off || !a.state().enabled() ? 1u : 0u)) control.set_axis_on(channel, (w & 1u) != 0, now);
         const std::uint16_t speed = word(in_, at + 6);
         if ((w & 4u) && (changed & 4u)) {
             if (!moving) start(control, k, m, w, now);  // a start during a traverse is not seen [L742]
@@ -292,14 +292,14 @@ void Image::axis(Control& control, std::size_t k, Instant now) {
         m.command_error = 0;
     }
     const Axis& is = control.axis(channel);
-    if (m.active && !is.busy() && !(w & 4u)) m.active = false;
-    const std::uint16_t error = is.fault() != 0 ? is.fault() : m.own_error;
+    if (m.active && !is.traverse().busy() && !(w & 4u)) m.active = false;
+    const std::uint16_t error = is.state().fault != 0 ? is.state().fault : m.own_error;
     std::uint32_t s = status_bits(control, channel);
     s |= (m.active ? bit_of(7) : 0u) | (m.command_error != 0 ? bit_of(14) : 0u) | (error != 0 ? bit_of(15) : 0u);
     put_dword(out, at, s);
     put_word(out, at + 4, m.command_error);
     put_word(out, at + 6, error);
-    put_real(at + 8, is.position(now));
+    put_real(at + 8, is.shaft().position(now));
 }
 
 void Image::start(Control& control, std::size_t k, Module& m, std::uint32_t w, Instant now) {
@@ -319,7 +319,7 @@ void Image::start(Control& control, std::size_t k, Module& m, std::uint32_t w, I
         m.command_error = m.own_error = quit::inadmissible;  // several at once: both errors [L712-L716], E-36
     } else if (uses_speed(*kind) && (task.speed_permille < 1 || task.speed_permille > 1000 || task.acceleration_permille == 0)) {
         m.command_error = quit::value;  // E-67
-    } else if (needs_reference(*kind) && !control.axis(static_cast<int>(k) + 1).referenced()) {
+    } else if (needs_reference(*kind) && !control.axis(static_cast<int>(k) + 1).state().referenced) {
         m.command_error = quit::no_reference;
         m.own_error = error::no_reference;
     } else {

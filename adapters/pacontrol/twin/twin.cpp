@@ -213,7 +213,7 @@ TwinMechanics Device::mechanics(int channel, Instant now) const {
     if (channel < 1 || channel > control_.axes()) return {};
     const Axis& a = control_.axis(channel);
     now = std::max(now, last_);
-    return {a.shaft(now) * 1000, a.velocity(now) * 1000, powered_ && a.enabled() && !a.measuring()};
+    return {a.shaft().place(now) * 1000, a.shaft().velocity(now) * 1000, powered_ && a.state().enabled() && !a.state().measuring};
 }
 
 }  // namespace axisgate::pacontrol::twin

@@ -1,9 +1,10 @@
 // Handlers of assemblies: the EtherNet/IP instances of the site's own and of its profiles, and what stands at which byte of them.
-// In: calls. Out: entries in their full form; changes go through parse_site as a whole, like every change of the site.
-// Never those that every site has: of axes, heartbeats, configuration.
+// In: calls. Out: entries in their full form, the site's own also as CSV; changes go through parse_site as a whole, like every change of
+// the site. Never those that every site has: of axes, heartbeats, configuration.
 #include <algorithm>
 
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/doors/http/table_import.hpp"
 #include "gateway/registers/profiles/language.hpp"
 #include "gateway/site/assembly.hpp"
 #include "gateway/site/mapping.hpp"
@@ -57,6 +58,21 @@ json::array values_of(const Site& site, const AssemblySpec& a, const registers::
             value_document(2u * (m->address - std::uint32_t{a.address}), 2u * m->size(), m->point, json::value(m->axis), m->type));
     return out;
 }
+
+/// Said again with the rows by their lines, and with what the rest of the site has.
+void say_assemblies(const json::array& list, const Site& before, const Families&, std::vector<SiteFault>& faults, const CalledRow& called) {
+    Site site = before;
+    site.assemblies.clear();
+    const json::value entries(list);
+    read_assemblies(&entries, site, faults);
+    std::vector<SiteFault> more;
+    check_assemblies(site, more, called);
+    // An entry that could not be read stands for nothing: what it would be in the way of is not told.
+    const auto entry_of = [](const SiteFault& f) { return f.pointer.substr(0, f.pointer.find('/', std::size("/assemblies/") - 1)); };
+    std::erase_if(more, [&](const SiteFault& f) { return std::ranges::find(faults, entry_of(f), entry_of) != faults.end(); });
+    faults.insert(faults.end(), more.begin(), more.end());
+}
+constexpr TableImport assembly_table{"assemblies", "instance", assemblies_from_csv, say_assemblies};
 }  // namespace
 
 Handled list_assemblies(Call& c, const SitePort& sites) {
@@ -85,6 +101,17 @@ Handled get_assembly(Call& c, const SitePort& sites) {
     const auto* a = instance ? assembly_of(site->site, *instance) : nullptr;
     if (!a) return nothing_named("assembly", c.names[0]);
     return assembly_answer(*site, to_json(*a));
+}
+
+Handled get_assemblies_csv(Call&, const SitePort& sites) {
+    const auto site = sites.site();
+    return table_answer(*site, assembly_table, assemblies_to_csv(site->site.assemblies));
+}
+Handled replace_assemblies_csv(Call& c, SitePort& sites, const StagePort& staging) {
+    return import_table(c, sites, staging, assembly_table, true);
+}
+Handled add_assemblies_csv(Call& c, SitePort& sites, const StagePort& staging) {
+    return import_table(c, sites, staging, assembly_table, false);
 }
 
 Handled put_assembly(Call& c, SitePort& sites, const StagePort& staging) {

@@ -4,9 +4,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/doors/http/table_import.hpp"
 #include "gateway/site/mapping.hpp"
 
 namespace axisgate::http {
@@ -57,86 +57,12 @@ Handled change_mappings(Call& c, SitePort& sites, const StagePort& staging, Mapp
     });
 }
 
-Response csv_faults(const std::vector<CsvFault>& faults) {
-    Problem p;
-    p.status = 422;
-    p.reason = "invalid";
-    p.detail = fmt::format("line {}: {}{}", faults.front().line, faults.front().text,
-                           faults.size() > 1 ? fmt::format(" (and {} more)", faults.size() - 1) : std::string());
-    for (const auto& f : faults)
-        p.faults.push_back({fmt::format("/{}", f.line), f.text, "mend the line: nothing has been taken from the file", true});
-    return to_response(p);
+/// Conflicts are said again with the rows by their lines: an id that a row would get is known to nobody.
+void say_mappings(const json::array& list, const Site& before, const Families& families, std::vector<SiteFault>& faults,
+                  const CalledRow& called) {
+    (void)parse_mappings(list, before, families, faults, called);
 }
-
-/// Rows as entries of the site: the whole list, or added to what is there, where a row with a known id takes that entry's place.
-Handled import_csv(Call& c, SitePort& sites, const StagePort& staging, bool whole) {
-    std::optional<Response> fault;
-    const bool dry_run = query_flag(c, "dry_run", fault);
-    if (fault) return *fault;
-    std::vector<CsvFault> csv;
-    std::vector<std::size_t> lines;
-    auto rows = mappings_from_csv(c.request.body, lines, csv);
-    if (!rows) return csv_faults(csv);
-    const auto count = rows->size();
-    auto plan = [&sites, rows = std::move(*rows), lines = std::move(lines), csv = std::move(csv),
-                 whole](const SiteState& before) -> Planned {
-        json::object document = to_json(before.site);
-        json::array& list = document["mappings"].get_array();
-        if (whole) list.clear();
-        std::vector<std::size_t> line_of(list.size(), 0);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto known = mapping_id_of(rows[i]).empty() ? std::nullopt : place_of(list, mapping_id_of(rows[i]));
-            if (known && line_of[*known] == 0 && !whole) {
-                list[*known] = rows[i];
-                line_of[*known] = lines[i];
-            } else {
-                list.push_back(rows[i]);
-                line_of.push_back(lines[i]);
-            }
-        }
-        std::vector<SiteFault> faults;
-        auto site = parse_site(document, sites.families(), faults);
-        if (!site || !csv.empty()) {
-            std::vector<CsvFault> wrong = csv;
-            // Said again with the rows by their lines: an id that a row would get is known to nobody.
-            const auto row = [&](std::size_t i) {
-                return i < line_of.size() && line_of[i] != 0 ? fmt::format("row {}", line_of[i]) : std::string();
-            };
-            std::erase_if(faults, [](const SiteFault& f) { return f.pointer == "/mappings" || f.pointer.starts_with("/mappings/"); });
-            (void)parse_mappings(list, before.site, sites.families(), faults, row);
-            for (const auto& f : faults) {
-                std::size_t index = line_of.size();
-                if (constexpr std::string_view head = "/mappings/"; f.pointer.starts_with(head))
-                    std::from_chars(f.pointer.data() + head.size(), f.pointer.data() + f.pointer.size(), index);
-                wrong.push_back({index < line_of.size() ? line_of[index] : 0, fmt::format("{}; {}", f.text, f.remedy)});
-            }
-            std::ranges::stable_sort(wrong, {}, &CsvFault::line);
-            return csv_faults(wrong);
-        }
-        const auto changes = differences(before.site, *site);
-        return Plan{
-            std::move(*site), [changes, count = rows.size()](const std::shared_ptr<const SiteState>& now) {
-                json::array d;
-                for (const auto& x : changes)
-                    d.emplace_back(x);
-                return shown(
-                    *now, json::object{
-                              {"dry_run", false}, {"rows", count}, {"mappings", now->site.mappings.size()}, {"differences", std::move(d)}});
-            }};
-    };
-    if (!dry_run) return change_site(c, sites, staging, false, std::move(plan));
-    const auto now = sites.site();
-    if (auto refusal = precondition(c, sites, *now, false)) return *std::move(refusal);
-    auto planned = plan(*now);
-    if (auto* refusal = std::get_if<Response>(&planned)) return std::move(*refusal);
-    json::array d;
-    for (const auto& x : differences(now->site, std::get<Plan>(planned).site))
-        d.emplace_back(x);
-    return shown(
-        *now,
-        json::object{
-            {"dry_run", true}, {"rows", count}, {"mappings", std::get<Plan>(planned).site.mappings.size()}, {"differences", std::move(d)}});
-}
+constexpr TableImport mapping_table{"mappings", "id", mappings_from_csv, say_mappings};
 
 }  // namespace
 
@@ -309,17 +235,15 @@ Handled change_mapping_unit(Call& c, SitePort& sites, const StagePort& staging) 
 
 Handled get_mappings_csv(Call&, const SitePort& sites) {
     const auto site = sites.site();
-    const auto& mappings = site->site.map();
-    Response r;
-    r.headers.set("Content-Type", "text/csv; charset=utf-8");
-    r.headers.set("Content-Disposition", "attachment; filename=\"mappings.csv\"");
-    r.body = mappings_to_csv(mappings);
-    put_revision(r, *site);
-    return r;
+    return table_answer(*site, mapping_table, mappings_to_csv(site->site.map()));
 }
 
-Handled replace_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) { return import_csv(c, sites, staging, true); }
-Handled add_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) { return import_csv(c, sites, staging, false); }
+Handled replace_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) {
+    return import_table(c, sites, staging, mapping_table, true);
+}
+Handled add_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) {
+    return import_table(c, sites, staging, mapping_table, false);
+}
 
 Handled list_mapping_points(Call&) {
     json::array out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "gateway/core/csv.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/doors/http/parameter_jobs.hpp"
 #include "gateway/services/documents.hpp"
@@ -16,47 +17,8 @@ namespace json = boost::json;
 namespace {
 constexpr std::uint16_t most_listed_elements = 256;
 constexpr std::size_t most_kept_faults = 1000;  // of one file; the first of them are told
-
-/// RFC 4180; `;` as separator where the first line has one outside quotes and no comma.
-std::vector<std::pair<std::size_t, std::vector<std::string>>> rows_of(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const auto head = text.substr(0, text.find('\n'));
-    const char separator = head.find(',') == std::string_view::npos && head.find(';') != std::string_view::npos ? ';' : ',';
-    std::vector<std::pair<std::size_t, std::vector<std::string>>> out;
-    std::vector<std::string> row(1);
-    bool quoted = false;
-    std::size_t line = 1, begun = 1;
-    const auto end_row = [&] {
-        if (row.size() > 1 || !row[0].empty()) out.emplace_back(begun, std::move(row));
-        row.assign(1, {});
-    };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '\n') ++line;
-        if (quoted) {
-            if (c != '"')
-                row.back() += c;
-            else if (i + 1 < text.size() && text[i + 1] == '"')
-                row.back() += text[++i];
-            else
-                quoted = false;
-        } else if (c == '"') {
-            quoted = true;
-        } else if (c == separator) {
-            row.emplace_back();
-        } else if (c == '\n') {
-            end_row();
-            begun = line;
-        } else if (c != '\r') {
-            row.back() += c;
-        }
-    }
-    end_row();
-    return out;
-}
 }  // namespace
 
-/// A cell that a spreadsheet takes as text and not as a formula or as several cells.
 Handled get_parameter_history(Call& c, const ParameterPort& parameters, const SitePort& sites) {
     const auto axis = find_axis(sites, c.names[0]);
     if (!axis) return nothing_named("axis", c.names[0]);
@@ -126,11 +88,15 @@ Handled put_parameters_csv(Call& c, AxisPort& axes, const ParameterPort& paramet
             faults.push_back({fmt::format("/{}", line), std::move(text), "mend the line: nothing has been taken from the file"});
     };
     if (!is_utf8(c.request.body)) return problem(400, "bad_request", "the table is not UTF-8");
-    const auto rows = rows_of(c.request.body);
+    CsvReader reader(c.request.body);
+    std::vector<CsvLine> rows;
+    while (auto line = reader.next())
+        rows.push_back(std::move(*line));
+    if (reader.fault()) wrong(reader.fault()->line, reader.fault()->text);
     std::size_t id_column = SIZE_MAX, value_column = SIZE_MAX;
     if (!rows.empty()) {
-        for (std::size_t i = 0; i < rows[0].second.size(); ++i) {
-            const auto name = lower(trimmed(rows[0].second[i]));
+        for (std::size_t i = 0; i < rows[0].cells.size(); ++i) {
+            const auto name = lower(trimmed(rows[0].cells[i]));
             if (name == "parameter") id_column = i;
             if (name == "value") value_column = i;
         }
@@ -144,7 +110,7 @@ Handled put_parameters_csv(Call& c, AxisPort& axes, const ParameterPort& paramet
         stored[s.parameter] = s.value;
     std::map<std::string, Value> given;
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const auto& cells = rows[i].second;
+        const auto& cells = rows[i].cells;
         const auto point = axis->catalogue && cells.size() > std::max(id_column, value_column)
                                ? axis->catalogue->find(trimmed(cells[id_column]))
                                : std::nullopt;

@@ -144,6 +144,9 @@ constexpr std::array routes{
         .needs(Role::viewer)
         .moves(),  // as above
     Route{"/api/v1/assemblies", Method::get, take<list_assemblies>},
+    Route{"/api/v1/assemblies.csv", Method::get, take<get_assemblies_csv>, Takes::nothing, Gives::own},
+    Route{"/api/v1/assemblies.csv", Method::post, take<add_assemblies_csv>, Takes::csv}.asks("dry_run"),
+    Route{"/api/v1/assemblies.csv", Method::put, take<replace_assemblies_csv>, Takes::csv}.asks("dry_run"),
     Route{"/api/v1/assemblies/{instance}", Method::get, take<get_assembly>},
     Route{"/api/v1/assemblies/{instance}", Method::put, take<put_assembly>, Takes::json},
     Route{"/api/v1/assemblies/{instance}", Method::remove, take<remove_assembly>, Takes::nothing, Gives::nothing},

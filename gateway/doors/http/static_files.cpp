@@ -67,7 +67,7 @@ bool is_address_of_page(const Target& target) {
 }  // namespace
 
 std::string_view media_for(std::string_view path) noexcept {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> types{{{".html", "text/html; charset=utf-8"},
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 15> types{{{".html", "text/html; charset=utf-8"},
                                                                                           {".js", "text/javascript; charset=utf-8"},
                                                                                           {".mjs", "text/javascript; charset=utf-8"},
                                                                                           {".css", "text/css; charset=utf-8"},
@@ -76,6 +76,7 @@ std::string_view media_for(std::string_view path) noexcept {
                                                                                           {".webmanifest", "application/manifest+json"},
                                                                                           {".svg", "image/svg+xml"},
                                                                                           {".png", "image/png"},
+                                                                                          {".webp", "image/webp"},
                                                                                           {".ico", "image/x-icon"},
                                                                                           {".woff2", "font/woff2"},
                                                                                           {".woff", "font/woff"},

@@ -371,6 +371,7 @@ TEST_F(HttpTest, MediaTypesOfFiles) {
     EXPECT_EQ(media_for("/a.css"), "text/css; charset=utf-8");
     EXPECT_EQ(media_for("/a.svg"), "image/svg+xml");
     EXPECT_EQ(media_for("/a.woff2"), "font/woff2");
+    EXPECT_EQ(media_for("/a.webp"), "image/webp");
     EXPECT_EQ(media_for("/a.unknown"), "application/octet-stream");
 }
 

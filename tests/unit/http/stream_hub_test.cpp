@@ -492,6 +492,58 @@ TEST_F(StreamHubTest, RemovedClientsCostNothing) {
     gateway.tell(event("x"));
 }
 
+/// What the page asks for on its overview and, closely, for a plot of an axis: 30 of them that read nothing while the axes move on.
+TEST_F(StreamHubTest, ThirtyPlotsThatAreNotReadHoldTheNewestOfEachTopicAndNoMore) {
+    std::vector<std::shared_ptr<StreamClient>> plots;
+    const auto open = [&](StreamClient& c) {
+        hub.on_text(c, R"({"subscribe":["axes/*"],"period_ms":100})", now);
+        hub.on_text(c, R"({"subscribe":["drives/*","lines/*"],"period_ms":500})", now);
+        hub.on_text(c, R"({"subscribe":["events","alarms"],"period_ms":1000})", now);
+        hub.on_text(c, R"({"subscribe":["axes/slide"],"period_ms":20})", now);
+    };
+    for (int i = 0; i < 30; ++i) {
+        plots.push_back(hub.add({}));
+        open(*plots.back());
+    }
+    open(*client);
+    const auto bytes_of = [](StreamClient& c) {
+        std::size_t bytes = 0;
+        for (const auto& f : c.queue.take(SIZE_MAX))
+            bytes += f->size();
+        return bytes;
+    };
+    pass(1000);
+    const std::size_t whole = bytes_of(*client);  // each topic once
+    for (const auto& plot : plots)
+        (void)taken(*plot);
+    for (std::int64_t i = 1; i <= 3000; ++i) {  // a minute
+        gateway.set_picture("slide", standing(i));
+        gateway.set_picture("feeder", standing(-i));
+        pass(20);
+        (void)taken();
+    }
+    EXPECT_GE(counters.stream_states_replaced, 29u * 3000u) << "what is not read gives its place to the newer one";
+    for (const auto& plot : plots) {
+        EXPECT_EQ(plot->closing(), 0) << "who is slow and loses no event stays";
+        EXPECT_EQ(plot->queue.events_waiting(), 0u);
+        if (plot != plots[0]) {
+            EXPECT_LE(bytes_of(*plot), 2 * whole) << "each topic once, with longer figures";
+            continue;
+        }
+        std::map<std::string, int> waiting;
+        for (const auto& m : taken(*plot)) {
+            ++waiting[m.topic];
+            if (m.topic == "axes/slide") EXPECT_EQ(m.data.at("position_increments").to_number<int>(), 3000) << "the newest";
+        }
+        EXPECT_GE(waiting.size(), 2u);
+        for (const auto& [topic, n] : waiting)
+            EXPECT_EQ(n, 1) << topic;
+    }
+    for (const auto& plot : plots)
+        hub.remove(plot);
+    EXPECT_EQ(hub.clients(), 1u);
+}
+
 TEST_F(StreamHubTest, TopicsPerClientAreBounded) {
     // 1024 axes can exist; here the bound is met with the same few topics counted once each.
     for (int i = 0; i < 10; ++i)

@@ -163,5 +163,42 @@ TEST(SiteAssemblies, AProfileHasTheImageOfItsLanguage) {
               "/profiles/0/object_instance");
 }
 
+TEST(AssemblyCsv, ThereAndBack) {
+    AssemblySite p;
+    const auto site = p.read(R"([{"instance": 300, "direction": "output", "unit": 40, "registers": 5},
+        {"instance": 301, "direction": "input", "unit": 40, "address": 1, "registers": 4, "byte_order": "registers", "comment": "=press, \"2\""},
+        {"instance": 302, "direction": "input", "unit": 40, "table": "input_registers", "registers": 1}])");
+    ASSERT_TRUE(site);
+    const std::string csv = assemblies_to_csv(site->assemblies);
+    EXPECT_TRUE(
+        csv.starts_with("instance,direction,unit,table,address,registers,byte_order,comment\r\n"
+                        "300,output,40,holding_registers,0,5,little_endian,\r\n"))
+        << csv;
+    std::vector<std::size_t> lines;
+    std::vector<CsvFault> faults;
+    const auto rows = assemblies_from_csv(csv, lines, faults);
+    ASSERT_TRUE(rows && faults.empty());
+    EXPECT_EQ(lines, (std::vector<std::size_t>{2, 3, 4}));
+    const auto again = p.read(json::serialize(*rows));
+    ASSERT_TRUE(again) << p.faults.front().text;
+    EXPECT_EQ(again->assemblies, site->assemblies);
+}
+
+TEST(AssemblyCsv, RowsAreCalledByTheirLinesAndAProfileIsNotToBlame) {
+    AssemblySite p;
+    auto site = p.read("[]", R"([{"unit": 10, "language": "lexium", "axes": [{"axis": "x"}], "input_assembly": 300}])");
+    ASSERT_TRUE(site);
+    const json::value list = json::parse(R"([{"instance": 300, "direction": "input", "unit": 40, "registers": 5},
+        {"instance": 301, "direction": "input", "unit": 40, "registers": 5}, {"instance": 301, "direction": "output", "unit": 40, "registers": 5}])");
+    read_assemblies(&list, *site, p.faults);
+    ASSERT_TRUE(p.faults.empty());
+    check_assemblies(*site, p.faults, [](std::size_t i) { return "row " + std::to_string(i + 2); });
+    ASSERT_EQ(p.faults.size(), 2u);
+    EXPECT_EQ(p.faults[0].pointer, "/assemblies/0/instance");
+    EXPECT_EQ(p.faults[0].text, "instance 300 is taken by the profile of unit 10");
+    EXPECT_EQ(p.faults[1].pointer, "/assemblies/2/instance");
+    EXPECT_EQ(p.faults[1].text, "instance 301 is taken by row 3 (unit 40 holding_registers 0..4)");
+}
+
 }  // namespace
 }  // namespace axisgate

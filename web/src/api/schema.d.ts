@@ -791,7 +791,7 @@ export interface paths {
         put: operations["replaceMappings"];
         /**
          * Adds the rows of a table, all or none; a row with a known id takes that mapping's place
-         * @description Columns in any order, by the names of the first line; `;` is taken as separator too. Faults name the line.
+         * @description Columns in any order, by the names of the first line; `;` or a tab is taken as separator too. Faults name the line.
          */
         post: operations["addMappings"];
         delete?: never;
@@ -1569,6 +1569,28 @@ export interface paths {
         get: operations["listAssemblies"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/assemblies.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** The site's own assemblies as a table for a spreadsheet */
+        get: operations["exportAssemblies"];
+        /** Replaces the site's own assemblies by the rows of a table, or none */
+        put: operations["replaceAssemblies"];
+        /**
+         * Adds the rows of a table, all or none; a row with a known instance takes that assembly's place
+         * @description Columns in any order, by the names of the first line; `;` or a tab is taken as separator too. Faults name the line. Connections that are open on EtherNet/IP are closed with the cause.
+         */
+        post: operations["addAssemblies"];
         delete?: never;
         options?: never;
         head?: never;
@@ -4271,6 +4293,14 @@ export interface components {
             rows: number;
             /** @description mappings of the site afterwards */
             mappings: number;
+            differences: string[];
+        };
+        AssemblyImport: {
+            dry_run: boolean;
+            /** @description rows of the table */
+            rows: number;
+            /** @description the site's own afterwards */
+            assemblies: number;
             differences: string[];
         };
         MappingPoint: {
@@ -8795,6 +8825,114 @@ export interface operations {
                     "application/json": components["schemas"]["Assemblies"];
                 };
             };
+            default: components["responses"]["Problem"];
+        };
+    };
+    exportAssemblies: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description one line per assembly below a line of column names */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/csv": string;
+                };
+            };
+            default: components["responses"]["Problem"];
+        };
+    };
+    replaceAssemblies: {
+        parameters: {
+            query?: {
+                /** @description 1 answers what would change, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example instance,direction,unit,address,registers
+                 *     300,input,2,0,2
+                 */
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description taken; with `dry_run` what would be */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssemblyImport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            412: components["responses"]["PreconditionFailed"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    addAssemblies: {
+        parameters: {
+            query?: {
+                /** @description 1 answers what would change, and changes nothing */
+                dry_run?: components["schemas"]["Flag"];
+            };
+            header?: {
+                /** @description the change is made only if the site still has this revision (`"3"`, from `ETag` or `Site-Revision`); else 412 */
+                "If-Match"?: components["parameters"]["ifMatch"];
+            };
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                /**
+                 * @example instance,direction,unit,address,registers
+                 *     300,input,2,0,2
+                 */
+                "text/csv": string;
+            };
+        };
+        responses: {
+            /** @description taken; with `dry_run` what would be */
+            200: {
+                headers: {
+                    "Site-Revision": components["headers"]["SiteRevision"];
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AssemblyImport"];
+                };
+            };
+            400: components["responses"]["BadRequest"];
+            403: components["responses"]["Forbidden"];
+            412: components["responses"]["PreconditionFailed"];
+            413: components["responses"]["TooLarge"];
+            415: components["responses"]["UnsupportedMediaType"];
+            422: components["responses"]["Unprocessable"];
+            507: components["responses"]["NotStored"];
             default: components["responses"]["Problem"];
         };
     };

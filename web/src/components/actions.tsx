@@ -1,7 +1,7 @@
 // Actions: every command of the axis' family by name, as a form with a field for each argument. In: axis and family. Out: one request when Run is
 // pressed, after a question where the catalogue says what is lost; the answer in words. What was typed stays for the visit, whatever becomes of it.
 // Never sends by itself, nor twice.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
@@ -82,7 +82,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
         run();
       }}
     >
-      <p class="where" data-field="action-description">
+      <p class="where" {...gatewayWords} data-field="action-description">
         {command.description}
       </p>
       <div class="form-grid">

@@ -1,6 +1,6 @@
 // Alarms: the list with what can be done about each: acknowledge, shelve for a time with a reason, take back. In: the store. Out: requests.
 // The list is the gateway's; nothing is taken off it here before the gateway has said so.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -126,7 +126,7 @@ function AlarmRow(p: RowProps) {
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label={t('State')} />
         <span class="alarm-what">
-          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} {plain(withoutSubject(a.text, about))}
+          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} <span {...gatewayWords}>{plain(withoutSubject(a.text, about))}</span>
           {a.code !== null && <span class="mono">{' '}{t('(code {code})', { code: a.code })}</span>}
         </span>
         <span class="alarm-buttons">

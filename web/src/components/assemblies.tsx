@@ -1,5 +1,5 @@
 // Assemblies: EtherNet/IP instances of the site's own, beside those of the axes: which there are, what stands at which byte, adding, changing,
-// taking away. In: the HTTP door, the revision of the site. Out: a section. Asks before one is taken away: its connections are closed.
+// taking away, and a table of all of them. In: the HTTP door, the revision of the site. Out: a section. Asks before one is taken away: its connections are closed.
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { AssemblyDoor, type Assemblies as Listed, type Assembly } from '../api/assemblies';
@@ -8,6 +8,7 @@ import { useGateway } from '../gateway';
 import { t } from '../language';
 import { assemblyWords, bytesWords, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
 import { Ask } from './ask';
+import { AssemblyTable } from './assembly-table';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
@@ -169,6 +170,7 @@ export function Assemblies({ revision }: { revision: unknown }) {
           <Tell told={told.value} field="assembly-told" />
         </div>
       </form>
+      <AssemblyTable door={door} taken={load} />
     </Section>
   );
 }

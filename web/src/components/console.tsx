@@ -1,6 +1,6 @@
 // Console: one line in the drive's own language, and its reply. In: what is typed (text or hex pairs). Out: a log, newest last.
 // Keeps the last 200 exchanges of the visit; arrow up and down bring back what was sent. Never sends by itself.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -73,7 +73,7 @@ export function Console({ drive }: { drive: string }) {
         {log.value.map((x) => (
           <li key={x.id} class={`result-${x.tone}`}>
             <span class="sent">{x.sent}</span>
-            <span class="reply" title={x.hex ? x.hex.replace(/(..)/g, '$1 ') : ''}>
+            <span class="reply" {...gatewayWords} title={x.hex ? x.hex.replace(/(..)/g, '$1 ') : ''}>
               {x.reply}
             </span>
             <span class="took">{x.took_ms === null ? '' : t('{took_ms} ms', { took_ms: x.took_ms })}</span>

@@ -1,6 +1,6 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import type { GatewayEvent, Severity } from '../api/types';
 import { withoutSubject } from '../text/alarm';
 import { plainWord } from '../text/plain';
@@ -27,6 +27,7 @@ function subject(e: GatewayEvent) {
 function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undefined }) {
   const m = marks[event.severity];
   const about = subject(event);
+  const text = inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale);
   const change = event.parameter ? `${event.parameter}: ${event.old ?? t('not known')} → ${event.new ?? ''}` : '';
   return (
     <li class={`event tone-${m.tone}`} data-severity={event.severity}>
@@ -39,7 +40,7 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
       </time>
       <span class="event-what">
         {about && <b>{about} </b>}
-        <span>{inUnits(withoutSubject(event.text, event.axis ?? event.drive ?? event.line ?? ''), scale) || change || plainWord(event.kind)}</span>
+        {text ? <span {...gatewayWords}>{text}</span> : <span>{change || plainWord(event.kind)}</span>}
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono">{' '}{t('(code {code})', { code: event.code })}</span> : null}
         {event.code && event.severity !== 'info' ? (

@@ -71,12 +71,19 @@ export interface ChoiceProps extends Common {
   disabled?: boolean;
 }
 
+/** How much room the longest choice needs, in columns of a form: a Chinese character is as wide as two letters. */
+export function choiceRoom(choices: readonly { text: string }[]): '' | 'takes-some' | 'takes-two' | 'takes-row' {
+  const figures = Math.max(0, ...choices.map((c) => [...c.text].reduce((n, char) => n + (char >= '\u2e80' ? 2 : 1), 0)));
+  return figures > 34 ? 'takes-row' : figures > 18 ? 'takes-two' : figures > 11 ? 'takes-some' : '';
+}
+
 export function Choice(p: ChoiceProps) {
   const id = useId();
   const told = Boolean(p.fault) || p.hint !== undefined;
+  const room = choiceRoom(p.choices);
   const known = p.choices.some((c) => c.value === p.value);
   return (
-    <div class={`form-field ${p.class ?? ''}`}>
+    <div class={`form-field ${room} ${p.class ?? ''}`}>
       <label for={id}>{p.label}</label>
       <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
         {!known && <option value={p.value}>{p.value || t('choose')}</option>}
@@ -86,6 +93,11 @@ export function Choice(p: ChoiceProps) {
           </option>
         ))}
       </select>
+      {room === 'takes-row' && (
+        <p class="form-told choice-whole" aria-hidden="true">
+          {p.choices.find((c) => c.value === p.value)?.text}
+        </p>
+      )}
       <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
     </div>
   );

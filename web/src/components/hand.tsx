@@ -1,7 +1,7 @@
 // Hand: the outside conditions of a simulated drive, as switches and numbers: power, stall, limits, inputs, injected errors.
 // In: what the twin offers, asked again every 2 s while shown; the axis whose page it is. Out: changes of one condition at a time. Only where a
 // twin answers. What belongs to another axis than this one stands folded under that one's name, so that nobody takes the wrong one in hand.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -153,7 +153,7 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
               {item.writable && typeof item.value !== 'boolean' ? t('What may be entered') : t('What it is')}
               <span class="visually-hidden">: {label}</span>
             </summary>
-            <span class="where">{item.description}</span>
+            <span class="where" {...gatewayWords}>{item.description}</span>
           </details>
         )}
       </span>

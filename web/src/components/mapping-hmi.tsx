@@ -245,5 +245,5 @@ function shown(v: number | bigint | boolean | string | null): string {
   if (typeof v === 'bigint') return String(v).replace('-', '\u2212');
   if (typeof v === 'string') return v === '' ? t('(empty)') : v;
   if (!Number.isFinite(v)) return String(v);
-  return Number.isInteger(v) && Math.abs(v) < 1e15 ? formatExact(v) : Number(v.toPrecision(7)).toString().replace('-', '\u2212');
+  return formatExact(Number.isInteger(v) ? v : Number(v.toPrecision(7)));
 }

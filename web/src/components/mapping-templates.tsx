@@ -79,6 +79,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
           <TextField label={t('Unit ID')} number value={unit.value} onText={(x) => (unit.value = x)} fault={u === null ? t('A whole number from 2 to 254.') : undefined} />
           <TextField
             label={t('Address')}
+            class="takes-some"
             number
             value={address.value}
             onText={(x) => (address.value = x)}

@@ -1,7 +1,7 @@
 // Parameter row: one parameter of an axis in the table: live, stored and default value, range, a field for a new one, who wrote last.
 // In: the row's signals. Out: a row that keeps its height: each cell is drawn for itself, has room for the longest text that its value can have, and
 // what has the keyboard is not drawn anew by a value that comes. Never asks the gateway: reading and writing are handed in.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
@@ -46,7 +46,7 @@ function RowView({ axis, row, since, read, write, open }: RowProps) {
         <span class="both">
           <span class="mono id">{p.id}</span>
           <span class="name">
-            {p.name.replaceAll('_', ' ')} <HelpButton of={p.id}>{helpText(p)}</HelpButton>
+            <span {...gatewayWords}>{p.name.replaceAll('_', ' ')}</span> <HelpButton of={p.id}>{helpText(p)}</HelpButton>
           </span>
         </span>
       </th>

@@ -36,7 +36,7 @@ interface AxisRow {
   position: number | null;
   velocity: number | null;
   following_error: number | null;
-  error_code: number;
+  error: { code: number; text: string };
   presence: string;
 }
 
@@ -94,8 +94,9 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
   const doc = whole.value;
   const now = moment.value;
   const curve = doc?.curves.find((c) => c.axis === axis.value);
+  // The last word of each axis holds until the recording ends, which is where it is opened.
   const { drawn, curves } = useMemo(
-    () => ({ drawn: curve ? joined([trendPart(curve, ['position', 'velocity'], v.whole.peek()[1])]) : { at: [], columns: [] }, curves: curve ? trendCurves({ axes: [curve] }, [curve.axis], ['position', 'velocity']) : [] }),
+    () => ({ drawn: curve ? joined([trendPart({ ...curve, newest: v.whole.peek()[1] * 1000 }, ['position', 'velocity'], v.whole.peek()[1])]) : { at: [], columns: [] }, curves: curve ? trendCurves({ axes: [curve] }, [curve.axis], ['position', 'velocity']) : [] }),
     [doc, axis.value],
   );
   const [low, high] = v.whole.value;
@@ -172,7 +173,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                       <td class="num">{formatNumber(a.position, 3)} {a.unit}</td>
                       <td class="num">{formatNumber(a.velocity, 3)}</td>
                       <td class="num">{formatNumber(a.following_error, 3)}</td>
-                      <td class="num">{a.error_code || '–'}</td>
+                      <td class="num" title={a.error.text || undefined}>{a.error.code || '–'}</td>
                       <td class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
                     </tr>
                   ))}

@@ -1,6 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -186,7 +186,7 @@ export function RunReports({ run }: { run: Run }) {
                   </span>
                   <Pill word={runWord(x.state)} label={t('State')} />
                 </div>
-                {x.text && <p class="why">{capital(plain(x.text))}</p>}
+                {x.text && <p class="why" {...gatewayWords}>{capital(plain(x.text))}</p>}
               </li>
             ))}
           </ol>
@@ -221,7 +221,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
         {r.text && (
           <p class="step-fault" data-field="run-text">
             {r.at_label || r.at_step ? `${r.at_label || r.at_step}: ` : ''}
-            {capital(plain(r.text))}
+            <span {...gatewayWords}>{capital(plain(r.text))}</span>
           </p>
         )}
         {r.stops.map((s) => (
@@ -241,7 +241,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
                 <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span>{plain(stepWhat(s))}</span>
                 {s.times > 1 && ` × ${s.times}`}
                 {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
-                {s.text && <span> {plain(s.text)}</span>}
+                {s.text && <span {...gatewayWords}> {plain(s.text)}</span>}
                 {s.comment && <i> {s.comment}</i>}
               </span>
               <span class="report-at mono">

@@ -55,6 +55,9 @@ export function rich<T>(text: string, values: Readonly<Record<string, T>>): (str
 /** A word of the page within a sentence: English begins it small; the tables' words keep their case, since German nouns begin large everywhere. */
 export const midSentence = (words: string): string => (spoken === 'en' && !/^(Modbus|EtherNet|DDS|[A-Z]{2})/.test(words) ? words.charAt(0).toLowerCase() + words.slice(1) : words);
 
+/** Upon an element that shows what the gateway, a catalogue or a drive says itself: English in every language, and read so by a screen reader. */
+export const gatewayWords = { lang: 'en' } as const;
+
 /** For tests: the sentences of a table, or English again. */
 export function speak(l: Language, sentences: Table = {}): void {
   [spoken, table] = [l, sentences];

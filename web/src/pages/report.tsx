@@ -9,6 +9,7 @@ import { MappingDoor, type MappingList } from '../api/mappings';
 import { RecorderDoor } from '../api/recorder';
 import type { AxisParameter, CaptureList, CaptureWithRows, Drive, Line } from '../api/types';
 import { TextField } from '../components/form';
+import { lineWord } from '../components/lines';
 import { useLoaded } from '../components/loaded';
 import { PrintedList } from '../components/mapping-list';
 import { Mark } from '../components/pill';
@@ -102,7 +103,7 @@ export function ReportPage() {
                 <td class="mono">{l.uri}</td>
                 <td>{l.status.families?.map((f) => f.family).join(', ') || l.family || ''}</td>
                 <td>{l.bitrate ? formatExact(l.bitrate) : ''}</td>
-                <td>{l.status.state.replace('_', ' ')}</td>
+                <td>{lineWord(l.status.state).text}</td>
                 <td>{l.drives.join(', ')}</td>
               </tr>
             ))}
@@ -167,7 +168,7 @@ export function ReportPage() {
           <p>
             {t('Hash of the mapping:')}{' '}<span class="mono">{w.mappings.hash || t('not told by this gateway')}</span>{' '}{t('(registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.')}
           </p>
-          <div class="report-registers">
+          <div class="report-registers" tabIndex={0} role="region" aria-label={t('Register map')}>
             <PrintedList rows={w.mappings.rows} known={{ ...plainKnown, axes: names, points: w.points }} hash={w.mappings.hash} />
           </div>
 

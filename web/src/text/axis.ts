@@ -104,19 +104,19 @@ export const statusBits: readonly { bit: number; name: string; lowActive?: boole
   { bit: 0, name: t('Ready to switch on') },
   { bit: 1, name: t('Switched on') },
   { bit: 2, name: t('Operation enabled') },
-  { bit: 3, name: 'Fault' },
+  { bit: 3, name: t('Fault') },
   { bit: 4, name: t('Voltage enabled') },
   { bit: 5, name: t('Quick stop (0 is active)'), lowActive: true },
   { bit: 6, name: t('Switch on disabled') },
-  { bit: 7, name: 'Warning' },
-  { bit: 8, name: 'Simulated' },
-  { bit: 9, name: 'Remote' },
+  { bit: 7, name: t('Warning') },
+  { bit: 8, name: t('Simulated') },
+  { bit: 9, name: t('Remote') },
   { bit: 10, name: t('Target reached') },
   { bit: 11, name: t('Internal limit active') },
   { bit: 12, name: t('Mode: set-point acknowledged / speed 0 / homed') },
   { bit: 13, name: t('Mode: following error / homing error') },
-  { bit: 14, name: 'Stale' },
-  { bit: 15, name: 'Referenced' },
+  { bit: 14, name: t('Stale') },
+  { bit: 15, name: t('Referenced') },
 ];
 
 /** Bits of the control word as it was last accepted, CiA 402; 9 and 11 to 15 are not used. */
@@ -129,7 +129,7 @@ export const controlBits: typeof statusBits = [
   { bit: 5, name: t('Mode: change at once') },
   { bit: 6, name: t('Mode: target is relative') },
   { bit: 7, name: t('Reset fault (at its rising edge)') },
-  { bit: 8, name: 'Halt' },
+  { bit: 8, name: t('Halt') },
   { bit: 10, name: t('Of the drive’s own') },
 ];
 

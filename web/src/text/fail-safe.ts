@@ -79,8 +79,8 @@ export const cellRow = (c: Cell, unit: string): CellRow => ({
   axis: c.axis,
   cause: causeText(c.cause),
   action: c.cause === gone ? t('the drive\'s own') : (c.chosen === null ? t('{action}, by default', { action: actionText(c.taken) }) : actionText(c.taken)),
-  acted: ms(c.noticed_ms) || (c.cause === gone ? '' : 'not'),
-  slower: ms(c.reaction_ms) || 'not',
+  acted: ms(c.noticed_ms) || (c.cause === gone ? '' : t('never')),
+  slower: ms(c.reaction_ms) || t('never'),
   stood: ms(c.standstill_ms) || t('not within {watched_ms}', { watched_ms: ms(c.watched_ms) }),
-  way: `${Math.round(c.travel * 1000) / 1000}${unit ? ` ${unit}` : ''}`,
+  way: `${localFigures(String(Math.round(c.travel * 1000) / 1000))}${unit ? ` ${unit}` : ''}`,
 });

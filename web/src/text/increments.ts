@@ -1,5 +1,5 @@
 // How many increments make one unit, from what stands on the motor, the gear and the screw. In: texts. Out: the number, or which of them is none. Pure.
-import { parseQuantity } from './number';
+import { parseQuantity, typedNumber } from './number';
 
 export interface Mechanics {
   /** Full steps of a turn times micro-steps, or counts of the encoder in a turn (each edge of both tracks is one: four times its lines). */
@@ -28,5 +28,5 @@ export function incrementsOf(m: Mechanics): Reckoned {
   return { good: true, value: (of('per_turn') * of('microsteps') * of('motor_turns')) / of('output_turns') / of('travel') };
 }
 
-/** As it goes into the field: ten significant digits are finer than any gear. */
-export const incrementsText = (value: number): string => String(Number(value.toPrecision(10)));
+/** As it goes into the field, with the reader's decimal sign: ten significant digits are finer than any gear. */
+export const incrementsText = (value: number): string => typedNumber(Number(value.toPrecision(10)));

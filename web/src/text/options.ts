@@ -3,6 +3,7 @@
 // the gateway checks all of it again.
 import { t } from '../language';
 import type { components } from '../api/schema';
+import { formatExact, parseNumber, typedNumber } from './number';
 import type { FieldSpec, Room, Site, Texts } from './site';
 
 /** What the page reads of a family's catalogue; older gateways do not tell all of it. */
@@ -31,15 +32,16 @@ const switchWords = ['on', 'off', 'true', 'false', '1', '0'];
 const choicesOf = (o: OptionSpec): readonly string[] => (o.values && switchWords.every((w) => o.values?.includes(w)) ? o.values.filter((v) => v === 'on' || v === 'off') : (o.values ?? []));
 const rangeOf = (o: OptionSpec): string => {
   const unit = o.unit ? ` ${o.unit}` : '';
-  if (o.min !== undefined && o.max !== undefined) return t('{min} to {max}', { min: o.min, max: `${o.max}${unit}` });
-  return o.min !== undefined ? t('from {n}', { n: `${o.min}${unit}` }) : o.max !== undefined ? t('up to {n}', { n: `${o.max}${unit}` }) : '';
+  const said = (n: number) => `${formatExact(n)}${unit}`;
+  if (o.min !== undefined && o.max !== undefined) return t('{min} to {max}', { min: formatExact(o.min), max: said(o.max) });
+  return o.min !== undefined ? t('from {n}', { n: said(o.min) }) : o.max !== undefined ? t('up to {n}', { n: said(o.max) }) : '';
 };
 
 /** An option as a field of a form: its range, its default and its description are in its hint. */
 export function optionField(o: OptionSpec, room: Room): FieldSpec {
   const own = o.of.includes(room === 'lines' ? 'line' : 'drive');
   const whole = o.min !== undefined || o.max !== undefined;
-  const standard = o.default === null || o.default === undefined ? '' : `${o.default}${o.unit ? ` ${o.unit}` : ''}`;
+  const standard = o.default === null || o.default === undefined ? '' : `${typeof o.default === 'number' ? formatExact(o.default) : o.default}${o.unit ? ` ${o.unit}` : ''}`;
   const hint = [own ? '' : room === 'lines' ? t('Of all twins of this line') : t('Of its twin'), o.description, rangeOf(o), standard ? t('default {standard}', { standard }) : t('not given: as described')].filter(Boolean).join('. ');
   const f: FieldSpec = { key: optionPrefix + o.name, label: label(o), kind: o.values ? 'choice' : whole ? 'integer' : 'text', hint: `${hint}.` };
   if (o.min !== undefined) f.min = o.min;
@@ -55,8 +57,9 @@ export function optionFault(o: OptionSpec, text: string): string {
   if (typed === '') return '';
   if (o.values) return o.values.includes(typed) ? '' : t('One of {list}.', { list: o.values.join(', ') });
   if (o.min === undefined && o.max === undefined) return '';
-  if (!/^[+-]?\d+$/.test(typed)) return t('A whole number.');
-  const n = Number(typed);
+  const p = parseNumber(typed);
+  if (!p.good || !Number.isInteger(p.value)) return t('A whole number.');
+  const n = p.value;
   return (o.min !== undefined && n < o.min) || (o.max !== undefined && n > o.max) ? `${words(rangeOf(o))}.` : '';
 }
 
@@ -65,18 +68,25 @@ export const unknownOptions = (texts: Texts, specs: readonly OptionSpec[]): stri
   Object.keys(texts).filter((k) => k.startsWith(optionPrefix) && !specs.some((o) => optionPrefix + o.name === k)).map((k) => k.slice(optionPrefix.length));
 
 type Options = Record<string, string | number | boolean>;
-/** Each member as a text of its own: a value may have commas and equal signs in it. */
-export const optionTexts = (options: unknown): Texts => (options && typeof options === 'object' ? Object.fromEntries(Object.entries(options).map(([k, v]) => [optionPrefix + k, String(v)])) : {});
+const textOf = (v: unknown): string => (typeof v === 'number' ? typedNumber(v) : String(v));
+/** Each member as a text of its own: a value may have commas and equal signs in it; a number has the reader's decimal sign. */
+export const optionTexts = (options: unknown): Texts => (options && typeof options === 'object' ? Object.fromEntries(Object.entries(options).map(([k, v]) => [optionPrefix + k, textOf(v)])) : {});
 
-/** The members of `options` from their texts; what was not touched stays as it was written. */
-export function optionsFrom(texts: Texts, before: unknown): Options {
+/**
+ * The members of `options` from their texts; what was not touched stays as it was written. What is a number by its catalogue, or was one, goes as
+ * the gateway reads it; all else as it was typed, since lists such as "1:0.5,2:4" are the drive's own language.
+ */
+export function optionsFrom(texts: Texts, before: unknown, specs: readonly OptionSpec[] = []): Options {
   const old = (before ?? {}) as Options;
   const made: Options = {};
   for (const [key, text] of Object.entries(texts)) {
     if (!key.startsWith(optionPrefix)) continue;
     const name = key.slice(optionPrefix.length);
-    if (name in old && String(old[name]) === text) made[name] = old[name] as string | number | boolean;
-    else if (text.trim() !== '') made[name] = text.trim();
+    const spec = specs.find((o) => o.name === name);
+    const number = spec ? !spec.values && (spec.min !== undefined || spec.max !== undefined) : typeof old[name] === 'number';
+    const p = number ? parseNumber(text) : undefined;
+    if (name in old && textOf(old[name]) === text) made[name] = old[name] as string | number | boolean;
+    else if (text.trim() !== '') made[name] = p?.good ? String(p.value) : text.trim();
   }
   return made;
 }

@@ -2,7 +2,7 @@
 // Out: text, or a value of the right type, or why it is none, with the range. Never changes a value to make it fit.
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
 import { t } from '../language';
-import { formatExact, formatNumber, parseNumber } from './number';
+import { formatExact, formatNumber, parseNumber, typedNumber } from './number';
 
 type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'> & Partial<Pick<AxisParameter, 'fields' | 'meanings'>>;
 type Field = NonNullable<AxisParameter['fields']>[number];
@@ -114,8 +114,10 @@ export function searchRank(p: Pick<AxisParameter, 'id' | 'name' | 'description'>
   return p.description.toLowerCase().includes(t) ? 4 : null;
 }
 
-/** What a field shows when it is opened for writing. */
-export function editText(value: MaybeValue): string {
+/** What a field shows when it is opened for writing: a number as the reader types it. */
+export const editText = (value: MaybeValue): string => (typeof value === 'number' ? typedNumber(value) : fileText(value));
+/** What stands in a file: a number with a point, whatever the page speaks. */
+export function fileText(value: MaybeValue): string {
   if (value === null) return '';
   if (typeof value === 'boolean') return value ? '1' : '0';
   return String(value);

@@ -1,7 +1,7 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
 import { t } from '../language';
-import { parseNumber, typedNumber } from './number';
+import { formatExact, parseNumber, typedNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 
 export type Entry = { name: string } & Record<string, unknown>;
@@ -57,7 +57,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
   lines: [
     { key: 'name', label: t('Name'), kind: 'name', required: true, hint: nameHint },
     { key: 'family', label: t('Family'), kind: 'family', hint: t('of its drives; may be empty on a CAN line whose drives each name theirs') },
-    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'twin, can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT', hint: t('where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)') },
+    { key: 'uri', label: 'URI', kind: 'text', required: true, placeholder: 'can:can0', hint: t('where the line is: {forms}; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)', { forms: 'can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT' }) },
     { key: 'bitrate', label: t('Bit rate'), kind: 'integer', min: 0, max: 100000000, hint: t('bit/s; empty: from the URI, or the family’s') },
     timing('reply_timeout_ms', t('Reply time-out, ms'), 0, 60000, t('how long an answer is waited for')),
     timing('poll_period_ms', t('Poll period, ms'), 0, 60000, t('how often each drive is asked')),
@@ -138,8 +138,8 @@ function readField(f: FieldSpec, text: string): { value: unknown; why: string } 
       const low = f.min !== undefined && p.value < f.min;
       const high = f.max !== undefined && p.value > f.max;
       if (f.kind === 'integer' && !Number.isInteger(p.value)) return { value: undefined, why: t('A whole number.') };
-      if (low || high) return { value: undefined, why: t('From {min} to {max}.', { min: f.min ?? '−∞', max: f.max ?? '∞' }) };
-      if (f.above !== undefined && p.value <= f.above) return { value: undefined, why: t('Above {above}.', { above: f.above }) };
+      if (low || high) return { value: undefined, why: t('From {min} to {max}.', { min: f.min === undefined ? '−∞' : formatExact(f.min), max: f.max === undefined ? '∞' : formatExact(f.max) }) };
+      if (f.above !== undefined && p.value <= f.above) return { value: undefined, why: t('Above {above}.', { above: formatExact(f.above) }) };
       return { value: p.value, why: '' };
     }
     case 'address':
@@ -169,7 +169,7 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
     }
   }
   if (room !== 'axes') {
-    entry.options = optionsFrom(texts, own?.options);
+    entry.options = optionsFrom(texts, own?.options, options);
     if (Object.keys(entry.options as object).length === 0) delete entry.options;
     for (const o of options) {
       const why = optionFault(o, texts[optionPrefix + o.name] ?? '');
@@ -252,7 +252,7 @@ export function differenceOf(before: Site, after: Site): Difference[] {
   });
 }
 
-const shown = (v: unknown): string => (v === undefined || v === null ? t('nothing') : typeof v === 'object' ? JSON.stringify(v) : String(v));
+const shown = (v: unknown): string => (v === undefined || v === null ? t('nothing') : typeof v === 'object' ? JSON.stringify(v) : typeof v === 'number' ? typedNumber(v) : String(v));
 
 /** "axis feeder: unit mm → deg, number 1 → 2". */
 export function differenceWords(d: { kind: string; what: string; before?: Record<string, unknown> | null | undefined; after?: Record<string, unknown> | null | undefined }): string {

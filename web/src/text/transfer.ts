@@ -2,7 +2,8 @@
 // rows that were checked, each with its fault. Pure. Values are checked as if they were typed; nothing is changed to make it fit.
 import { t } from '../language';
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
-import { editText, readValue, sameValue } from './parameter';
+import { localFigures } from './number';
+import { fileText, readValue, sameValue } from './parameter';
 import { csvOf, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface Wanted {
@@ -18,7 +19,7 @@ export interface Wanted {
 const known = (list: readonly AxisParameter[]) => list.filter((p) => p.value !== null);
 
 export function csvOfParameters(list: readonly AxisParameter[]): string {
-  return csvOf([['parameter', 'name', 'value', 'unit', 'default', 'stored', 'at'], ...known(list).map((p) => [p.id, p.name, editText(p.value), p.unit ?? '', editText(p.default), editText(p.stored), p.at ?? ''])]);
+  return csvOf([['parameter', 'name', 'value', 'unit', 'default', 'stored', 'at'], ...known(list).map((p) => [p.id, p.name, fileText(p.value), p.unit ?? '', fileText(p.default), fileText(p.stored), p.at ?? ''])]);
 }
 
 export function jsonOfParameters(axis: string, list: readonly AxisParameter[]): string {
@@ -46,7 +47,7 @@ export function readTransfer(text: string, list: readonly AxisParameter[]): { ro
     else if (before !== undefined) row.fault = t('Line {before} has {id} too.', { before, id });
     else if (p.access === 'R') row.fault = t('{id} can only be read.', { id });
     else {
-      const read = readValue(p.type === 'text' || p.type === 'bytes' ? typed : pointed(typed, separator), p);
+      const read = readValue(p.type === 'text' || p.type === 'bytes' ? typed : localFigures(pointed(typed, separator)), p);
       if (read.good) Object.assign(row, { value: read.value, same: p.value !== null && p.quality === 'good' && sameValue(p.value, read.value) });
       else row.fault = read.why;
     }

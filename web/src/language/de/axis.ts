@@ -159,6 +159,7 @@ export const axis: Table = {
   'Ready to switch on': 'Einschaltbereit',
   'REAL': 'REAL',
   'real': 'real',
+  'Remote': 'Fernsteuerung',
   'Reset': 'Quittieren',
   'Reset fault': 'Störung quittieren',
   'Reset fault (at its rising edge)': 'Störung quittieren (bei steigender Flanke)',

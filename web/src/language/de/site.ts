@@ -387,7 +387,7 @@ export const site: Table = {
   'When the gateway ends': 'Wenn das Gateway endet',
   'When the lease of who moves it expires': 'Wenn die Frist der Befehlsgewalt abläuft',
   'Where is the line?': 'Wo ist die Linie?',
-  'where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': 'wo die Linie ist; „twin“: nur eingebaute Antriebe; „dds“: Achsen anderer Gateways (Familie remote)',
+  'where the line is: {forms}; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': 'wo die Linie ist: {forms}; „twin“: nur eingebaute Antriebe; „dds“: Achsen anderer Gateways (Familie remote)',
   'which axis of the drive; most drives have one': 'welche Achse des Antriebs; die meisten Antriebe haben eine',
   'Which drive is on it?': 'Welcher Antrieb ist daran?',
   'Which options there are depends on the family: choose it first.': 'Welche Optionen es gibt, hängt von der Familie ab: diese zuerst wählen.',

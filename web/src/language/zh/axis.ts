@@ -159,6 +159,7 @@ export const axis: Table = {
   'Ready to switch on': '准备接通',
   'REAL': '真实',
   'real': '真实',
+  'Remote': '远程',
   'Reset': '复位',
   'Reset fault': '复位故障',
   'Reset fault (at its rising edge)': '复位故障（上升沿）',

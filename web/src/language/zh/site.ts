@@ -387,7 +387,7 @@ export const site: Table = {
   'When the gateway ends': '网关结束时',
   'When the lease of who moves it expires': '控制权到期时',
   'Where is the line?': '线路在哪里？',
-  'where the line is; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': '线路所在；“twin”：仅内置驱动器；“dds”：其他网关的轴（系列 remote）',
+  'where the line is: {forms}; “twin”: embedded drives alone; “dds”: axes of other gateways (family remote)': '线路所在：{forms}；“twin”：仅内置驱动器；“dds”：其他网关的轴（系列 remote）',
   'which axis of the drive; most drives have one': '驱动器的第几个轴；多数驱动器只有一个',
   'Which drive is on it?': '线路上是哪个驱动器？',
   'Which options there are depends on the family: choose it first.': '选项取决于产品系列：请先选择。',

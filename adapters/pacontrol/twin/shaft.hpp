@@ -1,0 +1,133 @@
+// The shaft of one axis: the control's counter, the true place of the mechanics, the encoder, the following error between them.
+// In: paths, a hand that holds or pushes the shaft, load. Out: positions and speeds at any instant; when the lag grows too large.
+// Never decides to move or to stop. shaft = counter - origin - what the shaft did not follow.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/pacontrol/twin/path.hpp"
+
+namespace axisgate::pacontrol::twin {
+
+/// All places in AE.
+class Shaft {
+public:
+    [[nodiscard]] double position(Instant t) const noexcept { return running_ ? path_.position(t) : rest_; }  ///< the control's counter
+    [[nodiscard]] double velocity(Instant t) const noexcept { return running_ && !held_ ? path_.velocity(t) : 0; }  ///< AE/s, signed
+    /// The true place of the mechanics; the home switch's edge is at 0.
+    [[nodiscard]] double place(Instant t) const noexcept { return position(t) - origin_ - lost_ - (held_ ? position(t) - held_at_ : 0); }
+    [[nodiscard]] double place() const noexcept { return place(now_); }                    ///< at the last instant seen
+    [[nodiscard]] double encoder(Instant t) const noexcept { return place(t) + origin_; }  ///< counted by the encoder
+    [[nodiscard]] double rest() const noexcept { return rest_; }                           ///< the counter while it stands ...
+    [[nodiscard]] double rest_place() const noexcept { return rest_ - origin_ - lost_; }   ///< ... and the shaft, if nobody holds it
+    [[nodiscard]] double offset() const noexcept { return origin_ + lost_; }               ///< counter less shaft
+    [[nodiscard]] double lag(Instant t) const noexcept {
+        return lost_ + (held_ ? position(t) - held_at_ : 0) + extra_lag_ + load_ * velocity(t) * 0.001;
+    }
+    /// The largest that has occurred since power on.
+    [[nodiscard]] double greatest_lag(Instant t) const noexcept { return std::max(greatest_lag_, std::abs(lag(t))); }
+    /// When the lag passes `most` because the shaft is held; `never`.
+    [[nodiscard]] Instant lag_passes(double most) const noexcept {
+        if (!held_ || !running_) return never;
+        return path_.when(held_at_ + path_.direction() * (most - path_.direction() * (lost_ + extra_lag_)));
+    }
+    [[nodiscard]] bool running() const noexcept { return running_; }
+    [[nodiscard]] const Path& path() const noexcept { return path_; }
+    [[nodiscard]] bool held() const noexcept { return held_; }
+    [[nodiscard]] double extra_lag() const noexcept { return extra_lag_; }
+    [[nodiscard]] double load() const noexcept { return load_; }
+
+    // --- motion ---
+    void seen(Instant t) noexcept { now_ = std::max(now_, t); }
+    void note_lag(Instant t) noexcept { greatest_lag_ = greatest_lag(t); }
+    void run(const Path& path) noexcept {
+        path_ = path;
+        running_ = true;
+    }
+    /// The path has ended.
+    void arrive(Instant t) noexcept {
+        note_lag(t);
+        greatest_lag_ = std::max(greatest_lag_, load_ * path_.peak() * 0.001);
+        rest_ = path_.last();
+        running_ = false;
+        keep_lost();
+    }
+    /// Stands at once where the counter is.
+    void freeze(Instant t) noexcept {
+        if (running_) rest_ = path_.position(t);
+        running_ = false;
+    }
+    /// What a held shaft did not follow is lost for good.
+    void keep_lost() noexcept {
+        if (!held_) return;
+        lost_ += rest_ - held_at_;
+        held_at_ = rest_;
+    }
+
+    // --- the counter while it stands ---
+    void count(double by) noexcept { rest_ += by; }
+    /// The present place is the zero point, which the counter calls so; nothing is lost any more.
+    void zero(double counter) noexcept {
+        origin_ += counter - rest_;
+        rest_ = counter;
+        lost_ = 0;
+    }
+    /// The counter has another value here.
+    void rename(double counter) noexcept {
+        origin_ += counter - rest_;
+        held_at_ += counter - rest_;
+        rest_ = counter;
+    }
+    /// The encoder's position becomes the counter's.
+    void take_over() noexcept {
+        rest_ -= lost_;
+        held_at_ = rest_;
+        lost_ = 0;
+    }
+    /// A hand that holds it does so here.
+    void hold_here() noexcept { held_at_ = rest_; }
+    void boot(double counter, double place) noexcept {
+        running_ = false;
+        lost_ = greatest_lag_ = 0;
+        rest_ = held_at_ = counter;
+        origin_ = counter - place;
+    }
+
+    // --- the tester's hand ---
+    void hold(bool held, Instant t) noexcept {
+        note_lag(t);
+        if (held) {
+            held_at_ = position(t);
+        } else {
+            lost_ += position(t) - held_at_;
+        }
+        held_ = held;
+    }
+    /// `counted`: the counter goes with it.
+    void push(double way, bool counted) noexcept {
+        if (counted) {
+            rest_ += way;
+            held_at_ += way;
+        } else {
+            lost_ -= way;
+        }
+    }
+    void set_extra_lag(double ae) noexcept { extra_lag_ = ae; }
+    void set_load(double share) noexcept { load_ = share; }
+
+private:
+    double rest_ = 0;
+    double origin_ = 0;
+    double lost_ = 0;     ///< that the shaft did not follow
+    double held_at_ = 0;  ///< commanded position at which the shaft was taken hold of
+    double extra_lag_ = 0;
+    double greatest_lag_ = 0;
+    double load_ = 0;  ///< 0..1: the lag of a moving axis, 1 ms of its way at full load
+    Instant now_{};    ///< of the last advance
+    Path path_;
+    bool running_ = false;
+    bool held_ = false;
+};
+
+}  // namespace axisgate::pacontrol::twin

@@ -26,7 +26,7 @@ TEST(Cia402Cycle, NoFrameIsLongerThanItsBoundAndSomeComeNearIt) {
         for (int i = 0; i < 2'000; ++i) {
             std::vector<std::uint8_t> content(bytes);
             std::ranges::generate(content, [&] { return static_cast<std::uint8_t>(random()); });
-            look(random() % 0x580, content);
+            look(static_cast<std::uint32_t>(random() % 0x580), content);
         }
         EXPECT_LE(longest, most_bits(bytes));
         EXPECT_GE(longest + 8, most_bits(bytes)) << "the bound is not far off";

@@ -21,12 +21,13 @@
 namespace axisgate::cia402_drive::twin::test {
 
 struct Bench {
+    using Options = std::map<std::string, std::string>;
     std::unique_ptr<Twin> twin;
     Out out;
     Instant now = at_ns(1'000'000'000);
     std::uint8_t node = 5;
 
-    explicit Bench(std::map<std::string, std::string> options = {}, const canopen::Eds* eds = nullptr, NonVolatile memory = {}) {
+    explicit Bench(Options options = {}, const canopen::Eds* eds = nullptr, NonVolatile memory = {}) {
         TwinSetup setup;
         setup.address = "5";
         setup.kind = LineKind::can;

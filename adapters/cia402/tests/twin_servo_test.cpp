@@ -99,7 +99,7 @@ TEST(Cia402Twin, HomingFindsItsPlaceOrSaysThatThereIsNone) {
     EXPECT_EQ(without.write(0x6098, 0, 99, 1), Abort::value);
     for (const auto& [method, place] : {std::pair{17, -20'000.0}, {18, 20'000.0}, {19, 0.0}, {33, -4096.0}, {34, 4096.0}}) {
         SCOPED_TRACE(method);
-        Bench b({{"travel", "20000"}});
+        Bench b(Bench::Options{{"travel", "20000"}});
         b.enable(6);
         ASSERT_EQ(b.write(0x6098, 0, method, 1), Abort::none);
         ASSERT_EQ(b.write(0x607C, 0, 250, 4), Abort::none);
@@ -126,7 +126,7 @@ TEST(Cia402Twin, EachHomingMethodHasItsOwnPlace) {
     for (const auto& [method, place] : places) {
         SCOPED_TRACE(method);
         EXPECT_EQ(list.read(0x60E3, ++sub), method);
-        Bench b({{"travel", "20000"}});
+        Bench b(Bench::Options{{"travel", "20000"}});
         b.enable(6);
         ASSERT_EQ(b.write(0x6098, 0, method, 1), Abort::none);
         b.word(0x1F);
@@ -459,7 +459,7 @@ TEST(Cia402Twin, AWatchThatIsTakenBackIsNoWatch) {
 }
 
 TEST(Cia402Twin, OutputsAreWhatTheMaskLetsThrough) {
-    Bench b({{"travel", "5000"}});
+    Bench b(Bench::Options{{"travel", "5000"}});
     EXPECT_EQ(b.read(0x60FD), 4) << "it stands on the home switch";
     ASSERT_EQ(b.write(0x60FE, 1, 0x50000, 4), Abort::none);
     const auto outputs = [&] {

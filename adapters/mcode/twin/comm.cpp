@@ -143,4 +143,21 @@ std::string Comm::reply(const Command& c, std::optional<std::string_view> data, 
     return out;
 }
 
+std::uint32_t rate_of_code(int code) noexcept {
+    switch (code) {
+        case 48:
+            return 4800;
+        case 96:
+            return 9600;
+        case 19:
+            return 19200;
+        case 38:
+            return 38400;
+        case 11:
+            return 115200;
+        default:
+            return 0;
+    }
+}
+
 }  // namespace axisgate::mcode::twin

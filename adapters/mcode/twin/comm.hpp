@@ -3,6 +3,7 @@
 // Never executes a command and knows no time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,6 +26,11 @@ struct LinkFlags {
     char dn = '!';
     bool operator==(const LinkFlags&) const = default;
 };
+
+/// Codes of BD.
+inline constexpr std::array rate_codes{48, 96, 19, 38, 11};
+/// bit/s; 0: no such code.
+[[nodiscard]] std::uint32_t rate_of_code(int code) noexcept;
 
 /// One complete command line.
 struct Command {

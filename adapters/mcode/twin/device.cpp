@@ -1,12 +1,10 @@
 // Device: the passing of time and the link.
-// Words are in twin_exec.cpp, printing in twin_print.cpp, programs in twin_program_device.cpp, memory in twin_memory.cpp.
+// Words are in exec.cpp, printing in print.cpp, programs in program_device.cpp, memory in memory.cpp.
 // In: bytes, instants. Out: bytes at the instant at which the drive gives them.
 // Never goes back in time.
 #include "adapters/mcode/twin/device.hpp"
 
 #include <algorithm>
-
-#include "gateway/core/wire_time.hpp"
 
 namespace axisgate::mcode::twin {
 
@@ -18,35 +16,16 @@ Device::Device(DeviceSetup setup, std::unique_ptr<Mechanism> motor)
 
 bool Device::deaf() const noexcept {
     if (!powered_ || upgrading_) return true;
-    const bool known = std::ranges::any_of(std::array{48, 96, 19, 38, 11}, [&](int c) { return rate_of_code(c) == setup_.bit_rate; });
+    const bool known = std::ranges::any_of(rate_codes, [&](int c) { return rate_of_code(c) == setup_.bit_rate; });
     return known && !setup_.ethernet && active_rate_ != setup_.bit_rate;
 }
 
 void Device::say(std::string_view text) {
     if (data_ != nullptr) {
         *data_ += text;
-        return;
+    } else if (!tx_.print(text, now_) && error_.code != 66) {
+        raise(66);
     }
-    // Program output has a bounded transmit buffer; the reply to a typed line is never lost.
-    const Duration length = wire_time(text.size() * 10, setup_.bit_rate);
-    if (transmit_free_ > now_ && transmit_free_ - now_ > wire_time(transmit_buffer * 10, setup_.bit_rate)) {
-        if (er_ != 66) raise(66);
-        return;
-    }
-    transmit_free_ = std::max(transmit_free_, now_) + length;
-    tx_ += text;
-}
-
-void Device::flush(Out& out) {
-    std::string_view rest = tx_;
-    while (!rest.empty() && !silent_ && powered_) {
-        const std::string_view piece = rest.substr(0, Frame::capacity);
-        Frame f = Frame::run({reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()});
-        f.at = now_;
-        out.send(f);
-        rest.remove_prefix(piece.size());
-    }
-    tx_.clear();
 }
 
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
@@ -54,7 +33,7 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     if (deaf() || frame.kind != Frame::Kind::bytes) return;
     const auto bytes = frame.data();
     for (std::size_t i = comm_.pass_over(bytes); i < bytes.size(); i += 1 + comm_.pass_over(bytes.subspan(i + 1))) {
-        switch (comm_.receive(bytes[i], tx_).kind) {
+        switch (comm_.receive(bytes[i], tx_.now).kind) {
             case LinkEvent::Kind::none:
                 break;
             case LinkEvent::Kind::command:
@@ -72,12 +51,11 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
                 boot();
                 break;
             case LinkEvent::Kind::step:
-                step_now_ = true;
+                tracer_.step(true);
                 slice_due_ = now_;
                 break;
             case LinkEvent::Kind::run_on:
-                mode_ = Mode::normal;
-                comm_.stepping(false);
+                tracer_.run_as(Tracer::Mode::normal);
                 slice_due_ = now_;
                 break;
             case LinkEvent::Kind::overrun:
@@ -107,11 +85,11 @@ void Device::pass_until(Instant now, Out& out) {
 /// Everything that is due up to now_, oldest first.
 void Device::settle(Out& out) {
     if (powered_) {
-        if (trip_time_ <= now_) {
+        if (trips_.time() <= now_) {
             // The position is that of the instant, however late the call is.
-            motor_->advance(trip_time_);
-            motor_->capture(trip_time_);
-            trip_time_ = never;
+            motor_->advance(trips_.time());
+            motor_->capture(trips_.time());
+            trips_.time_over();
             take_events();
             fire(Word::TT);
         }
@@ -140,33 +118,26 @@ void Device::settle(Out& out) {
             if (slice_due_ > now_) break;
             run_slice(slice_due_);
             if (slice_due_ != never) slice_due_ += slice_time;  // never: the slice ended the program
-            if (mode_ == Mode::step) break;
+            if (tracer_.steps()) break;
         }
         if (run_.idle()) slice_due_ = never;
-        motor_->tell(ef_, !run_.idle(), now_);
+        motor_->tell(error_.flag, !run_.idle(), now_);
         take_events();
     }
-    flush(out);
+    tx_.flush(powered_, now_, out);
 }
 
 void Device::run_slice(Instant at) {
     for (int i = 0; i < lines_per_slice; ++i) {
         if (run_.state() != Run::State::running || paused_ || ending_) return;
-        if (mode_ == Mode::step && !step_now_) return;
+        if (tracer_.waits()) return;
         const std::size_t line = run_.line();
         const auto& lines = program_.lines();
-        if (mode_ != Mode::normal && line < lines.size()) {
-            if (break_at_ && mode_ == Mode::trace) {
-                int unknown = 0;
-                if (program_.find(*break_at_, unknown) == static_cast<std::int32_t>(line) && --break_count_ <= 0) {
-                    mode_ = Mode::step;
-                    comm_.stepping(true);
-                    return;
-                }
-            }
+        if (tracer_.shows() && line < lines.size()) {
+            if (tracer_.breaks_at(line)) return;
             say(std::to_string(lines[line].address) + ' ' + lines[line].text + "\r\n");
         }
-        step_now_ = false;
+        tracer_.step(false);
         if (const int code = run_.step(std::max(at, now_)); code != 0) raise(code);
         motor_->advance(now_);
         take_events();
@@ -183,7 +154,7 @@ void Device::take_events() {
                 raise(e->code);
                 break;
             case MotorEvent::Kind::finished:
-                if (announce_) tx_ += comm_.flags.dn;  // whatever PY is [L4115]
+                if (announce_) tx_.now += comm_.flags.dn;  // whatever PY is [L4115]
                 announce_ = false;
                 break;
             case MotorEvent::Kind::trip:
@@ -212,7 +183,7 @@ void Device::take_events() {
                     Target first;
                     first.given = true;
                     first.address = 1;
-                    if (const int code = run_program(first, Mode::normal); code != 0) raise(code);
+                    if (const int code = run_program(first, Tracer::Mode::normal); code != 0) raise(code);
                 }
                 break;
             case MotorEvent::Kind::reset:
@@ -236,16 +207,17 @@ void Device::run_command(const Command& command) {
     }
     data_ = nullptr;
     if (code != 0) raise(code);
-    tx_ += Comm::reply(command, data_given_ ? std::optional<std::string_view>(data) : std::nullopt, data_ended_, good, ef_, running);
+    tx_.now +=
+        Comm::reply(command, data_given_ ? std::optional<std::string_view>(data) : std::nullopt, data_ended_, good, error_.flag, running);
 }
 
 Instant Device::deadline() const { return std::max(due(), now_); }
 
 Instant Device::due() const {
     if (!powered_) return never;
-    Instant t = std::min({command_due_, trip_time_, motor_->deadline()});
+    Instant t = std::min({command_due_, trips_.time(), motor_->deadline()});
     if (!run_.idle() && !paused_ && !ending_) {
-        if (run_.state() == Run::State::running && !(mode_ == Mode::step && !step_now_)) t = std::min(t, slice_due_);
+        if (run_.state() == Run::State::running && !tracer_.waits()) t = std::min(t, slice_due_);
         if (run_.state() == Run::State::hold_time) t = std::min(t, run_.hold_until());
     }
     return t;

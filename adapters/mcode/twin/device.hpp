@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "adapters/mcode/twin/comm.hpp"
-#include "adapters/mcode/twin/mechanism.hpp"
-#include "adapters/mcode/twin/run.hpp"
+#include "adapters/mcode/twin/awaited.hpp"
+#include "adapters/mcode/twin/program_mode.hpp"
+#include "adapters/mcode/twin/tracer.hpp"
+#include "adapters/mcode/twin/transmitter.hpp"
+#include "adapters/mcode/twin/trip_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::mcode::twin {
@@ -24,8 +26,6 @@ inline constexpr int lines_per_slice = 20;
 inline constexpr int events_per_call = 20'000;
 /// Typed lines that wait; one more is error 63 and lost.
 inline constexpr std::size_t waiting_lines = 8;
-/// Bytes of program output that wait for the line; more is error 66 and lost.
-inline constexpr std::size_t transmit_buffer = 256;
 
 struct DeviceSetup {
     std::uint8_t product = lmdc;
@@ -37,6 +37,20 @@ struct DeviceSetup {
     std::string part_number = "LMDCM571";
     std::string serial_number = "0000000001";
     std::vector<int> codes;  ///< errors that a hand can inject; empty: all numbers
+
+    /// 37 for a word that this drive does not have, else 0.
+    [[nodiscard]] int available(Word word) const noexcept;
+};
+
+/// ER and EF.
+struct ErrorState {
+    int code = 0;
+    bool flag = false;
+
+    void set(int c) noexcept {
+        code = c;
+        flag = true;
+    }
 };
 
 class Device final : public Twin, private Host {
@@ -54,80 +68,64 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override;
 
 private:
-    enum class Mode : std::uint8_t { normal, trace, step };
-    struct Trip {
-        bool defined = false;
-        Target target;
-        std::int64_t repeats = 0;  ///< TR: 0 endless
-        std::int64_t left = 0;     ///< of this series
-        std::int64_t ms = 0;       ///< TT
-    };
-
     // Host
     Number read(Word word, int& error) override;
     int write(Word word, std::span<const Number> fields) override;
     int perform(const Statement& s, std::span<const Number> fields) override;
     bool moving() override { return motor_->moving(now_); }
 
-    // twin_device.cpp: time, link
+    // device.cpp: time, link
     void pass_until(Instant now, Out& out);
     void settle(Out& out);
     [[nodiscard]] Instant due() const;
     void take_events();
     void run_command(const Command& command);
     void run_slice(Instant at);
-    void flush(Out& out);
     void say(std::string_view text);
     [[nodiscard]] bool deaf() const noexcept;
-    [[nodiscard]] int available(Word word) const noexcept;
-    // twin_exec.cpp, twin_program_device.cpp, twin_print.cpp: words and instructions
+    // exec.cpp, program_device.cpp, print.cpp: words and instructions
     void raise(int code);
-    void clear_error();
     int typed(std::string_view text);
-    int program_line(std::string_view text);
     int print(const Statement& s);
-    int run_program(const Target& target, Mode mode);
+    int run_program(const Target& target, Tracer::Mode mode);
     int execute_label(const Statement& s, std::span<const Number> fields);
-    int set_trip(const Statement& s, std::span<const Number> fields);
-    int enable_trips(std::int64_t mask);
     int clear_program(const Statement& s, std::span<const Number> fields);
     int enter_program_mode(std::span<const Number> fields);
     int list(const Statement& s);
     int declare(const Statement& s, std::span<const Number> fields);
-    int break_point(const Statement& s, std::span<const Number> fields);
-    int input_value(std::string_view text);
     [[nodiscard]] std::optional<std::string> text_of_word(Word word, int& error);
     [[nodiscard]] std::string all_values();
     void fire(Word trip);
     void stop_program();
     void stop_everything();
-    // twin_memory.cpp: RAM against NVM
+    // memory.cpp: RAM against NVM
     void boot();
     void factory_state(bool as_delivered);
-    [[nodiscard]] NonVolatile snapshot() const;
+    /// S and FD.
+    void keep();
     void restore(const NonVolatile& memory, bool programs);
-    int save();
-    [[nodiscard]] std::uint32_t rate_of_code(int code) const noexcept;
 
     DeviceSetup setup_;
     std::unique_ptr<Mechanism> motor_;
     Comm comm_;
     Program program_;
     Run run_;
+    ProgramMode program_mode_{program_, (setup_.product & lmm) != 0};
+    Tracer tracer_{program_, comm_};
+    TripTable trips_{program_, *motor_};
+    Awaited awaited_{program_, run_};
 
     Instant now_{};
-    std::string tx_;               ///< leaves with the present call
+    Transmitter tx_{setup_.bit_rate};
     std::string* data_ = nullptr;  ///< where PR and L of a typed line write; null: program output
     bool data_ended_ = true;
     bool data_given_ = false;
     std::deque<Command> waiting_;
     Instant command_due_ = never;
     Instant slice_due_ = never;
-    Instant transmit_free_{};
 
     // registers of the language
-    int er_ = 0;
-    bool ef_ = false;
+    ErrorState error_;
     int bd_ = 96;
     std::uint32_t active_rate_ = 0;
     bool lk_ = false;
@@ -137,29 +135,16 @@ private:
     PrintFormat format_;
     std::array<std::int64_t, 4> pw_{};
     std::optional<Target> on_error_;
-    std::array<Trip, 7> trips_{};  ///< by bit of TE
-    int te_ = 0;
-    Instant trip_time_ = never;
 
     // program
-    bool programming_ = false;
-    std::int32_t program_address_ = 1;
     bool paused_ = false;
-    bool ending_ = false;  ///< E was typed: ends when the motion is over
-    Mode mode_ = Mode::normal;
-    bool step_now_ = false;
-    std::optional<Target> break_at_;
-    std::int64_t break_count_ = 0;
-    bool input_pending_ = false;
-    Word input_word_{};
-    SymbolId input_symbol_ = no_symbol;
+    bool ending_ = false;    ///< E was typed: ends when the motion is over
     bool announce_ = false;  ///< second field of MA, MR: DN at the end
     bool upgrading_ = false;
 
     NonVolatile nvm_;
     std::uint64_t nvm_revision_ = 0;
     bool powered_ = false;
-    bool silent_ = false;
     bool address_input_ = false;  ///< LMM: one of the hardware address inputs is active, and PY stays 1 [L5016]
 };
 

@@ -17,9 +17,9 @@ bool is_joined_pg(std::string_view s) noexcept {
 
 }  // namespace
 
-int Device::available(Word word) const noexcept {
-    if ((info(word).products & setup_.product) == 0) return err::not_available;
-    if (setup_.ethernet) {
+int DeviceSetup::available(Word word) const noexcept {
+    if ((info(word).products & product) == 0) return err::not_available;
+    if (ethernet) {
         switch (word) {
             case Word::BD:
             case Word::CK:
@@ -37,80 +37,46 @@ int Device::available(Word word) const noexcept {
 
 void Device::raise(int code) {
     if (code == 0) {
-        clear_error();
+        error_ = {};
         return;
     }
-    er_ = code;
-    ef_ = true;
+    error_.set(code);
     // The handler runs for errors of typed lines too, but not while programming [L4547-4549], and not for its own errors.
-    if (!on_error_ || programming_ || run_.handling_error()) return;
+    if (!on_error_ || program_mode_.on() || run_.handling_error()) return;
     int fault = 0;
     const std::int32_t line = program_.find(*on_error_, fault);
     if (line < 0) return;
     if (const int full = run_.interrupt(static_cast<std::size_t>(line), Run::CallKind::error_handler); full != 0) {
         stop_program();
-        er_ = full;
+        error_.set(full);
         return;
     }
     if (slice_due_ == never) slice_due_ = now_;
-}
-
-void Device::clear_error() {
-    er_ = 0;
-    ef_ = false;
 }
 
 int Device::typed(std::string_view text) {
     text = trimmed(text);
     std::string apart;
     if (is_joined_pg(text)) text = apart = "PG " + std::string(text.substr(2));
-    if (programming_) return program_line(text);
-    if (input_pending_ && (text.empty() || is_digit(text[0]) || text[0] == '-' || text[0] == '+' || text[0] == '.'))
-        return input_value(text);
+    if (program_mode_.on()) return program_mode_.line(text);
+    if (awaited_.takes(text)) return awaited_.take(text);
     const Statement s = program_.compile_typed(text);
     if (s.kind == Statement::Kind::faulty) {
         // What this drive does not have it does not judge the value of: DN=a over Ethernet is 37, not 21.
         const Tokens tokens(text);
         const auto word = tokens.peek().kind == Token::Kind::name ? word_named(tokens.peek().text) : std::nullopt;
-        const int missing = word ? available(*word) : 0;
+        const int missing = word ? setup_.available(*word) : 0;
         return missing != 0 ? missing : s.error;
     }
     if (s.kind == Statement::Kind::assign || s.kind == Statement::Kind::execute) {
-        if (const int code = available(s.word); code != 0) return code;
+        if (const int code = setup_.available(s.word); code != 0) return code;
         if (!info(s.word).immediate) return err::not_program;
     }
     return run_.execute(s, now_);
 }
 
-int Device::program_line(std::string_view text) {
-    const Tokens tokens(text);
-    if (tokens.peek().kind == Token::Kind::name && word_named(tokens.peek().text) == Word::PG) {
-        programming_ = false;
-        return 0;
-    }
-    if (tokens.peek(1).kind == Token::Kind::name && word_named(tokens.peek(1).text) == Word::PW && (setup_.product & lmm) != 0) {
-        // A word of the module, and a free name elsewhere [L4970].
-        const auto first = word_named(tokens.peek().text);
-        if (first == Word::VA) return err::illegal_data;
-        if (first == Word::LB) return err::redefine_word;
-    }
-    return program_.enter(text, program_address_);
-}
-
-int Device::input_value(std::string_view text) {
-    input_pending_ = false;
-    if (text.empty()) return 0;
-    Symbols none;
-    const Statement s = compile(text, none, false);
-    if (s.kind != Statement::Kind::bare_number) return err::bad_value;
-    int error = 0;
-    const Number n = run_.value(s.fields[0], input_word_ >= Word::F1 && input_word_ <= Word::F8, error);
-    if (error != 0) return error;
-    return input_symbol_ != no_symbol ? run_.store(input_symbol_, n) : run_.store(input_word_, n);
-}
-
 Number Device::read(Word word, int& error) {
-    if (const int code = available(word); code != 0) {
+    if (const int code = setup_.available(word); code != 0) {
         error = code;
         return {};
     }
@@ -127,15 +93,15 @@ Number Device::read(Word word, int& error) {
         case Word::DG:
             return Number::of(comm_.flags.dg ? 1 : 0);
         case Word::EF:
-            return Number::of(ef_ ? 1 : 0);
+            return Number::of(error_.flag ? 1 : 0);
         case Word::EM:
             return Number::of(comm_.flags.em);
         case Word::ER:
-            return Number::of(er_);
+            return Number::of(error_.code);
         case Word::ES:
             return Number::of(comm_.flags.es);
         case Word::IF:
-            return Number::of(input_pending_ ? 1 : 0);
+            return Number::of(awaited_.pending() ? 1 : 0);
         case Word::LK:
             return Number::of(lk_ ? 1 : 0);
         case Word::NE:
@@ -147,7 +113,7 @@ Number Device::read(Word word, int& error) {
         case Word::RA:
             return Number::of(radians_ ? 1 : 0);
         case Word::TE:
-            return Number::of(te_);
+            return Number::of(trips_.enabled());
         case Word::R1:
         case Word::R2:
         case Word::R3:
@@ -163,7 +129,7 @@ Number Device::read(Word word, int& error) {
 }
 
 int Device::write(Word word, std::span<const Number> fields) {
-    if (const int code = available(word); code != 0) return code;
+    if (const int code = setup_.available(word); code != 0) return code;
     const WordInfo& i = info(word);
     if (i.access == Access::ro) return err::read_only;
     if (i.access == Access::none) return err::unknown_set;
@@ -193,13 +159,13 @@ int Device::write(Word word, std::span<const Number> fields) {
             return 0;
         case Word::ER:
             if (v != 0) return err::bad_value;
-            clear_error();
+            error_ = {};
             return 0;
         case Word::ES:
             comm_.flags.es = static_cast<int>(v);
             return 0;
         case Word::IF:
-            input_pending_ = false;
+            awaited_.drop();
             return 0;
         case Word::LK:
             // A saved lock goes only with the programs: full CP or FD [L3907].
@@ -240,7 +206,7 @@ int Device::write(Word word, std::span<const Number> fields) {
             radians_ = v != 0;
             return 0;
         case Word::TE:
-            return enable_trips(v);
+            return trips_.enable(v, now_);
         default:
             return err::read_only;
     }
@@ -256,7 +222,7 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
         if (code == 0) announce_ = false;
         return code;
     }
-    if (const int code = available(s.word); code != 0) return code;
+    if (const int code = setup_.available(s.word); code != 0) return code;
     if (s.kind == Statement::Kind::assign) {
         if (s.word != Word::DN) return err::unknown_set;
         if (s.name.size() != 1 ||
@@ -265,7 +231,7 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
         comm_.flags.dn = s.name[0];
         return 0;
     }
-    if (info(s.word).kind == WordKind::trip) return set_trip(s, fields);
+    if (info(s.word).kind == WordKind::trip) return trips_.define(s, fields, now_);
     if (info(s.word).owner == Owner::motor) {
         const int code = motor_->start(s.word, fields, now_);
         // What was announced for an earlier motion is not said at the end of another one.
@@ -313,23 +279,13 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
                 on_error_ = s.target;
             }
             return 0;
-        case Word::IV: {
-            if (input_pending_) return err::already_pending;
-            if (s.symbol != no_symbol) {
-                const auto kind = program_.symbols().at(s.symbol).kind;
-                if (kind != Symbol::Kind::global && kind != Symbol::Kind::local) return err::unknown_name;
-                input_symbol_ = s.symbol;
-            } else {
-                const Operand& o = s.fields[0].terms[0].operand;
-                if (info(o.word).access != Access::rw) return err::read_only;
-                input_symbol_ = no_symbol;
-                input_word_ = o.word;
-            }
-            input_pending_ = true;
-            return 0;
-        }
+        case Word::IV:
+            return awaited_.ask(s);
         case Word::BP:
-            return break_point(s, fields);
+            if (s.target && s.target->given) return tracer_.set_break(*s.target, fields);
+            if (run_.idle()) return err::not_running;
+            tracer_.run_as(Tracer::Mode::step);
+            return 0;
         case Word::PG:
             return enter_program_mode(fields);
         case Word::L:
@@ -337,7 +293,10 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
         case Word::CP:
             return clear_program(s, fields);
         case Word::S:
-            return save();
+            if (motor_->busy(false, now_)) return err::saving_in_motion;
+            lk_saved_ = lk_;
+            keep();
+            return 0;
         case Word::IP:
             if (motor_->busy(true, now_)) return err::restoring_in_motion;
             restore(nvm_, false);
@@ -346,8 +305,7 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             if (motor_->busy(true, now_)) return err::saving_in_motion;
             stop_program();
             factory_state(false);
-            nvm_ = snapshot();
-            ++nvm_revision_;
+            keep();
             return 0;
         case Word::UG: {
             const std::int64_t code = fields.empty() ? 0 : fields[0].as_integer();

@@ -10,8 +10,8 @@ namespace axisgate::mcode::twin {
 std::vector<HandItem> Device::hand() const {
     std::vector<HandItem> items;
     items.push_back({"power", powered_, true, "supply; off loses everything that S has not saved"});
-    items.push_back({"silent", silent_, true, "the drive hears and acts, but nothing that it sends reaches the line"});
-    items.push_back({"inject_error", std::int64_t{er_}, true, "ER and EF as if that error had come; 0 clears it"});
+    items.push_back({"silent", tx_.silent, true, "the drive hears and acts, but nothing that it sends reaches the line"});
+    items.push_back({"inject_error", std::int64_t{error_.code}, true, "ER and EF as if that error had come; 0 clears it"});
     if ((setup_.product & lmm) != 0)
         items.push_back({"address_input", address_input_, true, "a hardware address input is active: PY is 1; the name stays that of DN"});
     for (HandItem& i : motor_->hand(now_))
@@ -39,7 +39,7 @@ std::string Device::set_hand(const std::string& name, const Value& value, Instan
     }
     if (name == "silent") {
         if (!flag) return name + ": " + axisgate::to_text(value) + " is not true or false";
-        silent_ = *flag;
+        tx_.silent = *flag;
         return {};
     }
     if (name == "address_input" && (setup_.product & lmm) != 0) {

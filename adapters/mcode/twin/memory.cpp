@@ -9,23 +9,6 @@
 
 namespace axisgate::mcode::twin {
 
-std::uint32_t Device::rate_of_code(int code) const noexcept {
-    switch (code) {
-        case 48:
-            return 4800;
-        case 96:
-            return 9600;
-        case 19:
-            return 19200;
-        case 38:
-            return 38400;
-        case 11:
-            return 115200;
-        default:
-            return 0;
-    }
-}
-
 void Device::factory_state(bool as_delivered) {
     program_.clear(true);
     run_.stop();
@@ -36,7 +19,7 @@ void Device::factory_state(bool as_delivered) {
     comm_.flags = LinkFlags{};
     comm_.flags.py = address_input_;
     bd_ = 96;
-    for (const int code : {48, 96, 19, 38, 11}) {
+    for (const int code : rate_codes) {
         // A drive comes set to the rate of its line; FD gives it the factory's, for its next start [L1594, L2884].
         if (as_delivered && setup_.bit_rate == rate_of_code(code)) bd_ = code;
     }
@@ -51,16 +34,14 @@ void Device::factory_state(bool as_delivered) {
     format_ = {};
     format_.pad = setup_.pad;
     on_error_.reset();
-    break_at_.reset();
-    trips_ = {};
-    te_ = 0;
-    trip_time_ = never;
-    input_symbol_ = no_symbol;
-    input_pending_ = false;
+    tracer_.clear_break();
+    trips_.clear();
+    awaited_.forget();
+    awaited_.drop();
     motor_->factory(now_);
 }
 
-NonVolatile Device::snapshot() const {
+void Device::keep() {
     NonVolatile m;
     motor_->save(m);
     const LinkFlags& f = comm_.flags;
@@ -83,17 +64,17 @@ NonVolatile Device::snapshot() const {
     put("PF.4", format_.left ? 1 : 0);
     for (std::size_t i = 0; i < pw_.size(); ++i)
         m["PW." + std::to_string(i + 1)] = Value{pw_[i]};
-    Run& registers = const_cast<Run&>(run_);  // read only
     for (std::size_t i = 0; i < 4; ++i)
-        m["R" + std::to_string(i + 1)] = Value{std::int64_t{registers.integer(i)}};
+        m["R" + std::to_string(i + 1)] = Value{std::int64_t{run_.integer(i)}};
     for (std::size_t i = 0; i < 8; ++i)
-        m["F" + std::to_string(i + 1)] = Value{registers.real(i)};
+        m["F" + std::to_string(i + 1)] = Value{run_.real(i)};
     for (std::size_t i = 0; i < program_.symbols().size(); ++i) {
         const Symbol& s = program_.symbols().at(static_cast<SymbolId>(i));
         if (s.kind == Symbol::Kind::global) m["VA." + s.name] = Value{std::int64_t{s.value}};
     }
     m["PG"] = Value{program_.text()};
-    return m;
+    nvm_ = std::move(m);
+    ++nvm_revision_;
 }
 
 /// `programs`: as at power-up; without: IP, which keeps programs and declarations and takes back their saved values [L3468].
@@ -148,11 +129,11 @@ void Device::boot() {
     waiting_.clear();
     command_due_ = never;
     stop_program();
-    programming_ = false;
+    program_mode_.leave();
     announce_ = false;
     upgrading_ = false;
-    transmit_free_ = now_;
-    clear_error();
+    tx_.restart(now_);
+    error_ = {};
     motor_->restart(now_);
     factory_state(true);
     restore(nvm_, true);
@@ -163,16 +144,8 @@ void Device::boot() {
         Target t;
         t.label = start;
         t.given = true;
-        (void)run_program(t, Mode::normal);
+        (void)run_program(t, Tracer::Mode::normal);
     }
-}
-
-int Device::save() {
-    if (motor_->busy(false, now_)) return err::saving_in_motion;
-    lk_saved_ = lk_;
-    nvm_ = snapshot();
-    ++nvm_revision_;
-    return 0;
 }
 
 void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {

@@ -9,7 +9,7 @@
 namespace axisgate::mcode::twin {
 
 std::optional<std::string> Device::text_of_word(Word word, int& error) {
-    if (const int code = available(word); code != 0) {
+    if (const int code = setup_.available(word); code != 0) {
         error = code;
         return std::nullopt;
     }
@@ -56,7 +56,7 @@ std::string Device::all_values() {
         const Word w = static_cast<Word>(i);
         const WordInfo& row = info(w);
         const bool shown = row.kind == WordKind::variable || row.kind == WordKind::flag || row.kind == WordKind::setup;
-        if (!shown || row.access == Access::wo || available(w) != 0) continue;
+        if (!shown || row.access == Access::wo || setup_.available(w) != 0) continue;
         int error = 0;
         std::optional<std::string> value = text_of_word(w, error);
         const bool own_names = w == Word::IS || w == Word::OS || w == Word::LS;  // these print their name in each row
@@ -123,7 +123,7 @@ int Device::print(const Statement& s) {
         data_given_ = true;
         data_ended_ = !s.open_end;
     }
-    if (read_error) clear_error();
+    if (read_error) error_ = {};
     return 0;
 }
 

@@ -15,6 +15,13 @@ using mirror::Telegram;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+Move move_of(Move::Kind kind, std::int64_t target) {
+    Move m;
+    m.kind = kind;
+    m.target = target;
+    return m;
+}
+
 const Catalogue& catalogue() {
     static const Catalogue c = [] {
         std::ifstream f(AXISGATE_SOURCE_DIR "/schema/families/remote.json");
@@ -171,7 +178,7 @@ struct Bench : testing::Test {
 
 TEST_F(Bench, WhoIsToldToBeGoneIsOfflineAtOnceAndHisCommandsHaveFailed) {
     come_up();
-    const Ticket move = ask(Move{.target = 100});
+    const Ticket move = ask(move_of(Move::Kind::absolute, 100));
     say(Telegram::Kind::gone, 0, "the gateway hall-2 is gone");
     EXPECT_FALSE(links.back().online);
     EXPECT_EQ(links.back().text, "the gateway hall-2 is gone");
@@ -194,7 +201,7 @@ TEST_F(Bench, WhoIsToldToBeGoneIsOfflineAtOnceAndHisCommandsHaveFailed) {
 
 TEST_F(Bench, AStopDoesNotWaitForACommandsAnswerAndEndsAMotionThatWaits) {
     come_up();
-    ask(Move{.target = 100});
+    ask(move_of(Move::Kind::absolute, 100));
     const Ticket stop = ask(Halt{});
     ASSERT_EQ(orders().size(), 2u);
     EXPECT_EQ(orders()[1].body, "halt wait=5000");
@@ -227,7 +234,7 @@ TEST_F(Bench, ACommandIsSentOnceAndAStopAgain) {
 
 TEST_F(Bench, AVelocityMoveIsHeldAndRenewedUntilItHasEnded) {
     come_up();
-    ask(Move{.kind = Move::Kind::velocity, .target = -300});
+    ask(move_of(Move::Kind::velocity, -300));
     ASSERT_EQ(orders().size(), 1u);
     EXPECT_EQ(orders()[0].body, "move_velocity v=-300 hold=2000 wait=5000");
     say(Telegram::Kind::answer, orders()[0].number, "accepted none 0 ");
@@ -258,7 +265,7 @@ TEST_F(Bench, AStateFromBeforeAMotionIsThrownAway) {
     const std::uint64_t question = sent.back().number;
     mirror::State reached = standing();
     reached.target_reached = true;
-    ask(Move{.target = 100});
+    ask(move_of(Move::Kind::absolute, 100));
     say(Telegram::Kind::answer, orders().back().number, "accepted none 0 ");
     EXPECT_TRUE(feedback.moving && !feedback.target_reached);
     say(Telegram::Kind::state, question, body_of(reached));

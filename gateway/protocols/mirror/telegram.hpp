@@ -38,12 +38,12 @@ struct Telegram {
 
 /// What a request asks for; positions in increments, speeds in increments/s.
 struct Order {
-    std::string verb;  ///< state; read; a command as name_of(CommandBody) calls it
-    std::string name;  ///< read: of the parameter
-    std::optional<std::int64_t> position, velocity, acceleration, deceleration, method;
-    std::optional<std::int64_t> hold_ms;  ///< move_velocity: the axis is halted without a renewal for so long, 100..10000
-    bool renew = false;                   ///< move_velocity: that renewal, never a motion of its own
-    std::int64_t wait_ms = 0;             ///< the result is waited for so long and no longer; 0: as long as the other end likes
+    std::string verb{};  ///< state; read; a command as name_of(CommandBody) calls it
+    std::string name{};  ///< read: of the parameter
+    std::optional<std::int64_t> position{}, velocity{}, acceleration{}, deceleration{}, method{};
+    std::optional<std::int64_t> hold_ms{};  ///< move_velocity: the axis is halted without a renewal for so long, 100..10000
+    bool renew = false;                     ///< move_velocity: that renewal, never a motion of its own
+    std::int64_t wait_ms = 0;               ///< the result is waited for so long and no longer; 0: as long as the other end likes
     [[nodiscard]] bool operator==(const Order&) const = default;
 };
 [[nodiscard]] std::string body_of(const Order& order);

@@ -13,7 +13,6 @@ LIMIT = 40
 NOT_MENDED = {
     ("adapters/pacontrol/twin/control.hpp", "Control"): 85,
     ("gateway/engine/engine.hpp", "Engine"): 117,
-    ("gateway/runtime/hot.hpp", "Hot"): 45,
 }
 
 _HIDDEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|(?<![0-9A-Fa-f])\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*', re.S | re.M)

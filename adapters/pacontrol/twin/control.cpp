@@ -12,20 +12,17 @@ namespace {
 constexpr int steps_per_call = 100'000;  // a bound of one advance; a control has a few events per motion
 }
 
-Control::Control(const ControlSetup& setup) : setup_(setup), mode_(setup.times) {
-    const auto n = static_cast<std::size_t>(std::clamp(setup.axes, 1, 16));
-    setup_.axes = static_cast<int>(n);
+Control::Control(const ControlSetup& setup)
+    : setup_(setup), mode_(setup.times), axes_(setup.axes, setup.axis, setup.rotary, factory_axis()) {
+    const auto n = static_cast<std::size_t>(axes());
     if (setup_.programs.empty()) setup_.programs.push_back({"START", std::chrono::seconds(10), 0});
     elements_ = {Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}};
-    for (std::size_t i = 0; i < n; ++i)
-        add_axis();
-    kept_.assign(n, {});
     overrides_.assign(n, {});
     next_condition_.assign(n, {});
     condition_.assign(n, {});
     condition_input_.assign(n, 1);
     limits_monitored_.assign(n, true);
-    system_ = setup_.profile.usual_system(setup_.axes);
+    system_ = setup_.profile.usual_system(axes());
 }
 
 AxisParameters Control::factory_axis() const {
@@ -34,41 +31,25 @@ AxisParameters Control::factory_axis() const {
     return p;
 }
 
-void Control::add_axis() {
-    AxisModel model = setup_.axis;
-    if (const auto it = setup_.rotary.find(static_cast<int>(axes_.size()) + 1); it != setup_.rotary.end()) model.revolution = it->second;
-    axes_.emplace_back(model, factory_axis());
-}
-
 void Control::fit_axes(int n, Instant now) {
     advance(now);
-    const auto before = axes_.size(), after = static_cast<std::size_t>(std::clamp(n, 1, 16));
-    if (after <= before) return;
-    const SystemParameters was = setup_.profile.usual_system(axes()), is = setup_.profile.usual_system(static_cast<int>(after));
+    const int before = axes();
+    axes_.fit(n);
+    if (axes() == before) return;
+    const SystemParameters was = setup_.profile.usual_system(before), is = setup_.profile.usual_system(axes());
     for (std::size_t i = 1; i <= system_parameters; ++i) {
         if (system_[i] == was[i]) system_[i] = is[i];
     }
-    setup_.axes = static_cast<int>(after);
-    for (std::size_t i = before; i < after; ++i)
-        add_axis();
-    kept_.resize(after);
+    const auto after = static_cast<std::size_t>(axes());
     overrides_.resize(after);
     next_condition_.resize(after);
     condition_.resize(after);
     condition_input_.resize(after, 1);
     limits_monitored_.resize(after, true);
-    for (std::size_t a = before; a < after; ++a)
-        axes_[a].boot(kept_[a]);
     ++revision_;
 }
 
-bool Control::has_axis(std::int64_t n) const noexcept {
-    return n >= 1 && n <= static_cast<std::int64_t>(axes_.size()) && n <= system_[sp::axes];
-}
-
-bool Control::all_stand() const noexcept {
-    return std::ranges::none_of(axes_, [](const Axis& a) { return a.running(); });
-}
+bool Control::has_axis(std::int64_t n) const noexcept { return n >= 1 && n <= axes() && n <= system_[sp::axes]; }
 
 std::uint8_t Control::status() const noexcept {
     const std::uint8_t s = mode_.status();
@@ -79,12 +60,7 @@ std::uint8_t Control::status() const noexcept {
 
 // --- time ---
 
-Instant Control::deadline() const noexcept {
-    Instant next = mode_.deadline();
-    for (const Axis& a : axes_)
-        next = std::min(next, a.traverse().deadline());
-    return next;
-}
+Instant Control::deadline() const noexcept { return std::min(mode_.deadline(), axes_.deadline()); }
 
 void Control::advance(Instant now) {
     for (int i = 0; i < steps_per_call; ++i) {
@@ -96,8 +72,7 @@ void Control::advance(Instant now) {
 }
 
 void Control::step(Instant now) {
-    for (Axis& a : axes_)
-        a.traverse().advance(now);
+    axes_.advance(now);
     settle(now);
 }
 
@@ -142,14 +117,11 @@ void Control::run_program(Instant now) {
 
 /// Errors that axes found by themselves, and what they want kept.
 void Control::collect(Instant now) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const std::uint16_t number = axes_[i].take_error();
+    for (int n = 1; n <= axes(); ++n) {
+        const std::uint16_t number = axis(n).take_error();
         // With the axis extension an error stops its own axis only and is told in its module [L711].
         if (number != 0 && !setup_.axis_modules) raise(number, now);
-        if (axes_[i].take_changed() && !axes_[i].running()) {
-            kept_[i] = axes_[i].kept();
-            ++revision_;
-        }
+        axes_.keep_of(n);
     }
 }
 
@@ -159,19 +131,21 @@ void Control::entered(Mode::Entered what, Instant now) {
         case Mode::Entered::manual:
             // Errors of online and automatic go on the way to home position [L2774]; so do overrides and what was interrupted.
             if (error_ >= 500) error_ = 0;
-            for (std::size_t i = 0; i < axes_.size(); ++i) {
-                axes_[i].traverse().forget_interrupted();
-                axes_[i].traverse().finish(now);
-                if (axes_[i].state().fault >= 500 || axes_[i].state().fault == 0) axes_[i].clear_fault();
-                axes_[i].clear_displaced();
+            for (int n = 1; n <= axes(); ++n) {
+                Axis& a = axis(n);
+                const auto i = static_cast<std::size_t>(n - 1);
+                a.traverse().forget_interrupted();
+                a.traverse().finish(now);
+                if (a.state().fault >= 500 || a.state().fault == 0) a.clear_fault();
+                a.clear_displaced();
                 overrides_[i] = {};
                 next_condition_[i].reset();
-                if (static_cast<int>(axes_[i].parameters()[ap::enable_mode]) == 1) (void)axes_[i].switch_on(now, false);
+                if (static_cast<int>(a.parameters()[ap::enable_mode]) == 1) (void)a.switch_on(now, false);
             }
             break;
         case Mode::Entered::automatic:
         case Mode::Entered::online:
-            for (std::size_t i = 0; i < axes_.size(); ++i) {
+            for (std::size_t i = 0; i < limits_monitored_.size(); ++i) {
                 limits_monitored_[i] = true;
                 condition_input_[i] = 1;
                 next_condition_[i].reset();
@@ -208,8 +182,7 @@ std::uint16_t Control::start_automatic(Instant now) {
     if (mode_.status() == status::auto_stopped) {
         if (system_[sp::stop_input] != 0 && !external_stop_powered()) return quit::no_external_stop;
         if (!mode_.resume_automatic(now)) return quit::inadmissible;
-        for (Axis& a : axes_)
-            a.traverse().resume(now);
+        axes_.resume(now);
         settle(now);
         return quit::ok;
     }
@@ -229,19 +202,13 @@ std::uint16_t Control::start_online(Instant now) {
     if (!external_stop_powered()) return quit::no_external_stop;  // must be defined and carry power [L2037]
     if (stopped) {
         (void)mode_.resume_online();
-        for (Axis& a : axes_)
-            a.traverse().resume(now);
+        axes_.resume(now);
     } else {
         if (const auto fault = parameters_fault(); fault != 0) return fault;
         (void)mode_.start_online(now);
     }
     settle(now);
     return quit::ok;
-}
-
-void Control::interrupt_all(Instant now) {
-    for (Axis& a : axes_)
-        a.traverse().interrupt(now);
 }
 
 std::uint16_t Control::stop(Instant now) {
@@ -252,16 +219,13 @@ std::uint16_t Control::stop(Instant now) {
                                  mode_.status() == status::auto_malfunction_program || mode_.status() == status::auto_malfunction_stopped ||
                                  mode_.status() == status::online_malfunction || mode_.status() == status::online_malfunction_stopped;
     if (!mode_.stop(now) && !stopped_already) return quit::inadmissible;
-    interrupt_all(now);
+    axes_.interrupt(now);
     settle(now);
     return quit::ok;
 }
 
 void Control::leave_to(std::uint8_t target, Instant now) {
-    for (Axis& a : axes_) {
-        a.traverse().forget_interrupted();
-        a.traverse().finish(now);
-    }
+    axes_.finish(now);
     mode_.leave(target);
     settle(now);
 }
@@ -280,18 +244,14 @@ std::uint16_t Control::reset_error(Instant now) {
     // Class 1 goes by power off and on only; some of class 2 never [L2770-2780].
     if (error_ < 100 || setup_.lasting.contains(error_)) return quit::not_executable;
     error_ = 0;
-    for (Axis& a : axes_)
-        a.clear_fault();
+    axes_.clear_faults();
     return quit::ok;
 }
 
 void Control::emergency_stop(Instant now) {
     advance(now);
-    interrupt_all(now);
-    for (Axis& a : axes_) {
-        a.traverse().finish(now);
-        a.traverse().forget_interrupted();
-    }
+    axes_.interrupt(now);
+    axes_.finish(now);
     (void)mode_.malfunction(now);
     settle(now);
 }
@@ -337,17 +297,11 @@ void Control::jog(int n, int direction, Instant now) {
 void Control::raise(std::uint16_t number, Instant now) {
     if (number == 0) {
         error_ = 0;
-        for (Axis& a : axes_)
-            a.clear_fault();
+        axes_.clear_faults();
         return settle(now);
     }
     if (error_ == 0 || number < error_) error_ = number;  // the graver class stays
-    if (mode_.malfunction(now)) {
-        for (Axis& a : axes_) {
-            a.traverse().forget_interrupted();
-            a.traverse().finish(now);
-        }
-    }
+    if (mode_.malfunction(now)) axes_.finish(now);
     settle(now);
 }
 

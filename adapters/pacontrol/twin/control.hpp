@@ -5,14 +5,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "adapters/pacontrol/twin/axis.hpp"
+#include "adapters/pacontrol/twin/axes.hpp"
 #include "adapters/pacontrol/twin/elements.hpp"
 #include "adapters/pacontrol/twin/mode.hpp"
 #include "adapters/pacontrol/twin/parameters.hpp"
@@ -110,14 +109,14 @@ public:
     [[nodiscard]] std::uint16_t error() const noexcept { return error_; }  ///< PA-CONTROL error number, 0: none
     /// As many axes as this, 16 at most; those that come new are as the factory made them, the others go on as they are.
     void fit_axes(int n, Instant now);
-    [[nodiscard]] int axes() const noexcept { return static_cast<int>(axes_.size()); }
+    [[nodiscard]] int axes() const noexcept { return axes_.count(); }
     [[nodiscard]] bool has_axis(std::int64_t n) const noexcept;
-    [[nodiscard]] const Axis& axis(int n) const { return axes_.at(static_cast<std::size_t>(n - 1)); }
-    [[nodiscard]] Axis& axis(int n) { return axes_.at(static_cast<std::size_t>(n - 1)); }
+    [[nodiscard]] const Axis& axis(int n) const { return axes_.at(n); }
+    [[nodiscard]] Axis& axis(int n) { return axes_.at(n); }
     [[nodiscard]] const Elements& elements() const noexcept { return elements_; }
     [[nodiscard]] const ControlSetup& setup() const noexcept { return setup_; }
     [[nodiscard]] bool axis_modules() const noexcept { return setup_.axis_modules; }
-    [[nodiscard]] bool all_stand() const noexcept;
+    [[nodiscard]] bool all_stand() const noexcept { return axes_.all_stand(); }
     [[nodiscard]] const SystemParameters& system() const noexcept { return system_; }
     [[nodiscard]] const Limits<float>& axis_limits(std::size_t number) const { return setup_.profile.axis(number); }
     [[nodiscard]] Limits<std::int32_t> system_limits(std::size_t number) const { return setup_.profile.system(number, axes()); }
@@ -184,17 +183,15 @@ public:
     void power_on(const std::map<std::string, Value>& memory, Instant now);
     void power_off(Instant now);
     [[nodiscard]] std::map<std::string, Value> memory() const;
-    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_ + axes_.revision(); }
 
 private:
     void step(Instant now);
     void collect(Instant now);
     void entered(Mode::Entered what, Instant now);
     void leave_to(std::uint8_t target, Instant now);
-    void interrupt_all(Instant now);
     void run_program(Instant now);
     [[nodiscard]] AxisParameters factory_axis() const;
-    void add_axis();
     void check_conditions(Instant now);
     void check_stop_input(Instant now);
     [[nodiscard]] bool fulfilled(const Condition& c) const noexcept;
@@ -205,14 +202,13 @@ private:
     ControlSetup setup_;
     Mode mode_;
     Elements elements_;
-    std::deque<Axis> axes_;
+    Axes axes_;
     SystemParameters system_{};
     std::vector<Overrides> overrides_;
     std::vector<std::optional<Condition>> next_condition_;  ///< of 0AA3, for the next move
     std::vector<std::optional<Condition>> condition_;       ///< of the move that runs
     std::vector<int> condition_input_;
     std::vector<bool> limits_monitored_;
-    std::vector<Axis::Kept> kept_;
     std::size_t program_ = 0;
     std::size_t program_move_ = 0;     ///< of the program that runs: the next one
     std::optional<int> program_axis_;  ///< that it waits for

@@ -78,8 +78,7 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
             settle(now);
             return quit::ok;
         case AxisTask::Kind::reset_displaced:
-            for (Axis& x : axes_)
-                x.clear_displaced();
+            axes_.clear_displaced();
             return quit::ok;
         case AxisTask::Kind::absolute:
             m.target = task.value;
@@ -151,11 +150,12 @@ void Control::set_condition(int n, const Condition& c) {
 }
 
 void Control::check_conditions(Instant now) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (!axes_[i].running()) {
-            if (!axes_[i].traverse().busy()) condition_[i].reset();
+    for (int n = 1; n <= axes(); ++n) {
+        const auto i = static_cast<std::size_t>(n - 1);
+        if (!axis(n).running()) {
+            if (!axis(n).traverse().busy()) condition_[i].reset();
         } else if (condition_[i] && !fulfilled(*condition_[i])) {
-            axes_[i].traverse().finish_by_condition(now);
+            axis(n).traverse().finish_by_condition(now);
         }
     }
     settle(now);

@@ -13,48 +13,37 @@ constexpr int steps_per_call = 100'000;  // a bound of one advance; a control ha
 }
 
 Control::Control(const ControlSetup& setup)
-    : setup_(setup), mode_(setup.times), axes_(setup.axes, setup.axis, setup.rotary, factory_axis()) {
+    : setup_(setup),
+      mode_(setup.times),
+      axes_(setup.axes, setup.axis, setup.rotary, setup.profile.usual_axis(setup.absolute)),
+      settings_(setup.profile, setup.profile.usual_axis(setup.absolute), setup.profibus_switches, axes_),
+      signals_({Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}},
+               settings_.system(), error_),
+      views_(axes_, error_) {
     const auto n = static_cast<std::size_t>(axes());
     if (setup_.programs.empty()) setup_.programs.push_back({"START", std::chrono::seconds(10), 0});
-    elements_ = {Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}};
     overrides_.assign(n, {});
     next_condition_.assign(n, {});
     condition_.assign(n, {});
     condition_input_.assign(n, 1);
     limits_monitored_.assign(n, true);
-    system_ = setup_.profile.usual_system(axes());
-}
-
-AxisParameters Control::factory_axis() const {
-    AxisParameters p = setup_.profile.usual_axis();
-    p[ap::absolute] = setup_.absolute ? 1.0F : 0.0F;
-    return p;
 }
 
 void Control::fit_axes(int n, Instant now) {
     advance(now);
-    const int before = axes();
-    axes_.fit(n);
-    if (axes() == before) return;
-    const SystemParameters was = setup_.profile.usual_system(before), is = setup_.profile.usual_system(axes());
-    for (std::size_t i = 1; i <= system_parameters; ++i) {
-        if (system_[i] == was[i]) system_[i] = is[i];
-    }
+    settings_.fit(n);
     const auto after = static_cast<std::size_t>(axes());
     overrides_.resize(after);
     next_condition_.resize(after);
     condition_.resize(after);
     condition_input_.resize(after, 1);
     limits_monitored_.resize(after, true);
-    ++revision_;
 }
-
-bool Control::has_axis(std::int64_t n) const noexcept { return n >= 1 && n <= axes() && n <= system_[sp::axes]; }
 
 std::uint8_t Control::status() const noexcept {
     const std::uint8_t s = mode_.status();
-    if (s == status::home && error_ != 0) return status::home_error;
-    if (s == status::manual && !all_stand()) return status::manual_moves;
+    if (s == status::home && error_.stands()) return status::home_error;
+    if (s == status::manual && !axes_.all_stand()) return status::manual_moves;
     return s;
 }
 
@@ -79,7 +68,7 @@ void Control::step(Instant now) {
 void Control::settle(Instant now) {
     collect(now);
     for (int i = 0; i < 64; ++i) {
-        const Mode::Entered what = mode_.step(now, all_stand());
+        const Mode::Entered what = mode_.step(now, axes_.all_stand());
         if (what == Mode::Entered::nothing) break;
         entered(what, now);
     }
@@ -101,7 +90,7 @@ void Control::run_program(Instant now) {
     for (std::size_t tried = 0; tried < moves.size(); ++tried) {
         if (program_axis_ && axis(*program_axis_).traverse().busy()) return;
         const ProgramMove& next = moves[program_move_ % moves.size()];
-        if (!has_axis(next.axis)) return;
+        if (!settings_.has_axis(next.axis)) return;
         Axis& a = axis(next.axis);
         Motion m;
         m.target = next.target;
@@ -130,7 +119,7 @@ void Control::entered(Mode::Entered what, Instant now) {
         case Mode::Entered::home:
         case Mode::Entered::manual:
             // Errors of online and automatic go on the way to home position [L2774]; so do overrides and what was interrupted.
-            if (error_ >= 500) error_ = 0;
+            if (error_.number() >= 500) error_.clear();
             for (int n = 1; n <= axes(); ++n) {
                 Axis& a = axis(n);
                 const auto i = static_cast<std::size_t>(n - 1);
@@ -165,30 +154,18 @@ void Control::entered(Mode::Entered what, Instant now) {
 
 // --- mode control ---
 
-std::uint16_t Control::parameters_fault() const {
-    for (std::int64_t n = 1; has_axis(n); ++n) {
-        if (const auto fault = inconsistent(axis(static_cast<int>(n)).parameters()); fault != 0) return fault;
-    }
-    return 0;
-}
-
-bool Control::external_stop_powered() const noexcept {
-    const std::int32_t n = system_[sp::stop_input];
-    return n != 0 && input(n);
-}
-
 std::uint16_t Control::start_automatic(Instant now) {
     advance(now);
     if (mode_.status() == status::auto_stopped) {
-        if (system_[sp::stop_input] != 0 && !external_stop_powered()) return quit::no_external_stop;
+        if (signals_.external_stop_open()) return quit::no_external_stop;
         if (!mode_.resume_automatic(now)) return quit::inadmissible;
         axes_.resume(now);
         settle(now);
         return quit::ok;
     }
     if (mode_.status() != status::home || mode_.leaving()) return quit::inadmissible;
-    if (error_ != 0) return quit::not_executable;
-    if (const auto fault = parameters_fault(); fault != 0) return fault;
+    if (error_.stands()) return quit::not_executable;
+    if (const auto fault = settings_.inconsistency(); fault != 0) return fault;
     (void)mode_.start_automatic(setup_.programs[program_], now);
     settle(now);
     return quit::ok;
@@ -198,13 +175,13 @@ std::uint16_t Control::start_online(Instant now) {
     advance(now);
     const bool stopped = mode_.status() == status::online_stopped && !mode_.leaving();
     if (!stopped && (mode_.status() != status::home || mode_.leaving())) return quit::inadmissible;
-    if (error_ != 0) return quit::not_executable;
-    if (!external_stop_powered()) return quit::no_external_stop;  // must be defined and carry power [L2037]
+    if (error_.stands()) return quit::not_executable;
+    if (!signals_.external_stop_powered()) return quit::no_external_stop;  // must be defined and carry power [L2037]
     if (stopped) {
         (void)mode_.resume_online();
         axes_.resume(now);
     } else {
-        if (const auto fault = parameters_fault(); fault != 0) return fault;
+        if (const auto fault = settings_.inconsistency(); fault != 0) return fault;
         (void)mode_.start_online(now);
     }
     settle(now);
@@ -240,10 +217,10 @@ std::uint16_t Control::cancel(Instant now) {
 std::uint16_t Control::reset_error(Instant now) {
     advance(now);
     if (mode_.status() != status::home) return quit::inadmissible;
-    if (error_ == 0) return quit::ok;
+    if (!error_.stands()) return quit::ok;
     // Class 1 goes by power off and on only; some of class 2 never [L2770-2780].
-    if (error_ < 100 || setup_.lasting.contains(error_)) return quit::not_executable;
-    error_ = 0;
+    if (error_.number() < 100 || setup_.lasting.contains(error_.number())) return quit::not_executable;
+    error_.clear();
     axes_.clear_faults();
     return quit::ok;
 }
@@ -296,11 +273,11 @@ void Control::jog(int n, int direction, Instant now) {
 
 void Control::raise(std::uint16_t number, Instant now) {
     if (number == 0) {
-        error_ = 0;
+        error_.clear();
         axes_.clear_faults();
         return settle(now);
     }
-    if (error_ == 0 || number < error_) error_ = number;  // the graver class stays
+    error_.note(number);
     if (mode_.malfunction(now)) axes_.finish(now);
     settle(now);
 }

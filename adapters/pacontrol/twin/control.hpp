@@ -11,12 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "adapters/pacontrol/twin/axes.hpp"
-#include "adapters/pacontrol/twin/elements.hpp"
 #include "adapters/pacontrol/twin/mode.hpp"
-#include "adapters/pacontrol/twin/parameters.hpp"
-#include "adapters/pacontrol/twin/value.hpp"
-#include "gateway/core/value.hpp"
+#include "adapters/pacontrol/twin/settings.hpp"
+#include "adapters/pacontrol/twin/signals.hpp"
+#include "adapters/pacontrol/twin/system_views.hpp"
 
 namespace axisgate::pacontrol::twin {
 
@@ -106,41 +104,26 @@ public:
     [[nodiscard]] Instant deadline() const noexcept;
     [[nodiscard]] std::uint8_t status() const noexcept;  ///< operating status, decimal [L3991]
     [[nodiscard]] std::uint8_t column() const noexcept { return column_of(status()); }
-    [[nodiscard]] std::uint16_t error() const noexcept { return error_; }  ///< PA-CONTROL error number, 0: none
+    [[nodiscard]] std::uint16_t error() const noexcept { return error_.number(); }  ///< PA-CONTROL error number, 0: none
     /// As many axes as this, 16 at most; those that come new are as the factory made them, the others go on as they are.
     void fit_axes(int n, Instant now);
     [[nodiscard]] int axes() const noexcept { return axes_.count(); }
-    [[nodiscard]] bool has_axis(std::int64_t n) const noexcept;
     [[nodiscard]] const Axis& axis(int n) const { return axes_.at(n); }
     [[nodiscard]] Axis& axis(int n) { return axes_.at(n); }
-    [[nodiscard]] const Elements& elements() const noexcept { return elements_; }
-    [[nodiscard]] const ControlSetup& setup() const noexcept { return setup_; }
     [[nodiscard]] bool axis_modules() const noexcept { return setup_.axis_modules; }
-    [[nodiscard]] bool all_stand() const noexcept { return axes_.all_stand(); }
-    [[nodiscard]] const SystemParameters& system() const noexcept { return system_; }
-    [[nodiscard]] const Limits<float>& axis_limits(std::size_t number) const { return setup_.profile.axis(number); }
-    [[nodiscard]] Limits<std::int32_t> system_limits(std::size_t number) const { return setup_.profile.system(number, axes()); }
+    [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
+    [[nodiscard]] Settings& settings() noexcept { return settings_; }
+    [[nodiscard]] const Signals& signals() const noexcept { return signals_; }
+    [[nodiscard]] const SystemViews& views() const noexcept { return views_; }
     [[nodiscard]] int condition_input(int n) const { return condition_input_.at(static_cast<std::size_t>(n - 1)); }
-    /// Input `n` as the control sees it: `inputs`, and for the stop input the wire of the external stop.
-    [[nodiscard]] bool input(std::int64_t n) const noexcept;
-    [[nodiscard]] bool output(std::int64_t n) const noexcept;
-    [[nodiscard]] bool external_stop_powered() const noexcept;
 
     // --- elements, also copied by the module interface in AUTOMATIC ---
     void set_output(std::int64_t n, bool on, Instant now);
     void set_flag(std::int64_t n, bool on, Instant now);
     void set_output_word(std::int64_t n, std::uint16_t word, Instant now);
     void set_flag_word(std::int64_t n, std::uint16_t word, Instant now);
-    void set_n(std::int64_t n, std::int32_t v) noexcept;
-    void set_r(std::int64_t n, float v) noexcept;
-    [[nodiscard]] std::optional<bool> system_flag(std::int64_t n) const;             ///< SM; nothing: inadmissible
-    [[nodiscard]] std::optional<std::int32_t> system_integer(std::int64_t n) const;  ///< SN
-    [[nodiscard]] std::optional<double> system_real(std::int64_t n) const;           ///< SR
-
-    // --- parameters (the gate of home position is the commands') ---
-    std::uint16_t set_system_parameter(std::int64_t number, const Datum& data);
-    std::uint16_t set_axis_parameter(std::int64_t parameter, const Datum& data);
-
+    void set_n(std::int64_t n, std::int32_t v) noexcept { signals_.set_n(n, v); }
+    void set_r(std::int64_t n, float v) noexcept { signals_.set_r(n, v); }
     // --- what the command table needs ---
     struct Overrides {
         std::optional<double> speed, acceleration;
@@ -169,7 +152,6 @@ public:
     // --- outside conditions (the tester's hand) ---
     void set_input(std::int64_t n, bool on, Instant now);
     void set_external_stop(bool powered, Instant now);
-    [[nodiscard]] bool external_stop_wire() const noexcept { return external_stop_; }
     /// A system error by its class [L2770]; 0 takes it away.
     void raise(std::uint16_t number, Instant now);
     void raise_axis(int n, std::uint16_t number, Instant now);
@@ -180,10 +162,12 @@ public:
     void settle(Instant now);
 
     // --- memory ---
-    void power_on(const std::map<std::string, Value>& memory, Instant now);
+    void power_on(const Memory& memory, Instant now);
     void power_off(Instant now);
-    [[nodiscard]] std::map<std::string, Value> memory() const;
-    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_ + axes_.revision(); }
+    [[nodiscard]] Memory memory() const;
+    [[nodiscard]] std::uint64_t revision() const noexcept {
+        return revision_ + axes_.revision() + settings_.revision() + signals_.revision();
+    }
 
 private:
     void step(Instant now);
@@ -191,19 +175,19 @@ private:
     void entered(Mode::Entered what, Instant now);
     void leave_to(std::uint8_t target, Instant now);
     void run_program(Instant now);
-    [[nodiscard]] AxisParameters factory_axis() const;
     void check_conditions(Instant now);
     void check_stop_input(Instant now);
     [[nodiscard]] bool fulfilled(const Condition& c) const noexcept;
-    [[nodiscard]] std::uint16_t parameters_fault() const;
     [[nodiscard]] CommandReply pending_reply(Instant now);
     [[nodiscard]] std::uint16_t start_with(int n, const Motion& m, const std::optional<Condition>& c, Instant now);
 
     ControlSetup setup_;
     Mode mode_;
-    Elements elements_;
+    SystemError error_;
     Axes axes_;
-    SystemParameters system_{};
+    Settings settings_;
+    Signals signals_;
+    SystemViews views_;
     std::vector<Overrides> overrides_;
     std::vector<std::optional<Condition>> next_condition_;  ///< of 0AA3, for the next move
     std::vector<std::optional<Condition>> condition_;       ///< of the move that runs
@@ -212,8 +196,6 @@ private:
     std::size_t program_ = 0;
     std::size_t program_move_ = 0;     ///< of the program that runs: the next one
     std::optional<int> program_axis_;  ///< that it waits for
-    bool external_stop_ = true;
-    std::uint16_t error_ = 0;
     Pending pending_;
     CommandReply last_;
     std::uint64_t revision_ = 0;

@@ -10,7 +10,9 @@ namespace axisgate::pacontrol::twin {
 // --- motions ---
 
 bool Control::fulfilled(const Condition& c) const noexcept {
-    const bool is = c.type == 1 ? input(c.number) : c.type == 2 ? output(c.number) : elements_.flags.get(c.number);
+    const bool is = c.type == 1   ? signals_.input(c.number)
+                    : c.type == 2 ? signals_.output(c.number)
+                                  : signals_.elements().flags.get(c.number);
     return is == c.value;
 }
 
@@ -47,7 +49,7 @@ std::uint16_t Control::start_move(int n, double value, bool relative, Task task,
 
 std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
     advance(now);
-    if (!has_axis(n)) return quit::no_axis;
+    if (!settings_.has_axis(n)) return quit::no_axis;
     const auto i = static_cast<std::size_t>(n - 1);
     Axis& a = axis(n);
     const auto place = [&](bool g26) {
@@ -163,121 +165,46 @@ void Control::check_conditions(Instant now) {
 
 // --- elements ---
 
-bool Control::input(std::int64_t n) const noexcept {
-    return elements_.inputs.get(n) || (n != 0 && n == system_[sp::stop_input] && external_stop_);
-}
-
-bool Control::output(std::int64_t n) const noexcept {
-    if (n != 0 && n == system_[sp::readiness_output]) return error_ == 0;
-    if (n != 0 && n == system_[sp::malfunction_output]) return error_ != 0;
-    return elements_.outputs.get(n);
-}
-
 void Control::check_stop_input(Instant now) {
-    if (system_[sp::stop_input] == 0 || external_stop_powered()) return;
+    if (!signals_.external_stop_open()) return;
     const std::uint8_t c = mode_.column();
     if (c == gate::automatic || c == gate::online) (void)stop(now);
 }
 
 void Control::set_input(std::int64_t n, bool on, Instant now) {
     advance(now);
-    const bool before = elements_.inputs.get(n);
-    elements_.inputs.set(n, on);
-    if (on && !before && n == system_[sp::start_input]) (void)start_automatic(now);
+    const bool before = signals_.elements().inputs.get(n);
+    signals_.set_input(n, on);
+    if (on && !before && n == settings_.system()[sp::start_input]) (void)start_automatic(now);
     check_stop_input(now);
     check_conditions(now);
 }
 
 void Control::set_external_stop(bool powered, Instant now) {
     advance(now);
-    external_stop_ = powered;
+    signals_.set_external_stop(powered);
     check_stop_input(now);
     check_conditions(now);
 }
 
 void Control::set_output(std::int64_t n, bool on, Instant now) {
-    elements_.outputs.set(n, on);
+    signals_.set_output(n, on);
     check_conditions(now);
 }
 
 void Control::set_flag(std::int64_t n, bool on, Instant now) {
-    if (elements_.flags.get(n) != on) ++revision_;
-    elements_.flags.set(n, on);
+    signals_.set_flag(n, on);
     check_conditions(now);
 }
 
 void Control::set_output_word(std::int64_t n, std::uint16_t word, Instant now) {
-    elements_.outputs.set_word_of(n, word);
+    signals_.set_output_word(n, word);
     check_conditions(now);
 }
 
 void Control::set_flag_word(std::int64_t n, std::uint16_t word, Instant now) {
-    if (elements_.flags.word_of(n) != word) ++revision_;
-    elements_.flags.set_word_of(n, word);
+    signals_.set_flag_word(n, word);
     check_conditions(now);
-}
-
-void Control::set_n(std::int64_t n, std::int32_t v) noexcept {
-    if (elements_.n.get(n) != v) ++revision_;
-    elements_.n.set(n, v);
-}
-
-void Control::set_r(std::int64_t n, float v) noexcept {
-    if (!std::isfinite(v)) return;  // an image may hold any bits
-    if (elements_.r.get(n) != v) ++revision_;
-    elements_.r.set(n, v);
-}
-
-/// The view of axis n = 1..16 that begins at element `first`; axes that are not built read as 0 [L3921-3951].
-std::optional<bool> Control::system_flag(std::int64_t n) const {
-    const auto of = [&](std::int64_t first) -> const Axis* {
-        return n - first < axes() ? &axis(static_cast<int>(n - first + 1)) : nullptr;
-    };
-    const auto within = [&](std::int64_t first) { return n >= first && n < first + 16; };
-    if (within(51)) return of(51) != nullptr && of(51)->state().referenced;
-    if (within(91)) return of(91) != nullptr && of(91)->traverse().busy();
-    if (within(231)) return of(231) != nullptr && of(231)->state().fault != 0;
-    return std::nullopt;
-}
-
-std::optional<std::int32_t> Control::system_integer(std::int64_t n) const {
-    if (n == 10) return error_;
-    if (n >= 71 && n < 87) return n - 71 < axes() ? axis(static_cast<int>(n - 70)).status() : 0;
-    return std::nullopt;
-}
-
-std::optional<double> Control::system_real(std::int64_t n) const {
-    if (n >= 51 && n < 67) return n - 51 < axes() ? axis(static_cast<int>(n - 50)).state().off_position : 0.0;
-    if (n >= 71 && n < 87) return n - 71 < axes() ? axis(static_cast<int>(n - 70)).traverse().last_target() : 0.0;
-    return std::nullopt;
-}
-
-// --- parameters ---
-
-std::uint16_t Control::set_system_parameter(std::int64_t number, const Datum& data) {
-    if (number < 1 || number > static_cast<std::int64_t>(system_parameters)) return quit::no_system_parameter;
-    const auto i = static_cast<std::size_t>(number);
-    const auto limits = system_limits(i);
-    const double v = std::round(data.value);
-    if (v < limits.least || v > limits.largest || (i == sp::profibus_address && v == 1)) return quit::value;  // 1 is the master's
-    if (i == sp::profibus_address && setup_.profibus_switches != 0) return quit::profibus_address;
-    if (system_[i] != static_cast<std::int32_t>(v)) ++revision_;
-    system_[i] = static_cast<std::int32_t>(v);
-    return quit::ok;
-}
-
-std::uint16_t Control::set_axis_parameter(std::int64_t parameter, const Datum& data) {
-    const std::int64_t n = parameter >> 8;
-    const auto number = static_cast<std::size_t>(parameter & 0xFF);
-    if (parameter < 0 || !has_axis(n)) return quit::no_axis;
-    if (number < 1 || number > axis_parameters) return quit::no_axis_parameter;
-    const auto v = single(data);
-    const auto& limits = axis_limits(number);
-    if (!v || *v < limits.least || *v > limits.largest) return quit::value;
-    Axis& a = axis(static_cast<int>(n));
-    if (a.parameters()[number] != *v) ++revision_;
-    a.set_parameter(number, *v);
-    return quit::ok;
 }
 
 bool Control::select_program(const std::string& name) {

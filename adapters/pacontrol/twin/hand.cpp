@@ -30,12 +30,12 @@ std::vector<HandItem> Device::hand() const {
     std::vector<HandItem> items;
     std::int64_t mask = 0;
     for (int b = 0; b < mask_bits; ++b)
-        mask |= std::int64_t{control_.elements().inputs.get(b + 1)} << b;
+        mask |= std::int64_t{control_.signals().elements().inputs.get(b + 1)} << b;
     items.push_back({"power", powered_, true, "supply voltage; off loses outputs, overrides and the operating mode"});
     items.push_back({"silent", silent_, true, "the control hears and acts, but nothing that it sends reaches the line"});
     items.push_back({"inputs", mask, true, "levels of I1 (bit 0) to I32 (bit 31)"});
     items.push_back({"input", std::string(), true, "one input, I1 to I1024, and its level: I33=1"});
-    items.push_back({"external_stop", control_.external_stop_wire(), true,
+    items.push_back({"external_stop", control_.signals().external_stop_wire(), true,
                      "the external-stop contact carries power; without it ONLINE cannot start, and what runs is stopped"});
     items.push_back({"emergency_stop", false, true, "true: all axes stop, AUTOMATIC and ONLINE end in status 19 or 39"});
     items.push_back({"inject_error", std::int64_t{control_.error()}, true,
@@ -117,7 +117,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     }
     if (name.size() > 1 && name.front() == 'I') {
         const auto n = parse_whole(std::string_view(name).substr(1), 0, INT64_MAX);
-        if (!n || !control_.elements().inputs.has(*n)) return "there is no input '" + name + "': I1..I1024";
+        if (!n || !control_.signals().elements().inputs.has(*n)) return "there is no input '" + name + "': I1..I1024";
         if (!flag) return want_flag;
         control_.set_input(*n, *flag, now);
         return {};

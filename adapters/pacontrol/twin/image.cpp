@@ -235,7 +235,7 @@ void Image::put_real(std::size_t at, double v) noexcept {
 
 /// AUTOMATIC: flag word, N and R of the module are copied at every cycle, whatever else has written them [L608-L634].
 void Image::elements(Control& control, std::size_t k, Instant now) {
-    const Elements& e = control.elements();
+    const Elements& e = control.signals().elements();
     const std::size_t at = 16 + 12 * k;
     const auto here = static_cast<std::int64_t>(k) + 1, there = here + 16;
     const std::span<std::uint8_t> out(out_);

@@ -289,13 +289,13 @@ TEST(PacontrolImage, OverridesAndMonitoringEndWithOnline) {  // T-20
     r.online();
     EXPECT_EQ(r.command(0x0A8D, 1, std::bit_cast<std::uint32_t>(5.0F)), 0x2000u);
     EXPECT_EQ(r.command(0x0AA2, 1, 0) & 0x4000u, 0u);
-    ASSERT_TRUE(r.control.overrides(1).speed.has_value());
-    EXPECT_FALSE(r.control.limits_monitored(1));
+    ASSERT_TRUE(r.control.orders().of(1).overrides.speed.has_value());
+    EXPECT_FALSE(r.control.orders().of(1).limits_monitored);
     r.command(0x0A81, 0);
     r.run(100ms);
     r.online();
-    EXPECT_FALSE(r.control.overrides(1).speed.has_value());
-    EXPECT_TRUE(r.control.limits_monitored(1));
+    EXPECT_FALSE(r.control.orders().of(1).overrides.speed.has_value());
+    EXPECT_TRUE(r.control.orders().of(1).limits_monitored);
 }
 
 TEST(PacontrolImage, InAutomaticTheModulesOverwriteTheirElements) {  // T-21

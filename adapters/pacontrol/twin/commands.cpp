@@ -297,7 +297,7 @@ CommandReply set_speed(Control& k, const Call& c) {
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
         if (a.running() && !a.model().ep) return refuse(quit::moves);  // while moving only on the EP [L3496]
-        k.overrides(axis_of(c)).speed = v;
+        k.orders().of(axis_of(c)).overrides.speed = v;
         if (a.running() && a.traverse().task() == Task::position) a.traverse().change_speed(v, c.now);
         k.settle(c.now);
         return say_real(v);
@@ -309,7 +309,7 @@ CommandReply set_acceleration(Control& k, const Call& c) {
         const auto& limits = k.settings().axis_limits(ap::acceleration);
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
-        k.overrides(axis_of(c)).acceleration = v;
+        k.orders().of(axis_of(c)).overrides.acceleration = v;
         return say_real(v);
     });
 }
@@ -367,14 +367,14 @@ CommandReply for_axes(Control& k, const Call& c, F&& f) {
 CommandReply monitor_limits(Control& k, const Call& c) {
     if (c.parameter != 0 && !k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     if (!is_bit(c.data)) return refuse(quit::value);
-    return for_axes(k, c, [&](int n) { k.set_limits_monitored(n, c.data.value != 0); });
+    return for_axes(k, c, [&](int n) { k.orders().of(n).limits_monitored = c.data.value != 0; });
 }
 
 /// Byte 3 condition, byte 2 kind of element, bytes 1 and 0 its number (E-31).
 CommandReply set_condition(Control& k, const Call& c) {
     if (c.parameter != 0 && !k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     const auto packed = static_cast<std::uint32_t>(whole(c.data));
-    Control::Condition x;
+    Condition x;
     x.type = static_cast<std::uint8_t>(packed >> 16);
     x.number = static_cast<std::int32_t>(packed & 0xFFFF);
     if (x.type == 1 && !k.signals().elements().inputs.has(x.number)) return refuse(quit::no_input);
@@ -382,7 +382,7 @@ CommandReply set_condition(Control& k, const Call& c) {
     if (x.type == 3 && !k.signals().elements().flags.has(x.number)) return refuse(quit::no_flag);
     if (x.type < 1 || x.type > 3 || packed >> 24 > 1) return refuse(quit::value);
     x.value = packed >> 24 == 1;
-    return for_axes(k, c, [&](int n) { k.set_condition(n, x); });
+    return for_axes(k, c, [&](int n) { k.orders().of(n).order(x); });
 }
 
 constexpr std::uint8_t H = gate::home;

@@ -19,25 +19,15 @@ Control::Control(const ControlSetup& setup)
       settings_(setup.profile, setup.profile.usual_axis(setup.absolute), setup.profibus_switches, axes_),
       signals_({Bits{setup.inputs}, Bits{setup.outputs}, Bits{setup.flags}, Registers<std::int32_t>{setup.n}, Registers<float>{setup.r}},
                settings_.system(), error_),
-      views_(axes_, error_) {
-    const auto n = static_cast<std::size_t>(axes());
+      views_(axes_, error_),
+      orders_(axes()) {
     if (setup_.programs.empty()) setup_.programs.push_back({"START", std::chrono::seconds(10), 0});
-    overrides_.assign(n, {});
-    next_condition_.assign(n, {});
-    condition_.assign(n, {});
-    condition_input_.assign(n, 1);
-    limits_monitored_.assign(n, true);
 }
 
 void Control::fit_axes(int n, Instant now) {
     advance(now);
     settings_.fit(n);
-    const auto after = static_cast<std::size_t>(axes());
-    overrides_.resize(after);
-    next_condition_.resize(after);
-    condition_.resize(after);
-    condition_input_.resize(after, 1);
-    limits_monitored_.resize(after, true);
+    orders_.fit(axes());
 }
 
 std::uint8_t Control::status() const noexcept {
@@ -122,23 +112,17 @@ void Control::entered(Mode::Entered what, Instant now) {
             if (error_.number() >= 500) error_.clear();
             for (int n = 1; n <= axes(); ++n) {
                 Axis& a = axis(n);
-                const auto i = static_cast<std::size_t>(n - 1);
                 a.traverse().forget_interrupted();
                 a.traverse().finish(now);
                 if (a.state().fault >= 500 || a.state().fault == 0) a.clear_fault();
                 a.clear_displaced();
-                overrides_[i] = {};
-                next_condition_[i].reset();
+                orders_.of(n).end();
                 if (static_cast<int>(a.parameters()[ap::enable_mode]) == 1) (void)a.switch_on(now, false);
             }
             break;
         case Mode::Entered::automatic:
         case Mode::Entered::online:
-            for (std::size_t i = 0; i < limits_monitored_.size(); ++i) {
-                limits_monitored_[i] = true;
-                condition_input_[i] = 1;
-                next_condition_[i].reset();
-            }
+            orders_.begin();
             break;
         case Mode::Entered::program_ended:
             if (mode_.program().error != 0) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "adapters/pacontrol/twin/mode.hpp"
+#include "adapters/pacontrol/twin/orders.hpp"
 #include "adapters/pacontrol/twin/settings.hpp"
 #include "adapters/pacontrol/twin/signals.hpp"
 #include "adapters/pacontrol/twin/system_views.hpp"
@@ -115,7 +116,6 @@ public:
     [[nodiscard]] Settings& settings() noexcept { return settings_; }
     [[nodiscard]] const Signals& signals() const noexcept { return signals_; }
     [[nodiscard]] const SystemViews& views() const noexcept { return views_; }
-    [[nodiscard]] int condition_input(int n) const { return condition_input_.at(static_cast<std::size_t>(n - 1)); }
 
     // --- elements, also copied by the module interface in AUTOMATIC ---
     void set_output(std::int64_t n, bool on, Instant now);
@@ -125,20 +125,9 @@ public:
     void set_n(std::int64_t n, std::int32_t v) noexcept { signals_.set_n(n, v); }
     void set_r(std::int64_t n, float v) noexcept { signals_.set_r(n, v); }
     // --- what the command table needs ---
-    struct Overrides {
-        std::optional<double> speed, acceleration;
-    };
-    struct Condition {
-        bool value = true;
-        std::uint8_t type = 1;  ///< 1 input, 2 output, 3 flag
-        std::int32_t number = 1;
-    };
-    [[nodiscard]] Overrides& overrides(int n) { return overrides_.at(static_cast<std::size_t>(n - 1)); }
-    void set_condition(int n, const Condition& c);
+    [[nodiscard]] Orders& orders() noexcept { return orders_; }
     /// A positioning of the CMD interface with the axis' condition; 0 or a command error.
     std::uint16_t start_move(int n, double value, bool relative, Task task, Instant now);
-    void set_limits_monitored(int n, bool on) { limits_monitored_.at(static_cast<std::size_t>(n - 1)) = on; }
-    [[nodiscard]] bool limits_monitored(int n) const { return limits_monitored_.at(static_cast<std::size_t>(n - 1)); }
     struct Pending {
         enum class Kind : std::uint8_t { none, move, reference, halt, mode };
         Kind kind = Kind::none;
@@ -188,11 +177,7 @@ private:
     Settings settings_;
     Signals signals_;
     SystemViews views_;
-    std::vector<Overrides> overrides_;
-    std::vector<std::optional<Condition>> next_condition_;  ///< of 0AA3, for the next move
-    std::vector<std::optional<Condition>> condition_;       ///< of the move that runs
-    std::vector<int> condition_input_;
-    std::vector<bool> limits_monitored_;
+    Orders orders_;
     std::size_t program_ = 0;
     std::size_t program_move_ = 0;     ///< of the program that runs: the next one
     std::optional<int> program_axis_;  ///< that it waits for

@@ -20,7 +20,7 @@ std::uint16_t Control::start_with(int n, const Motion& m, const std::optional<Co
     Axis& a = axis(n);
     if (const std::uint16_t q = a.traverse().may_start(m, now); q != 0) return q;
     if (mode_.status() != status::online) return quit::not_executable;  // starting, stopped, malfunction: nothing begins
-    condition_[static_cast<std::size_t>(n - 1)] = c;
+    orders_.of(n).running = c;
     if (c && !fulfilled(*c)) {
         a.traverse().finish(now);
         a.traverse().skipped_by_condition();  // counts as finished, no error [L820]
@@ -32,25 +32,24 @@ std::uint16_t Control::start_with(int n, const Motion& m, const std::optional<Co
 }
 
 std::uint16_t Control::start_move(int n, double value, bool relative, Task task, Instant now) {
-    const auto i = static_cast<std::size_t>(n - 1);
+    AxisOrders& orders = orders_.of(n);
     const Axis& a = axis(n);
     Motion m;
     m.task = task;
     m.target = relative ? a.shaft().position(now) + value : value;
     const double own = static_cast<double>(
         a.parameters()[task == Task::manual && !setup_.axis.manual_at_traverse ? ap::manual_speed : ap::traverse_speed]);
-    m.speed = task == Task::manual && !setup_.axis.manual_at_traverse ? own : overrides_[i].speed.value_or(own);
-    m.acceleration = overrides_[i].acceleration.value_or(static_cast<double>(a.parameters()[ap::acceleration]));
-    m.limits_monitored = limits_monitored_[i];
-    const std::uint16_t q = start_with(n, m, next_condition_[i], now);
-    if (q == 0) next_condition_[i].reset();  // for one move only
+    m.speed = task == Task::manual && !setup_.axis.manual_at_traverse ? own : orders.overrides.speed.value_or(own);
+    m.acceleration = orders.overrides.acceleration.value_or(static_cast<double>(a.parameters()[ap::acceleration]));
+    m.limits_monitored = orders.limits_monitored;
+    const std::uint16_t q = start_with(n, m, orders.next, now);
+    if (q == 0) orders.next.reset();  // for one move only
     return q;
 }
 
 std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
     advance(now);
     if (!settings_.has_axis(n)) return quit::no_axis;
-    const auto i = static_cast<std::size_t>(n - 1);
     Axis& a = axis(n);
     const auto place = [&](bool g26) {
         if (a.running()) return quit::moves;
@@ -106,7 +105,7 @@ std::uint16_t Control::start_task(int n, const AxisTask& task, Instant now) {
     if (task.acceleration_permille == 0 || task.acceleration_permille > 65535 || task.speed_permille == 0 || task.speed_permille > 1000)
         return quit::value;
     const bool conditional = task.kind == AxisTask::Kind::absolute || task.kind == AxisTask::Kind::relative;
-    if (task.while_input && conditional) condition = Condition{*task.while_input, 1, condition_input_[i]};
+    if (task.while_input && conditional) condition = Condition{*task.while_input, 1, orders_.of(n).condition_input};
     return start_with(n, m, condition, now);
 }
 
@@ -145,18 +144,12 @@ void Control::change_axis_speed(int n, std::uint32_t permille, Instant now) {
     settle(now);
 }
 
-void Control::set_condition(int n, const Condition& c) {
-    const auto i = static_cast<std::size_t>(n - 1);
-    next_condition_[i] = c;
-    if (c.type == 1) condition_input_[i] = c.number;
-}
-
 void Control::check_conditions(Instant now) {
     for (int n = 1; n <= axes(); ++n) {
-        const auto i = static_cast<std::size_t>(n - 1);
+        std::optional<Condition>& c = orders_.of(n).running;
         if (!axis(n).running()) {
-            if (!axis(n).traverse().busy()) condition_[i].reset();
-        } else if (condition_[i] && !fulfilled(*condition_[i])) {
+            if (!axis(n).traverse().busy()) c.reset();
+        } else if (c && !fulfilled(*c)) {
             axis(n).traverse().finish_by_condition(now);
         }
     }

@@ -20,12 +20,7 @@ void Control::power_on(const Memory& memory, Instant now) {
     signals_.forget();
     settings_.forget();
     axes_.forget();
-    const auto n = static_cast<std::size_t>(axes());
-    overrides_.assign(n, {});
-    next_condition_.assign(n, {});
-    condition_.assign(n, {});
-    condition_input_.assign(n, 1);
-    limits_monitored_.assign(n, true);
+    orders_.forget();
     program_ = 0;
     for (const auto& [name, value] : memory) {
         if (name == "program") {

@@ -110,7 +110,7 @@ TEST(PacontrolImage, AStartBitHeldStartsOnceAndErrorsAreShown) {
     EXPECT_EQ(r.command(0x0A81, 0) & 0x4000u, 0u);
     r.run(200ms);
     EXPECT_EQ(r.control.status(), 1) << "the bit still stands: no new edge";
-    r.control.raise(150, r.now);
+    r.control.operation().raise(150, r.now);
     r.cycle();
     EXPECT_EQ(r.get(4, 2), 0x8009u) << "FE and status 9";
     EXPECT_EQ(r.get(8, 2) & 4u, 4u);
@@ -119,7 +119,7 @@ TEST(PacontrolImage, AStartBitHeldStartsOnceAndErrorsAreShown) {
     r.ctrl(0x0006);
     r.cycle();
     EXPECT_EQ(r.get(12, 2), 0u) << "reset at its falling edge";
-    r.control.raise(150, r.now);
+    r.control.operation().raise(150, r.now);
     r.run(50ms);
     EXPECT_EQ(r.control.error(), 150) << "a level does not reset again";
 }
@@ -331,7 +331,7 @@ TEST(PacontrolImage, InterbusZerosAreAnEmergencyStopOnceCommandsHaveCome) {  // 
     ImageShape s;
     s.interbus = true;
     Rig r(s);
-    EXPECT_EQ(r.control.start_online(r.now), 0);
+    EXPECT_EQ(r.control.operation().start_online(r.now), 0);
     r.run(100ms);
     ASSERT_EQ(r.control.status(), 31);
     r.run(200ms);

@@ -21,10 +21,10 @@ int axis_of(const Call& c) { return static_cast<int>(c.parameter); }
 // --- operating mode [L1975-2060] ---
 
 CommandReply mode_reply(Control& k, std::uint16_t q, Instant now) { return q != 0 ? refuse(q) : k.begin_pending(Kind::mode, 0, now); }
-CommandReply stop(Control& k, const Call& c) { return mode_reply(k, k.stop(c.now), c.now); }
-CommandReply start_auto(Control& k, const Call& c) { return mode_reply(k, k.start_automatic(c.now), c.now); }
-CommandReply start_online(Control& k, const Call& c) { return mode_reply(k, k.start_online(c.now), c.now); }
-CommandReply cancel(Control& k, const Call& c) { return mode_reply(k, k.cancel(c.now), c.now); }
+CommandReply stop(Control& k, const Call& c) { return mode_reply(k, k.operation().stop(c.now), c.now); }
+CommandReply start_auto(Control& k, const Call& c) { return mode_reply(k, k.operation().start_automatic(c.now), c.now); }
+CommandReply start_online(Control& k, const Call& c) { return mode_reply(k, k.operation().start_online(c.now), c.now); }
+CommandReply cancel(Control& k, const Call& c) { return mode_reply(k, k.operation().cancel(c.now), c.now); }
 
 // --- parameters [L2061-2345] ---
 
@@ -153,7 +153,7 @@ CommandReply get_r(Control& k, const Call& c) {
 }
 
 CommandReply reset_error(Control& k, const Call& c) {
-    const std::uint16_t q = k.reset_error(c.now);
+    const std::uint16_t q = k.operation().reset_error(c.now);
     CommandReply r = say(q == quit::not_executable ? k.error() : 0);  // what could not be reset is named [L2780]
     r.quit = q;
     return r;
@@ -258,7 +258,7 @@ CommandReply no_reference(Control& k, const Call& c) {
 
 CommandReply reference(Control& k, const Call& c) {
     if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
-    const std::uint16_t q = k.start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
+    const std::uint16_t q = k.motions().start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
     return q != 0 ? refuse(q) : k.begin_pending(Kind::reference, axis_of(c), c.now);
 }
 
@@ -285,7 +285,7 @@ CommandReply move(Control& k, const Call& c) {
     const bool relative = c.code == 0x0A89 || c.code == 0x0A91 || c.code == 0x0A95;
     const bool manual = c.code == 0x0A90 || c.code == 0x0A91;
     const double from = k.axis(n).shaft().position(c.now);
-    const std::uint16_t q = k.start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
+    const std::uint16_t q = k.motions().start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
     return k.begin_pending(Kind::move, n, c.now);

@@ -42,7 +42,7 @@ std::vector<HandItem> Device::hand() const {
                      "PA-CONTROL error number 1..999: 1..99 CPU, 100..499 hardware, 500..999 online/automatic; 0 takes it away"});
     items.push_back({"panel", std::string(name_of(control_.status())), true,
                      "the operator switches the mode at the control: home, manual, winpac, automatic"});
-    items.push_back({"program", control_.program(), true, "name of the START program of AUTOMATIC"});
+    items.push_back({"program", control_.programs().chosen().name, true, "name of the START program of AUTOMATIC"});
     for (int n = 1; n <= control_.axes(); ++n) {
         const Axis& a = control_.axis(n);
         const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
@@ -128,7 +128,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         return {};
     }
     if (name == "program") {
-        if (!text || !control_.select_program(*text))
+        if (!text || !control_.programs().choose(*text))
             return "program: there is no program '" + to_text(value) + "'; see the option programs";
         return {};
     }
@@ -136,17 +136,17 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     if (needs_power && !powered_) return name + ": the control has no power";
     if (name == "emergency_stop") {
         if (!flag) return want_flag;
-        if (*flag) control_.emergency_stop(now);
+        if (*flag) control_.operation().emergency_stop(now);
         return {};
     }
     if (name == "inject_error") {
         if (!number || *number < 0 || *number > 999) return "inject_error: " + to_text(value) + " is not a PA-CONTROL error number 0..999";
-        control_.raise(static_cast<std::uint16_t>(*number), now);
+        control_.operation().raise(static_cast<std::uint16_t>(*number), now);
         return {};
     }
     if (name == "panel") {
         if (!text) return "panel: " + to_text(value) + " is none of home, manual, winpac, automatic";
-        return control_.panel(*text, now);
+        return control_.operation().panel(*text, now);
     }
     if (name.starts_with("axis")) {
         const auto dot = name.find('.');
@@ -208,9 +208,9 @@ std::string Device::set_axis_condition(int n, const std::string& name, const Val
         } else if (!powered_) {
             return name + ": the control has no power";
         } else if (name == "jog") {
-            control_.jog(n, static_cast<int>(*number), now);
+            control_.motions().jog(n, static_cast<int>(*number), now);
         } else {
-            control_.raise_axis(n, static_cast<std::uint16_t>(*number), now);
+            control_.operation().raise_axis(n, static_cast<std::uint16_t>(*number), now);
         }
         return {};
     }

@@ -10,7 +10,7 @@
 namespace axisgate::pacontrol::twin {
 namespace {
 
-using Kind = Control::Pending::Kind;
+using Awaits = CommandInProgress::Awaits;
 
 CommandReply refuse(std::uint16_t q) { return {q, true, {}, never}; }
 CommandReply say(double v) { return {0, true, Datum::integer(v), never}; }
@@ -20,7 +20,7 @@ int axis_of(const Call& c) { return static_cast<int>(c.parameter); }
 
 // --- operating mode [L1975-2060] ---
 
-CommandReply mode_reply(Control& k, std::uint16_t q, Instant now) { return q != 0 ? refuse(q) : k.begin_pending(Kind::mode, 0, now); }
+CommandReply mode_reply(Control& k, std::uint16_t q, Instant now) { return q != 0 ? refuse(q) : k.begin({Awaits::mode, 0}, now); }
 CommandReply stop(Control& k, const Call& c) { return mode_reply(k, k.operation().stop(c.now), c.now); }
 CommandReply start_auto(Control& k, const Call& c) { return mode_reply(k, k.operation().start_automatic(c.now), c.now); }
 CommandReply start_online(Control& k, const Call& c) { return mode_reply(k, k.operation().start_online(c.now), c.now); }
@@ -259,7 +259,7 @@ CommandReply no_reference(Control& k, const Call& c) {
 CommandReply reference(Control& k, const Call& c) {
     if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     const std::uint16_t q = k.motions().start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
-    return q != 0 ? refuse(q) : k.begin_pending(Kind::reference, axis_of(c), c.now);
+    return q != 0 ? refuse(q) : k.begin({Awaits::reference, axis_of(c)}, c.now);
 }
 
 /// 0A85 (G26 with 0), 0A86 (G29), 0A96 (G26 with a value). 0A85 sets the reference flag as G26 does (E-34).
@@ -288,7 +288,7 @@ CommandReply move(Control& k, const Call& c) {
     const std::uint16_t q = k.motions().start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
-    return k.begin_pending(Kind::move, n, c.now);
+    return k.begin({Awaits::move, n}, c.now);
 }
 
 CommandReply set_speed(Control& k, const Call& c) {
@@ -326,7 +326,7 @@ CommandReply abort_move(Control& k, const Call& c) {
     if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     k.axis(axis_of(c)).traverse().finish(c.now);
     k.settle(c.now);
-    if (c.code == 0x0A93) return k.begin_pending(Kind::halt, axis_of(c), c.now);
+    if (c.code == 0x0A93) return k.begin({Awaits::halt, axis_of(c)}, c.now);
     return say_real(k.axis(axis_of(c)).shaft().position(c.now));
 }
 

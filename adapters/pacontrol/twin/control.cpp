@@ -1,10 +1,11 @@
-// The control: commands in progress, mode control, time.
-// In: commands, conditions, time. Out: replies, states. Never lets an event wait for a call: each happens at its own instant.
+// The control: what a command, an element and the supply cause in its parts. In: commands, values, memory. Out: replies, memory.
+// Never decides what a part can decide by itself.
 #include "adapters/pacontrol/twin/control.hpp"
 
 #include "adapters/pacontrol/twin/commands.hpp"
 
 namespace axisgate::pacontrol::twin {
+
 Control::Control(const ControlSetup& setup)
     : setup_(setup),
       axes_(setup.axes, setup.axis, setup.rotary, setup.profile.usual_axis(setup.absolute)),
@@ -15,7 +16,8 @@ Control::Control(const ControlSetup& setup)
       orders_(axes()),
       programs_(setup.programs),
       operation_({setup.times, setup.lasting, setup.axis_modules}, {axes_, orders_, programs_, error_, settings_, signals_}),
-      motions_(setup.axis, {axes_, orders_, operation_, settings_, signals_}) {}
+      motions_(setup.axis, {axes_, orders_, operation_, settings_, signals_}),
+      in_progress_(axes_, operation_) {}
 
 void Control::fit_axes(int n, Instant now) {
     advance(now);
@@ -23,11 +25,7 @@ void Control::fit_axes(int n, Instant now) {
     orders_.fit(axes());
 }
 
-// --- the command in progress ---
-
-void Control::note_frame_error(std::uint16_t q) noexcept {
-    if (pending_.kind == Pending::Kind::none) last_ = {q, true, {}, never};
-}
+// --- commands ---
 
 CommandReply Control::execute(std::uint16_t code, std::int64_t parameter, const Datum& data, Instant now) {
     advance(now);
@@ -39,62 +37,29 @@ CommandReply Control::execute(std::uint16_t code, std::int64_t parameter, const 
         reply.quit = 0x13;
     } else if ((row->gate & column_of(status())) == 0 || (row->blocked_by_modules && setup_.axis_modules)) {
         reply.quit = quit::inadmissible;
-    } else if ((void)pending_reply(now), pending_.exclusive() && code != 0x0600 && code != 0x0603 && code != 0x0A81 && code != 0x0A93) {
+    } else if ((void)in_progress_.reply(now),
+               in_progress_.exclusive() && code != 0x0600 && code != 0x0603 && code != 0x0A81 && code != 0x0A93) {
         reply.quit = quit::inadmissible;  // the move goes on (E-69)
     } else {
-        const Pending before = pending_;
-        pending_ = {};
+        const auto before = in_progress_.set_aside();
         reply = row->run(*this, Call{code, parameter, data, now});
         // One of those that pass, but refused: what runs keeps its end of processing.
-        if (reply.quit != 0 && before.exclusive()) pending_ = before;
+        if (reply.quit != 0) in_progress_.take_up(before);
         refused = reply.quit != 0;
     }
     if (refused) reply.done = true;
-    if (pending_.kind == Pending::Kind::none) last_ = reply;
+    in_progress_.note(reply);
     return reply;
 }
 
-CommandReply Control::begin_pending(Pending::Kind kind, int n, Instant now) {
-    pending_ = {kind, n};
+CommandReply Control::begin(const CommandInProgress::Job& job, Instant now) {
     settle(now);
-    CommandReply r = pending_reply(now);
-    if ((kind == Pending::Kind::move || kind == Pending::Kind::reference) && r.done && r.quit == 0 && axis(n).running()) r.done = false;
-    return r;
-}
-
-CommandReply Control::pending_reply(Instant now) {
-    CommandReply r;
-    switch (pending_.kind) {
-        case Pending::Kind::none:
-            return last_;
-        case Pending::Kind::move:
-        case Pending::Kind::reference:
-        case Pending::Kind::halt: {
-            const Axis& a = axis(pending_.axis);
-            r.data = pending_.kind == Pending::Kind::reference ? Datum{} : Datum::number(a.shaft().position(now));
-            r.done = pending_.kind == Pending::Kind::halt ? !a.running() : !a.traverse().busy();
-            if (r.done && pending_.kind != Pending::Kind::halt) r.quit = a.traverse().ended_with();
-            break;
-        }
-        case Pending::Kind::mode: {
-            const std::uint8_t s = operation_.mode().status();
-            const bool under_way = s == status::auto_started || s == status::auto_after_stop || s == status::online_started ||
-                                   s == status::auto_stop || s == status::auto_stop_program || s == status::online_stop;
-            r.done = !under_way && !operation_.mode().leaving();
-            if (!r.done) r.expected = operation_.mode().deadline();
-            break;
-        }
-    }
-    if (r.done) {
-        pending_ = {};
-        last_ = r;
-    }
-    return r;
+    return in_progress_.begin(job, now);
 }
 
 CommandReply Control::progress(Instant now) {
     advance(now);
-    return pending_reply(now);
+    return in_progress_.reply(now);
 }
 
 // --- elements ---
@@ -160,8 +125,7 @@ void Control::power_on(const Memory& memory, Instant now) {
     operation_.reset();
     error_.clear();
     if (setup_.profibus_switches == 1) error_.note(error::rotary_switches);
-    pending_ = {};
-    last_ = {};
+    in_progress_.forget();
     ++power_ons_;
     if (settings_.system()[sp::autostart] != 0) (void)operation_.start_automatic(now);
 }

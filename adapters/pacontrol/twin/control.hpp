@@ -1,29 +1,19 @@
-// The control as a whole, whatever bus it hangs on: operating mode, axes, elements, parameters, system errors, the command in progress.
+// The control as a whole, whatever bus it hangs on: puts its parts together, takes commands and elements, and has their memory.
 // In: commands (commands.hpp), control bits, axis tasks, outside conditions, time. Out: replies, states, its memory.
 // Never knows bytes, frames or process images: the serial slave and the Profibus image both stand on this.
 // Every call first lets time pass up to its `now`; events that were due happen at their own instants.
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "adapters/pacontrol/twin/command_in_progress.hpp"
 #include "adapters/pacontrol/twin/motions.hpp"
 #include "adapters/pacontrol/twin/system_views.hpp"
 
 namespace axisgate::pacontrol::twin {
-
-/// Acknowledgement of a command without its transport: QUIT / KF, BE / BF, data.
-struct CommandReply {
-    std::uint16_t quit = 0;
-    bool done = true;
-    Datum data;
-    /// Not done: when it is expected to be, if it is a matter of the mode machine's own times; `never` otherwise.
-    Instant expected = never;
-};
 
 struct ControlSetup {
     int axes = 1;  ///< built, 1..16
@@ -52,7 +42,9 @@ public:
     /// The acknowledgement of the last command as it is now: live position while it runs; the last one repeated after that (E-16).
     CommandReply progress(Instant now);
     /// A frame error that a transport found takes the place of the last acknowledgement, unless a command is in progress.
-    void note_frame_error(std::uint16_t quit) noexcept;
+    void note_frame_error(std::uint16_t quit) noexcept { in_progress_.note({quit, true, {}, never}); }
+    /// For a command that is not done at once: settles what it has begun, and its acknowledgement.
+    CommandReply begin(const CommandInProgress::Job& job, Instant now);
 
     // --- state ---
     void advance(Instant now) { operation_.advance(now); }
@@ -83,16 +75,6 @@ public:
     void set_n(std::int64_t n, std::int32_t v) noexcept { signals_.set_n(n, v); }
     void set_r(std::int64_t n, float v) noexcept { signals_.set_r(n, v); }
 
-    // --- the command in progress ---
-    struct Pending {
-        enum class Kind : std::uint8_t { none, move, reference, halt, mode };
-        Kind kind = Kind::none;
-        int axis = 0;
-        /// While it runs nothing but polls, 0600, 0603, 0A81 and 0A93 is taken (E-69).
-        [[nodiscard]] bool exclusive() const noexcept { return kind == Kind::move || kind == Kind::reference; }
-    };
-    CommandReply begin_pending(Pending::Kind kind, int axis, Instant now);
-
     // --- outside conditions (the tester's hand) ---
     void set_input(std::int64_t n, bool on, Instant now);
     void set_external_stop(bool powered, Instant now);
@@ -106,8 +88,6 @@ public:
     }
 
 private:
-    [[nodiscard]] CommandReply pending_reply(Instant now);
-
     ControlSetup setup_;
     SystemError error_;
     Axes axes_;
@@ -118,8 +98,7 @@ private:
     Programs programs_;
     Operation operation_;
     Motions motions_;
-    Pending pending_;
-    CommandReply last_;
+    CommandInProgress in_progress_;
     std::uint64_t power_ons_ = 0;  ///< each of them is told as a change of the memory
 };
 

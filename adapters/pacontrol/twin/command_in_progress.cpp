@@ -5,9 +5,7 @@ namespace axisgate::pacontrol::twin {
 
 CommandReply CommandInProgress::begin(const Job& job, Instant now) {
     job_ = job;
-    CommandReply r = reply(now);
-    if (exclusive(job) && r.done && r.quit == 0 && axes_.at(job.axis).running()) r.done = false;
-    return r;
+    return reply(now);
 }
 
 CommandReply CommandInProgress::reply(Instant now) {

@@ -28,7 +28,7 @@ public:
 
     /// While it runs nothing but polls, 0600, 0603, 0A81 and 0A93 is taken (E-69).
     [[nodiscard]] bool exclusive() const noexcept { return exclusive(job_); }
-    /// From now on this one is it. Its acknowledgement at once; one that has begun to move has not ended, however short its way.
+    /// From now on this one is it; its acknowledgement at once.
     CommandReply begin(const Job& job, Instant now);
     /// The acknowledgement as it is now: live position while it runs, after that the last one.
     CommandReply reply(Instant now);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace axisgate::pacontrol {
 namespace {
 
@@ -97,6 +100,112 @@ TEST(PacontrolDecoder, WhatIsNoFrameIsUnknown) {
         n += decode(d, {'x'}, true).size();
     EXPECT_GE(n, 15u) << "strange bytes are written out, not gathered";
     EXPECT_LE(d.finish().size(), 1u);
+}
+
+struct Byte {
+    std::uint8_t byte;
+    bool to_drive;
+};
+
+/// Two requests with their acknowledgements, and a poll between them.
+std::vector<Byte> recording() {
+    std::vector<Byte> all;
+    const auto add = [&](const std::vector<std::uint8_t>& bytes, bool to_drive) {
+        for (const auto b : bytes)
+            all.push_back({b, to_drive});
+    };
+    add(framed("190C;1;0;0", CheckForm::text), true);
+    add(framed("0;0;31;0;1;1255.000", CheckForm::with_etx), false);
+    add({EOT}, true);
+    add(framed("0;1;31;0;1;1255.000", CheckForm::with_etx), false);
+    add(framed("1900;5;0;0", CheckForm::text), true);
+    add(framed("0;1;31;0;0;1", CheckForm::with_etx), false);
+    return all;
+}
+
+std::vector<std::string> decoded(std::span<const Byte> bytes) {
+    LineDecoder d;
+    std::vector<std::string> lines;
+    for (const Byte& b : bytes)
+        std::ranges::move(decode(d, {b.byte}, b.to_drive), std::back_inserter(lines));
+    std::ranges::move(d.finish(), std::back_inserter(lines));
+    return lines;
+}
+
+bool any_holds(const std::vector<std::string>& lines, std::string_view text) {
+    return std::ranges::any_of(lines, [&](const std::string& l) { return l.find(text) != std::string::npos; });
+}
+
+// A bounded recording gives the last runs: it begins, and ends, anywhere in a frame.
+TEST(PacontrolDecoder, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
+    const auto all = recording();
+    const auto whole = decoded(all);
+    ASSERT_EQ(whole.size(), 6u);
+    for (std::size_t first = 0; first < all.size(); ++first) {
+        for (std::size_t last = first + 1; last <= all.size(); ++last) {
+            const auto lines = decoded(std::span(all).subspan(first, last - first));
+            ASSERT_FALSE(any_holds(lines, "unknown")) << first << ".." << last << " " << testing::PrintToString(lines);
+        }
+        // Where the first byte opens a frame nothing is told of one before it; elsewhere one line is, and the frames that are whole follow.
+        auto lines = decoded(std::span(all).subspan(first));
+        const auto down =
+            std::find_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), [](const Byte& b) { return b.to_drive; });
+        const std::string either = ", or the end of a frame that began before the recording";
+        const bool poll_first = down != all.end() && down->byte == EOT;
+        EXPECT_EQ(any_holds(lines, either), poll_first) << first << ": the first byte to the control is an EOT";
+        for (std::string& l : lines)
+            l = l.substr(0, l.find(either));
+        const bool eot_down = all[first].byte == EOT && all[first].to_drive;
+        const bool is_poll = eot_down && first > 0 && !all[first - 1].to_drive;
+        const std::size_t cut = all[first].byte == SOH || is_poll ? 0 : 1;
+        EXPECT_EQ(any_holds(lines, "the end of a frame that began before the recording"), cut == 1 && !eot_down) << first;
+        const auto following = std::span(lines).subspan(cut);
+        ASSERT_LE(following.size(), whole.size());
+        EXPECT_TRUE(std::ranges::equal(following, std::span(whole).last(following.size()))) << first << testing::PrintToString(lines);
+    }
+}
+
+TEST(PacontrolDecoder, TheEdgesOfARecordingAreNamed) {
+    const auto all = recording();
+    const auto first_line = [&](std::size_t from) { return decoded(std::span(all).subspan(from)).front(); };
+    EXPECT_EQ(first_line(4), "0C;1;0;0 ETX 113 EOT  to the control  the end of a frame that began before the recording");
+    const std::size_t reply = framed("190C;1;0;0", CheckForm::text).size();
+    EXPECT_EQ(first_line(reply + 1).substr(0, 9), "STX 0;0;3");
+    const std::size_t poll = reply + framed("0;0;31;0;1;1255.000", CheckForm::with_etx).size();
+    EXPECT_EQ(first_line(poll - 1), "EOT  from the control  the end of a frame that began before the recording");
+    EXPECT_EQ(first_line(poll),
+              "EOT  to the control  poll: asks for another acknowledgement, or the end of a frame that began before the recording");
+    EXPECT_EQ(decoded(std::span(all).first(5)).front(), "SOH STX 190  to the control  a frame that had not ended when the recording did");
+    EXPECT_EQ(decoded(std::span(all).subspan(3, 4)).front(),
+              "90C;  to the control  bytes of a frame that began before the recording and ended after it");
+}
+
+TEST(PacontrolDecoder, OnlyTheFirstBytesOfADirectionCanBeTheEndOfAFrame) {
+    const auto strange = [](const std::vector<std::uint8_t>& bytes, bool to_drive) {
+        LineDecoder d;
+        auto lines = decode(d, bytes, to_drive);
+        std::ranges::move(d.finish(), std::back_inserter(lines));
+        return any_holds(lines, "unknown");
+    };
+    EXPECT_TRUE(strange({'a', 'b', EOT}, false)) << "no check digits";
+    EXPECT_TRUE(strange({ETX, EOT}, false));
+    EXPECT_TRUE(strange({'1', ETX, '1', '2', '3', '4', EOT}, false)) << "four of them";
+    EXPECT_TRUE(strange({'1', ETX, '1', '2', 'a', EOT}, false));
+    EXPECT_TRUE(strange({0x07, ETX, '1', '2', EOT}, false)) << "a control symbol";
+    EXPECT_TRUE(strange({'1', STX, ETX, '1', EOT}, false));
+    EXPECT_TRUE(strange({'1', '2', SOH}, false)) << "SOH came before EOT";
+    EXPECT_TRUE(strange({EOT, EOT}, false)) << "the second one is no end";
+    EXPECT_TRUE(strange({'1', '2', EOT, '1', '2', EOT}, true));
+    std::vector<std::uint8_t> longest{STX};
+    longest.insert(longest.end(), Framer::text_limit, 'x');
+    longest.insert(longest.end(), {ETX, '1', '2', '3', EOT});
+    EXPECT_FALSE(strange(longest, false));
+    longest.insert(longest.begin() + 1, 'x');
+    EXPECT_TRUE(strange(longest, false)) << "no text is so long";
+    auto frame = framed("0;1;31;0;0;1", CheckForm::with_etx);
+    EXPECT_FALSE(strange(frame, false));
+    frame.insert(frame.end(), {'5', '7', EOT});
+    EXPECT_TRUE(strange(frame, false)) << "after a frame they are strange";
 }
 
 }  // namespace

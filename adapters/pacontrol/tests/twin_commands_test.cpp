@@ -110,7 +110,7 @@ TEST(TwinCommands, SystemParameters) {
     ControlSetup s;
     s.profibus_switches = true;
     Control c(s);
-    EXPECT_EQ(c.set_system_parameter(0x11, Datum::integer(5)), 57);
+    EXPECT_EQ(c.settings().set_system(0x11, Datum::integer(5)), 57);
 }
 
 // T-13: all axis parameters are reals, addressed by one number.

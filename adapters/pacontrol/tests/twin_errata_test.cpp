@@ -41,7 +41,7 @@ TEST(TwinErrata, E08_TheWordOfTheSystemErrorCanBeChosen) {
         ImageShape s = with_modules(0);
         s.error_word = w;
         Rig r(s);
-        r.control.raise(150, r.now);
+        r.control.operation().raise(150, r.now);
         r.cycle();
         for (std::size_t k = 1; k <= 3; ++k)
             EXPECT_EQ(r.get(8 + 2 * k, 2), k == w ? 150u : 0u) << w << " " << k;
@@ -227,7 +227,7 @@ TEST(TwinErrata, E52_E53_SixteenAxesInTheLowSixteenBits) {
 TEST(TwinErrata, E57_FeStandsAsLongAsAnErrorExists) {
     Rig r;
     EXPECT_EQ(r.get(4, 2) & 0x8000u, 0u);
-    r.control.raise(150, r.now);
+    r.control.operation().raise(150, r.now);
     r.run(1s);
     EXPECT_EQ(r.get(4, 2) & 0x8000u, 0x8000u);
     r.command(0x0909, 0);

@@ -198,7 +198,7 @@ TEST(TwinHand, OptionsThatCannotBeReadAreLeft) {
                        {"switch_on_mode", "9"},
                        {"lasting_errors", "300,x,99999"}}));
     EXPECT_EQ(b.control().axes(), 16);
-    EXPECT_EQ(b.control().program(), "START");
+    EXPECT_EQ(b.control().programs().chosen().name, "START");
     EXPECT_EQ(b.quit("1900;1;0;0"), 0);
     b.hand("inject_error", std::int64_t{300});
     EXPECT_EQ(b.quit("0909;0;0;0"), 21);

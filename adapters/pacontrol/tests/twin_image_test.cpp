@@ -39,7 +39,7 @@ TEST(PacontrolImage, TheWorkedExchangeByteForByte) {
         r.cycle();
         EXPECT_EQ(r.out, out);
     }
-    EXPECT_EQ(r.control.elements().n.get(3), 333);
+    EXPECT_EQ(r.control.signals().elements().n.get(3), 333);
 }
 
 TEST(PacontrolImage, OnlyTheToggleIsACommand) {  // T-08
@@ -47,12 +47,12 @@ TEST(PacontrolImage, OnlyTheToggleIsACommand) {  // T-08
     EXPECT_EQ(r.command(0x0906, 7, 11), 0x2000u);
     r.put(0, 99, 4);
     r.run(50ms);
-    EXPECT_EQ(r.control.elements().n.get(7), 11) << "data without a toggle";
+    EXPECT_EQ(r.control.signals().elements().n.get(7), 11) << "data without a toggle";
     r.put(4, 8, 2);
     r.run(50ms);
-    EXPECT_EQ(r.control.elements().n.get(8), 0) << "another parameter without a toggle";
+    EXPECT_EQ(r.control.signals().elements().n.get(8), 0) << "another parameter without a toggle";
     EXPECT_EQ(r.command(0x0906, 8, 99), 0x2000u);
-    EXPECT_EQ(r.control.elements().n.get(8), 99) << "the falling edge is one too";
+    EXPECT_EQ(r.control.signals().elements().n.get(8), 99) << "the falling edge is one too";
     EXPECT_EQ(r.command(0x0A99, 1), 0x4013u) << "KF, the number, and no BF";
     EXPECT_EQ(r.command(0x0700, 0x7F, 1), 0x4022u);
 }
@@ -62,7 +62,7 @@ TEST(PacontrolImage, WordCommandsTakeAnElement) {  // T-09, T-10
     EXPECT_EQ(r.command(0x0905, 17, 0x45F2), 0x2000u);
     EXPECT_EQ(r.get(0, 4), 0x45F2u);
     for (int n = 17; n <= 32; ++n)
-        EXPECT_EQ(r.control.elements().flags.get(n), n == 18 || (n >= 21 && n <= 25) || n == 27 || n == 31) << n;
+        EXPECT_EQ(r.control.signals().elements().flags.get(n), n == 18 || (n >= 21 && n <= 25) || n == 27 || n == 31) << n;
     r.command(0x0905, 32, 0);
     r.command(0x1905, 17);
     EXPECT_EQ(r.get(0, 4), 0u) << "replaced, not added";
@@ -110,7 +110,7 @@ TEST(PacontrolImage, AStartBitHeldStartsOnceAndErrorsAreShown) {
     EXPECT_EQ(r.command(0x0A81, 0) & 0x4000u, 0u);
     r.run(200ms);
     EXPECT_EQ(r.control.status(), 1) << "the bit still stands: no new edge";
-    r.control.raise(150, r.now);
+    r.control.operation().raise(150, r.now);
     r.cycle();
     EXPECT_EQ(r.get(4, 2), 0x8009u) << "FE and status 9";
     EXPECT_EQ(r.get(8, 2) & 4u, 4u);
@@ -119,7 +119,7 @@ TEST(PacontrolImage, AStartBitHeldStartsOnceAndErrorsAreShown) {
     r.ctrl(0x0006);
     r.cycle();
     EXPECT_EQ(r.get(12, 2), 0u) << "reset at its falling edge";
-    r.control.raise(150, r.now);
+    r.control.operation().raise(150, r.now);
     r.run(50ms);
     EXPECT_EQ(r.control.error(), 150) << "a level does not reset again";
 }
@@ -289,13 +289,13 @@ TEST(PacontrolImage, OverridesAndMonitoringEndWithOnline) {  // T-20
     r.online();
     EXPECT_EQ(r.command(0x0A8D, 1, std::bit_cast<std::uint32_t>(5.0F)), 0x2000u);
     EXPECT_EQ(r.command(0x0AA2, 1, 0) & 0x4000u, 0u);
-    ASSERT_TRUE(r.control.overrides(1).speed.has_value());
-    EXPECT_FALSE(r.control.limits_monitored(1));
+    ASSERT_TRUE(r.control.orders().of(1).overrides.speed.has_value());
+    EXPECT_FALSE(r.control.orders().of(1).limits_monitored);
     r.command(0x0A81, 0);
     r.run(100ms);
     r.online();
-    EXPECT_FALSE(r.control.overrides(1).speed.has_value());
-    EXPECT_TRUE(r.control.limits_monitored(1));
+    EXPECT_FALSE(r.control.orders().of(1).overrides.speed.has_value());
+    EXPECT_TRUE(r.control.orders().of(1).limits_monitored);
 }
 
 TEST(PacontrolImage, InAutomaticTheModulesOverwriteTheirElements) {  // T-21
@@ -308,22 +308,22 @@ TEST(PacontrolImage, InAutomaticTheModulesOverwriteTheirElements) {  // T-21
         r.put(wide ? at + 4 : at + 6, wide ? 0xFFFFFFFEu : 0xFFFEu, wide ? 4 : 2);
         r.put_real(at + 8, 12.5F);
         r.run(20ms);
-        EXPECT_EQ(r.control.elements().n.get(2), 0) << "not in home position";
+        EXPECT_EQ(r.control.signals().elements().n.get(2), 0) << "not in home position";
         r.control.set_flag_word(16 * 18, 0x1234, r.now);
         r.control.set_n(18, -7);
         r.control.set_r(18, 3.5F);
         r.ctrl(0x000F);
         r.run(100ms);
         ASSERT_EQ(r.control.status(), 11);
-        EXPECT_EQ(r.control.elements().n.get(2), -2);
-        EXPECT_FLOAT_EQ(r.control.elements().r.get(2), 12.5F);
-        EXPECT_TRUE(r.control.elements().flags.get(17) && r.control.elements().flags.get(32));
+        EXPECT_EQ(r.control.signals().elements().n.get(2), -2);
+        EXPECT_FLOAT_EQ(r.control.signals().elements().r.get(2), 12.5F);
+        EXPECT_TRUE(r.control.signals().elements().flags.get(17) && r.control.signals().elements().flags.get(32));
         EXPECT_EQ(r.get(at + (wide ? 0 : 2), 2), 0x1234u);
         EXPECT_EQ(r.get(wide ? at + 4 : at + 6, wide ? 4 : 2), wide ? 0xFFFFFFF9u : 0xFFF9u);
         EXPECT_FLOAT_EQ(r.real(at + 8), 3.5F);
         EXPECT_EQ(r.command(0x0904, 18, 1), 0x2000u);
         r.cycle();
-        EXPECT_FALSE(r.control.elements().flags.get(18)) << "the next cycle overwrites it";
+        EXPECT_FALSE(r.control.signals().elements().flags.get(18)) << "the next cycle overwrites it";
     }
 }
 
@@ -331,7 +331,7 @@ TEST(PacontrolImage, InterbusZerosAreAnEmergencyStopOnceCommandsHaveCome) {  // 
     ImageShape s;
     s.interbus = true;
     Rig r(s);
-    EXPECT_EQ(r.control.start_online(r.now), 0);
+    EXPECT_EQ(r.control.operation().start_online(r.now), 0);
     r.run(100ms);
     ASSERT_EQ(r.control.status(), 31);
     r.run(200ms);

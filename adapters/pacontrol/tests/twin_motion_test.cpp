@@ -471,8 +471,8 @@ TEST(TwinMotion, AxisModules) {
     EXPECT_EQ(b.quit("0A97;1;0;0"), 20);
     AxisTask task;
     task.value = 1000;
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 0);
-    EXPECT_EQ(b.control().start_task(2, task, b.now), 0);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 0);
+    EXPECT_EQ(b.control().motions().start_task(2, task, b.now), 0);
     b.pass(500ms);
     b.hand("limit_positive", true);
     EXPECT_EQ(b.axis_status(1), 4);
@@ -481,8 +481,8 @@ TEST(TwinMotion, AxisModules) {
     EXPECT_EQ(b.value("1909;0;0;0"), 0);
     EXPECT_EQ(b.control().axis(1).state().fault, 529);
     b.hand("limit_positive", false);
-    b.control().reset_axis_error(1, b.now);
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 0);
+    b.control().operation().reset_axis_error(1, b.now);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 0);
 }
 
 // T-22: values of the module interface.
@@ -495,7 +495,7 @@ TEST(TwinMotion, ModuleSpeedsAndRamps) {
         task.value = 10;
         task.acceleration_permille = acceleration;
         task.speed_permille = speed;
-        return b.control().start_task(1, task, b.now);
+        return b.control().motions().start_task(1, task, b.now);
     };
     EXPECT_EQ(start(1000, 0), 41);
     EXPECT_EQ(start(1000, 1001), 41);
@@ -519,18 +519,18 @@ TEST(TwinMotion, FreeTraverseNeedsNoReference) {
     AxisTask task;
     task.kind = AxisTask::Kind::free_positive;
     task.value = 20'000;  // past the software limit
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 0);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 0);
     b.pass(500ms);
-    b.control().interrupt_axis(1, b.now);
+    b.control().motions().interrupt_axis(1, b.now);
     b.stand(1);
     task.kind = AxisTask::Kind::absolute;
     task.value = 10;
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 43);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 43);
     task.kind = AxisTask::Kind::free_positive;
     task.value = -5;
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 65) << "not in that direction";
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 65) << "not in that direction";
     task.kind = AxisTask::Kind::to_max;
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 43);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 43);
 }
 
 TEST(TwinMotion, DeleteG29) {
@@ -539,7 +539,7 @@ TEST(TwinMotion, DeleteG29) {
     b.good("0A86;1;1;100");
     AxisTask task;
     task.kind = AxisTask::Kind::delete_g29;
-    EXPECT_EQ(b.control().start_task(1, task, b.now), 0);
+    EXPECT_EQ(b.control().motions().start_task(1, task, b.now), 0);
     EXPECT_EQ(b.position(1), 0);
     EXPECT_EQ(b.quit("0A94;1;1;10050"), 65);
 }

@@ -10,7 +10,7 @@
 namespace axisgate::pacontrol::twin {
 namespace {
 
-using Kind = Control::Pending::Kind;
+using Awaits = CommandInProgress::Awaits;
 
 CommandReply refuse(std::uint16_t q) { return {q, true, {}, never}; }
 CommandReply say(double v) { return {0, true, Datum::integer(v), never}; }
@@ -20,36 +20,36 @@ int axis_of(const Call& c) { return static_cast<int>(c.parameter); }
 
 // --- operating mode [L1975-2060] ---
 
-CommandReply mode_reply(Control& k, std::uint16_t q, Instant now) { return q != 0 ? refuse(q) : k.begin_pending(Kind::mode, 0, now); }
-CommandReply stop(Control& k, const Call& c) { return mode_reply(k, k.stop(c.now), c.now); }
-CommandReply start_auto(Control& k, const Call& c) { return mode_reply(k, k.start_automatic(c.now), c.now); }
-CommandReply start_online(Control& k, const Call& c) { return mode_reply(k, k.start_online(c.now), c.now); }
-CommandReply cancel(Control& k, const Call& c) { return mode_reply(k, k.cancel(c.now), c.now); }
+CommandReply mode_reply(Control& k, std::uint16_t q, Instant now) { return q != 0 ? refuse(q) : k.begin({Awaits::mode, 0}, now); }
+CommandReply stop(Control& k, const Call& c) { return mode_reply(k, k.operation().stop(c.now), c.now); }
+CommandReply start_auto(Control& k, const Call& c) { return mode_reply(k, k.operation().start_automatic(c.now), c.now); }
+CommandReply start_online(Control& k, const Call& c) { return mode_reply(k, k.operation().start_online(c.now), c.now); }
+CommandReply cancel(Control& k, const Call& c) { return mode_reply(k, k.operation().cancel(c.now), c.now); }
 
 // --- parameters [L2061-2345] ---
 
 CommandReply set_system(Control& k, const Call& c) {
-    const std::uint16_t q = k.set_system_parameter(c.parameter, c.data);
+    const std::uint16_t q = k.settings().set_system(c.parameter, c.data);
     return q != 0 ? refuse(q) : say(std::round(c.data.value));
 }
 
 CommandReply get_system(Control& k, const Call& c) {
     if (c.parameter < 1 || c.parameter > static_cast<std::int64_t>(system_parameters)) return refuse(quit::no_system_parameter);
     const auto i = static_cast<std::size_t>(c.parameter);
-    const auto limits = k.system_limits(i);
-    return say(c.code == 0x1700 ? k.system()[i] : c.code == 0x1701 ? limits.largest : limits.least);
+    const auto limits = k.settings().system_limits(i);
+    return say(c.code == 0x1700 ? k.settings().system()[i] : c.code == 0x1701 ? limits.largest : limits.least);
 }
 
 CommandReply set_axis_parameter(Control& k, const Call& c) {
-    const std::uint16_t q = k.set_axis_parameter(c.parameter, c.data);
+    const std::uint16_t q = k.settings().set_axis(c.parameter, c.data);
     return q != 0 ? refuse(q) : say_real(static_cast<double>(single(c.data).value_or(0)));  // the example echoes (E-22)
 }
 
 CommandReply get_axis_parameter(Control& k, const Call& c) {
-    if (c.parameter < 0 || !k.has_axis(c.parameter >> 8)) return refuse(quit::no_axis);
+    if (c.parameter < 0 || !k.settings().has_axis(c.parameter >> 8)) return refuse(quit::no_axis);
     const auto number = static_cast<std::size_t>(c.parameter & 0xFF);
     if (number < 1 || number > axis_parameters) return refuse(quit::no_axis_parameter);
-    const auto& limits = k.axis_limits(number);
+    const auto& limits = k.settings().axis_limits(number);
     const float v = c.code == 0x1801   ? limits.largest
                     : c.code == 0x1802 ? limits.least
                                        : k.axis(static_cast<int>(c.parameter >> 8)).parameters()[number];
@@ -59,16 +59,16 @@ CommandReply get_axis_parameter(Control& k, const Call& c) {
 // --- elements [L2346-2770] ---
 
 CommandReply get_input(Control& k, const Call& c) {
-    if (!k.elements().inputs.has(c.parameter)) return refuse(quit::no_input);
-    return say(k.input(c.parameter) ? 1 : 0);
+    if (!k.signals().elements().inputs.has(c.parameter)) return refuse(quit::no_input);
+    return say(k.signals().input(c.parameter) ? 1 : 0);
 }
 
 CommandReply get_input_word(Control& k, const Call& c) {
-    if (!k.elements().inputs.has(c.parameter)) return refuse(quit::no_input);
+    if (!k.signals().elements().inputs.has(c.parameter)) return refuse(quit::no_input);
     int w = 0;
     const std::int64_t first = (c.parameter - 1) / 16 * 16 + 1;  // any input inside the word names it [L2430]
     for (int b = 0; b < 16; ++b)
-        w |= (k.input(first + b) ? 1 : 0) << b;
+        w |= (k.signals().input(first + b) ? 1 : 0) << b;
     return say(w);
 }
 
@@ -76,71 +76,71 @@ bool is_bit(const Datum& d) { return d.value == 0 || d.value == 1; }
 bool is_word(const Datum& d) { return d.value >= 0 && d.value <= 65535; }
 
 CommandReply put_output(Control& k, const Call& c) {
-    if (!k.elements().outputs.has(c.parameter)) return refuse(quit::no_output);
+    if (!k.signals().elements().outputs.has(c.parameter)) return refuse(quit::no_output);
     if (!is_bit(c.data)) return refuse(quit::value);
     k.set_output(c.parameter, c.data.value != 0, c.now);
     return say(c.data.value);
 }
 
 CommandReply get_output(Control& k, const Call& c) {
-    if (!k.elements().outputs.has(c.parameter)) return refuse(quit::no_output);
-    return say(k.output(c.parameter) ? 1 : 0);
+    if (!k.signals().elements().outputs.has(c.parameter)) return refuse(quit::no_output);
+    return say(k.signals().output(c.parameter) ? 1 : 0);
 }
 
 CommandReply put_output_word(Control& k, const Call& c) {
-    if (!k.elements().outputs.has(c.parameter)) return refuse(quit::no_output);
+    if (!k.signals().elements().outputs.has(c.parameter)) return refuse(quit::no_output);
     if (!is_word(c.data)) return refuse(quit::value);
     k.set_output_word(c.parameter, static_cast<std::uint16_t>(whole(c.data)), c.now);
     return say(whole(c.data));
 }
 
 CommandReply get_output_word(Control& k, const Call& c) {
-    if (!k.elements().outputs.has(c.parameter)) return refuse(quit::no_output);
+    if (!k.signals().elements().outputs.has(c.parameter)) return refuse(quit::no_output);
     int w = 0;
     const std::int64_t first = (c.parameter - 1) / 16 * 16 + 1;
     for (int b = 0; b < 16; ++b)
-        w |= (k.output(first + b) ? 1 : 0) << b;
+        w |= (k.signals().output(first + b) ? 1 : 0) << b;
     return say(w);
 }
 
 CommandReply put_flag(Control& k, const Call& c) {
-    if (!k.elements().flags.has(c.parameter)) return refuse(quit::no_flag);
+    if (!k.signals().elements().flags.has(c.parameter)) return refuse(quit::no_flag);
     if (!is_bit(c.data)) return refuse(quit::value);
     k.set_flag(c.parameter, c.data.value != 0, c.now);
     return say(c.data.value);
 }
 
 CommandReply get_flag(Control& k, const Call& c) {
-    if (!k.elements().flags.has(c.parameter)) return refuse(quit::no_flag);
-    return say(k.elements().flags.get(c.parameter) ? 1 : 0);
+    if (!k.signals().elements().flags.has(c.parameter)) return refuse(quit::no_flag);
+    return say(k.signals().elements().flags.get(c.parameter) ? 1 : 0);
 }
 
 CommandReply put_flag_word(Control& k, const Call& c) {
-    if (!k.elements().flags.has(c.parameter)) return refuse(quit::no_flag);
+    if (!k.signals().elements().flags.has(c.parameter)) return refuse(quit::no_flag);
     if (!is_word(c.data)) return refuse(quit::value);
     k.set_flag_word(c.parameter, static_cast<std::uint16_t>(whole(c.data)), c.now);
     return say(whole(c.data));
 }
 
 CommandReply get_flag_word(Control& k, const Call& c) {
-    if (!k.elements().flags.has(c.parameter)) return refuse(quit::no_flag);
-    return say(k.elements().flags.word_of(c.parameter));
+    if (!k.signals().elements().flags.has(c.parameter)) return refuse(quit::no_flag);
+    return say(k.signals().elements().flags.word_of(c.parameter));
 }
 
 CommandReply put_n(Control& k, const Call& c) {
-    if (!k.elements().n.has(c.parameter)) return refuse(quit::no_n);
+    if (!k.signals().elements().n.has(c.parameter)) return refuse(quit::no_n);
     if (std::abs(std::round(c.data.value)) > integer_limit) return refuse(quit::value);
     k.set_n(c.parameter, whole(c.data));
     return say(whole(c.data));
 }
 
 CommandReply get_n(Control& k, const Call& c) {
-    if (!k.elements().n.has(c.parameter)) return refuse(quit::no_n);
-    return say(k.elements().n.get(c.parameter));
+    if (!k.signals().elements().n.has(c.parameter)) return refuse(quit::no_n);
+    return say(k.signals().elements().n.get(c.parameter));
 }
 
 CommandReply put_r(Control& k, const Call& c) {
-    if (!k.elements().r.has(c.parameter)) return refuse(quit::no_r);
+    if (!k.signals().elements().r.has(c.parameter)) return refuse(quit::no_r);
     const auto v = single(c.data);
     if (!v) return refuse(quit::value);
     k.set_r(c.parameter, *v);
@@ -148,12 +148,12 @@ CommandReply put_r(Control& k, const Call& c) {
 }
 
 CommandReply get_r(Control& k, const Call& c) {
-    if (!k.elements().r.has(c.parameter)) return refuse(quit::no_r);
-    return say_real(static_cast<double>(k.elements().r.get(c.parameter)));
+    if (!k.signals().elements().r.has(c.parameter)) return refuse(quit::no_r);
+    return say_real(static_cast<double>(k.signals().elements().r.get(c.parameter)));
 }
 
 CommandReply reset_error(Control& k, const Call& c) {
-    const std::uint16_t q = k.reset_error(c.now);
+    const std::uint16_t q = k.operation().reset_error(c.now);
     CommandReply r = say(q == quit::not_executable ? k.error() : 0);  // what could not be reset is named [L2780]
     r.quit = q;
     return r;
@@ -165,7 +165,7 @@ CommandReply get_state(Control& k, const Call&) { return say(k.status()); }
 /// Reads something of one axis.
 template <class F>
 CommandReply of_axis(Control& k, const Call& c, F&& f) {
-    return k.has_axis(c.parameter) ? f(k.axis(axis_of(c))) : refuse(quit::no_axis);
+    return k.settings().has_axis(c.parameter) ? f(k.axis(axis_of(c))) : refuse(quit::no_axis);
 }
 
 CommandReply get_position(Control& k, const Call& c) {
@@ -195,7 +195,7 @@ CommandReply get_axis_status(Control& k, const Call& c) {
 
 CommandReply get_running(Control& k, const Call&) {
     int mask = 0;
-    for (int n = 1; k.has_axis(n); ++n)
+    for (int n = 1; k.settings().has_axis(n); ++n)
         mask |= (k.axis(n).running() ? 1 : 0) << (n - 1);
     return say(mask);
 }
@@ -231,17 +231,17 @@ CommandReply get_extended(Control& k, const Call& c) {
 }
 
 CommandReply get_system_flag(Control& k, const Call& c) {
-    const auto v = k.system_flag(c.parameter);
+    const auto v = k.views().flag(c.parameter);
     return v ? say(*v ? 1 : 0) : refuse(quit::no_flag);
 }
 
 CommandReply get_system_n(Control& k, const Call& c) {
-    const auto v = k.system_integer(c.parameter);
+    const auto v = k.views().integer(c.parameter);
     return v ? say(*v) : refuse(quit::no_n);
 }
 
 CommandReply get_system_r(Control& k, const Call& c) {
-    const auto v = k.system_real(c.parameter);
+    const auto v = k.views().real(c.parameter);
     return v ? say_real(*v) : refuse(quit::no_r);
 }
 
@@ -257,9 +257,9 @@ CommandReply no_reference(Control& k, const Call& c) {
 }
 
 CommandReply reference(Control& k, const Call& c) {
-    if (!k.has_axis(c.parameter)) return refuse(quit::no_axis);
-    const std::uint16_t q = k.start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
-    return q != 0 ? refuse(q) : k.begin_pending(Kind::reference, axis_of(c), c.now);
+    if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
+    const std::uint16_t q = k.motions().start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
+    return q != 0 ? refuse(q) : k.begin({Awaits::reference, axis_of(c)}, c.now);
 }
 
 /// 0A85 (G26 with 0), 0A86 (G29), 0A96 (G26 with a value). 0A85 sets the reference flag as G26 does (E-34).
@@ -280,24 +280,24 @@ CommandReply set_position(Control& k, const Call& c) {
 
 /// 0A87, 0A89: end of processing at the target. 0A90, 0A91, 0A94, 0A95: at once, with the start position.
 CommandReply move(Control& k, const Call& c) {
-    if (!k.has_axis(c.parameter)) return refuse(quit::no_axis);
+    if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     const int n = axis_of(c);
     const bool relative = c.code == 0x0A89 || c.code == 0x0A91 || c.code == 0x0A95;
     const bool manual = c.code == 0x0A90 || c.code == 0x0A91;
     const double from = k.axis(n).shaft().position(c.now);
-    const std::uint16_t q = k.start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
+    const std::uint16_t q = k.motions().start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
-    return k.begin_pending(Kind::move, n, c.now);
+    return k.begin({Awaits::move, n}, c.now);
 }
 
 CommandReply set_speed(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
-        const auto& limits = k.axis_limits(ap::traverse_speed);
+        const auto& limits = k.settings().axis_limits(ap::traverse_speed);
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
         if (a.running() && !a.model().ep) return refuse(quit::moves);  // while moving only on the EP [L3496]
-        k.overrides(axis_of(c)).speed = v;
+        k.orders().of(axis_of(c)).overrides.speed = v;
         if (a.running() && a.traverse().task() == Task::position) a.traverse().change_speed(v, c.now);
         k.settle(c.now);
         return say_real(v);
@@ -306,10 +306,10 @@ CommandReply set_speed(Control& k, const Call& c) {
 
 CommandReply set_acceleration(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis&) {
-        const auto& limits = k.axis_limits(ap::acceleration);
+        const auto& limits = k.settings().axis_limits(ap::acceleration);
         const double v = c.data.value;
         if (!(v >= static_cast<double>(limits.least)) || v > static_cast<double>(limits.largest)) return refuse(quit::value);
-        k.overrides(axis_of(c)).acceleration = v;
+        k.orders().of(axis_of(c)).overrides.acceleration = v;
         return say_real(v);
     });
 }
@@ -323,10 +323,10 @@ CommandReply renew(Control& k, const Call& c) {
 
 /// 0A93: end of processing at standstill; 0A9A: at once.
 CommandReply abort_move(Control& k, const Call& c) {
-    if (!k.has_axis(c.parameter)) return refuse(quit::no_axis);
+    if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     k.axis(axis_of(c)).traverse().finish(c.now);
     k.settle(c.now);
-    if (c.code == 0x0A93) return k.begin_pending(Kind::halt, axis_of(c), c.now);
+    if (c.code == 0x0A93) return k.begin({Awaits::halt, axis_of(c)}, c.now);
     return say_real(k.axis(axis_of(c)).shaft().position(c.now));
 }
 
@@ -357,32 +357,32 @@ CommandReply measuring(Control& k, const Call& c) {
 /// Parameter 0: all axes.
 template <class F>
 CommandReply for_axes(Control& k, const Call& c, F&& f) {
-    if (c.parameter != 0 && !k.has_axis(c.parameter)) return refuse(quit::no_axis);
-    for (int n = 1; k.has_axis(n); ++n) {
+    if (c.parameter != 0 && !k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
+    for (int n = 1; k.settings().has_axis(n); ++n) {
         if (c.parameter == 0 || c.parameter == n) f(n);
     }
     return say(c.data.value);
 }
 
 CommandReply monitor_limits(Control& k, const Call& c) {
-    if (c.parameter != 0 && !k.has_axis(c.parameter)) return refuse(quit::no_axis);
+    if (c.parameter != 0 && !k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     if (!is_bit(c.data)) return refuse(quit::value);
-    return for_axes(k, c, [&](int n) { k.set_limits_monitored(n, c.data.value != 0); });
+    return for_axes(k, c, [&](int n) { k.orders().of(n).limits_monitored = c.data.value != 0; });
 }
 
 /// Byte 3 condition, byte 2 kind of element, bytes 1 and 0 its number (E-31).
 CommandReply set_condition(Control& k, const Call& c) {
-    if (c.parameter != 0 && !k.has_axis(c.parameter)) return refuse(quit::no_axis);
+    if (c.parameter != 0 && !k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     const auto packed = static_cast<std::uint32_t>(whole(c.data));
-    Control::Condition x;
+    Condition x;
     x.type = static_cast<std::uint8_t>(packed >> 16);
     x.number = static_cast<std::int32_t>(packed & 0xFFFF);
-    if (x.type == 1 && !k.elements().inputs.has(x.number)) return refuse(quit::no_input);
-    if (x.type == 2 && !k.elements().outputs.has(x.number)) return refuse(quit::no_output);
-    if (x.type == 3 && !k.elements().flags.has(x.number)) return refuse(quit::no_flag);
+    if (x.type == 1 && !k.signals().elements().inputs.has(x.number)) return refuse(quit::no_input);
+    if (x.type == 2 && !k.signals().elements().outputs.has(x.number)) return refuse(quit::no_output);
+    if (x.type == 3 && !k.signals().elements().flags.has(x.number)) return refuse(quit::no_flag);
     if (x.type < 1 || x.type > 3 || packed >> 24 > 1) return refuse(quit::value);
     x.value = packed >> 24 == 1;
-    return for_axes(k, c, [&](int n) { k.set_condition(n, x); });
+    return for_axes(k, c, [&](int n) { k.orders().of(n).order(x); });
 }
 
 constexpr std::uint8_t H = gate::home;

@@ -30,19 +30,19 @@ std::vector<HandItem> Device::hand() const {
     std::vector<HandItem> items;
     std::int64_t mask = 0;
     for (int b = 0; b < mask_bits; ++b)
-        mask |= std::int64_t{control_.elements().inputs.get(b + 1)} << b;
+        mask |= std::int64_t{control_.signals().elements().inputs.get(b + 1)} << b;
     items.push_back({"power", powered_, true, "supply voltage; off loses outputs, overrides and the operating mode"});
     items.push_back({"silent", silent_, true, "the control hears and acts, but nothing that it sends reaches the line"});
     items.push_back({"inputs", mask, true, "levels of I1 (bit 0) to I32 (bit 31)"});
     items.push_back({"input", std::string(), true, "one input, I1 to I1024, and its level: I33=1"});
-    items.push_back({"external_stop", control_.external_stop_wire(), true,
+    items.push_back({"external_stop", control_.signals().external_stop_wire(), true,
                      "the external-stop contact carries power; without it ONLINE cannot start, and what runs is stopped"});
     items.push_back({"emergency_stop", false, true, "true: all axes stop, AUTOMATIC and ONLINE end in status 19 or 39"});
     items.push_back({"inject_error", std::int64_t{control_.error()}, true,
                      "PA-CONTROL error number 1..999: 1..99 CPU, 100..499 hardware, 500..999 online/automatic; 0 takes it away"});
     items.push_back({"panel", std::string(name_of(control_.status())), true,
                      "the operator switches the mode at the control: home, manual, winpac, automatic"});
-    items.push_back({"program", control_.program(), true, "name of the START program of AUTOMATIC"});
+    items.push_back({"program", control_.programs().chosen().name, true, "name of the START program of AUTOMATIC"});
     for (int n = 1; n <= control_.axes(); ++n) {
         const Axis& a = control_.axis(n);
         const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
@@ -117,7 +117,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     }
     if (name.size() > 1 && name.front() == 'I') {
         const auto n = parse_whole(std::string_view(name).substr(1), 0, INT64_MAX);
-        if (!n || !control_.elements().inputs.has(*n)) return "there is no input '" + name + "': I1..I1024";
+        if (!n || !control_.signals().elements().inputs.has(*n)) return "there is no input '" + name + "': I1..I1024";
         if (!flag) return want_flag;
         control_.set_input(*n, *flag, now);
         return {};
@@ -128,7 +128,7 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
         return {};
     }
     if (name == "program") {
-        if (!text || !control_.select_program(*text))
+        if (!text || !control_.programs().choose(*text))
             return "program: there is no program '" + to_text(value) + "'; see the option programs";
         return {};
     }
@@ -136,17 +136,17 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     if (needs_power && !powered_) return name + ": the control has no power";
     if (name == "emergency_stop") {
         if (!flag) return want_flag;
-        if (*flag) control_.emergency_stop(now);
+        if (*flag) control_.operation().emergency_stop(now);
         return {};
     }
     if (name == "inject_error") {
         if (!number || *number < 0 || *number > 999) return "inject_error: " + to_text(value) + " is not a PA-CONTROL error number 0..999";
-        control_.raise(static_cast<std::uint16_t>(*number), now);
+        control_.operation().raise(static_cast<std::uint16_t>(*number), now);
         return {};
     }
     if (name == "panel") {
         if (!text) return "panel: " + to_text(value) + " is none of home, manual, winpac, automatic";
-        return control_.panel(*text, now);
+        return control_.operation().panel(*text, now);
     }
     if (name.starts_with("axis")) {
         const auto dot = name.find('.');
@@ -208,9 +208,9 @@ std::string Device::set_axis_condition(int n, const std::string& name, const Val
         } else if (!powered_) {
             return name + ": the control has no power";
         } else if (name == "jog") {
-            control_.jog(n, static_cast<int>(*number), now);
+            control_.motions().jog(n, static_cast<int>(*number), now);
         } else {
-            control_.raise_axis(n, static_cast<std::uint16_t>(*number), now);
+            control_.operation().raise_axis(n, static_cast<std::uint16_t>(*number), now);
         }
         return {};
     }

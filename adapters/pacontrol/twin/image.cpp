@@ -151,7 +151,7 @@ void Image::command(Control& control, Instant now) {
     const bool zeros = std::ranges::all_of(std::span(in_).first(8), [](std::uint8_t b) { return b == 0; });
     if (shape_.interbus && zeros && commanded_) {
         // Emergency stop, once for each time that the bits fall [L1776]. No command: SF counts on from where it falls to.
-        if (!stopped_by_zeros_) control.emergency_stop(now);
+        if (!stopped_by_zeros_) control.operation().emergency_stop(now);
         stopped_by_zeros_ = true;
         sf_ = false;
     } else {
@@ -193,19 +193,19 @@ void Image::control_word(Control& control, Instant now) {
     const auto rising = static_cast<std::uint16_t>(w & ~ctrl_), falling = static_cast<std::uint16_t>(~w & ctrl_);
     ctrl_ = w;
     // Bits 0 to 2 are low-active. Reset acts at its edge, stop and cancel as long as they are low (E-18).
-    if (falling & 1u) control.reset_error(now);
+    if (falling & 1u) control.operation().reset_error(now);
     const std::uint8_t s = control.status();
     const bool cancelled = !(w & 4u), stopped = !(w & 2u);
     const std::uint8_t column = column_of(s);
     if (cancelled) {
-        if (column == gate::automatic || column == gate::online) control.cancel(now);
+        if (column == gate::automatic || column == gate::online) control.operation().cancel(now);
     } else if (stopped) {
         if (s == status::automatic || s == status::auto_after_stop || s == status::online || s == status::auto_started ||
             s == status::online_started)
-            control.stop(now);
+            control.operation().stop(now);
     } else {
-        if (rising & 8u) control.start_automatic(now);
-        if ((rising & 16u) && !(rising & 8u)) control.start_online(now);
+        if (rising & 8u) control.operation().start_automatic(now);
+        if ((rising & 16u) && !(rising & 8u)) control.operation().start_online(now);
     }
     const std::uint8_t n = control.status();  // the model's battery is always good: bit 1
     const bool automatic = column_of(n) == gate::automatic, online = column_of(n) == gate::online;
@@ -235,7 +235,7 @@ void Image::put_real(std::size_t at, double v) noexcept {
 
 /// AUTOMATIC: flag word, N and R of the module are copied at every cycle, whatever else has written them [L608-L634].
 void Image::elements(Control& control, std::size_t k, Instant now) {
-    const Elements& e = control.elements();
+    const Elements& e = control.signals().elements();
     const std::size_t at = 16 + 12 * k;
     const auto here = static_cast<std::int64_t>(k) + 1, there = here + 16;
     const std::span<std::uint8_t> out(out_);
@@ -270,19 +270,20 @@ void Image::axis(Control& control, std::size_t k, Instant now) {
         const bool moving = control.axis(channel).running();
         if (w & bit_of(16)) {
             m.own_error = 0;
-            control.reset_axis_error(channel, now);
+            control.operation().reset_axis_error(channel, now);
         }
-        if (changed & 2u) control.disable_drive(channel, (w & 2u) != 0, now);
+        if (changed & 2u) control.motions().disable_drive(channel, (w & 2u) != 0, now);
         // A level [L727-L738]: an axis that is on by its enable mode is switched off by a 0 that has stood there from the start.
         const Axis& a = control.axis(channel);
-        if (!(w & 2u) && (w & 1u) == (a.state().off || !a.state().enabled() ? 1u : 0u)) control.set_axis_on(channel, (w & 1u) != 0, now);
+        if (!(w & 2u) && (w & 1u) == (a.state().off || !a.state().enabled() ? 1u : 0u))
+            control.motions().set_axis_on(channel, (w & 1u) != 0, now);
         const std::uint16_t speed = word(in_, at + 6);
         if ((w & 4u) && (changed & 4u)) {
             if (!moving) start(control, k, m, w, now);  // a start during a traverse is not seen [L742]
         } else if (moving && m.active) {
             // The traverse bit is taken away [L725]; a new position waits for the next start.
-            if (m.control & ~w & traverse_bits) control.interrupt_axis(channel, now);
-            if (speed != m.speed && speed >= 1 && speed <= 1000) control.change_axis_speed(channel, speed, now);
+            if (m.control & ~w & traverse_bits) control.motions().interrupt_axis(channel, now);
+            if (speed != m.speed && speed >= 1 && speed <= 1000) control.motions().change_axis_speed(channel, speed, now);
         }
         m.speed = speed;
         m.control = w;
@@ -327,7 +328,7 @@ void Image::start(Control& control, std::size_t k, Module& m, std::uint32_t w, I
         if (conditions && (*kind == AxisTask::Kind::absolute || *kind == AxisTask::Kind::relative))
             task.while_input = (conditions & bit_of(8)) != 0;
         task.limits_monitored = (w & bit_of(17)) == 0 || *kind == AxisTask::Kind::reference;
-        m.command_error = control.start_task(static_cast<int>(k) + 1, task, now);
+        m.command_error = control.motions().start_task(static_cast<int>(k) + 1, task, now);
         m.active = m.command_error == 0;
     }
 }

@@ -114,10 +114,11 @@ Limits<std::int32_t> Profile::system(std::size_t number, int axes) const {
     return system_.at(number).value_or(plausible_system(number, axes));
 }
 
-AxisParameters Profile::usual_axis() const {
+AxisParameters Profile::usual_axis(bool absolute) const {
     AxisParameters p{};
     for (std::size_t i = 1; i < p.size(); ++i)
         p[i] = axis_[i].usual;
+    p[ap::absolute] = absolute ? 1.0F : 0.0F;
     return p;
 }
 

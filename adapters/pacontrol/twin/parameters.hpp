@@ -67,7 +67,8 @@ public:
     [[nodiscard]] const Limits<float>& axis(std::size_t number) const { return axis_.at(number); }
     /// Of system parameter `number` 1..20 for a control with `axes` axes.
     [[nodiscard]] Limits<std::int32_t> system(std::size_t number, int axes) const;
-    [[nodiscard]] AxisParameters usual_axis() const;
+    /// `absolute`: axis parameter 25h.
+    [[nodiscard]] AxisParameters usual_axis(bool absolute) const;
     [[nodiscard]] SystemParameters usual_system(int axes) const;
 
 private:

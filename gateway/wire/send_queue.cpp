@@ -75,6 +75,7 @@ void SendQueue::unlink(Index i) noexcept {
 }
 
 SendQueue::Index SendQueue::best(Instant t) const noexcept {
+    if (size_ == 0) return none;
     for (std::size_t p = 0; p < priorities; ++p) {
         for (std::size_t k = 0; k < senders_; ++k) {
             const List& list = lists_[p][in_turn(p, k)];
@@ -118,8 +119,9 @@ std::size_t SendQueue::collect(std::span<const Entry*> to) const noexcept {
 
 Instant SendQueue::earliest() const noexcept {
     Instant t = never;
+    if (size_ == 0) return t;
     for (const auto& by_sender : lists_) {
-        for (const List& list : by_sender) {
+        for (const List& list : std::span(by_sender).first(senders_)) {
             if (list.head != none) t = std::min(t, slots_[list.head].entry.queued_at);
         }
     }

@@ -9,6 +9,7 @@ import re
 import socket
 import struct
 import subprocess
+import sys
 import time
 import xml.etree.ElementTree
 
@@ -183,3 +184,10 @@ def judge(path, port, io_port, traffic):
         assert head, f"frame {number} of {path.name}: {words or 'malformed'}: {udp or tcp}"
         left[head] -= 1
     assert not any(left.values()), f"named as wrong, but tshark knows them: {left}"
+
+
+if __name__ == "__main__":  # FILE PORT IO_PORT: judged by itself, with nothing wrong on purpose
+    capture = pathlib.Path(sys.argv[1])
+    counted = subprocess.run(["tshark", "-r", str(capture), "-Y", f"tcp.port == {sys.argv[2]} || udp.port == {sys.argv[3]}"], capture_output=True, text=True, timeout=300, check=True).stdout.count("\n")
+    assert counted > 100, f"only {counted} frames in {capture}"
+    judge(capture, int(sys.argv[2]), int(sys.argv[3]), Traffic())

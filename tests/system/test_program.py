@@ -50,6 +50,16 @@ def test_families_and_catalogue():
     assert json.loads(run("catalogue", "uim342", "commands", "--format", "json", check=0)[1])
 
 
+def test_every_error_of_every_family_says_what_to_do():
+    names = [f["name"] for f in json.loads(run("families", "--format", "json", check=0)[1])]
+    assert len(names) >= 6
+    for name in names:
+        errors = json.loads(run("catalogue", name, "errors", "--format", "json", check=0)[1])
+        assert errors, name
+        silent = [e["code"] for e in errors if len((e["remedy"] or "").split()) < 2]
+        assert not silent, f"{name}: no remedy for {silent}"
+
+
 def test_decode_reads_three_forms_and_says_what_it_cannot(folder):
     text = run("decode", "uim342", stdin="(1.5) can0 04280095#01\n(1.6) can0 05200015#01\n(1.7) can0 0428FFFF#\n", check=0)[1].splitlines()
     assert len(text) == 3 and "MO" in text[0] and "MO" in text[1] and "unknown" in text[2].lower(), text

@@ -11,7 +11,6 @@ LIMIT = 40
 
 # Classes that are not mended yet, with their present number. It may only fall; at the limit the line goes.
 NOT_MENDED = {
-    ("adapters/linmot/twin/drive.hpp", "Drive"): 101,
     ("gateway/engine/engine.hpp", "Engine"): 117,
     ("gateway/runtime/hot.hpp", "Hot"): 45,
 }

@@ -14,12 +14,13 @@ using namespace std::chrono_literals;
 
 /// A drive behind its wire.
 struct Bench {
-    std::map<std::string, std::string> options;
+    using Options = std::map<std::string, std::string>;
+    Options options;
     std::unique_ptr<Twin> twin;
     Instant now = at_ns(1'000'000'000);
     std::uint8_t count = 0;
 
-    explicit Bench(std::map<std::string, std::string> with = {}) : options(std::move(with)) {
+    explicit Bench(Options with = {}) : options(std::move(with)) {
         TwinSetup s;
         s.address = "17";
         s.options = options;

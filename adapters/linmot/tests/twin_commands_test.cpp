@@ -341,13 +341,13 @@ TEST(LinmotTwin, ControlWordSourcesBitByBit) {
 
 TEST(LinmotTwin, ASmallerSeriesHasLess) {
     for (const auto* id : {"004xh", "0B0xh", "050xh", "208xh", "263xh"}) {
-        Bench b({{"series", "b1100"}});
+        Bench b(Bench::Options{{"series", "b1100"}});
         b.enable();
         b.motion(id, {1, 1, 1});
         b.run(1s);
         EXPECT_EQ(b.drive().state_var(), 0x0481) << id;
     }
-    Bench none({{"keys", "none"}});
+    Bench none(Bench::Options{{"keys", "none"}});
     none.enable();
     none.motion("380xh", {1000, v1, a1, 10});
     none.run(1s);

@@ -144,7 +144,7 @@ TEST(LinmotEffects, CurvesFromTheSetPointAndWithoutAnAddress) {
     EXPECT_EQ(b.position(), 50'000) << "from the set point on, whatever the curve's own start";
     b.motion("050xh", {1, 0x0FFF});
     EXPECT_FALSE(b.drive().curves.contains(1)) << "0FFFh: no curve";
-    Bench none({{"series", "b1100"}, {"keys", "none"}});
+    Bench none(Bench::Options{{"series", "b1100"}, {"keys", "none"}});
     none.enable();
     none.motion("110xh", {1, 0});
     none.run(1s);

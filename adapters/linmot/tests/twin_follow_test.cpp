@@ -190,7 +190,7 @@ TEST(LinmotFollow, ATriggerStartsACamAfterItsDelay) {
 }
 
 TEST(LinmotFollow, WindingGoesToAndFroByTheEncodersRevolutions) {
-    Bench b({{"winding", "0,40000,10000,30000,1000,2000,4,0,0"}});
+    Bench b(Bench::Options{{"winding", "0,40000,10000,30000,1000,2000,4,0,0"}});
     b.enable();
     b.motion("002xh", {0x1291, 1000});
     b.motion("301xh", {2});
@@ -215,7 +215,7 @@ TEST(LinmotFollow, WindingGoesToAndFroByTheEncodersRevolutions) {
     EXPECT_NEAR(ends[3], 10'000, 50);
     EXPECT_NEAR(ends[4], 30'000, 50);
     // Held, the ends stay where they are.
-    Bench h({{"winding", "0,40000,20000,20000,1000,1000,4,0,0"}});
+    Bench h(Bench::Options{{"winding", "0,40000,20000,20000,1000,1000,4,0,0"}});
     h.enable();
     h.motion("002xh", {0x1291, 1000});
     h.motion("300xh");
@@ -232,7 +232,7 @@ TEST(LinmotFollow, WindingGoesToAndFroByTheEncodersRevolutions) {
 
 TEST(LinmotFollow, DisturbanceMovesTheEndsAndACurveShapesTheStroke) {
     for (const bool anti : {false, true}) {
-        Bench b({{"winding", std::string("0,40000,0,40000,1000,1000,100,4,2000,") + (anti ? "antiparallel" : "parallel")}});
+        Bench b(Bench::Options{{"winding", std::string("0,40000,0,40000,1000,1000,100,4,2000,") + (anti ? "antiparallel" : "parallel")}});
         b.enable();
         b.motion("300xh");
         turn(b, 2000);  // two of four strokes: all of the disturbance
@@ -240,7 +240,7 @@ TEST(LinmotFollow, DisturbanceMovesTheEndsAndACurveShapesTheStroke) {
         turn(b, 2999);
         EXPECT_NEAR(b.position(), anti ? 39'000 : 41'000, 60);
     }
-    Bench c({{"winding", "0,40000,0,40000,1000,1000,100,0,0"}});
+    Bench c(Bench::Options{{"winding", "0,40000,0,40000,1000,1000,100,0,0"}});
     c.enable();
     curve(c, 7, {0, 0, 100});
     c.motion("310xh", {7});
@@ -248,7 +248,7 @@ TEST(LinmotFollow, DisturbanceMovesTheEndsAndACurveShapesTheStroke) {
     EXPECT_NEAR(c.position(), 0, 1e-6) << "the curve stands in its first half";
     turn(c, 750);
     EXPECT_NEAR(c.position(), 20'000, 1e-6);
-    Bench small({{"series", "b1100"}});
+    Bench small(Bench::Options{{"series", "b1100"}});
     small.enable();
     small.motion("300xh");
     small.run(1s);
@@ -256,7 +256,7 @@ TEST(LinmotFollow, DisturbanceMovesTheEndsAndACurveShapesTheStroke) {
 }
 
 TEST(LinmotFollow, TheRunModesCommandsAreWhatTheTwinWasGiven) {
-    Bench b({{"trig_rise", "30000"}, {"trig_fall", "-20000"}});
+    Bench b(Bench::Options{{"trig_rise", "30000"}, {"trig_fall", "-20000"}});
     b.enable();
     b.motion("0DExh");
     b.run(2s);
@@ -298,7 +298,7 @@ TEST(LinmotFollow, AFrozenCurveEndsAtTheLastTarget) {
 }
 
 TEST(LinmotFollow, AForcedBitBeatsX4AndX4TheInterface) {
-    Bench b({{"force", "8"}});
+    Bench b(Bench::Options{{"force", "8"}});
     b.enable();
     auto o = b.drive().outside();
     o.x4_mask = 0x08;  // enable operation from an input that is low: forced to 1 all the same
@@ -318,7 +318,7 @@ TEST(LinmotFollow, AForcedBitBeatsX4AndX4TheInterface) {
 }
 
 TEST(LinmotFollow, TheSmallerSeriesHas31EntriesFlashAndNoLagOfStanding) {
-    Bench b({{"series", "b1100"}});
+    Bench b(Bench::Options{{"series", "b1100"}});
     b.enable();
     EXPECT_TRUE(b.tell({7, 8, 0, 0}).empty()) << "no command table over a serial interface";
     EXPECT_TRUE(b.tell({8, 4, 1, 0}).empty()) << "nor curves";
@@ -330,7 +330,7 @@ TEST(LinmotFollow, TheSmallerSeriesHas31EntriesFlashAndNoLagOfStanding) {
     b.run(1s);
     EXPECT_EQ(b.drive().state_var(), 0x048A);
     for (const bool small : {false, true}) {
-        Bench s(small ? std::map<std::string, std::string>{{"series", "b1100"}} : std::map<std::string, std::string>{});
+        Bench s(small ? Bench::Options{{"series", "b1100"}} : Bench::Options{});
         s.enable();
         (void)s.hand("stall", Value{true});
         s.motion("010xh", {15'000, speed, rate, rate});
@@ -369,7 +369,7 @@ TEST(LinmotMonitor, AWarningComesBeforeItsError) {
         b.run(2s);
         EXPECT_EQ(b.drive().state_var(), 0x0400 | code) << what;
     }
-    Bench small({{"series", "b1100"}});
+    Bench small(Bench::Options{{"series", "b1100"}});
     small.enable();
     (void)small.hand("temperature", Value{90.0});
     small.run(1s);

@@ -13,7 +13,7 @@ TEST(LinmotTwin, PrintedExchangesByTheirFields) {
     for (const auto& c : cases()) {
         SCOPED_TRACE(c.name);
         const bool forced = std::ranges::count(c.given, std::string("forced")) != 0;
-        Bench b(forced ? std::map<std::string, std::string>{{"force", "14"}} : std::map<std::string, std::string>{});
+        Bench b(forced ? Bench::Options{{"force", "14"}} : Bench::Options{});
         for (const auto& g : c.given) {
             if (g == "stopped") (void)b.ask("01 11 03 02 03 06 04");
             if (g == "enabled") b.enable();
@@ -99,7 +99,7 @@ TEST(LinmotTwin, EveryStateIsReached) {
         bring(b, s);
         EXPECT_EQ(b.state(), s);
     }
-    Bench special({{"series", "b1100"}});
+    Bench special(Bench::Options{{"series", "b1100"}});
     bring(special, 8);
     special.control(0x43F);
     EXPECT_EQ(special.state(), 20);
@@ -175,7 +175,7 @@ TEST(LinmotTwin, EverySingleBitInEveryState) {
     std::size_t edges = 0;
     for (const Row& r : rows) {
         for (int bit = 0; bit < 16; ++bit) {
-            Bench b(r.state == 20 ? std::map<std::string, std::string>{{"series", "b1100"}} : std::map<std::string, std::string>{});
+            Bench b(r.state == 20 ? Bench::Options{{"series", "b1100"}} : Bench::Options{});
             bring(b, r.state == 20 ? 8 : r.state);
             if (r.state == 20) b.control(r.word);
             ASSERT_EQ(b.state(), r.state);

@@ -1,54 +1,53 @@
 // Time curves of a simulated drive, and the commands that change curves in its RAM.
 // In: info and data blocks, offsets, scales. Out: a demand that runs through the points. Never plays a curve that is not defined.
+#include "adapters/linmot/twin/curves.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "adapters/linmot/twin/bytes.hpp"
-#include "adapters/linmot/twin/drive.hpp"
 
 namespace axisgate::linmot::twin {
 namespace {
 constexpr std::size_t most_block = 64 * 1024;  ///< bytes of one curve's data block
 }  // namespace
 
-void Drive::curve_command(std::uint16_t header, const Bytes& b, Instant now) {
-    const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
-    if (header >> 8 == 0x05) return modify_curve(sub, b, now);
-    const bool on_trigger = sub == 6 || sub == 7 || sub >= 0x0A;
-    if (!on_trigger) return start_curve(sub, b, now);
-    event_ = {};
-    event_.kind = sub == 6 || sub == 0x0A || sub == 0x0E ? Event::Kind::rising : Event::Kind::falling;
-    event_.what = Event::What::curve;
-    event_.order.sub = sub <= 7 ? 5 : sub <= 0x0C ? 2 : 3;
-    event_.bytes = b;
+const Curve* curve_of(const Curves& curves, std::uint16_t id) {
+    const auto it = curves.find(id);
+    return it == curves.end() || it->second.points() < 2 ? nullptr : &it->second;
+}
+
+Instant Play::end() const noexcept { return begun + span_ms(seconds * 1000); }
+
+std::optional<Point> Play::at(const Curves& curves, Instant now) const {
+    const Curve* c = curve_of(curves, curve);
+    if (!c || seconds <= 0) return std::nullopt;
+    const Followed f = c->at(axisgate::seconds(now - begun) / seconds);
+    return Point{offset + scale * f.position, scale * f.slope / seconds};
 }
 
 /// 040 defaults, 041 from the set point, 042 to a position, 043 the same in a time, 044 scales, 045 time and amplitude [L1511-1614].
-void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
-    const std::uint16_t id = at16(b, 2);
-    const auto it = curves.find(id);
-    if (it == curves.end() || it->second.points() < 2) return raise(0x62, now);
-    const Curve& c = it->second;
-    const Point here = demand_at(now);
-    const double first = c.point(0), last = c.point(c.points() - 1);
+Fault lay(Play& play, const Curves& curves, std::uint8_t sub, const Bytes& b, double here, Instant now) {
     Play p;
     p.active = true;
-    p.curve = id;
+    p.curve = at16(b, 2);
+    const Curve* c = curve_of(curves, p.curve);
+    if (!c) return 0x62;
     p.begun = now;
-    p.seconds = c.x_length() * 1e-5;
+    p.seconds = c->x_length() * 1e-5;
     switch (sub) {
         case 0:
             break;
         case 1:
-            p.offset = here.position - first;
+            p.offset = here - c->first();
             break;
         case 2:
         case 3: {
-            const double span = last - first;
-            if (span == 0) return raise(0x89, now);
-            p.scale = (signed32(b, 4) - here.position) / span;
-            p.offset = here.position - first * p.scale;
-            if (std::fabs(p.scale) > 20) return raise(0x89, now);  // -2000..2000 % [L1545-1547]
+            const double span = c->last() - c->first();
+            if (span == 0) return 0x89;
+            p.scale = (signed32(b, 4) - here) / span;
+            p.offset = here - c->first() * p.scale;
+            if (std::fabs(p.scale) > 20) return 0x89;  // -2000..2000 % [L1545-1547]
             if (sub == 3) p.seconds = signed32(b, 8) * 1e-5;
             break;
         }
@@ -64,28 +63,28 @@ void Drive::start_curve(std::uint8_t sub, const Bytes& b, Instant now) {
             break;
     }
     p.seconds = std::max(p.seconds, 1e-4);
-    stop_play(now);
-    streaming_ = false;
-    play_ = p;
+    play = p;
+    return 0;
 }
 
-void Drive::modify_curve(std::uint8_t sub, const Bytes& b, Instant now) {
+Fault modify(Curves& curves, std::uint8_t sub, const Bytes& b) {
     const std::uint16_t id = at16(b, 2);
-    if (id < 1 || id > 100) return raise(0x62, now);
+    if (id < 1 || id > 100) return 0x62;
     if (sub == 0) {
         if (at16(b, 4) == 0x0FFF)
             curves.erase(id);  // not defined (E-22)
         else
             curves.try_emplace(id);
-        return;
+        return 0;
     }
     const auto it = curves.find(id);
-    if (it == curves.end()) return raise(0x62, now);
+    if (it == curves.end()) return 0x62;
     auto& block = sub <= 2 ? it->second.info : it->second.data;
     const std::size_t at = at16(b, 4), n = sub == 1 ? 2 : sub == 2 || sub == 4 ? 4 : sub == 5 ? 8 : 12;
-    if (at + n > most_block) return;  // wrong offsets are not caught [L1777-1780]; the model's memory ends here
+    if (at + n > most_block) return 0;  // wrong offsets are not caught [L1777-1780]; the model's memory ends here
     if (block.size() < at + n) block.resize(at + n);
     std::copy_n(b.begin() + 6, n, block.begin() + static_cast<std::ptrdiff_t>(at));
+    return 0;
 }
 
 }  // namespace axisgate::linmot::twin

@@ -283,10 +283,23 @@ bool Server::Impl::admit() {
 
 /// Sessions never call by themselves: they live as long as this does, and one that ends until the turn is over.
 void Server::Impl::on_ready(std::span<const epoll_event> events) {
+    // With few sessions each answer goes at once, and who asks works while this does. With many, the first answer would wake somebody who
+    // is then woken again for each of the others: they go together.
+    const bool together = events.size() >= Server::answers_together;
+    std::array<TcpSession*, Poller::events_per_turn> answered;
+    std::size_t count = 0;
     for (const epoll_event& e : events) {
         const auto it = sessions_.find(std::uint64_t{e.data.u64});
-        if (it != sessions_.end()) it->second->on_ready(e.events);
+        if (it == sessions_.end()) continue;
+        TcpSession& session = *it->second;  // lives on if this ends it
+        session.on_ready(e.events);
+        if (together)
+            answered[count++] = &session;
+        else
+            session.flush();
     }
+    for (TcpSession* session : std::span(answered).first(count))
+        session->flush();
     ended_.clear();
     arm();
 }

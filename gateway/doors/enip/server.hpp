@@ -27,6 +27,7 @@ class Server {
 public:
     static constexpr std::size_t most_unsent = 64 * 1024;
     static constexpr int datagrams_per_turn = 32;
+    static constexpr std::size_t answers_together = 16;  ///< so many sessions that are ready at once are answered together
 
     /// Puts itself into the port's list of doors. `io`, `port` and `image` outlive it. Everything on the thread that runs `io`.
     Server(boost::asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings);

@@ -30,41 +30,57 @@ void TcpSession::read(bool other_end_gone) {
     std::array<std::uint8_t, 4096> bytes;
     const auto n = ::recv(fd_, bytes.data(), bytes.size(), 0);
     if (n == 0 || (n < 0 && !would_block())) return end();
+    gathers_ = true;
+    asks_again_ = n <= 0 || static_cast<std::size_t>(n) == bytes.size() || other_end_gone;
     if (n > 0) arrived_({bytes.data(), static_cast<std::size_t>(n)});
-    if (!open_) return end();
-    const bool all = n > 0 && static_cast<std::size_t>(n) < bytes.size() && !other_end_gone;
-    if (!all && unsent_.empty()) poller_.change(fd_, token_, watched);
+    if (!open_) end();
+}
+
+/// Whoever waits for an answer is woken by the first that goes out. When all of a turn's go together he finds the others there, instead of
+/// being woken for each.
+void TcpSession::flush() {
+    const bool again = std::exchange(asks_again_, false);
+    release();
+    if (!open_) {
+        if (ended_) end();
+    } else if (again && unsent_.empty()) {
+        poller_.change(fd_, token_, watched);
+    }
+}
+
+/// What was gathered goes out; what the kernel does not take waits for it.
+void TcpSession::release() {
+    if (!std::exchange(gathers_, false) || !open_ || unsent_.empty()) return;
+    push();
+    if (open_ && !unsent_.empty()) poller_.change(fd_, token_, EPOLLOUT);
 }
 
 void TcpSession::send(cip::View bytes) {
     if (!open_) return;
-    std::size_t taken = 0;
-    if (unsent_.empty()) {
-        const auto n = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-        if (n < 0 && !would_block()) {
-            open_ = false;
-            return;
-        }
-        taken = n > 0 ? static_cast<std::size_t>(n) : 0;
-        if (taken == bytes.size()) return;
-    }
-    if (unsent_.size() + bytes.size() - taken > most_unsent_) {
-        hang_up();
-        return;
-    }
-    if (unsent_.empty()) poller_.change(fd_, token_, EPOLLOUT);
-    cip::put_bytes(unsent_, bytes.subspan(taken));
+    if (gathers_ && unsent_.size() + bytes.size() > most_gathered) release();
+    const bool waits = gathers_ || !unsent_.empty();
+    if (unsent_.size() + bytes.size() > most_unsent_) return hang_up();
+    cip::put_bytes(unsent_, bytes);
+    if (waits) return;
+    push();
+    if (open_ && !unsent_.empty()) poller_.change(fd_, token_, EPOLLOUT);
+}
+
+void TcpSession::push() {
+    const auto n = ::send(fd_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
+    if (n < 0 && !would_block()) open_ = false;
+    if (n > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + n);
 }
 
 void TcpSession::write() {
-    const auto n = ::send(fd_, unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
-    if (n < 0 && !would_block()) return end();
-    if (n > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + n);
+    push();
+    if (!open_) return end();
     if (unsent_.empty()) poller_.change(fd_, token_, watched);
 }
 
 void TcpSession::hang_up() {
     if (!open_) return;
+    release();
     open_ = false;
     (void)::shutdown(fd_, SHUT_RDWR);  // the poller tells of it, and the session ends then
 }

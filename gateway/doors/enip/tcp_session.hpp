@@ -24,13 +24,18 @@ public:
     ~TcpSession() { close(); }
     TcpSession(const TcpSession&) = delete;
     TcpSession& operator=(const TcpSession&) = delete;
+    /// What is answered from within waits for `flush`, which belongs to each call.
     void on_ready(std::uint32_t events);
+    void flush();
     void send(cip::View bytes);
     /// What was sent still goes out, as far as the kernel takes it.
     void hang_up();
 
 private:
+    static constexpr std::size_t most_gathered = 16 * 1024;  ///< of a turn's answers
     void read(bool other_end_gone);
+    void release();
+    void push();
     void write();
     void end();
     void close();
@@ -42,6 +47,8 @@ private:
     std::function<void()> ended_;
     cip::Bytes unsent_;
     bool open_ = true;
+    bool gathers_ = false;     // from a read to the end of its turn
+    bool asks_again_ = false;  // the read may have left something
 };
 
 }  // namespace axisgate::enip

@@ -15,6 +15,10 @@ General Object::get_of_class(std::uint32_t, const Context&, Bytes&) { return Gen
 Response Object::other(std::uint8_t, std::uint32_t, View, Context&) { return Response::of(General::service_not_supported); }
 General Object::ask(std::uint32_t, const Context&) { return General::attribute_not_supported; }
 
+void Object::put_count(Bytes& to, std::uint32_t count) const {
+    counts_in_32_bits() ? put32(to, count) : put16(to, static_cast<std::uint16_t>(std::min<std::uint32_t>(count, 0xFFFF)));
+}
+
 General Object::read(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) {
     if (instance != 0) return get(instance, attribute, context, to);
     switch (attribute) {
@@ -22,10 +26,10 @@ General Object::read(std::uint32_t instance, std::uint32_t attribute, const Cont
             put16(to, revision());
             return General::success;
         case 2:
-            put16(to, static_cast<std::uint16_t>(std::min<std::uint32_t>(last_instance(), 0xFFFF)));
+            put_count(to, last_instance());
             return General::success;
         case 3:
-            put16(to, static_cast<std::uint16_t>(std::min<std::uint32_t>(instances(), 0xFFFF)));
+            put_count(to, instances());
             return General::success;
         case 6:
             put16(to, last_attribute_of_class());

@@ -43,6 +43,8 @@ public:
     /// `data` begins with the attribute; what is taken of it is skipped, so that lists can be read on.
     [[nodiscard]] virtual General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data);
     [[nodiscard]] virtual std::uint16_t last_attribute_of_class() const { return 7; }
+    /// Of what the class tells of its instances: a UINT, but for a few classes.
+    [[nodiscard]] virtual bool counts_in_32_bits() const { return false; }
     /// Attributes of the class beyond 1, 2, 3, 6 and 7.
     [[nodiscard]] virtual General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to);
     /// A service that is not one of those above. Instance 0: the class.
@@ -58,6 +60,7 @@ public:
     [[nodiscard]] Response serve(std::uint8_t service, const Path& path, View data, Context& context);
 
 private:
+    void put_count(Bytes& to, std::uint32_t count) const;
     [[nodiscard]] General read(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to);
     [[nodiscard]] Response get_single(std::uint32_t instance, std::uint32_t attribute, const Context& context);
     [[nodiscard]] Response get_all(std::uint32_t instance, const Context& context);

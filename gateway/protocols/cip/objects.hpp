@@ -146,6 +146,7 @@ public:
     [[nodiscard]] std::uint32_t last_instance() const override { return 0; }
     [[nodiscard]] std::uint16_t last_attribute() const override { return 0; }
     [[nodiscard]] std::uint16_t last_attribute_of_class() const override { return 9; }
+    [[nodiscard]] bool counts_in_32_bits() const override { return true; }
     [[nodiscard]] General get(std::uint32_t, std::uint32_t, const Context&, Bytes&) override { return General::attribute_not_supported; }
     [[nodiscard]] General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to) override;
 };

@@ -77,9 +77,18 @@ General TestValues::set(std::uint32_t, View value, Token token, const Peer&, Ins
     return General::success;
 }
 
-void TestOutput::implicit(Endpoint to, View d, std::uint8_t dscp) { implicits.push_back({to, Bytes(d.begin(), d.end()), dscp}); }
-void TestOutput::stream(SessionKey session, View bytes) { put_bytes(streams[session], bytes); }
-void TestOutput::datagram(Endpoint to, View d) { datagrams.push_back({to, Bytes(d.begin(), d.end()), 0}); }
+void TestOutput::implicit(Endpoint to, View d, std::uint8_t dscp) {
+    witness.of_device(Witness::Port::implicit, 0, to, d);
+    implicits.push_back({to, Bytes(d.begin(), d.end()), dscp});
+}
+void TestOutput::stream(SessionKey session, View bytes) {
+    witness.of_device(Witness::Port::stream, session, Bench::plc, bytes);
+    put_bytes(streams[session], bytes);
+}
+void TestOutput::datagram(Endpoint to, View d) {
+    witness.of_device(Witness::Port::datagram, 0, to, d);
+    datagrams.push_back({to, Bytes(d.begin(), d.end()), 0});
+}
 
 Bytes Open::message() const {
     const Bytes segments = hex(path);
@@ -131,6 +140,7 @@ Bytes Bench::packet_of(SessionKey key, std::uint16_t command, View data, std::ui
     Bytes bytes = packet(h, data);
     set32(bytes.data() + 20, options);
     output.streams[key].clear();
+    output.witness.to_device(Witness::Port::stream, key, plc, bytes);
     adapter.on_stream(key, bytes, now);
     Bytes answer = output.streams[key];
     if (answer.size() >= header_size) status = static_cast<PacketStatus>(read_header(answer).status);
@@ -158,6 +168,7 @@ std::uint32_t Bench::opened(const Open& o, SessionKey key) {
 void Bench::implicit(std::uint32_t id, std::uint32_t sequence, std::uint16_t count, std::string_view data, Endpoint from) {
     Bytes d;
     write_implicit(d, id, sequence, count, hex(data));
+    output.witness.to_device(Witness::Port::implicit, 0, from, d);
     adapter.on_implicit(d, from, now);
 }
 void Bench::pass(Duration d) {

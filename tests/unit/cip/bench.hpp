@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gateway/protocols/cip/adapter.hpp"
+#include "tests/unit/cip/witness.hpp"
 
 namespace axisgate::cip::bench {
 
@@ -70,6 +71,7 @@ struct TestOutput final : Output {
         Bytes bytes;
         std::uint8_t dscp = 0;
     };
+    Witness witness;
     std::map<SessionKey, Bytes> streams;
     std::vector<Datagram> datagrams, implicits;
     std::vector<SessionKey> hung_up;

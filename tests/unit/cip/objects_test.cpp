@@ -48,7 +48,7 @@ TEST(CipObjects, TheNetworkAsToolsBrowseIt) {
     EXPECT_EQ(b.ask(get(0xF5, 1, 4)).data, hex("0200 20F6 2401"));
     EXPECT_EQ(b.ask(get(0xF6, 1, 1)).data, hex("E8030000"));
     EXPECT_EQ(b.ask(get(0x48, 1, 5)).data, hex("2F"));
-    EXPECT_EQ(b.ask(get(0xF3, 0, 2)).data, hex("0000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 2)).data, hex("00000000"));
     const Answer list = b.ask(get(2, 1, 1));
     EXPECT_EQ(list.data, hex("0900 0100 0200 0400 0600 0F00 4800 F300 F500 F600"));
 }
@@ -56,8 +56,8 @@ TEST(CipObjects, TheNetworkAsToolsBrowseIt) {
 TEST(CipObjects, TheListOfOriginatedConnectionsIsEmptyAndSaysSo) {
     Bench b;
     EXPECT_EQ(b.ask(get(0xF3, 0, 1)).data, hex("0300"));
-    EXPECT_EQ(b.ask(get(0xF3, 0, 2)).data, hex("0000"));
-    EXPECT_EQ(b.ask(get(0xF3, 0, 3)).data, hex("0000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 2)).data, hex("00000000"));
+    EXPECT_EQ(b.ask(get(0xF3, 0, 3)).data, hex("00000000"));
     EXPECT_EQ(b.ask(get(0xF3, 0, 6)).data, hex("0900"));
     EXPECT_EQ(b.ask(get(0xF3, 0, 8)).data, hex("0000"));
     EXPECT_EQ(b.ask(get(0xF3, 0, 9)).data, hex("00000000")) << "its signature";

@@ -21,10 +21,14 @@ protected:
     std::shared_ptr<TcpSession> session;
     Poller poller{io, [this](std::span<const epoll_event> events) {
                       for (const auto& e : events)
-                          if (const auto s = session; s && e.data.u64 == 7) s->on_ready(e.events);
+                          if (const auto s = session; s && e.data.u64 == 7) {
+                              s->on_ready(e.events);
+                              if (on_answered) on_answered();
+                              s->flush();
+                          }
                   }};
     cip::Bytes came;
-    std::function<void()> on_arrival;
+    std::function<void()> on_arrival, on_answered;
     int far = -1, ends = 0;
 
     void SetUp() override {
@@ -135,6 +139,47 @@ TEST_F(TcpSessionTest, HungUpFromInsideWhatArrivedItEndsAfterItsAnswer) {
     turn();
     turn();
     EXPECT_EQ(take(), cip::Bytes(3, 9));
+    EXPECT_EQ(ends, 1);
+}
+
+TEST_F(TcpSessionTest, AnswersOfATurnGoTogetherWhenItIsFlushed) {
+    on_arrival = [this] {
+        session->send(cip::Bytes(3, 1));
+        session->send(cip::Bytes(3, 2));
+    };
+    std::size_t early = 0;
+    on_answered = [&] { early += take().size(); };
+    write(1);
+    turn();
+    EXPECT_EQ(early, 0u);
+    EXPECT_EQ(take(), (cip::Bytes{1, 1, 1, 2, 2, 2}));
+    session->send(cip::Bytes(1, 3));
+    EXPECT_EQ(take(), cip::Bytes(1, 3)) << "outside of a turn at once";
+}
+
+TEST_F(TcpSessionTest, ManyAnswersToOneReadAreNotHeldBackBeyondABound) {
+    std::size_t early = 0;
+    on_answered = [&] { early += take().size(); };
+    on_arrival = [this] {
+        for (int i = 0; i < 100; ++i)
+            session->send(cip::Bytes(1'000, 1));
+    };
+    write(1);
+    turn();
+    EXPECT_GE(early, 80'000u);
+    EXPECT_EQ(early + take().size(), 100'000u);
+    EXPECT_EQ(ends, 0);
+}
+
+TEST_F(TcpSessionTest, AnAnswerToWhoHasGoneEndsTheSessionOnce) {
+    on_arrival = [this] {
+        ::close(std::exchange(far, -1));
+        session->send(cip::Bytes(3, 1));
+        session->send(cip::Bytes(3, 2));
+    };
+    write(1);
+    turn();
+    turn();
     EXPECT_EQ(ends, 1);
 }
 

@@ -6,6 +6,7 @@ import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
 import type { Word } from '../text/axis';
 import { formatExact, localFigures } from '../text/number';
+import { presenceText } from '../text/presence';
 import { Icon } from './icon';
 import { AxisName } from './name';
 import { Pill } from './pill';
@@ -27,8 +28,6 @@ export function presenceWord(drive: Drive): Word {
     case 'offline': return { text: t('Offline'), icon: 'unplugged', tone: 'warning', long: t('Nobody answers') };
   }
 }
-
-const wanted: Record<Drive['presence'], string> = { auto: t('real, else simulated'), device: t('real only'), twin: t('simulated only') };
 
 function Load({ share }: { share: number }) {
   const percent = Math.min(100, Math.max(0, share * 100));
@@ -104,7 +103,7 @@ function DriveCard({ name }: { name: string }) {
         <Pill label={t('Presence')} word={live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) }} />
       </div>
       <p class="where">
-        {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {wanted[drive.presence]}
+        {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {presenceText(drive.presence)}
       </p>
       <p class="why">{s.text || '\u00a0'}</p>
       <p class="where">

@@ -21,6 +21,7 @@ import { cellRow } from '../text/fail-safe';
 import type { MappingPoint } from '../text/mapping';
 import { formatExact } from '../text/number';
 import { steppedText, unitWords, valueText } from '../text/parameter';
+import { presenceText } from '../text/presence';
 import { captureAbout, triggerWords } from '../text/recorder';
 import { comparedSentence, parameterReport, type ParameterReport, type SnapshotValues } from '../text/report';
 import { dateTime } from '../text/time';
@@ -115,7 +116,7 @@ export function ReportPage() {
                 <td>{d.line}</td>
                 <td>{d.family}</td>
                 <td class="mono">{String(d.address)}</td>
-                <td>{d.presence}</td>
+                <td>{presenceText(d.presence)}</td>
                 <td>{d.axes.join(', ')}</td>
               </tr>
             ))}

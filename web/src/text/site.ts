@@ -3,6 +3,7 @@
 import { t } from '../language';
 import { formatExact, parseNumber, typedNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
+import { presences } from './presence';
 
 export type Entry = { name: string } & Record<string, unknown>;
 export interface Site {
@@ -35,12 +36,6 @@ export interface FieldSpec {
 
 const timing = (key: string, label: string, min: number, max: number, hint: string): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: t("the family's"), hint });
 export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive', 'dds'];
-
-const presences = [
-  { value: 'auto', text: t('real, else simulated') },
-  { value: 'device', text: t('real only') },
-  { value: 'twin', text: t('simulated only') },
-];
 
 /** The default is told once, beside the first of them. */
 const failSafeHint = t('the default halts a velocity move and lets a move to a target end; what is chosen holds for every motion');

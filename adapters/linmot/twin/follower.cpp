@@ -1,0 +1,58 @@
+// The slider's place, its lag, and when they pass their limits.
+// In: the demand. Out: places, instants. Never reads a limit that is 0 as one.
+#include "adapters/linmot/twin/follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace axisgate::linmot::twin {
+
+Point Follower::place(Instant now) const {
+    if (!controlled_) return {place_, 0};
+    if (outside_.stall) return {held_at_, 0};
+    const Point d = demand_.at(now);
+    return {d.position - offset_ - d.velocity * outside_.lag_ms / 1000, d.velocity};
+}
+
+Point Follower::actual(Instant now) const {
+    Point p = place(now);
+    p.position += offset_;
+    return p;
+}
+
+bool Follower::in_target(Instant now) const {
+    constexpr double window = 50;  // 5 um: the parameter has no UPID (choice O-11)
+    return controlled_ && !demand_.moves(now) && std::fabs(demand_.profile().target() - actual(now).position) <= window;
+}
+
+double Follower::home(double position, Instant now) {
+    offset_ = position - place(now).position;
+    homed_ = true;
+    return actual(now).position;
+}
+
+void Follower::control(bool on) noexcept {
+    controlled_ = on;
+    if (on) held_at_ = place_;
+}
+
+Instant Follower::lag_limit(Instant now, Instant after) const {
+    if (!outside_.stall || !controlled_) return never;
+    const double limit = memory_.number(0x1473);
+    if (limit <= 0) return never;
+    const double here = held_at_ + offset_;
+    if (std::fabs(demand_.at(now).position - here) > limit) return now;
+    if (demand_.led()) return now + watch_step;
+    const auto up = demand_.profile().crossing(here + limit, true, after);
+    const auto down = demand_.profile().crossing(here - limit, false, after);
+    return std::min(up.value_or(never), down.value_or(never));
+}
+
+Instant Follower::range_limit(Instant now, Instant after) const {
+    if (!controlled_ || demand_.led() || outside_.stall || demand_.profile().over(now) || !homed_) return never;
+    const auto up = demand_.profile().crossing(memory_.number(0x146F), true, after);
+    const auto down = demand_.profile().crossing(memory_.number(0x146E), false, after);
+    return std::min(up.value_or(never), down.value_or(never));
+}
+
+}  // namespace axisgate::linmot::twin

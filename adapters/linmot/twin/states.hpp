@@ -1,0 +1,109 @@
+// The state machine of a simulated drive: transitions, errors, status word, StateVar, warn word.
+// In: control words, faults, time. Out: states, and what they make of the demand. Never jumps over a state.
+#pragma once
+
+#include <cstdint>
+
+#include "adapters/linmot/twin/body.hpp"
+#include "adapters/linmot/twin/control_word.hpp"
+
+namespace axisgate::linmot::twin {
+
+enum State : std::uint8_t {
+    not_ready = 0,
+    switch_on_disabled = 1,
+    ready_to_switch_on = 2,
+    setup_error = 3,
+    error = 4,
+    hardware_tests = 5,
+    ready_to_operate = 6,
+    operation_enabled = 8,
+    homing = 9,
+    clearance = 10,
+    to_initial = 11,
+    aborting = 12,
+    freezing = 13,
+    quick_stop = 14,
+    to_position = 15,
+    jog_plus = 16,
+    jog_minus = 17,
+    linearizing = 18,
+    phase_search = 19,
+    special = 20
+};
+
+class States {
+public:
+    explicit States(Body& body) : body_(body) {}
+
+    void power_on() noexcept { word_.power_on(); }
+    void start_software(Instant now);
+    void stop_software(Instant now);
+    [[nodiscard]] bool running() const noexcept { return running_; }
+
+    /// The interface's word; what the drive obeys is made of it and of the other sources.
+    void write(std::uint16_t word, Instant now);
+    void decide(Instant now);
+    /// Transitions, until it stays where it is.
+    void evaluate(Instant now);
+    /// The first error stays.
+    void raise(Fault code, Instant now);
+    /// What is outside: errors, the force that is reached, limit switches.
+    void check(Instant now);
+
+    [[nodiscard]] std::uint8_t state() const noexcept { return state_; }
+    [[nodiscard]] Fault error_code() const noexcept { return error_; }
+    [[nodiscard]] bool in_error() const noexcept { return state_ == error || state_ == setup_error; }
+    [[nodiscard]] bool stops_by_error() const noexcept { return state_ == quick_stop && by_error_; }
+    [[nodiscard]] bool powered() const noexcept { return state_ >= operation_enabled; }
+    [[nodiscard]] bool moves(Instant now) const { return powered() && body_.demand.moves(now); }
+    [[nodiscard]] std::uint16_t control_word() const noexcept { return word_.value(); }
+    [[nodiscard]] std::uint16_t status_word(Instant now) const;
+    [[nodiscard]] std::uint16_t state_var(Instant now) const;
+    [[nodiscard]] std::uint16_t warn_word(Instant now) const;
+    [[nodiscard]] double demand(Instant now) const;
+
+    // --- time ---
+    /// The end of a test, or a look at what is outside.
+    [[nodiscard]] Instant due(Instant now) const;
+    /// What time alone has changed outside.
+    void look(Instant now);
+    /// A test that is over: true.
+    bool finish_test(Instant now);
+    /// Whether the state waits for the end of its motion; when that is, behind the brake.
+    [[nodiscard]] bool awaits_end() const noexcept;
+    [[nodiscard]] Instant motion_end() const;
+    void finish_motion(Instant now);
+    /// The motion of the present state waits no more.
+    [[nodiscard]] bool arrived() const noexcept { return sub_ == 0x0F; }
+
+private:
+    static constexpr Duration test_time = std::chrono::milliseconds(300);  ///< of the hardware tests [L128-130], exact by choice O-29
+    static constexpr Duration search_time = std::chrono::seconds(1);
+
+    void enter(std::uint8_t state, Instant now);
+    /// Another state with power, from one with power.
+    void pass_to(std::uint8_t state, Instant now, std::uint8_t sub = 0) noexcept;
+    void unpower(Instant now);
+    bool transit(Instant now);
+    bool transit_powered(Instant now);
+    bool transit_operating(Instant now);
+    void brake_to(std::uint8_t state, Instant now);
+    void move_to(std::uint8_t state, double target, Instant now);
+    void limit_switch(Instant now);
+    [[nodiscard]] bool released(Instant now);
+    [[nodiscard]] bool brakes_on_abort() const noexcept { return body_.memory.ram(0x1717) != 0 && body_.memory.ram(0x1718) != 0; }
+    [[nodiscard]] bool cw(int bit) const noexcept { return word_.bit(bit); }
+
+    Body& body_;
+    bool running_ = false;
+    std::uint8_t state_ = not_ready, sub_ = 0;
+    Instant since_{};  ///< of the state
+    Fault error_ = 0;  ///< of states 3, 4, and of 14 on its way there
+    bool fatal_ = false;
+    bool by_error_ = false;  ///< the quick stop
+    ControlWord word_;
+    Instant abort_over_ = never;  ///< after the brake's release
+};
+
+}  // namespace axisgate::linmot::twin

@@ -1,0 +1,24 @@
+// Witness: what passed between the tests' originators and the adapter, judged by a dissector that knows EtherNet/IP from others.
+// In: each packet as it passes. Out: when the program's tests have ended, a failure for each of the adapter's packets that tshark calls
+// malformed or warns of. What a test sends may be wrong on purpose; what is answered may not. Needs tshark.
+#pragma once
+
+#include <cstdint>
+
+#include "gateway/protocols/cip/adapter.hpp"
+
+namespace axisgate::cip::bench {
+
+class Witness {
+public:
+    enum class Port : std::uint8_t { stream, datagram, implicit };
+    Witness();
+    void to_device(Port port, std::uint64_t session, Endpoint from, View bytes) { note(port, session, from, bytes, true); }
+    void of_device(Port port, std::uint64_t session, Endpoint to, View bytes) { note(port, session, to, bytes, false); }
+
+private:
+    void note(Port port, std::uint64_t session, Endpoint other, View bytes, bool to_device);
+    std::uint32_t number_;  // of this device: each has addresses of its own
+};
+
+}  // namespace axisgate::cip::bench

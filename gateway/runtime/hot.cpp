@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 #include <pthread.h>
 #include <sched.h>
-#include <time.h>
 
 #include <algorithm>
 
@@ -39,7 +38,7 @@ Hot::~Hot() { stop(); }
 Instant Hot::now() const { return settings_.clock(); }
 
 void Hot::start() {
-    last_turn_ns_.store(ns_of(now()), std::memory_order_relaxed);
+    turns_.live(now());
     thread_ = std::thread([this] {
         enter_thread("axisgate-hot", hot_stands_back);
         if (settings_.spin_us > 0 || !go_first()) take_short_turns();
@@ -64,12 +63,10 @@ void Hot::run() {
     const auto spin = std::chrono::microseconds(settings_.spin_us);
     Instant stop_by = never;
     bool stopping = false;
-    turn_began_ = now();
+    turns_.begin(now());
     while (!finished_) {
         end_turn();
-        const Instant ended = now();
-        turn_times_.observe(ended - turn_began_);
-        turn_began_ = ended;  // as it goes on, unless it sleeps first
+        turns_.end(now());
         std::size_t ran = io_.poll_one();
         // The other threads hear of it when this one has nothing more to send: to wake them first would put a system call, and on a busy
         // processor their work, between a command and its frame.
@@ -79,12 +76,12 @@ void Hot::run() {
             // A door's own look is the shortest way to its clients; the loop as a whole is asked every fourth time.
             for (unsigned i = 0; ran == 0; ++i) {
                 const Instant t = now();
-                if (t >= until || t >= armed_) break;
-                turn_began_ = t;
+                if (t >= until || t >= turns_.armed()) break;
+                turns_.begin(t);
                 ran = serve_doors() ? 1 : (i % 4 == 3 || doors_.empty()) ? io_.poll_one() : 0;
             }
         }
-        if (ran == 0) sleep();
+        if (ran == 0) turns_.sleep();
         for (int n = 0; n < handlers_per_turn && io_.poll_one() > 0; ++n) {
         }
         if (stopping_.load(std::memory_order_relaxed)) {
@@ -96,24 +93,12 @@ void Hot::run() {
             bool moving = false;
             for (std::size_t i = 0; i < image_.size(); ++i)
                 moving = moving || (image_.picture(AxisId{static_cast<std::uint16_t>(i)}).flags & flag_moving);
-            arm(now() + std::chrono::milliseconds(5));
+            turns_.arm(now() + std::chrono::milliseconds(5));
             finished_ = !moving || now() >= stop_by;
         }
     }
     end_turn();
     announce();
-}
-
-/// Waits for the next handler and runs it. It runs within the wait: its share of the turn is the processor time that the wait has cost.
-void Hot::sleep() {
-    const auto used = [] {
-        timespec t{};
-        (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-        return Duration(std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec);
-    };
-    const Duration before = used();
-    io_.run_one();
-    turn_began_ = now() - (used() - before);
 }
 
 void Hot::announce() {
@@ -152,28 +137,10 @@ void Hot::end_turn() {
         next_reports_ = t;
     }
     if (t >= next_reports_) publish_reports(t);
-    turns_.fetch_add(1, std::memory_order_relaxed);
-    last_turn_ns_.store(ns_of(t), std::memory_order_relaxed);
+    turns_.count(t);
     Instant next = std::min(engine_.deadline(), next_reports_);
     if (engine_.at_rest(t)) next = std::max(next, t + rest_gathers);
-    arm(submitted_.empty() && results_.empty() ? next : t);
-}
-
-/// Sets the loop's one timer. A timer that rings too early costs one turn; so it is only moved forward in time when it must be.
-void Hot::arm(Instant deadline) {
-    if (armed_ <= deadline && armed_ > now()) return;
-    armed_ = deadline;
-    if (deadline == never) {
-        timer_.cancel();
-        return;
-    }
-    timer_.expires_at(std::chrono::steady_clock::time_point(
-        std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
-    timer_.async_wait([this, deadline](const boost::system::error_code& ec) {
-        if (ec) return;
-        armed_ = never;
-        wake_delays_.observe(now() - deadline);
-    });
+    turns_.arm(submitted_.empty() && results_.empty() ? next : t);
 }
 
 void Hot::submit(Command command) { submitted_.push_back(std::move(command)); }

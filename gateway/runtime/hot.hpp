@@ -7,7 +7,6 @@
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -21,6 +20,7 @@
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/cold.hpp"
 #include "gateway/runtime/event_outlet.hpp"
+#include "gateway/runtime/hot_turns.hpp"
 #include "gateway/runtime/mailbox.hpp"
 #include "gateway/runtime/set_point_slots.hpp"
 
@@ -82,12 +82,8 @@ public:
     void start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
     void stop();
-    /// Instant of the last turn: the watchdog looks at it.
-    [[nodiscard]] Instant last_turn() const noexcept { return at_ns(last_turn_ns_.load(std::memory_order_relaxed)); }
-    [[nodiscard]] std::uint64_t turns() const noexcept { return turns_.load(std::memory_order_relaxed); }
-    /// Work between two sleeps, and how long after its time a timer of the loop rang. Any thread.
-    [[nodiscard]] const Histogram& turn_times() const noexcept { return turn_times_; }
-    [[nodiscard]] const Histogram& wake_delays() const noexcept { return wake_delays_; }
+    /// How its turns go. Any thread reads it.
+    [[nodiscard]] const HotTurns& turns() const noexcept { return turns_; }
     [[nodiscard]] const Histogram& write_to_frame() const noexcept { return engine_.write_to_frame(); }
     [[nodiscard]] std::uint64_t lost_events() const noexcept { return events_.lost(); }
 
@@ -116,15 +112,12 @@ private:
     void end_turn();
     bool serve_doors();
     void announce();
-    void sleep();
-    void arm(Instant deadline);
     void publish_reports(Instant now);
 
     HotSettings settings_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
-    boost::asio::steady_timer timer_{io_};
-    Instant armed_ = never;
+    HotTurns turns_{io_, settings_.clock};
     Image image_;
     Engine engine_;
     Outlets out_;
@@ -140,10 +133,6 @@ private:
     EventOutlet events_;
     std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
     Instant next_reports_{};
-    std::atomic<std::int64_t> last_turn_ns_{0};
-    std::atomic<std::uint64_t> turns_{0};
-    Histogram turn_times_, wake_delays_;
-    Instant turn_began_{};
     std::atomic<bool> stopping_{false};
     bool finished_ = false;
     bool settled_ = false;

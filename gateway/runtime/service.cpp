@@ -407,7 +407,7 @@ void Service::watch() {
     if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
     if (ready_reported) tell_manager();
-    if (interval && monotonic_now() - hot->last_turn() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
+    if (interval && monotonic_now() - hot->turns().last() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
     auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
     tick.expires_after(next);

@@ -31,16 +31,17 @@ std::string WarmStatus::metrics() const {
     s += fmt::format("axisgate_mapping_info{{revision=\"{:08x}\"}} 1\n", mapping_revision(site_.site()->site));
     s += process_metrics();
     head("axisgate_hot_turns_total", "counter", "Turns of the hot loop.");
-    s += fmt::format("axisgate_hot_turns_total {}\n", threads_.hot.turns());
+    s += fmt::format("axisgate_hot_turns_total {}\n", threads_.hot.turns().counted());
     const auto spread = [&](std::string_view name, std::string_view help, const Histogram& h) {
         const auto reading = h.read();
         s += metric_head(name, "histogram", help) + metric_lines(name, reading);
         return reading;
     };
-    const auto turns = spread("axisgate_hot_turn_seconds", "Work of the hot loop between two sleeps.", threads_.hot.turn_times());
+    const auto turns = spread("axisgate_hot_turn_seconds", "Work of the hot loop between two sleeps.", threads_.hot.turns().times());
     head("axisgate_hot_turn_p999_seconds", "gauge", "99.9 % of all turns of the hot loop took no longer.");
     s += fmt::format("axisgate_hot_turn_p999_seconds {:.9f}\n", turns.quantile(0.999));
-    (void)spread("axisgate_hot_wake_delay_seconds", "How long after its time a timer of the hot loop rang.", threads_.hot.wake_delays());
+    (void)spread("axisgate_hot_wake_delay_seconds", "How long after its time a timer of the hot loop rang.",
+                 threads_.hot.turns().wake_delays());
     (void)spread("axisgate_write_to_frame_seconds",
                  "From a command's being taken to its first frame having left on a real line (one command per line at a time is measured).",
                  threads_.hot.write_to_frame());

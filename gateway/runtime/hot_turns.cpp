@@ -1,0 +1,50 @@
+// HotTurns: the timer, the sleep, and what they are measured by.
+// In: deadlines. Out: a loop that wakes, times of turns without the time that it slept.
+// Never counts a wait as work.
+#include "gateway/runtime/hot_turns.hpp"
+
+#include <time.h>
+
+#include <chrono>
+
+namespace axisgate {
+
+void HotTurns::end(Instant now) noexcept {
+    times_.observe(now - began_);
+    began_ = now;
+}
+
+void HotTurns::count(Instant now) noexcept {
+    count_.fetch_add(1, std::memory_order_relaxed);
+    live(now);
+}
+
+void HotTurns::arm(Instant deadline) {
+    if (armed_ <= deadline && armed_ > clock_()) return;
+    armed_ = deadline;
+    if (deadline == never) {
+        timer_.cancel();
+        return;
+    }
+    timer_.expires_at(std::chrono::steady_clock::time_point(
+        std::chrono::duration_cast<std::chrono::steady_clock::duration>(deadline.time_since_epoch())));
+    timer_.async_wait([this, deadline](const boost::system::error_code& ec) {
+        if (ec) return;
+        armed_ = never;
+        wake_delays_.observe(clock_() - deadline);
+    });
+}
+
+/// The handler runs within the wait: its share of the turn is the processor time that the wait has cost.
+void HotTurns::sleep() {
+    const auto used = [] {
+        timespec t{};
+        (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return Duration(std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec);
+    };
+    const Duration before = used();
+    io_.run_one();
+    began_ = clock_() - (used() - before);
+}
+
+}  // namespace axisgate

@@ -1,15 +1,19 @@
 // Decoder of LinRS: text for telegrams.
-// In: bytes. Out: one line per telegram. Never holds more than one unfinished telegram per direction.
+// In: bytes. Out: one line per telegram, and one for what the recording has of one at its edges.
+// Never holds more than one unfinished telegram and the end of one per direction.
 #include "adapters/linmot/decoder.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "adapters/linmot/wire_inferred.hpp"
 
 namespace axisgate::linmot {
 namespace {
+constexpr std::size_t longest_telegram = 63 + 4;  // the length byte, what it does not count
+
 std::string hex(std::span<const std::uint8_t> data) {
     std::string s;
     for (const auto b : data)
@@ -119,24 +123,62 @@ std::vector<std::string> LineDecoder::on_frame(const Frame& frame, std::optional
         lines.push_back(to_text(frame) + "  unknown: a CAN frame on a byte line");
         return lines;
     }
-    framers_[!to_drive   ? 2
-             : *to_drive ? 1
-                         : 0]
-        .push(
-            frame.data(),
-            [&](const Telegram& t, std::span<const std::uint8_t> bytes) { lines.push_back(hex(bytes) + "  " + describe(t, to_drive)); },
-            [&](std::span<const std::uint8_t> bytes, std::string_view why) {
-                lines.push_back(hex(bytes) + "  unknown: " + std::string(why));
-            });
+    Stream& s = streams_[!to_drive ? 2 : *to_drive ? 1 : 0];
+    s.framer.push(
+        frame.data(),
+        [&](const Telegram& t, std::span<const std::uint8_t> bytes) {
+            begin(s, lines);
+            lines.push_back(hex(bytes) + "  " + describe(t, to_drive));
+        },
+        [&](std::span<const std::uint8_t> bytes, std::string_view why) { strange(s, bytes, why, lines); });
     return lines;
+}
+
+void LineDecoder::strange(Stream& s, std::span<const std::uint8_t> bytes, std::string_view why, std::vector<std::string>& lines) {
+    auto& told = s.begun ? lines : s.strange;
+    told.push_back(hex(bytes) + "  unknown: " + std::string(why));
+    if (s.begun) return;
+    s.before.insert(s.before.end(), bytes.begin(), bytes.end());
+    if (s.before.size() >= longest_telegram) begin(s, lines);
+}
+
+/// From here on telegrams follow one another: what was before the first one is the end of another, or strange.
+void LineDecoder::begin(Stream& s, std::vector<std::string>& lines) {
+    if (std::exchange(s.begun, true) || s.before.empty()) return;
+    if (s.before.size() < longest_telegram && s.before.back() == end_byte) {
+        lines.push_back(hex(s.before) + "  the end of a telegram that began before the recording");
+    } else {
+        lines.insert(lines.end(), s.strange.begin(), s.strange.end());
+    }
+    s.before.clear();
+    s.strange.clear();
 }
 
 std::vector<std::string> LineDecoder::finish() {
     std::vector<std::string> lines;
-    for (Framer& f : framers_)
-        f.reset([&](std::span<const std::uint8_t> bytes, std::string_view why) {
-            lines.push_back(hex(bytes) + "  unknown: " + std::string(why));
-        });
+    for (Stream& s : streams_) {
+        std::vector<std::uint8_t> rest;
+        s.framer.reset([&](std::span<const std::uint8_t> bytes, std::string_view) { rest.assign(bytes.begin(), bytes.end()); });
+        if (!s.before.empty()) {
+            // No telegram was whole: a start byte among these may be one of its data, and the end is the last that a telegram can follow.
+            std::vector<std::uint8_t> all(s.before);
+            all.insert(all.end(), rest.begin(), rest.end());
+            std::size_t end = 0;
+            for (std::size_t i = 1; i < longest_telegram && i <= all.size(); ++i) {
+                if (all[i - 1] == end_byte && (i == all.size() || all[i] == start_byte)) end = i;
+            }
+            if (end != 0) {
+                s.before.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(end));
+                rest.assign(all.begin() + static_cast<std::ptrdiff_t>(end), all.end());
+            } else if (all.size() < longest_telegram) {
+                lines.push_back(hex(all) + "  bytes of a telegram that began before the recording and ended after it");
+                s.before.clear();
+                rest.clear();
+            }
+        }
+        begin(s, lines);
+        if (!rest.empty()) lines.push_back(hex(rest) + "  a telegram that had not ended when the recording did");
+    }
     return lines;
 }
 

@@ -1,5 +1,6 @@
 // Decoder of LinRS: recorded bytes as one readable line per telegram, down to the named motion command.
-// In: runs of bytes in order, with their direction if it is known. Out: text; what is inferred is said to be so.
+// In: runs of bytes in order, with their direction if it is known; a recording may begin and end within a telegram. Out: text; what is
+// inferred is said to be so.
 // Never changes anything and never guesses silently.
 #pragma once
 
@@ -29,7 +30,15 @@ private:
     [[nodiscard]] std::string parameter_name(std::uint16_t upid) const;
     const Catalogue& catalogue_;
     Motions motions_;
-    std::array<Framer, 3> framers_;  // from the drive, to it, not known
+    struct Stream {
+        Framer framer;
+        bool begun = false;                ///< what is strange is no end of a telegram that began before the recording
+        std::vector<std::uint8_t> before;  ///< until then: bytes of no telegram
+        std::vector<std::string> strange;  ///< ... and what is said of them if they are no end of one
+    };
+    static void strange(Stream& s, std::span<const std::uint8_t> bytes, std::string_view why, std::vector<std::string>& lines);
+    static void begin(Stream& s, std::vector<std::string>& lines);
+    std::array<Stream, 3> streams_;  // from the drive, to it, not known
 };
 
 }  // namespace axisgate::linmot

@@ -8,7 +8,7 @@
 
 namespace axisgate::linmot {
 namespace {
-constexpr std::uint8_t start_byte = 0x01, data_byte = 0x02, end_byte = 0x04;
+constexpr std::uint8_t data_byte = 0x02;
 constexpr std::size_t shortest = 2, longest = 63;  // of the length byte
 
 constexpr std::uint8_t reverse8(std::uint8_t b) {

@@ -14,6 +14,8 @@
 
 namespace axisgate::linmot {
 
+inline constexpr std::uint8_t start_byte = 0x01, end_byte = 0x04;  ///< of a telegram
+
 /// Checksum behind the data. Only `none` is proven on drives: covered bytes and start values of the others are not public.
 struct ChecksumRule {
     enum class Kind : std::uint8_t { none, sum, crc, crc_reflected };

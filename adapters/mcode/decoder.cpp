@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/mcode/wire.hpp"
 
@@ -30,18 +31,26 @@ std::string visible(std::string_view text) {
 void LineDecoder::flush(std::size_t direction, std::string_view end, std::vector<std::string>& lines) {
     std::string text = std::move(held_[direction]);
     held_[direction].clear();
+    bool doubtful = !std::exchange(begun_[direction], true);
     if (text.empty() && direction != 1) return;
     if (text.empty() && end == "CR") return;
+    constexpr std::string_view only_end = "the end of a line that began before the recording";
     std::string what, sum;
     if (!text.empty() && static_cast<std::uint8_t>(text.back()) >= 0x80) {
         const bool right = checksum_good(text);
         sum = fmt::format(" [checksum {:02X} {}]", static_cast<std::uint8_t>(text.back()), right ? "good" : "wrong");
         text.pop_back();
+        doubtful = doubtful && !right;
+        if (doubtful && text.empty()) {
+            lines.push_back(fmt::format("{} {}{}", arrows[direction], only_end, sum));
+            return;
+        }
     }
     const bool strange = std::ranges::any_of(text, [](char c) { return static_cast<std::uint8_t>(c) > 0x7E; });
     if (direction == 1) {
         if (text.empty()) {
-            what = "wakes the party line";
+            what = doubtful ? fmt::format("wakes the party line, or {}", only_end) : "wakes the party line";
+            doubtful = false;
         } else if (end == "LF") {
             const char name = text.front();
             const std::string who = name == '*' ? "all" : name == '^' ? "queue" : visible(std::string_view(&text.front(), 1));
@@ -53,7 +62,8 @@ void LineDecoder::flush(std::size_t direction, std::string_view end, std::vector
         what = visible(text);
     }
     if (strange) what += "  unknown: bytes that are no MCode";
-    lines.push_back(fmt::format("{} {}{}{}", arrows[direction], what, sum, end.empty() ? "  (not ended)" : ""));
+    lines.push_back(fmt::format("{} {}{}{}{}", arrows[direction], what, sum, end.empty() ? "  (not ended)" : "",
+                                doubtful ? "  (first in the recording: perhaps only the end of a line)" : ""));
 }
 
 void LineDecoder::put(std::size_t direction, char c, std::vector<std::string>& lines) {
@@ -62,6 +72,7 @@ void LineDecoder::put(std::size_t direction, char c, std::vector<std::string>& l
         std::string name = direction == 1 && held.size() == 1 ? fmt::format(" for {}", visible(held)) : std::string();
         if (name.empty() && !held.empty()) flush(direction, "", lines);
         held.clear();
+        begun_[direction] = true;
         lines.push_back(fmt::format("{} {}{}", arrows[direction], text, name));
     };
     switch (c) {

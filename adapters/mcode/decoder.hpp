@@ -1,5 +1,6 @@
 // Decoder of MCode: a recorded line as one readable line per message.
-// In: runs of bytes in order, with their direction if it is known. Out: text; what is not the language is said to be so.
+// In: runs of bytes in order, with their direction if it is known; a recording may begin and end within a line, and nothing but a checksum
+// proves the first one of a direction whole. Out: text; what is not the language is said to be so.
 // Never changes anything; keeps at most one line of each direction.
 #pragma once
 
@@ -22,6 +23,7 @@ private:
     void put(std::size_t direction, char c, std::vector<std::string>& lines);
     void flush(std::size_t direction, std::string_view end, std::vector<std::string>& lines);
     std::array<std::string, 3> held_;  // from the drive, to the drive, not known
+    std::array<bool, 3> begun_{};      ///< a line or a control symbol has ended: what follows is a line from its beginning
 };
 
 }  // namespace axisgate::mcode

@@ -1,9 +1,12 @@
 // Decoder of the UIM342: text for frames.
-// In: frames, or bytes cut anywhere, of both directions. Out: a line per message; bytes that are none are told with the next message.
+// In: frames, or bytes cut anywhere, of both directions. Out: a line per message; bytes that are none are told with the next message, and
+// what the recording has of a message at its edges as that.
 // Never holds more than half a frame and 64 strange bytes per direction.
 #include "adapters/uim342/decoder.hpp"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 #include "adapters/uim342/native.hpp"
 #include "adapters/uim342/wire_instructions.hpp"
@@ -57,8 +60,11 @@ std::string LineDecoder::can_line(const Frame& f) {
 }
 
 void LineDecoder::flush_junk(Stream& s, std::vector<std::string>& lines) {
+    const bool first = !std::exchange(s.begun, true);
     if (s.junk.empty()) return;
-    if (s.junk.size() == uimessage_size && s.junk.front() == 0xAA && s.junk.back() == 0xCC) {
+    if (first && s.junk.size() < uimessage_size && s.junk.back() == 0xCC) {
+        lines.push_back(fmt::format("{}  the end of a UIMessage that began before the recording", bytes_text(s.junk)));
+    } else if (s.junk.size() == uimessage_size && s.junk.front() == 0xAA && s.junk.back() == 0xCC) {
         const std::span<const std::uint8_t> b(s.junk);
         lines.push_back(fmt::format("{}  unknown: a frame with a wrong CRC (it has {:04X}; ID to d8 gives {:04X}, AA to d8 {:04X})",
                                     bytes_text(b), get_u16(&s.junk[13]), crc16(b.subspan(1, 12)), crc16(b.first(13))));
@@ -102,9 +108,29 @@ std::vector<std::string> LineDecoder::on_frame(const Frame& frame, std::optional
 std::vector<std::string> LineDecoder::finish() {
     std::vector<std::string> lines;
     for (Stream& s : streams_) {
+        std::span<const std::uint8_t> rest = s.framer.pending();
+        std::vector<std::uint8_t> all(s.junk);
+        all.insert(all.end(), rest.begin(), rest.end());
+        if (!s.begun && !s.junk.empty()) {
+            // No message was whole: a start byte among these may be one of its data, and the end is the last that a message can follow.
+            std::size_t end = 0;
+            for (std::size_t i = 1; i < uimessage_size && i <= all.size(); ++i) {
+                if (all[i - 1] == 0xCC && (i == all.size() || all[i] == 0xAA || all[i] == 0xAD)) end = i;
+            }
+            if (end != 0) {
+                s.junk.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(end));
+                rest = std::span(all).subspan(end);
+            } else if (all.size() < uimessage_size) {
+                lines.push_back(
+                    fmt::format("{}  bytes of a UIMessage that began before the recording and ended after it", bytes_text(all)));
+                s.junk.clear();
+                rest = {};
+            }
+        }
         flush_junk(s, lines);
-        if (const auto rest = s.framer.pending(); !rest.empty()) {
-            lines.push_back(fmt::format("{}  unknown: half a UIMessage, {} of {} bytes", bytes_text(rest), rest.size(), uimessage_size));
+        if (!rest.empty()) {
+            lines.push_back(fmt::format("{}  the first {} of the {} bytes of a UIMessage that had not ended when the recording did",
+                                        bytes_text(rest), rest.size(), uimessage_size));
         }
         s.framer.reset();
     }

@@ -1,5 +1,6 @@
 // Decoder of the UIM342: recorded CAN frames or UIMessage bytes as one readable line per message.
-// In: frames in order, with their direction if it is known. Out: text; what is not the protocol is said to be so.
+// In: frames in order, with their direction if it is known; a recording of bytes may begin and end within a message. Out: text; what is
+// not the protocol is said to be so.
 // Never changes anything and never guesses silently: a direction that was inferred is named as such.
 #pragma once
 
@@ -24,6 +25,7 @@ private:
     struct Stream {
         UiFramer framer{CrcMode::none};
         std::vector<std::uint8_t> junk;  ///< at most 64 bytes, then a line is written
+        bool begun = false;              ///< what is strange is no end of a message that began before the recording
     };
     static std::string can_line(const Frame& frame);
     static void flush_junk(Stream& s, std::vector<std::string>& lines);

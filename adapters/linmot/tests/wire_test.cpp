@@ -2,6 +2,9 @@
 // In: vectors.txt. Out: telegrams packed and unpacked to the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "adapters/linmot/decoder.hpp"
 #include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/tests/page.hpp"
@@ -227,6 +230,46 @@ TEST(LinmotDecoder, NamesTheMotionCommandAndWhatTheDriveSays) {
             }
         }
     }
+}
+
+// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+TEST(LinmotDecoder, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
+    const auto one = test::bytes_of("01 11 15 02 00 02 03 01 F0 49 02 00 40 42 0F 04 40 42 0F 00 40 42 0F 00 04");  // 01 and 04 in it
+    const auto two = test::bytes_of("01 11 05 02 00 01 3F 08 04"), three = test::bytes_of("01 11 05 02 00 05 A6 13 04");
+    std::vector<std::uint8_t> all;
+    std::vector<std::size_t> begins;
+    for (const auto& t : {one, two, three}) {
+        begins.push_back(all.size());
+        all.insert(all.end(), t.begin(), t.end());
+    }
+    const auto decoded = [&](std::size_t first, std::size_t last) {
+        LineDecoder d(test::page());
+        std::vector<std::string> lines;
+        for (std::size_t i = first; i < last; ++i)
+            std::ranges::move(d.on_frame(Frame::run(std::array<std::uint8_t, 1>{all[i]}), true), std::back_inserter(lines));
+        std::ranges::move(d.finish(), std::back_inserter(lines));
+        return lines;
+    };
+    for (std::size_t first = 0; first < all.size(); ++first) {
+        for (std::size_t last = first + 1; last <= all.size(); ++last) {
+            for (const auto& l : decoded(first, last))
+                EXPECT_EQ(l.find("unknown: "), std::string::npos) << first << ".." << last << " " << l;
+        }
+        if (first >= begins[2]) continue;
+        const auto lines = decoded(first, all.size());
+        EXPECT_EQ(lines.front().find("the end of a telegram that began before the recording") == std::string::npos,
+                  std::ranges::find(begins, first) != begins.end())
+            << first << " " << lines.front();
+        EXPECT_EQ(lines.size(), first < begins[1] ? 3u : 2u) << first;
+    }
+    LineDecoder d(test::page());
+    EXPECT_EQ(d.on_frame(Frame::run(two), true).size(), 1u);
+    EXPECT_NE(d.on_frame(Frame::run(test::bytes_of("05 04")), true).at(0).find("unknown: no telegram begins here"), std::string::npos);
+    LineDecoder noise(test::page());
+    std::size_t told = 0;
+    for (int i = 0; i < 100; ++i)
+        told += noise.on_frame(Frame::run(test::bytes_of("05 04")), false).size();
+    EXPECT_EQ(told, 100u) << "no telegram is so long: all are strange";
 }
 
 }  // namespace

@@ -140,6 +140,8 @@ std::vector<std::string> decode(LineDecoder& d, std::string_view s, std::optiona
 }
 TEST(Decoder, Lines) {
     LineDecoder d;
+    EXPECT_EQ(decode(d, "\n", true),
+              std::vector<std::string>{"-> wakes the party line, or the end of a line that began before the recording"});
     EXPECT_EQ(decode(d, "\n", true), std::vector<std::string>{"-> wakes the party line"});
     EXPECT_EQ(decode(d, "aPR P\x8D\n", true), std::vector<std::string>{"-> to a: PR P [checksum 8D good]"});
     EXPECT_EQ(decode(d, "aPR P\x8C\n", true), std::vector<std::string>{"-> to a: PR P [checksum 8C wrong]"});
@@ -149,6 +151,43 @@ TEST(Decoder, Lines) {
     EXPECT_EQ(decode(d, "\r\n42\r\n>", false), (std::vector<std::string>{"<- 42", "<- prompt"}));
     EXPECT_TRUE(decode(d, "ha", false).empty());
     EXPECT_EQ(d.finish(), std::vector<std::string>{"<- ha  (not ended)"});
+}
+
+// A bounded recording gives the last runs: it begins anywhere in a line, and a line of text does not tell whether it is whole.
+TEST(Decoder, TheFirstLineOfARecordingCutAnywhereIsNotTakenForAWholeOne) {
+    const std::string doubt = "  (first in the recording: perhaps only the end of a line)";
+    struct Row {
+        std::string bytes;
+        bool down;
+        std::string line;
+        bool proved;  ///< by its checksum
+    };
+    const Row rows[] = {{"VM 100\r", true, "-> VM 100", false},
+                        {"aPR P\x8D\n", true, "-> to a: PR P [checksum 8D good]", true},
+                        {"aVM 5\n", true, "-> to a: VM 5", false},
+                        {"-1280\r\n", false, "<- -1280", false}};
+    for (const Row& r : rows) {
+        for (std::size_t cut = 0; cut < r.bytes.size(); ++cut) {
+            SCOPED_TRACE(r.line + " " + std::to_string(cut));
+            LineDecoder d;
+            const auto first = decode(d, std::string_view(r.bytes).substr(cut), r.down);
+            if (first.empty()) {
+                EXPECT_GE(cut + 2, r.bytes.size()) << "CR and LF alone are no line";
+            } else {
+                ASSERT_EQ(first.size(), 1u);
+                EXPECT_EQ(first[0].find("unknown"), std::string::npos) << first[0];
+                const bool told = first[0].ends_with(doubt) || first[0].find("the end of a line that began before") != std::string::npos;
+                EXPECT_EQ(told, cut != 0 || !r.proved) << first[0];
+                if (cut == 0) EXPECT_EQ(first[0], r.line + (r.proved ? "" : doubt));
+            }
+            EXPECT_EQ(decode(d, r.bytes, r.down), std::vector<std::string>{r.line}) << "the second one began in the recording";
+        }
+    }
+    LineDecoder d;
+    EXPECT_EQ(decode(d, "\r\n42\r\n", false), std::vector<std::string>{"<- 42"}) << "it followed the end of another";
+    LineDecoder both;
+    EXPECT_TRUE(decode(both, "128", false).empty());
+    EXPECT_EQ(both.finish(), std::vector<std::string>{"<- 128  (not ended)" + doubt});
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "adapters/uim342/family.hpp"
@@ -89,8 +91,42 @@ TEST(Uim342Decoder, BytesInPiecesAndBetweenGarbage) {
     EXPECT_NE(lines[1].find("ST"), std::string::npos);
     EXPECT_NE(lines[2].find("wrong CRC"), std::string::npos) << lines[2];
     EXPECT_NE(lines[3].find("ST"), std::string::npos);
-    EXPECT_NE(lines[4].find("half a UIMessage, 2 of 16"), std::string::npos) << lines[4];
+    EXPECT_NE(lines[4].find("the first 2 of the 16 bytes of a UIMessage that had not ended"), std::string::npos) << lines[4];
     EXPECT_TRUE(d.finish().empty()) << "told once";
+}
+
+// A bounded recording gives the last runs: it begins, and ends, anywhere in a message.
+TEST(Uim342Decoder, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
+    std::vector<std::uint8_t> all;
+    const auto data = std::array<std::uint8_t, 4>{0xAA, 0x01, 0xCC, 0xAA};  // start and end bytes among the data
+    for (const Message& m : {message(5, 0x97), message(6, 0x95, data), message(5, 0x15, std::array<std::uint8_t, 1>{1})})
+        std::ranges::copy(to_uimessage(m, CrcMode::twelve), std::back_inserter(all));
+    const auto decoded = [&](std::size_t first, std::size_t last) {
+        LineDecoder d(LineKind::bytes);
+        std::vector<std::string> lines;
+        for (std::size_t i = first; i < last; ++i)
+            std::ranges::move(d.on_frame(Frame::run(std::array<std::uint8_t, 1>{all[i]}), false), std::back_inserter(lines));
+        std::ranges::move(d.finish(), std::back_inserter(lines));
+        return lines;
+    };
+    for (std::size_t first = 0; first < all.size(); ++first) {
+        for (std::size_t last = first + 1; last <= all.size(); ++last) {
+            for (const auto& l : decoded(first, last))
+                EXPECT_EQ(l.find("unknown"), std::string::npos) << first << ".." << last << " " << l;
+        }
+        if (first >= 2 * uimessage_size) continue;
+        const auto lines = decoded(first, all.size());
+        EXPECT_EQ(lines.front().find("the end of a UIMessage that began before the recording") != std::string::npos,
+                  first % uimessage_size != 0)
+            << first << " " << lines.front();
+        EXPECT_EQ(lines.size(), 3 - first / uimessage_size) << first;
+    }
+    LineDecoder d(LineKind::bytes);
+    const auto whole = std::span(all).first(uimessage_size);
+    EXPECT_EQ(d.on_frame(Frame::run(whole), true).size(), 1u);
+    EXPECT_TRUE(d.on_frame(Frame::run(std::array<std::uint8_t, 2>{0x01, 0xCC}), true).empty());
+    EXPECT_NE(d.on_frame(Frame::run(whole), true).front().find("unknown: 2 bytes"), std::string::npos)
+        << "after a message they are strange";
 }
 
 TEST(Uim342Decoder, GarbageIsBounded) {

@@ -1,267 +1,66 @@
-// Engine parts: the engine's own records of lines, drives, axes and waiting clients. Included by engine*.cpp alone.
-// In and out: nothing; these are plain records with the one event handler that a line needs. Never used outside the engine.
+// Engine parts: all of them, and which of them each one knows.
+// In: what the engine is made with. Out: the parts, wired once.
+// Never known to a part: each has what its own constructor names.
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
-#include "gateway/axis/authority.hpp"
-#include "gateway/engine/engine.hpp"
+#include "gateway/engine/clients.hpp"
+#include "gateway/engine/command_authority.hpp"
+#include "gateway/engine/commands.hpp"
+#include "gateway/engine/fast_look.hpp"
+#include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/machine.hpp"
+#include "gateway/engine/orders.hpp"
+#include "gateway/engine/presences.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/routing.hpp"
+#include "gateway/engine/scans.hpp"
+#include "gateway/engine/site_change.hpp"
+#include "gateway/engine/site_in_force.hpp"
+#include "gateway/engine/speakers.hpp"
+#include "gateway/engine/streams.hpp"
+#include "gateway/engine/twins.hpp"
+#include "gateway/engine/velocity_moves.hpp"
 
 namespace axisgate {
 
-/// One family's adapter on a side: several share a CAN line, each with the frames that its identifiers hold.
-struct Engine::Speaker {
-    Speaker(Side& s, FamilyEntry f, std::uint8_t n) : side(s), family(f), number(n) {}
-    Side& side;
-    FamilyEntry family;
-    std::uint8_t number;  ///< Frame::sender of what it sends
-    std::unique_ptr<Adapter> adapter;
-    std::vector<CanIdentifiers> identifiers;
-    bool hears_all = true;
-    std::vector<DriveSetup> probes;              ///< addresses that a scan asks now
-    std::optional<AdapterCounters> before_scan;  ///< what it had counted when the scan that runs came to it
-    AdapterCounters scanned;                     ///< while scans ran that are over
+struct Engine::Parts {
+    Parts(Families families, EngineHost& host, Image& image, std::size_t trace_frames)
+        : machine(std::move(families), image),
+          publisher(machine, host),
+          routing(machine, publisher, presences, orders, clients, velocity_moves, loss, streams),
+          speakers(machine, host, routing, trace_frames),
+          twins(machine, host, publisher),
+          presences(machine, pending, publisher, routing, speakers, twins, clients, streams),
+          clients(machine, pending, publisher),
+          orders(machine, pending, host, publisher, routing, twins, presences, clients, velocity_moves, streams),
+          velocity_moves(publisher, orders),
+          authority(machine, publisher),
+          loss(machine, host, publisher, orders, streams),
+          streams(machine, publisher, routing, orders, clients, authority, loss),
+          commands(machine, pending, publisher, twins, orders, clients, velocity_moves, authority),
+          scans(machine, publisher, speakers),
+          looks(machine, publisher, speakers),
+          site_in_force(machine, pending, publisher, speakers, twins, presences, clients, scans),
+          site_change(machine, pending, publisher, orders, site_in_force) {}
 
-    /// What it counted while scans ran, the one that runs among them.
-    [[nodiscard]] AdapterCounters scanned_now(const AdapterCounters& counted) const noexcept {
-        AdapterCounters all = scanned;
-        if (before_scan) all += difference(counted, *before_scan);
-        return all;
-    }
-    static AdapterCounters difference(const AdapterCounters& now, const AdapterCounters& before) noexcept {
-        return {now.exchanges - before.exchanges, now.timeouts - before.timeouts, now.retries - before.retries,
-                now.refused - before.refused,     now.garbled - before.garbled,   now.unexpected - before.unexpected};
-    }
-
-    [[nodiscard]] bool hears(const Frame& f) const noexcept { return hears_all || f.kind != Frame::Kind::can || any_holds(identifiers, f); }
+    engine::Machine machine;
+    engine::Pending pending;
+    engine::Publisher publisher;
+    engine::Routing routing;
+    engine::Speakers speakers;
+    engine::Twins twins;
+    engine::Presences presences;
+    engine::Clients clients;
+    engine::Orders orders;
+    engine::VelocityMoves velocity_moves;
+    engine::CommandAuthority authority;
+    engine::LossOfCommand loss;
+    engine::Streams streams;
+    engine::Commands commands;
+    engine::Scans scans;
+    engine::FastLook looks;
+    engine::SiteInForce site_in_force;
+    engine::SiteChange site_change;
 };
-
-/// The adapters of one line with what they talk on: the real line, or the twin bus beside it.
-struct Engine::Side final : LineEvents {
-    Side(Engine& e, LineUnit& u, bool is_twin) : engine(e), unit(u), twin(is_twin) {}
-    Engine& engine;
-    LineUnit& unit;
-    bool twin;
-    bool up = false;
-    bool tried = false;  ///< has reported its state at least once
-    std::string why = "not opened yet";
-    std::vector<std::unique_ptr<Speaker>> speakers;  ///< by family; most_families_on_a_line at most, and those of a scan
-    std::unique_ptr<Line> line;
-    std::uint64_t unclaimed = 0;  ///< CAN frames that none of them hears
-    TwinBus* bus = nullptr;       ///< `line` seen as what it is, on the twin's side
-    /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
-    /// says touched(); drain() does it for most.
-    Instant due = never;
-    bool asked = false;
-    void touched() noexcept { asked = false; }
-    [[nodiscard]] Instant deadline() {
-        if (!asked) {
-            asked = true;
-            due = line->deadline();
-            for (const auto& s : speakers)
-                due = std::min(due, s->adapter->deadline());
-        }
-        return due;
-    }
-    [[nodiscard]] Speaker* speaker_of(const FamilyEntry& family) const noexcept {
-        const auto it = std::ranges::find_if(speakers, [&](const auto& s) { return s->family.family == family.family; });
-        return it == speakers.end() ? nullptr : it->get();
-    }
-
-    void on_frame(const Frame& frame) override;
-    void on_line_state(bool now_up, const std::string& text) override;
-    void on_sent(const Frame& frame) override;
-
-    /// One command at a time is followed until its frame has left, for the histogram; those that come meanwhile are not. Real lines alone.
-    struct Followed {
-        Ticket ticket = no_ticket;  ///< none: the next command is
-        Instant since{};
-        bool handed_on = false;  ///< `frame` is in the line's queue
-        Frame frame;
-    } followed;
-};
-
-/// One search for drives on a line; kept for its report until the next. Its families are searched for side by side.
-struct Engine::Scan {
-    struct Asking {
-        DriveId id = no_drive;
-        std::string address;
-        Instant since{};
-        bool over = false, online = false;
-        std::string text;
-    };
-    struct Part {
-        FamilyEntry family;
-        std::size_t report = 0;            ///< its place in ScanReport::parts
-        std::vector<std::string> waiting;  ///< the next one at the back
-        std::vector<Asking> asking;
-        std::size_t at_once = 1;
-        [[nodiscard]] bool over() const noexcept { return waiting.empty() && asking.empty(); }
-    };
-    std::vector<Part> parts;
-    [[nodiscard]] bool over() const noexcept { return std::ranges::all_of(parts, &Part::over); }
-    std::uint32_t next_id = 0;
-    Instant ends_at{};
-    ScanReport report;
-};
-
-struct Engine::LineUnit {
-    LineSpec spec;
-    LineId id = no_line;
-    FamilyEntry family;                 ///< of those of its drives that name none; nullptrs if all do
-    std::vector<FamilyEntry> families;  ///< of all that the site has on it
-    LineKind kind = LineKind::bytes;
-    std::unique_ptr<Side> real;   ///< null on a line with the URI "twin"
-    std::unique_ptr<Side> twins;  ///< null while no drive is simulated
-    std::shared_ptr<FrameLog> log;
-    std::vector<DriveId> drives;
-    std::unique_ptr<Scan> scan;    ///< null: never scanned
-    AdapterCounters scanned_gone;  ///< by speakers that only a scan brought in
-    Duration stale_after{};
-};
-
-struct Engine::Drive {
-    DriveSpec spec;
-    DriveId id = no_drive;
-    LineUnit* line = nullptr;
-    FamilyEntry family;
-    std::shared_ptr<const Catalogue> catalogue;  ///< its own, or its family's page
-    std::vector<AxisId> axes;
-    Presence serving = Presence::offline;  ///< whose word counts: the device's, the twin's, nobody's
-    bool device_online = false, twin_online = false;
-    bool device_lost_while_commanded = false;
-    Instant waiting_since{};  ///< when we began to wait for the device
-    DriveLink device_link, twin_link;
-    std::string why = "not seen yet";
-    int twin_axes = 1;  ///< that the running twin was built with
-    std::uint64_t memory_revision = 0;
-    NonVolatile memory;  ///< what the twin starts from
-    /// The device is back: its parameters are read and compared before it gets its axes again.
-    struct Handback {
-        std::size_t waiting = 0;
-        std::size_t compared = 0;
-        std::size_t unread = 0;
-        std::vector<std::string> differences;
-    };
-    std::unique_ptr<Handback> handback;
-};
-
-struct Engine::Axis {
-    AxisSpec spec;
-    AxisId id = no_axis;
-    Drive* drive = nullptr;
-    AxisLimits limits;
-    Cia402Axis profile;
-    /// The dead-man time-out of a velocity move under way; `until` is `never` if there is none.
-    struct Held {
-        Instant until = never;      ///< runs from the drive's acknowledgement on
-        Duration time{};            ///< 0: no hold
-        std::int64_t velocity = 0;  ///< increments/s
-        AuthorityClient who;
-    } held;
-    /// The velocity move under way, watched at the site's limits of position.
-    struct Run {
-        std::int64_t velocity = 0;      ///< increments/s; 0: none
-        std::int64_t acceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
-        std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
-        std::int64_t position = 0;      ///< as last told, and when it became that
-        Instant since{};
-        bool found = false;  ///< it moved when it was first heard, and who ordered it is gone: watched until it rests
-        double round_s = 0;  ///< between the last two positions: how late the next may be, and a halt on the same line
-    } run;
-    std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
-    std::optional<Move> prepared;        ///< taken by the drive, starts with StartTogether
-    /// Set-points that one client renews.
-    struct Stream {
-        bool on = false;
-        SetPoint::Mode mode = SetPoint::Mode::position;
-        AuthorityClient who;
-        Origin origin;
-        std::int64_t value = 0;  ///< of the newest one that was handed to the drive
-        Instant renewed{};       ///< by one that was handed to the drive: a refused one keeps nothing alive
-        Duration good_for{};
-        std::uint32_t taken = 0, refused = 0;
-        Reason refusal = Reason::none;  ///< of the newest one, or of the stream
-        Instant tell_again_at{};
-        bool untold = false;       ///< the present refusal has not been told in words
-        AuthorityClient ended_by;  ///< whose stream was the last; it must pause before its next one
-        Instant ended_heard{};     ///< when it sent one last, since then
-        Reason ended_for = Reason::none;
-        std::string ended_why;
-    } stream;
-    Ticket setpoint_ticket =
-        no_ticket;            ///< the set-point that came last by a control word: it may wait and begin later, without its client
-    Instant leaving_until{};  ///< a site change takes it away: until then nothing begins here any more
-    bool at_limit = false;    ///< a velocity move was ended at a limit, and no motion has begun since
-    AxisAuthority authority;
-    LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
-    std::optional<AtLoss> lost_line;   ///< its drive went silent while this axis was commanded, and has not spoken since
-    Duration look_period{};            ///< zero: asked in the line's rhythm
-    Instant look_until{};
-    bool stale = true;
-    bool was_fault = false;
-    std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice
-    std::uint16_t last_error = 0;
-    std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
-    std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
-    std::map<Point, Value> said;         ///< what who speaks for it said last; bounded by the catalogue
-    std::uint32_t source = 0;            ///< AxisPicture::source
-};
-
-/// One client's command on its way.
-struct Engine::Client {
-    std::uint64_t number = 0;
-    Ticket ticket = no_ticket;
-    AxisId axis = no_axis;
-    CommandBody body;
-    Origin origin;
-    bool until_done = false;
-    bool lets_go = false;     ///< a disable whose device is silent: nobody need hear it for the twin to take over
-    bool was_moving = false;  ///< its axis has moved since
-    bool was_silent = false;  ///< its drive has been silent since: the first half of a restart
-    std::size_t waiting = 0;  ///< orders without an answer
-    bool accepted = false;    ///< all orders were taken; the end of the motion is being watched
-    Result result;            ///< the first bad answer, or the last good one
-    Instant accepted_at{};
-};
-
-struct Engine::OrderRecord {
-    std::uint64_t client = 0;  ///< 0: of the engine's own making
-    AxisId axis = no_axis;
-    CommandBody body;
-    DriveId handback = no_drive;
-    Result kept;   ///< what the drive said, while the store works
-    Value before;  ///< of a write: what was there, as far as it is known
-    Instant given_at{};
-};
-
-/// A site that comes into force as soon as what it takes away stands.
-struct Engine::Change {
-    struct Stopped {
-        AxisId axis = no_axis;
-        Instant asked{};
-    };
-    Site site;
-    SiteMemory memory;
-    std::uint64_t revision = 0;
-    Applied then;
-    Instant until{};
-    std::vector<Stopped> stopped;
-};
-
-template <class F>
-void Engine::ask(Speaker& by, Instant now, F&& call) {
-    Out out = take_out();
-    call(out);
-    drain(by, out, now);
-    give_back(std::move(out));
-}
-
-/// Commands of one axis that may be on their way at the same time; beyond it: busy.
-inline constexpr std::size_t max_clients_per_axis = 64;
-/// How long an `auto` drive may be silent at the start before its twin takes over, if the adapter has not given it up earlier.
-inline constexpr Duration first_answer_limit = std::chrono::milliseconds(1500);
-inline constexpr Duration housekeeping_period = std::chrono::milliseconds(50);
 
 }  // namespace axisgate

@@ -11,7 +11,6 @@ LIMIT = 40
 
 # Classes that are not mended yet, with their present number. It may only fall; at the limit the line goes.
 NOT_MENDED = {
-    ("gateway/engine/engine.hpp", "Engine"): 117,
 }
 
 _HIDDEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|(?<![0-9A-Fa-f])\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*', re.S | re.M)

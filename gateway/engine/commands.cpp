@@ -1,18 +1,23 @@
-// Engine, commands: from a client's command to the orders that carry it out, or to the one reason for which it is refused.
-// In: commands with their origin. Out: orders on their way to the adapter, or a refusal; the audit's event.
-// Never changes an axis for a command that is refused, but for the stop in it.
-#include <fmt/format.h>
+// Commands, see commands.hpp: guarded, planned, noted and carried out; `on_command` is the list of it.
+// In: one command. Out: a refusal, an answer, or its orders, one by one.
+// Never guards in two places: authority, limits and profile are each asked in `plan_motion`.
+#include <fmt/core.h>
 
 #include <algorithm>
 
-#include "gateway/engine/engine.hpp"
-#include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/clients.hpp"
+#include "gateway/engine/command_authority.hpp"
+#include "gateway/engine/commands.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/orders.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/twins.hpp"
+#include "gateway/engine/velocity_moves.hpp"
 
-namespace axisgate {
+namespace axisgate::engine {
 
 /// What a command of a client comes to.
-struct Engine::Plan {
+struct Commands::Plan {
     std::vector<CommandBody> orders;
     std::optional<Move> waits;  ///< a set-point behind the running motion
     bool motion = false;        ///< a command of CiA 402's, by word or by name
@@ -22,45 +27,35 @@ struct Engine::Plan {
     [[nodiscard]] bool empty() const { return orders.empty() && !waits; }
 };
 
-void Engine::refuse(const Command& c, Reason reason, std::string text) {
-    Result r;
-    r.ticket = c.ticket;
-    r.axis = c.axis;
-    r.outcome = Outcome::refused;
-    r.reason = reason;
-    r.text = std::move(text);
-    answer(r);
-}
-
-void Engine::on_command(Command c, Instant now) {
-    if (tap_) tap_->command(c, now);
-    now_ = last_stir_ = std::max(now_, now);
-    Axis* a = axis(c.axis);
-    if (!a || closing_) return refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
-    if (const auto no = turned_away(*a, c, now)) return refuse(c, no->reason, no->text);
-    if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return hold(*a, c, *wish, now);
+void Commands::on_command(Command c, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->command(c, now);
+    machine_.now = machine_.last_stir = std::max(machine_.now, now);
+    Axis* a = machine_.axis(c.axis);
+    if (!a || machine_.closing) return publisher_.refuse(c, Reason::line_down, a ? "the gateway is stopping" : "there is no such axis");
+    if (const auto no = turned_away(*a, c, now)) return publisher_.refuse(c, no->reason, no->text);
+    if (const auto* wish = std::get_if<HoldAxis>(&c.body)) return authority_.hold(*a, c, *wish, now);
     if (const auto* hand = std::get_if<Hand>(&c.body)) return answer_hand(*a, c, *hand, now);
 
     Plan plan;
     auto no = plan_for(*a, c, plan, now);
-    if (!no && !plan.stops && needs_authority(c, plan)) no = ask_authority(*a, c, now);
+    if (!no && !plan.stops && needs_authority(c, plan)) no = authority_.ask(*a, c, now);
     if (plan.answered) return;
     if (no) {
         if (plan.stops) give_the_stop_alone(c, now);
-        return refuse(c, no->reason, fmt::format("axis {}: {}", a->spec.name, no->text));
+        return publisher_.refuse(c, no->reason, fmt::format("axis {}: {}", a->spec.name, no->text));
     }
     note_command(*a, c, plan, now);
     carry_out(*a, std::move(c), std::move(plan), now);
 }
 
 /// Not looked at any closer: too many are on their way, or the axis is about to go.
-std::optional<Refusal> Engine::turned_away(const Axis& a, const Command& c, Instant now) const {
+std::optional<Refusal> Commands::turned_away(const Axis& a, const Command& c, Instant now) {
     if (a.clients.size() >= max_clients_per_axis && !is_urgent(c.body)) {
         return Refusal{Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", a.spec.name,
                                                  max_clients_per_axis)};
     }
     const bool free = std::holds_alternative<HoldAxis>(c.body) || std::holds_alternative<ReadParameter>(c.body);
-    if (now < a.leaving_until && !free && !only_stops(a, c.body)) {
+    if (now < a.leaving_until && !free && !CommandAuthority::only_stops(a, c.body)) {
         return Refusal{
             Reason::busy,
             fmt::format("axis {}: a change of the site takes it away or makes it anew; come again when that is in force", a.spec.name)};
@@ -68,17 +63,17 @@ std::optional<Refusal> Engine::turned_away(const Axis& a, const Command& c, Inst
     return std::nullopt;
 }
 
-void Engine::answer_hand(const Axis& a, const Command& c, const Hand& hand, Instant now) {
-    const std::string wrong = use_hand(a.drive->id, {{hand.name, hand.value}}, c.origin, now);
-    if (!wrong.empty()) return refuse(c, Reason::out_of_range, wrong);
+void Commands::answer_hand(const Axis& a, const Command& c, const Hand& hand, Instant now) {
+    const std::string wrong = twins_.use_hand(a.drive->id, {{hand.name, hand.value}}, c.origin, now);
+    if (!wrong.empty()) return publisher_.refuse(c, Reason::out_of_range, wrong);
     Result r;
     r.ticket = c.ticket;
     r.axis = c.axis;
-    answer(r);
+    publisher_.answer(r);
 }
 
 /// Nothing, with the plan; or why not.
-std::optional<Refusal> Engine::plan_for(Axis& a, Command& c, Plan& plan, Instant now) {
+std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Instant now) {
     if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
         plan.orders.push_back(c.body);
         return std::nullopt;
@@ -88,7 +83,7 @@ std::optional<Refusal> Engine::plan_for(Axis& a, Command& c, Plan& plan, Instant
     return plan_motion(a, c, plan, now);
 }
 
-std::optional<Refusal> Engine::plan_parameter(const Axis& a, CommandBody& body, Plan& plan) const {
+std::optional<Refusal> Commands::plan_parameter(const Axis& a, CommandBody& body, Plan& plan) {
     const Catalogue& catalogue = *a.drive->catalogue;
     auto* write = std::get_if<WriteParameter>(&body);
     const Point point = write ? write->point : std::get<ReadParameter>(body).point;
@@ -105,11 +100,11 @@ std::optional<Refusal> Engine::plan_parameter(const Axis& a, CommandBody& body, 
     return std::nullopt;
 }
 
-std::optional<Refusal> Engine::plan_motion(Axis& a, Command& c, Plan& plan, Instant now) {
+std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, Instant now) {
     auto* data = std::get_if<ProcessData>(&c.body);
     plan.motion = true;
-    plan.stops = only_stops(a, c.body);
-    if (const auto v = may_command(a, c, now); !v.allowed) {
+    plan.stops = CommandAuthority::only_stops(a, c.body);
+    if (const auto v = authority_.may_command(a, c, now); !v.allowed) {
         if (!plan.stops) return Refusal{Reason::authority, v.text};
         // A stop counts for everybody; but only who may command gives set-points with it.
         if (data) *data = stop_alone(*data);
@@ -118,8 +113,8 @@ std::optional<Refusal> Engine::plan_motion(Axis& a, Command& c, Plan& plan, Inst
         a.drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
         plan.lets_go = a.drive->spec.presence == PresenceRule::automatic && a.drive->serving == Presence::device && !a.drive->device_online;
     }
-    if (auto no = beyond_limits(a, c.body)) return no;
-    if (hold_on(a, c, now)) {
+    if (auto no = orders_.beyond_limits(a, c.body)) return no;
+    if (velocity_moves_.hold_on(a, c, now)) {
         plan.answered = true;
         return std::nullopt;
     }
@@ -127,7 +122,7 @@ std::optional<Refusal> Engine::plan_motion(Axis& a, Command& c, Plan& plan, Inst
     const std::int64_t buffered_from = a.profile.active_target().value_or(a.profile.feedback().position);
     auto decision = data ? a.profile.on_process_data(*data, c.origin) : a.profile.on_command(c.body, c.origin);
     if (decision.refused) {
-        const Side* side = side_of(*a.drive);
+        const Side* side = machine_.side_of(*a.drive);
         if (decision.reason == Reason::no_answer && side && !side->up)
             return Refusal{Reason::line_down, fmt::format("line {} is down: {}", side->unit.spec.name, side->why)};
         return Refusal{decision.reason, std::move(decision.text)};
@@ -137,34 +132,36 @@ std::optional<Refusal> Engine::plan_motion(Axis& a, Command& c, Plan& plan, Inst
     if (!data) return std::nullopt;
     std::optional<Refusal> no;  // a set-point that starts with this word, or waits because of it, is looked at as what it is
     for (const auto& o : plan.orders) {
-        if (!no) no = beyond_limits(a, o);
+        if (!no) no = orders_.beyond_limits(a, o);
     }
     if (!no && plan.waits) no = guard_move(*plan.waits, a.limits, buffered_from);
     if (no) a.profile = *before;
     return no;
 }
 
-ProcessData Engine::stop_alone(const ProcessData& data) {
+ProcessData Commands::stop_alone(const ProcessData& data) {
     ProcessData stop;
     stop.controlword = data.controlword;
     return stop;
 }
 
 /// A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
-void Engine::give_the_stop_alone(const Command& c, Instant now) {
+void Commands::give_the_stop_alone(const Command& c, Instant now) {
     const auto* data = std::get_if<ProcessData>(&c.body);
     const bool values = data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
                                  data->profile_deceleration || data->mode || data->homing_method);
     if (!values) return;
     Command only = c;
-    only.ticket = make_ticket(engine_itself, next_++);
+    only.ticket = make_ticket(engine_itself, pending_.next++);
     only.body = stop_alone(*data);
     on_command(std::move(only), now);
 }
 
-bool Engine::needs_authority(const Command& c, const Plan& plan) { return !std::holds_alternative<ReadParameter>(c.body) && !plan.empty(); }
+bool Commands::needs_authority(const Command& c, const Plan& plan) {
+    return !std::holds_alternative<ReadParameter>(c.body) && !plan.empty();
+}
 
-void Engine::note_command(const Axis& a, const Command& c, const Plan& plan, Instant now) {
+void Commands::note_command(const Axis& a, const Command& c, const Plan& plan, Instant now) {
     const bool audited =
         plan.motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body);  // writes when they are stored
     if (plan.empty() || !audited || c.origin.door == Door::internal) return;
@@ -182,12 +179,12 @@ void Engine::note_command(const Axis& a, const Command& c, const Plan& plan, Ins
     if (plan.waits)
         e.text += fmt::format("{}{} {} waits for the running motion", e.text.empty() ? "" : ", ", name_of(CommandBody{*plan.waits}),
                               plan.waits->target);
-    event(std::move(e), now);
+    publisher_.event(std::move(e), now);
 }
 
-void Engine::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
+void Commands::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
     auto client = std::make_unique<Client>();
-    const auto number = client->number = next_++;
+    const auto number = client->number = pending_.next++;
     client->ticket = c.ticket;
     client->axis = c.axis;
     client->body = std::move(c.body);
@@ -205,49 +202,14 @@ void Engine::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
         client->accepted_at = now;
     }
     a.clients.push_back(number);
-    clients_.emplace(number, std::move(client));
-    publish(a, now);
-    if (plan.orders.empty()) return track(a, now);
+    pending_.clients.emplace(number, std::move(client));
+    publisher_.publish(a, now);
+    if (plan.orders.empty()) return clients_.track(a, now);
     for (auto& o : plan.orders) {
-        const auto still = clients_.find(number);
-        if (still == clients_.end()) return;  // an earlier order was refused at once
-        give_order(a, still->second.get(), std::move(o), c.origin, now);
+        const auto still = pending_.clients.find(number);
+        if (still == pending_.clients.end()) return;  // an earlier order was refused at once
+        orders_.give(a, still->second.get(), std::move(o), c.origin, now);
     }
 }
 
-/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called;
-/// of registers the values that are kept for later, and a mode that the drive has not. The one place that compares with them: streamed
-/// set-points come here as the motion that they ask for.
-std::optional<Refusal> Engine::beyond_limits(const Axis& a, const CommandBody& body) const {
-    if (const auto* data = std::get_if<ProcessData>(&body)) {
-        if (data->mode) {
-            if (auto no = guard_mode(*data->mode, a.drive->catalogue->modes())) return no;
-        }
-        return guard_process_data(*data, a.limits);
-    }
-    const std::int64_t position = a.profile.feedback().position;
-    if (const auto* m = std::get_if<Move>(&body)) {
-        if (auto no = guard_move(*m, a.limits, position)) return no;
-        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
-        const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
-        return from ? guard_move(*m, a.limits, *from) : std::nullopt;
-    }
-    if (const auto* set = std::get_if<SetPosition>(&body)) {
-        Move probe;
-        probe.target = set->position;
-        return guard_move(probe, AxisLimits{}, 0);
-    }
-    if (const auto* together = std::get_if<StartTogether>(&body)) {
-        for (const AxisId id : together->axes) {
-            const Axis* x = axis(id);
-            if (!x || !x->prepared) continue;
-            if (auto no = guard_move(*x->prepared, x->limits, x->profile.feedback().position)) {
-                no->text = fmt::format("axis {}: {}", x->spec.name, no->text);
-                return no;
-            }
-        }
-    }
-    return std::nullopt;
-}
-
-}  // namespace axisgate
+}  // namespace axisgate::engine

@@ -1,32 +1,33 @@
-// Engine, scans. Addresses that the site does not name are given to the line's adapter as drives without axes, a few at a time;
-// its own search for a drive is the question, its DriveLink the answer.
-// In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses of a family at once, 2 s per address, the
-// wish's own limit. Never asks an address that the site has given to a drive, and ends when the site changes.
+// Scans, see scans.hpp: from a wish to the addresses that are asked, and what each turn makes of the answers.
+// In: the families of a line, its drives. Out: probes for the line's adapters; a report for whoever asks.
+// Never changes what the site's own drives are told.
 #include <fmt/core.h>
 
 #include <algorithm>
 
-#include "gateway/engine/engine_parts.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/scans.hpp"
+#include "gateway/engine/speakers.hpp"
 
-namespace axisgate {
+namespace axisgate::engine {
 namespace {
 constexpr std::uint16_t first_probe = 0xFF00;
 constexpr std::size_t most_at_once = 16;
 constexpr Duration address_limit = std::chrono::seconds(2);
 }  // namespace
 
-bool Engine::is_probe(DriveId id) noexcept { return id != no_drive && index_of(id) >= first_probe; }
+bool Scans::is_probe(DriveId id) noexcept { return id != no_drive && index_of(id) >= first_probe; }
 
-std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
-    if (tap_) tap_->scan(id, wish, now);
-    LineUnit* unit = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
+std::string Scans::start(LineId id, ScanWish wish, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->scan(id, wish, now);
+    LineUnit* unit = index_of(id) < machine_.lines.size() ? machine_.lines[index_of(id)].get() : nullptr;
     if (!unit) return "there is no such line";
     if (unit->scan && unit->scan->report.state == ScanReport::State::running)
         return fmt::format("line {} is being scanned already", unit->spec.name);
     std::vector<FamilyEntry> families = unit->families;
     if (!wish.family.empty()) {
-        const FamilyEntry wanted = families_.find(wish.family);
+        const FamilyEntry wanted = machine_.families.find(wish.family);
         if (auto wrong = not_to_be_searched(*unit, wanted, wish.family); !wrong.empty()) return wrong;
         families = {wanted};
     }
@@ -45,7 +46,7 @@ std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
         wish.family = told.family;
         wish.known.clear();
         for (const DriveId d : unit->drives) {
-            const Drive& drive = *drives_[index_of(d)];
+            const Drive& drive = *machine_.drives[index_of(d)];
             if (drive.family.family == family.family) wish.known.push_back(drive.spec.address);
         }
         ScanPlan plan = family.family->scan(wish);
@@ -72,7 +73,7 @@ std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
     if (scan->parts.empty()) return scan->report.parts.front().text;
     if (side && !side->up) return fmt::format("line {} is down: {}", unit->spec.name, side->why);
     for (const DriveId d : unit->drives) {
-        const Drive& drive = *drives_[index_of(d)];
+        const Drive& drive = *machine_.drives[index_of(d)];
         if (std::ranges::find(scan->parts, drive.family.family, [](const Scan::Part& p) { return p.family.family; }) == scan->parts.end())
             continue;
         if (side && !side->twin && !drive.device_online) continue;
@@ -82,13 +83,13 @@ std::string Engine::start_scan(LineId id, ScanWish wish, Instant now) {
     }
     scan->report.state = ScanReport::State::running;
     unit->scan = std::move(scan);
-    scan_turn(*unit, now);
+    turn(*unit, now);
     return {};
 }
 
 /// Why a family cannot be searched for on this line; empty: it can.
-std::string Engine::not_to_be_searched(const LineUnit& unit, const FamilyEntry& wanted, std::string_view name) const {
-    if (!wanted.family) return fmt::format("there is no family {}; use one of: {}", name, families_.names());
+std::string Scans::not_to_be_searched(const LineUnit& unit, const FamilyEntry& wanted, std::string_view name) const {
+    if (!wanted.family) return fmt::format("there is no family {}; use one of: {}", name, machine_.families.names());
     const auto on_line = [&](const FamilyEntry& f) { return f.family == wanted.family; };
     if (std::ranges::any_of(unit.families, on_line)) return {};
     if (unit.kind == LineKind::bytes) return fmt::format("line {} carries bytes, and those of {} alone", unit.spec.name, unit.spec.family);
@@ -99,18 +100,18 @@ std::string Engine::not_to_be_searched(const LineUnit& unit, const FamilyEntry& 
     return {};
 }
 
-void Engine::cancel_scan(LineId id, Instant now) {
-    if (tap_) tap_->scan_cancel(id, now);
-    LineUnit* unit = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
-    if (unit) end_scan(*unit, ScanReport::State::cancelled, "cancelled", now);
+void Scans::cancel(LineId id, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->scan_cancel(id, now);
+    LineUnit* unit = index_of(id) < machine_.lines.size() ? machine_.lines[index_of(id)].get() : nullptr;
+    if (unit) end(*unit, ScanReport::State::cancelled, "cancelled", now);
 }
 
-ScanReport Engine::scan_report(LineId id) const {
-    const LineUnit* unit = index_of(id) < lines_.size() ? lines_[index_of(id)].get() : nullptr;
+ScanReport Scans::report(LineId id) const {
+    const LineUnit* unit = index_of(id) < machine_.lines.size() ? machine_.lines[index_of(id)].get() : nullptr;
     return unit && unit->scan ? unit->scan->report : ScanReport{};
 }
 
-void Engine::end_scan(LineUnit& unit, ScanReport::State state, std::string why, Instant now) {
+void Scans::end(LineUnit& unit, ScanReport::State state, std::string why, Instant now) {
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     unit.scan->report.state = state;
     unit.scan->report.text = std::move(why);
@@ -124,17 +125,16 @@ void Engine::end_scan(LineUnit& unit, ScanReport::State state, std::string why, 
         if (std::ranges::find(unit.families, s->family.family, &FamilyEntry::family) == unit.families.end())
             unit.scanned_gone += s->scanned;
     }
-    fit_speakers(*side, now);
+    speakers_.fit(*side, now);
 }
 
 /// From housekeeping: what was answered or waited for long enough makes room for the next addresses.
-void Engine::scan_turn(LineUnit& unit, Instant now) {
+void Scans::turn(LineUnit& unit, Instant now) {
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     Scan& scan = *unit.scan;
-    last_stir_ = now;
+    machine_.last_stir = now;
     Side* side = unit.real ? unit.real.get() : unit.twins.get();
-    if (side && !side->up)
-        return end_scan(unit, ScanReport::State::failed, fmt::format("line {} is down: {}", unit.spec.name, side->why), now);
+    if (side && !side->up) return end(unit, ScanReport::State::failed, fmt::format("line {} is down: {}", unit.spec.name, side->why), now);
     std::vector<Scan::Part*> changed;
     for (auto& part : scan.parts) {
         const auto over = std::erase_if(part.asking, [&](const Scan::Asking& a) {
@@ -147,7 +147,7 @@ void Engine::scan_turn(LineUnit& unit, Instant now) {
         if (over > 0) changed.push_back(&part);
     }
     if (now >= scan.ends_at && !scan.over())
-        return end_scan(unit, ScanReport::State::failed, "its limit_s was over before every address was asked", now);
+        return end(unit, ScanReport::State::failed, "its limit_s was over before every address was asked", now);
     for (auto& part : scan.parts) {
         if (part.asking.size() < part.at_once && !part.waiting.empty() && std::ranges::find(changed, &part) == changed.end())
             changed.push_back(&part);
@@ -163,17 +163,17 @@ void Engine::scan_turn(LineUnit& unit, Instant now) {
     }
     for (const Scan::Part* part : changed) {
         if (!side) break;
-        Speaker& speaker = bring_in(*side, part->family, now);
+        Speaker& speaker = speakers_.bring_in(*side, part->family, now);
         speaker.probes.clear();
         if (!speaker.before_scan) speaker.before_scan = speaker.adapter->counters();
         for (const auto& a : part->asking)
             speaker.probes.push_back({a.id, "scan " + a.address, a.address, {}, {}});
-        configure(speaker, now);
+        speakers_.configure(speaker, now);
     }
-    if (scan.over()) end_scan(unit, ScanReport::State::done, "", now);
+    if (scan.over()) end(unit, ScanReport::State::done, "", now);
 }
 
-void Engine::scan_link(Side& side, const DriveLink& l) {
+void Scans::answered(Side& side, const DriveLink& l) {
     if (!side.unit.scan) return;
     for (auto& part : side.unit.scan->parts) {
         for (auto& a : part.asking) {
@@ -185,4 +185,4 @@ void Engine::scan_link(Side& side, const DriveLink& l) {
     }
 }
 
-}  // namespace axisgate
+}  // namespace axisgate::engine

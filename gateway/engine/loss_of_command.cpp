@@ -1,15 +1,18 @@
-// Engine, loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry
-// says. In: doors' word that a client is gone, and the instant at which a client was heard last. Out: the action, an event, register 22, a
-// count. Never touches an axis that somebody else has commanded since.
+// Loss of command, see loss_of_command.hpp: what was lost, by what words, and what is done about it.
+// In: a client that is gone or silent, a drive that speaks again, the gateway's own end. Out: the site's action, an event, a count.
+// Never acts twice for one loss: until the next command to the axis, the first cause stands.
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
-#include "gateway/engine/engine.hpp"
-#include "gateway/engine/engine_parts.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/orders.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/streams.hpp"
 
-namespace axisgate {
+namespace axisgate::engine {
 namespace {
 std::string why_lost(LossCause cause, Duration limit) {
     switch (cause) {
@@ -42,21 +45,21 @@ std::string why_lost(LossCause cause, Duration limit) {
 }
 }  // namespace
 
-void Engine::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
-    if (tap_) tap_->client_lost(who, cause, now);
-    now_ = std::max(now_, now);
-    for (const auto& a : axes_) {
+void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->client_lost(who, cause, now);
+    machine_.now = std::max(machine_.now, now);
+    for (const auto& a : machine_.axes) {
         if (!a) continue;
         // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on. And set-points
         // over DDS have a deadline of their own: they go on while they are renewed, whoever else does not write for their client any more.
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
         if (feed ? !streams : a->authority.commander() != who || (cause == LossCause::dds_deadline && streams)) continue;
-        fail_safe(*a, feed ? silence_of(who) : cause, now);
-        if (a->stream.who == who) end_stream(*a, Reason::interrupted, who.text() + " is gone", now);
+        act(*a, feed ? silence_of(who) : cause, now);
+        if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
 }
 
-AtLoss Engine::at_loss(const Axis& a) {
+AtLoss LossOfCommand::at_loss(const Axis& a) {
     const AxisFeedback& f = a.profile.feedback();
     AtLoss at;
     at.endless = a.run.velocity != 0 || a.stream.on;  // set-points have no end of their own
@@ -65,14 +68,14 @@ AtLoss Engine::at_loss(const Axis& a) {
     return at;
 }
 
-void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
+void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
     AtLoss at = at_loss(a);
     if (const auto before = std::exchange(a.lost_line, std::nullopt); before && cause == LossCause::line_lost) {
         at.endless = at.endless || before->endless;  // it forgets, or does not say at once, what it was about
         at.powered = at.powered || before->powered;
     }
     const auto action = a.spec.fail_safe.action(cause, at);
-    if (closing_ || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
+    if (machine_.closing || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
     a.loss = cause;
     ++losses_[static_cast<std::size_t>(cause)];
     const CommandBody body = action == FailSafeAction::halt         ? CommandBody{Halt{}}
@@ -83,28 +86,38 @@ void Engine::fail_safe(Axis& a, LossCause cause, Instant now) {
     e.kind = "fail_safe";
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
-    const Duration limit = cause == LossCause::modbus_silent ? a.spec.fail_safe.watchdog(watchdog_)
+    const Duration limit = cause == LossCause::modbus_silent ? a.spec.fail_safe.watchdog(machine_.watchdog)
                            : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for
                                ? a.stream.good_for
                                : Duration::zero();
     const AuthorityClient& who = a.stream.on ? a.stream.who : a.authority.commander();
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
                          why_lost(cause, limit));
-    event(std::move(e), now);
-    auto decision = a.profile.on_command(body);
-    for (auto& o : decision.orders)
-        give_order(a, nullptr, std::move(o), {}, now);
-    publish(a, now);
+    publisher_.event(std::move(e), now);
+    orders_.give_own(a, body, now);
+    publisher_.publish(a, now);
 }
 
 /// Looked at with every housekeeping, so an action comes at most one of its periods late.
-void Engine::check_watchdog(Axis& a, Instant now) {
+void LossOfCommand::check_watchdog(Axis& a, Instant now) {
     const AuthorityClient& who = a.authority.commander();
-    const Duration limit = a.spec.fail_safe.watchdog(watchdog_);
+    const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
     if (who.door != Door::modbus || limit <= Duration::zero() || !a.profile.commanded()) return;
     const auto heard = host_.heard(who);
-    if (tap_) tap_->heard(heard, now);
-    if (heard && now - *heard > limit) fail_safe(a, LossCause::modbus_silent, now);
+    if (FlightTap* tap = publisher_.tap()) tap->heard(heard, now);
+    if (heard && now - *heard > limit) act(a, LossCause::modbus_silent, now);
 }
 
-}  // namespace axisgate
+void LossOfCommand::shut_down(Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->shut_down(now);
+    machine_.now = std::max(machine_.now, now);
+    if (machine_.closing) return;
+    for (auto& a : machine_.axes) {
+        if (!a || a->drive->serving == Presence::offline) continue;
+        a->loss = LossCause::none;  // whatever was lost before: this is the last that can be done
+        act(*a, LossCause::gateway_ends, now);
+    }
+    machine_.closing = true;
+}
+
+}  // namespace axisgate::engine

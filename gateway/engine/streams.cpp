@@ -1,17 +1,22 @@
-// Engine, streamed set-points: what is renewed in cycles without an answer. The first is looked at like a command, each by the same limits.
-// In: set-points, what adapters say of them, the passing of time. Out: the newest one to its adapter; begin and end as events, all else as
-// state. Never an event per cycle: a client that goes on after a refusal is told at most once a second.
+// Streams, see streams.hpp: from a set-point to its adapter, or to the one reason for which it is refused.
+// In: set-points. Out: the profile that follows them, the newest to the adapter; begin, end and refusals in the axis' picture.
+// Never begins again what was ended before its client has paused.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "gateway/engine/engine.hpp"
-#include "gateway/engine/engine_parts.hpp"
+#include "gateway/engine/clients.hpp"
+#include "gateway/engine/command_authority.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/orders.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/routing.hpp"
+#include "gateway/engine/streams.hpp"
 
-namespace axisgate {
+namespace axisgate::engine {
 namespace {
 /// In which the drive follows set-points of this kind: the cyclic mode, the older one that comes near it, or none.
 std::int16_t stream_mode(const Catalogue& catalogue, SetPoint::Mode kind) {
@@ -19,16 +24,14 @@ std::int16_t stream_mode(const Catalogue& catalogue, SetPoint::Mode kind) {
         if (m != cia402::mode_none && catalogue.offers_mode(m)) return m;
     return cia402::mode_none;
 }
-}  // namespace
-namespace {
 constexpr Duration refusal_told_again = std::chrono::seconds(1);
 }  // namespace
 
-std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
-    if (tap_) tap_->set_point(p, now);
-    now_ = last_stir_ = std::max(now_, now);
-    Axis* a = axis(p.axis);
-    if (!a || closing_) return Refusal{Reason::line_down, a ? "the gateway is stopping" : "there is no such axis"};
+std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->set_point(p, now);
+    machine_.now = machine_.last_stir = std::max(machine_.now, now);
+    Axis* a = machine_.axis(p.axis);
+    if (!a || machine_.closing) return Refusal{Reason::line_down, a ? "the gateway is stopping" : "there is no such axis"};
     Axis::Stream& s = a->stream;
     const auto who = AuthorityClient::of(p.origin);
     auto no = against(*a, p, who, now);
@@ -45,12 +48,12 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
         if (s.untold && now >= s.tell_again_at) {
             s.untold = false;
             s.tell_again_at = now + refusal_told_again;
-            tell_stream(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
+            tell(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
         }
-        publish(*a, now);
+        publisher_.publish(*a, now);
         return no;
     }
-    if (!s.on) begin_stream(*a, p, who, now);
+    if (!s.on) begin(*a, p, who, now);
     s.mode = p.mode;
     s.good_for = p.good_for;
     s.renewed = now;
@@ -67,15 +70,15 @@ std::optional<Refusal> Engine::on_set_point(const SetPoint& p, Instant now) {
     } else {
         a->run.velocity = 0;
     }
-    publish(*a, now);
-    Speaker& by = speaker_of(*side_of(*a->drive), *a->drive);
-    ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
+    publisher_.publish(*a, now);
+    Speaker& by = Machine::speaker_of(*machine_.side_of(*a->drive), *a->drive);
+    routing_.ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
     if (!s.on) return Refusal{s.ended_for, s.ended_why};  // not even begun
     return std::nullopt;
 }
 
 /// Why this one is not handed on; nothing: it is.
-std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) const {
+std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) const {
     const Axis::Stream& s = a.stream;
     if (p.good_for < SetPoint::good_for_min || p.good_for > SetPoint::good_for_max)
         return Refusal{Reason::out_of_range, fmt::format("a set-point is good for {} to {} ms", milliseconds_of(SetPoint::good_for_min),
@@ -98,20 +101,20 @@ std::optional<Refusal> Engine::against(const Axis& a, const SetPoint& p, const A
                                    cia402::mode_of(p.mode), fmt::join(a.drive->catalogue->modes(), ", "))};
     }
     if (p.mode != SetPoint::Mode::torque) {
-        if (auto no = beyond_limits(a, p.as_move())) return no;
+        if (auto no = orders_.beyond_limits(a, p.as_move())) return no;
     } else if (p.value < -32767 || p.value > 32767) {
         return Refusal{Reason::out_of_range, fmt::format("torque {} is outside -32767..32767 thousandths", p.value)};
     }
     if (auto d = a.profile.may_follow(); d.refused) return Refusal{d.reason, std::move(d.text)};
-    const Side* side = side_of(*a.drive);
+    const Side* side = machine_.side_of(*a.drive);
     if (!side || !side->up) return Refusal{Reason::line_down, "its line is down"};
-    return too_far(a, p);
+    return too_far(a, p, Machine::speaker_of(*side, *a.drive));
 }
 
 /// A drive that follows each set-point within its interpolation time would exceed the site's limits, whatever the period of the client: the
 /// step from the one before it (from where the axis is, if it is the first) is no greater than the limit allows in that time.
-std::optional<Refusal> Engine::too_far(const Axis& a, const SetPoint& p) const {
-    const Duration period = speaker_of(*side_of(*a.drive), *a.drive).adapter->interpolation_time(a.id);
+std::optional<Refusal> Streams::too_far(const Axis& a, const SetPoint& p, const Speaker& speaker) {
+    const Duration period = speaker.adapter->interpolation_time(a.id);
     const bool position = p.mode == SetPoint::Mode::position;
     const auto limit = position ? a.limits.velocity_max : a.limits.acceleration_max;
     if (period <= Duration::zero() || !limit || p.mode == SetPoint::Mode::torque) return std::nullopt;
@@ -128,9 +131,9 @@ std::optional<Refusal> Engine::too_far(const Axis& a, const SetPoint& p) const {
 }
 
 /// What a motion of a command would end ends here, too.
-void Engine::begin_stream(Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) {
-    note_commander(a, p.origin, now);
-    supersede(a, 0, "streamed set-points", now);
+void Streams::begin(Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) {
+    authority_.note_commander(a, p.origin, now);
+    clients_.supersede(a, 0, "streamed set-points");
     a.held = {};
     a.run = {};
     a.run.position = a.profile.feedback().position;
@@ -139,14 +142,14 @@ void Engine::begin_stream(Axis& a, const SetPoint& p, const AuthorityClient& who
     a.loss = LossCause::none;
     a.homing_why.clear();
     a.prepared.reset();
-    image_.picture(a.id).motion_ticket = no_ticket;
+    machine_.image.picture(a.id).motion_ticket = no_ticket;
     a.stream.on = true;
     a.stream.who = who;
     a.stream.origin = p.origin;
-    tell_stream(a, p.origin, Severity::info, fmt::format("streamed set-points begin ({})", name_of(p.mode)), now);
+    tell(a, p.origin, Severity::info, fmt::format("streamed set-points begin ({})", name_of(p.mode)), now);
 }
 
-void Engine::end_stream(Axis& a, Reason reason, const std::string& why, Instant now) {
+void Streams::end(Axis& a, Reason reason, const std::string& why, Instant now) {
     Axis::Stream& s = a.stream;
     if (!s.on) return;
     s.on = false;
@@ -156,36 +159,33 @@ void Engine::end_stream(Axis& a, Reason reason, const std::string& why, Instant 
     s.ended_why = why;
     a.profile.end_following();
     a.run.velocity = 0;
-    tell_stream(a, s.origin, reason == Reason::none ? Severity::info : Severity::warning, fmt::format("streamed set-points end: {}", why),
-                now);
-    publish(a, now);
+    tell(a, s.origin, reason == Reason::none ? Severity::info : Severity::warning, fmt::format("streamed set-points end: {}", why), now);
+    publisher_.publish(a, now);
 }
 
 /// The drive has not taken one: what it does now is not what the client wants, so it is treated as if the client were lost.
-void Engine::stream_refused(const Side& side, const Out::StreamEnd& end, Instant now) {
-    Axis* a = axis(end.axis);
+void Streams::refused(const Side& side, const Out::StreamEnd& by_drive, Instant now) {
+    Axis* a = machine_.axis(by_drive.axis);
     if (!a || !a->stream.on || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
     const bool was_running = a->run.velocity != 0;
-    end_stream(*a, end.reason, end.text, now);
+    end(*a, by_drive.reason, by_drive.text, now);
     if (was_running || a->profile.feedback().moving) {
-        auto decision = a->profile.on_command(Halt{});
-        for (auto& o : decision.orders)
-            give_order(*a, nullptr, std::move(o), {}, now);
+        orders_.give_own(*a, Halt{}, now);
     }
 }
 
 /// Looked at with every housekeeping, so an end comes at most one of its periods late.
-void Engine::check_stream(Axis& a, Instant now) {
+void Streams::check(Axis& a, Instant now) {
     if (!a.stream.on) return;
     if (now - a.stream.renewed > a.stream.good_for) {
-        fail_safe(a, silence_of(a.stream.who), now);
-        return end_stream(a, Reason::interrupted,
-                          fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
+        loss_.act(a, LossOfCommand::silence_of(a.stream.who), now);
+        return end(a, Reason::interrupted,
+                   fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
     }
-    note_commander(a, a.stream.origin, now);  // whoever streams commands: its lease goes on
+    authority_.note_commander(a, a.stream.origin, now);  // whoever streams commands: its lease goes on
 }
 
-void Engine::tell_stream(const Axis& a, const Origin& by, Severity severity, std::string text, Instant now) {
+void Streams::tell(const Axis& a, const Origin& by, Severity severity, std::string text, Instant now) {
     Event e;
     e.severity = severity;
     e.kind = "set_points";
@@ -193,7 +193,7 @@ void Engine::tell_stream(const Axis& a, const Origin& by, Severity severity, std
     e.text = std::move(text);
     e.who = by.who ? *by.who : "";
     e.door = std::string(name_of(by.door));
-    event(std::move(e), now);
+    publisher_.event(std::move(e), now);
 }
 
-}  // namespace axisgate
+}  // namespace axisgate::engine

@@ -1,0 +1,47 @@
+// Commands: the way in, from a client's command to the orders that carry it out, or to the one reason for which it is refused.
+// In: commands with their origin. Out: orders on their way to the adapter, or a refusal; the audit's event.
+// Never changes an axis for a command that is refused, but for the stop in it.
+#pragma once
+
+#include "gateway/engine/machine.hpp"
+
+namespace axisgate::engine {
+
+class Commands {
+public:
+    Commands(Machine& machine, Pending& pending, Publisher& publisher, Twins& twins, Orders& orders, Clients& clients,
+             VelocityMoves& velocity_moves, CommandAuthority& authority)
+        : machine_(machine),
+          pending_(pending),
+          publisher_(publisher),
+          twins_(twins),
+          orders_(orders),
+          clients_(clients),
+          velocity_moves_(velocity_moves),
+          authority_(authority) {}
+    void on_command(Command command, Instant now);
+
+private:
+    struct Plan;
+    [[nodiscard]] static std::optional<Refusal> turned_away(const Axis& axis, const Command& command, Instant now);
+    void answer_hand(const Axis& axis, const Command& command, const Hand& hand, Instant now);
+    [[nodiscard]] std::optional<Refusal> plan_for(Axis& axis, Command& command, Plan& plan, Instant now);
+    [[nodiscard]] static std::optional<Refusal> plan_parameter(const Axis& axis, CommandBody& body, Plan& plan);
+    [[nodiscard]] std::optional<Refusal> plan_motion(Axis& axis, Command& command, Plan& plan, Instant now);
+    [[nodiscard]] static ProcessData stop_alone(const ProcessData& data);
+    void give_the_stop_alone(const Command& command, Instant now);
+    [[nodiscard]] static bool needs_authority(const Command& command, const Plan& plan);
+    void note_command(const Axis& axis, const Command& command, const Plan& plan, Instant now);
+    void carry_out(Axis& axis, Command&& command, Plan&& plan, Instant now);
+
+    Machine& machine_;
+    Pending& pending_;
+    Publisher& publisher_;
+    Twins& twins_;
+    Orders& orders_;
+    Clients& clients_;
+    VelocityMoves& velocity_moves_;
+    CommandAuthority& authority_;
+};
+
+}  // namespace axisgate::engine

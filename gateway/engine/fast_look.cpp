@@ -1,0 +1,44 @@
+// Fast look, see fast_look.hpp.
+// In: wishes, the passing of time. Out: a period at each axis, its line's adapters told.
+// Never changes one axis where another of the same wish is refused.
+#include <algorithm>
+
+#include "gateway/engine/fast_look.hpp"
+#include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/speakers.hpp"
+
+namespace axisgate::engine {
+
+std::string FastLook::ask_for(const std::vector<AxisId>& axes, Duration period, Instant until, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->look({axes, period, until}, now);
+    const FlightWithin within(publisher_.tap());
+    const bool on = period > Duration::zero();
+    const LineUnit* line = nullptr;
+    for (const AxisId id : axes) {
+        const Axis* a = machine_.axis(id);
+        if (!a) return "there is no such axis";
+        if (line && a->drive->line != line) return "the axes are not on one line";
+        line = a->drive->line;
+    }
+    for (const AxisId id : axes) {
+        Axis& a = *machine_.axis(id);
+        a.look_period = on ? std::max(period, Engine::shortest_look_period) : Duration::zero();
+        a.look_until = on ? std::min(until, now + Engine::longest_look) : Instant{};
+    }
+    for (Side* s : machine_.sides)
+        if (&s->unit == line) speakers_.configure_side(*s, now);
+    return {};
+}
+
+/// Nobody who asked to look closely needs to be there to say that it is enough.
+void FastLook::end_those_over(Instant now) {
+    for (const auto& slot : machine_.axes) {
+        if (!slot || slot->look_period == Duration::zero() || now < slot->look_until) continue;
+        slot->look_period = Duration::zero();
+        for (Side* s : machine_.sides)
+            if (&s->unit == slot->drive->line) speakers_.configure_side(*s, now);
+    }
+}
+
+}  // namespace axisgate::engine

@@ -1,0 +1,310 @@
+// Orders, see orders.hpp: one order down, its one result up, the site's limits on the way.
+// In: an order's body, its client. Out: the call of the adapter; from its result the answer, once all orders of a client have theirs.
+// Never answers a parameter write before the store has it.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "gateway/engine/clients.hpp"
+#include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/orders.hpp"
+#include "gateway/engine/presences.hpp"
+#include "gateway/engine/publisher.hpp"
+#include "gateway/engine/routing.hpp"
+#include "gateway/engine/streams.hpp"
+#include "gateway/engine/twins.hpp"
+#include "gateway/engine/velocity_moves.hpp"
+
+namespace axisgate::engine {
+
+void Orders::give_own(Axis& a, const CommandBody& body, Instant now) {
+    auto decision = a.profile.on_command(body);
+    for (auto& o : decision.orders)
+        give(a, nullptr, std::move(o), {}, now);
+}
+
+/// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
+void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Instant now) {
+    if (!client) {  // a client's order was looked at before it changed anything; what waited since may not fit any more
+        if (const auto no = beyond_limits(a, body)) {
+            a.profile.on_order_result(body, false, now);
+            Event e;
+            e.severity = Severity::warning;
+            e.kind = "limit";
+            e.axis = a.spec.name;
+            e.text = fmt::format("{} that waited is not begun: {}", name_of(body), no->text);
+            return publisher_.event(std::move(e), now);
+        }
+    }
+    if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
+        streams_.end(a, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
+        clients_.supersede(a, client ? client->number : 0, name_of(body));
+        a.held = {};  // another motion, or a stop: nobody's finger holds this one
+        a.run = {};
+        a.at_limit = false;
+        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity)
+            a.run = {m->target, m->acceleration.value_or(0), m->deceleration.value_or(a.last_deceleration), a.profile.feedback().position,
+                     now};
+        a.homing_why.clear();
+        const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
+        if (move && move->hold_ms) velocity_moves_.begin_hold(a, *move, client->origin);
+    }
+    if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            if (Axis* x = machine_.axis(id)) streams_.end(*x, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
+        }
+    }
+    const Ticket ticket = make_ticket(engine_itself, pending_.next++);
+    OrderRecord record;
+    record.client = client ? client->number : 0;
+    record.axis = a.id;
+    record.body = body;
+    record.given_at = now;
+    if (const auto* write = std::get_if<WriteParameter>(&body)) {
+        // Looked at now: the acknowledgement may come with the new value said already.
+        const auto said = a.said.find(write->point), stored = a.stored.find(write->point);
+        if (said != a.said.end() && known(said->second))
+            record.before = said->second;
+        else if (stored != a.stored.end())
+            record.before = stored->second;
+    }
+    pending_.orders.emplace(ticket, std::move(record));
+    Side* side = machine_.side_of(*a.drive);
+    if (!side || !side->up) {
+        Result r;
+        r.ticket = ticket;
+        r.axis = a.id;
+        r.outcome = Outcome::refused;
+        r.reason = side ? Reason::line_down : Reason::no_answer;
+        r.text = side ? fmt::format("line {} is down: {}", side->unit.spec.name, side->why)
+                      : fmt::format("drive {} does not answer", a.drive->spec.name);
+        return result(r, now);
+    }
+    Command order;
+    order.ticket = ticket;
+    order.axis = a.id;
+    // What ends in the drive's own way is the adapter's to tell; every other end is watched here, by what the axis shows.
+    order.until_done = client && client->until_done && std::holds_alternative<Action>(body);
+    order.body = std::move(body);
+    order.origin = std::move(origin);
+    if (!side->twin && side->followed.ticket == no_ticket) {
+        side->followed.ticket = ticket;
+        side->followed.since = now;
+    }
+    Speaker& by = Machine::speaker_of(*side, *a.drive);
+    const FlightCause cause(publisher_.tap(), client ? client->ticket : no_ticket);
+    routing_.ask(by, now, [&](Out& out) { by.adapter->on_command(order, now, out); });
+}
+
+void Orders::result(const Result& given, Instant now) {
+    for (Side* s : machine_.sides) {  // it has ended: with a frame that was seen to leave, or without one
+        if (s->followed.ticket != given.ticket) continue;
+        s->followed.ticket = no_ticket;
+        s->followed.handed_on = false;
+    }
+    const auto it = pending_.orders.find(given.ticket);
+    if (it == pending_.orders.end()) return;  // answered already: the adapter broke its law, the client is not told twice
+    if (it->second.handback != no_drive) {
+        presences_.handback_result(given);
+        return;
+    }
+    Result r = given;
+    OrderRecord& record = it->second;
+    Axis* a = machine_.axis(record.axis);
+    const bool is_good = good(r);
+    if (a && is_good) remember_ramp(*a, record.body);
+    if (const auto* write = std::get_if<WriteParameter>(&record.body); write && is_good && a) {
+        // Acknowledged by the drive; the client hears of it when it is on disk.
+        StoreOrder order;
+        order.ticket = given.ticket;
+        order.axis = record.axis;
+        order.axis_name = a->spec.name;
+        const Catalogue& cat = *a->drive->catalogue;
+        order.parameter = cat.id_of(write->point);
+        order.storage = cat.parameter(write->point)->storage;
+        order.value = known(r.value) ? r.value : write->value;
+        order.previous = record.before;
+        if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) order.origin = c->second->origin;
+        r.value = order.value;
+        record.kept = r;
+        for (auto& [ticket, other] : pending_.orders) {  // those given behind it find what it left
+            const auto* later = std::get_if<WriteParameter>(&other.body);
+            if (later && ticket != given.ticket && other.axis == record.axis && later->point == write->point && !known(other.kept.value))
+                other.before = order.value;
+        }
+        // The drive has it, whether the disk takes it or not.
+        Sample s;
+        s.axis = record.axis;
+        s.point = write->point;
+        s.value = order.value;
+        s.at = now;
+        s.source = a->source;
+        a->said[s.point] = s.value;
+        publisher_.sample(s, now);
+        twins_.save_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
+        host_.on_store(std::move(order));
+        return;
+    }
+    const CommandBody body = std::move(record.body);
+    const std::uint64_t number = record.client;
+    pending_.orders.erase(it);
+    if (!a) return;
+    const auto owner = pending_.clients.find(number);
+    // A set-point that had to wait begins by an order of the engine's own: it is still the motion of whoever gave it.
+    const Ticket mover = owner != pending_.clients.end() ? owner->second->ticket : a->setpoint_ticket;
+    if (std::holds_alternative<StartTogether>(body)) {
+        for (const AxisId id : std::get<StartTogether>(body).axes) {
+            if (Axis* other = machine_.axis(id)) {
+                if (is_good) machine_.image.picture(id).motion_ticket = mover;
+                publisher_.publish(*other, now);
+            }
+        }
+    }
+    if (const auto* move = std::get_if<Move>(&body); is_good && ((move && !move->prepare_only) || std::holds_alternative<Home>(body)))
+        machine_.image.picture(a->id).motion_ticket = mover;
+    if (is_good && is_urgent(body)) machine_.image.picture(a->id).motion_ticket = no_ticket;
+    if (is_good) remember_prepared(*a, body);
+    a->profile.on_order_result(body, is_good, now);
+    if (std::holds_alternative<Move>(body)) {
+        if (!is_good)
+            a->held = {};
+        else if (a->held.time > Duration::zero())
+            a->held.until = now + a->held.time;
+    }
+    publisher_.publish(*a, now);
+    const auto c = pending_.clients.find(number);
+    if (c == pending_.clients.end()) {
+        if (!is_good && number == 0 && !std::holds_alternative<ReadParameter>(body)) {
+            Event e;
+            e.severity = Severity::warning;
+            e.kind = "command";
+            e.axis = a->spec.name;
+            e.code = r.code;
+            e.text = fmt::format("{} was not carried out: {}", name_of(body), r.text);
+            publisher_.event(std::move(e), now);
+        }
+        return;
+    }
+    Client& client = *c->second;
+    if (client.waiting > 0) --client.waiting;
+    if (!is_good) {
+        if (good(client.result)) client.result = r;
+    } else if (good(client.result)) {
+        client.result.value = r.value;
+        client.result.bytes = r.bytes;
+        client.result.code = r.code;
+        if (!r.text.empty()) client.result.text = r.text;
+        if (r.outcome == Outcome::done) client.result.outcome = Outcome::done;
+    }
+    if (client.waiting > 0) return;
+    if (client.lets_go && (client.result.reason == Reason::line_down || client.result.reason == Reason::no_answer)) {
+        client.result = {};
+        client.result.outcome = Outcome::accepted;
+        client.result.text = fmt::format(
+            "axis {}: nobody answers; it is taken as disabled and its twin takes over, but whether the real drive is off is not known",
+            a->spec.name);
+        return clients_.finish(number, client.result);
+    }
+    if (!good(client.result)) return clients_.finish(number, client.result);
+    client.accepted = true;
+    client.accepted_at = now;
+    clients_.track(*a, now);
+}
+
+void Orders::on_stored(Ticket order, const std::string& fault, Instant now) {
+    if (FlightTap* tap = publisher_.tap()) tap->stored(order, fault, now);
+    machine_.now = std::max(machine_.now, now);
+    const auto it = pending_.orders.find(order);
+    if (it == pending_.orders.end()) return;
+    OrderRecord record = std::move(it->second);
+    pending_.orders.erase(it);
+    Axis* a = machine_.axis(record.axis);
+    Result r = record.kept;
+    if (a) {
+        const auto& write = std::get<WriteParameter>(record.body);
+        Event e;
+        e.kind = "write";
+        e.axis = a->spec.name;
+        e.parameter = a->drive->catalogue->id_of(write.point);
+        if (known(record.before)) e.old_value = to_text(record.before);
+        e.new_value = to_text(r.value);
+        if (fault.empty()) {
+            a->stored[write.point] = r.value;
+            e.text = fmt::format("{} = {}", e.parameter, e.new_value);
+        } else {
+            e.severity = Severity::alarm;
+            e.kind = "not_stored";
+            e.text = fmt::format("the drive took {} = {}, but it could not be stored: {}", e.parameter, e.new_value, fault);
+        }
+        if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) {
+            e.who = c->second->origin.who ? *c->second->origin.who : "";
+            e.door = std::string(name_of(c->second->origin.door));
+        }
+        publisher_.event(e, now);
+        if (!fault.empty()) {
+            r.outcome = Outcome::failed;
+            r.reason = Reason::not_stored;
+            r.text = e.text;
+        }
+    }
+    if (fault.empty() && r.outcome == Outcome::accepted) r.outcome = Outcome::done;
+    clients_.finish(record.client, std::move(r));
+}
+
+/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called;
+/// of registers the values that are kept for later, and a mode that the drive has not. The one place that compares with them: streamed
+/// set-points come here as the motion that they ask for.
+std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& body) const {
+    if (const auto* data = std::get_if<ProcessData>(&body)) {
+        if (data->mode) {
+            if (auto no = guard_mode(*data->mode, a.drive->catalogue->modes())) return no;
+        }
+        return guard_process_data(*data, a.limits);
+    }
+    const std::int64_t position = a.profile.feedback().position;
+    if (const auto* m = std::get_if<Move>(&body)) {
+        if (auto no = guard_move(*m, a.limits, position)) return no;
+        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
+        const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
+        return from ? guard_move(*m, a.limits, *from) : std::nullopt;
+    }
+    if (const auto* set = std::get_if<SetPosition>(&body)) {
+        Move probe;
+        probe.target = set->position;
+        return guard_move(probe, AxisLimits{}, 0);
+    }
+    if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            const Axis* x = machine_.axis(id);
+            if (!x || !x->prepared) continue;
+            if (auto no = guard_move(*x->prepared, x->limits, x->profile.feedback().position)) {
+                no->text = fmt::format("axis {}: {}", x->spec.name, no->text);
+                return no;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// What a drive was told to brake with it keeps; whatever else is said to it may have changed that.
+void Orders::remember_ramp(Axis& a, const CommandBody& body) {
+    const auto* m = std::get_if<Move>(&body);
+    if (m && m->deceleration) a.last_deceleration = *m->deceleration;
+    if (std::holds_alternative<WriteParameter>(body) || std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body))
+        a.last_deceleration = 0;
+}
+
+/// A move that was prepared counts until the axis is moved or stopped.
+void Orders::remember_prepared(Axis& a, const CommandBody& body) {
+    if (const auto* m = std::get_if<Move>(&body)) {
+        a.prepared = m->prepare_only ? std::optional<Move>(*m) : std::nullopt;
+    } else if (const auto* together = std::get_if<StartTogether>(&body)) {
+        for (const AxisId id : together->axes) {
+            if (Axis* x = machine_.axis(id)) x->prepared.reset();
+        }
+    } else if (is_urgent(body) || std::holds_alternative<Home>(body)) {
+        a.prepared.reset();
+    }
+}
+
+}  // namespace axisgate::engine

@@ -27,9 +27,25 @@ const split = (name: string): { channel: number; base: string } => {
   const m = /^axis(\d+)\.(.+)$/.exec(name);
   return m ? { channel: Number(m[1]), base: m[2] as string } : { channel: 0, base: name };
 };
+/** What every family has; what one adds by itself keeps its own name. */
+const common: Readonly<Record<string, string>> = {
+  power: t('Power'),
+  silent: t('Silent'),
+  stall: t('Stall'),
+  inputs: t('Inputs'),
+  limit_positive: t('Limit positive'),
+  limit_negative: t('Limit negative'),
+  home_switch: t('Home switch'),
+  temperature: t('Temperature'),
+  inject_error: t('Inject error'),
+  position: t('Position'),
+  load: t('Load'),
+  following_error: t('Following error'),
+};
 export const handLabel = (name: string): string => {
-  const words = split(name).base.replaceAll('_', ' ');
-  return words.charAt(0).toUpperCase() + words.slice(1);
+  const { base } = split(name);
+  const words = base.replaceAll('_', ' ');
+  return common[base] ?? words.charAt(0).toUpperCase() + words.slice(1);
 };
 
 /** `own`: the channel of the axis whose page it is; null: the page of the drive. */

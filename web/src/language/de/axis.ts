@@ -256,4 +256,12 @@ export const axis: Table = {
   '{n} waiting': '{n} warten',
   '{what}: set to {value}': '{what}: auf {value} gesetzt',
   '− by': '− um',
+  'Power': 'Versorgung',
+  'Stall': 'Blockiert',
+  'Inputs': 'Eingänge',
+  'Limit positive': 'Endschalter positiv',
+  'Limit negative': 'Endschalter negativ',
+  'Home switch': 'Referenzschalter',
+  'Temperature': 'Temperatur',
+  'Inject error': 'Fehler einprägen',
 };

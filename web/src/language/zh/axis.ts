@@ -256,4 +256,12 @@ export const axis: Table = {
   '{n} waiting': '{n} 个等待中',
   '{what}: set to {value}': '{what}：已设为 {value}',
   '− by': '− 距离',
+  'Power': '电源',
+  'Stall': '堵转',
+  'Inputs': '输入',
+  'Limit positive': '正限位开关',
+  'Limit negative': '负限位开关',
+  'Home switch': '原点开关',
+  'Temperature': '温度',
+  'Inject error': '注入错误',
 };

@@ -110,7 +110,7 @@ async function day(program, language) {
   // What if the shaft is held: by the hand of the simulation, until the drive tells its fault.
   await page.goBack();
   await tab('Simulation').click();
-  const stall = page.locator('[data-hand]').getByRole('switch', { name: 'Stall', exact: true });
+  const stall = page.locator('[data-hand]').getByRole('switch', { name: s('Stall'), exact: true });
   await stall.click();
   await becomes('the shaft is held', async () => (await program.call('GET', '/drives/feeder/hand')).body.stall, true);
   await tab('Move').click();

@@ -26,6 +26,7 @@ const number = (t) => Number(t.replace('−', '-').replace(' s', ''));
 
 test('trends: two axes in one plot, zoom by a drag, cursors with their difference, all of it after a reload', { skip }, async () => {
   await enabled();
+  await new Promise((r) => setTimeout(r, 1000)); // some samples at rest before the move: what the first cursor reads
   await move(20);
   await arrived();
   let page = await open(browser, `${program.url}/recorder/trends/`);

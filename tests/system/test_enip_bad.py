@@ -31,6 +31,7 @@ def test_ten_thousand_half_open_sessions_do_not_stop_the_owner(folder):
         assert o.open(151, 101) == (0, ())
         o.start()
         enable(o)
+        g.traffic.expect_pieces(b"\x65")
         begun, opened, longest, last, seen = time.monotonic(), 0, 0.0, time.monotonic(), b""
         while opened < 10_000:
             crowd = []

@@ -1,89 +1,45 @@
 // Adapter of the example drive: the line.
-// In: calls from outside. Out: what the drives say of them. Every call ends with serve(): a free line is given away at once.
+// In: calls from outside. Out: what the drives say of them. What is no telegram, or nobody's, is counted.
 #include "adapters/example/adapter.hpp"
 
-#include <charconv>
+#include "gateway/core/text.hpp"
 
 namespace axisgate::example {
 namespace {
-int address_of(std::string_view text) {
-    int n = 0;
-    const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n);
-    return ec == std::errc{} && p == text.data() + text.size() && n >= 1 && n <= 99 ? n : 0;
-}
+int address_of(std::string_view text) { return static_cast<int>(parse_whole(text, 1, 99).value_or(0)); }
 }  // namespace
 
 std::string check_address(std::string_view address) {
     return address_of(address) != 0 ? std::string() : "an example drive has a number from 1 to 99";
 }
 
-void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
-    Turn t{now, out};
-    line_.take(setup);
-    const auto taken = [&](const DriveSetup& s) -> std::string {
-        const auto* other = drives_.find([&](const Drive& d) { return d.address() == address_of(s.address); });
-        return other ? "number " + s.address + " belongs to drive " + other->setup().name : check_address(s.address);
-    };
-    drives_.fit_axes(setup, [&](Drive& d, const DriveSetup& s) { d.set_axes(s, t); });
-    const auto fresh = drives_.fit(
-        setup,
-        [&](Drive& d) {
-            d.line_down("the drive was removed or changed", t);
-            line_.turns.remove(d.slot());
-        },
-        taken, [&](const DriveSetup& s, std::size_t slot) { return std::make_unique<Drive>(line_, s, address_of(s.address), slot); }, out);
-    for (Drive* d : fresh)
-        if (up_) d->line_up(t);
-    drives_.each([&](Drive& d) { drive::settle(line_.turns, d, now); });
-    drive::serve(line_.turns, drives_, t);
+void LineAdapter::take(const LineSetup& setup, Turn&) {
+    bus_.take(setup, {.reply_timeout = std::chrono::milliseconds(60)});
+    bus_.on_wire = bus_.wire(2 * longest);
+    bus_.turns.set({.pause = bus_.timing.pause});
 }
 
-void LineAdapter::on_line(bool up, Instant now, Out& out) {
-    if (std::exchange(up_, up) == up) return;
-    Turn t{now, out};
-    line_.turns.line_changed(now);
-    drives_.each([&](Drive& d) {
-        up ? d.line_up(t) : d.line_down("the line is down", t);
-        drive::settle(line_.turns, d, now);
-    });
-    drive::serve(line_.turns, drives_, t);
+std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
+    const Drive* other = drives().find([&](const Drive& d) { return d.address() == address_of(s.address); });
+    return other ? "number " + s.address + " belongs to drive " + other->setup().name : check_address(s.address);
 }
 
-void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
-    Turn t{now, out};
-    Drive* d = drives_.of(command.axis);
-    if (!d) return drive::Tickets::refuse(command, Reason::line_down, "this axis is not on the line", out);
-    d->submit(command, t);
-    drive::settle(line_.turns, *d, now);
-    drive::serve(line_.turns, drives_, t);
-}
-
-void LineAdapter::on_set_point(const SetPoint& p, Instant now, Out& out) {
-    Turn t{now, out};
-    Drive* d = drives_.of(p.axis);
-    if (!d) return;
-    d->follow(p);
-    drive::settle(line_.turns, *d, now);
-    drive::serve(line_.turns, drives_, t);
+std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t slot, Turn&) {
+    return std::make_unique<Drive>(bus_, s, slot, address_of(s.address));
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
+    if (!up() || frame.kind != Frame::Kind::bytes) return;
     Turn t{now, out};
-    if (!up_ || frame.kind != Frame::Kind::bytes) return;
-    framer_.push({reinterpret_cast<const char*>(frame.data().data()), frame.size}, [&](std::string_view line) {
+    lines_.push(drive::text_of(frame), [&](std::string_view line) {
         bool request = false;
         const auto telegram = telegram_of(line, request);
-        Drive* d = telegram && !request ? drives_.find([&](const Drive& x) { return x.address() == telegram->address; }) : nullptr;
-        if (!d) ++(telegram ? line_.counters.unexpected : line_.counters.garbled);
-        if (d) d->on_telegram(*telegram, t), drive::settle(line_.turns, *d, now);
+        Drive* d = telegram && !request ? drives().find([&](const Drive& x) { return x.address() == telegram->address; }) : nullptr;
+        if (!d) return void(++(telegram ? bus_.counters.unexpected : bus_.counters.garbled));
+        d->on_message(*telegram, t);
+        settle(*d, t);
     });
-    drive::serve(line_.turns, drives_, t);
-}
-
-void LineAdapter::on_deadline(Instant now, Out& out) {
-    Turn t{now, out};
-    drive::wake(line_.turns, drives_, t);
-    drive::serve(line_.turns, drives_, t);
+    end(t);
 }
 
 }  // namespace axisgate::example

@@ -1,19 +1,17 @@
-// Decoder of the example drive: recorded bytes to sentences.
-// In: frames. Out: one line per telegram, "drive 5 axis 1: R21 = 1500". Never guesses: what is no telegram is shown as bytes.
+// Decoder of the example drive: recorded bytes to sentences; a recording may begin and end within a telegram.
+// In: frames. Out: one line per telegram, "drive 5 axis 1: R21 = 1500". Never guesses: what is no telegram is shown as it came.
 #pragma once
 
 #include "adapters/example/wire.hpp"
-#include "gateway/core/family.hpp"
 
 namespace axisgate::example {
 
-class LineDecoder final : public Decoder {
+class LineDecoder final : public drive::TextDecoder {
 public:
-    std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override;
-    std::vector<std::string> finish() override { return {}; }
+    LineDecoder() : TextDecoder(lines()) {}
 
 private:
-    Framer framers_[2];  ///< one for each direction
+    [[nodiscard]] std::optional<std::string> sentence(std::string_view line) const override;
 };
 
 }  // namespace axisgate::example

@@ -3,19 +3,9 @@
 #include "adapters/example/adapter.hpp"
 #include "adapters/example/decoder.hpp"
 #include "adapters/example/twin/twin.hpp"
+#include "gateway/drive/scan_range.hpp"
 
 namespace axisgate {
-namespace {
-ScanPlan scan(const ScanWish& wish) {
-    ScanPlan plan;
-    for (const std::string* end : {&wish.from, &wish.to})
-        if (!end->empty() && plan.fault.empty()) plan.fault = example::check_address(*end);
-    for (int n = 1; n <= 99 && plan.fault.empty(); ++n)
-        if (n >= std::atoi(wish.from.c_str()) && (wish.to.empty() || n <= std::atoi(wish.to.c_str())))
-            plan.addresses.push_back(std::to_string(n));
-    return plan;
-}
-}  // namespace
 
 const Family& family_example() {
     static const Family family{
@@ -30,7 +20,7 @@ const Family& family_example() {
         false,
         true,
         0,
-        scan,
+        [](const ScanWish& wish) { return drive::scan_range(wish, 1, 99, example::check_address); },
     };
     return family;
 }

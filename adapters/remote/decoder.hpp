@@ -1,19 +1,18 @@
-// Decoder of the remote family: recorded telegrams of a mirror line to sentences.
-// In: frames. Out: one line per telegram, "hall-2/feeder is asked: move_absolute p=1500". Never guesses: what is none is shown as bytes.
+// Decoder of the remote family: recorded telegrams of a mirror line to sentences; a recording may begin and end within a telegram.
+// In: frames. Out: one line per telegram, "hall-2/feeder is asked: move_absolute p=1500". Never guesses: what is none is shown as it came.
 #pragma once
 
-#include "gateway/core/family.hpp"
+#include "gateway/drive/text_lines.hpp"
 #include "gateway/protocols/mirror/telegram.hpp"
 
 namespace axisgate::remote {
 
-class LineDecoder final : public Decoder {
+class LineDecoder final : public drive::TextDecoder {
 public:
-    std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override;
-    std::vector<std::string> finish() override { return {}; }
+    LineDecoder() : TextDecoder({'\n', "", mirror::longest}) {}
 
 private:
-    mirror::Framer framers_[2];  ///< one for each direction
+    [[nodiscard]] std::optional<std::string> sentence(std::string_view line) const override;
 };
 
 }  // namespace axisgate::remote

@@ -12,6 +12,10 @@ bool is_motion(const CommandBody& body) noexcept {
     return std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body);
 }
 
+bool ended_by(const CommandBody& stop, const CommandBody& body) noexcept {
+    return is_motion(body) || (std::holds_alternative<Disable>(stop) && std::holds_alternative<Enable>(body));
+}
+
 bool CommandQueue::push(Command command) {
     if (waiting_.size() >= limit_) return false;
     waiting_.push_back(std::move(command));

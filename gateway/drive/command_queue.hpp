@@ -18,6 +18,8 @@ namespace axisgate::drive {
 
 /// Move, Home or StartTogether: what every stop ends, whether it waits or runs. What other commands move is the family's to know.
 [[nodiscard]] bool is_motion(const CommandBody& body) noexcept;
+/// What a stop (Halt, QuickStop, Disable) ends: motions; with the power off what would bring that back, too.
+[[nodiscard]] bool ended_by(const CommandBody& stop, const CommandBody& body) noexcept;
 
 class CommandQueue {
 public:

@@ -11,8 +11,8 @@ std::string wrong_frame(const Frame& f, LineKind, const std::vector<std::string>
     bool request = false;
     std::size_t telegrams = 0;
     std::string wrong;
-    example::Framer framer;
-    framer.push({reinterpret_cast<const char*>(f.data().data()), f.size}, [&](std::string_view line) {
+    drive::TextLines lines = example::lines();
+    lines.push(drive::text_of(f), [&](std::string_view line) {
         const auto t = example::telegram_of(line, request);
         ++telegrams;
         if (!t || !request || std::ranges::find(configured, std::to_string(t->address)) == configured.end()) wrong = line;

@@ -55,7 +55,28 @@ TEST(ExampleWire, TheDecoderSaysWhatItIs) {
                 ElementsAre("to drive 5 axis 1: R21 = 1500"));
     EXPECT_THAT(d.on_frame(frame(text_of({5, 1, "R21", Telegram::Kind::refused, "14"}, false)), false),
                 ElementsAre("drive 5 axis 1: R21 is refused: 14"));
-    EXPECT_THAT(d.on_frame(frame("@0\x01!\r"), true), ElementsAre("unknown: 4 bytes that are no telegram"));
+    EXPECT_THAT(d.on_frame(frame("@0\x01!\r"), true), ElementsAre("unknown, no telegram: @0.!"));
+    EXPECT_TRUE(d.finish().empty());
+}
+
+// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+TEST(ExampleWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
+    const std::string half = text_of({5, 1, "R21", Telegram::Kind::value, "1500"}, true);
+    const std::string all = half + text_of({5, 1, "R21", Telegram::Kind::refused, "14"}, false) + half;
+    for (std::size_t from = 0; from <= all.size(); ++from)
+        for (std::size_t to = from; to <= all.size(); ++to) {
+            LineDecoder d;
+            auto lines = d.on_frame(frame(all.substr(from, to - from)), std::nullopt);
+            std::ranges::move(d.finish(), std::back_inserter(lines));
+            std::size_t shown = 0;
+            for (const auto& line : lines) {
+                EXPECT_THAT(line, testing::Not(testing::HasSubstr("unknown"))) << from << ".." << to;
+                shown += line.starts_with("to drive 5") ? 1 : 0;
+            }
+            EXPECT_EQ(shown, (from == 0 && to >= half.size() ? 1U : 0U) + (from <= all.size() - half.size() && to == all.size() ? 1U : 0U));
+            const bool only_an_end = all.substr(from, to - from).find_first_not_of('\r') == std::string::npos;
+            EXPECT_EQ(lines.empty(), only_an_end) << "what has a character is told of";
+        }
 }
 
 /// A drive that answers what it is told to.

@@ -89,7 +89,23 @@ TEST(RemoteWire, TheDecoderSaysWhatItIs) {
     LineDecoder d;
     EXPECT_THAT(d.on_frame(frame(mirror::text_of({Telegram::Kind::request, 7, "hall-2/feeder", "halt"})), true),
                 ElementsAre("hall-2/feeder is asked: halt (number 7)"));
-    EXPECT_THAT(d.on_frame(frame("nonsense\n"), true), ElementsAre("unknown: 8 bytes that are no telegram"));
+    EXPECT_THAT(d.on_frame(frame("nonsense\n"), true), ElementsAre("unknown, no telegram: nonsense"));
+}
+
+// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+TEST(RemoteWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
+    const std::string all = "\n" + mirror::text_of({Telegram::Kind::request, 7, "hall-2/feeder", "halt"}) +
+                            mirror::text_of({Telegram::Kind::answer, 7, "hall-2/feeder", "accepted"});
+    for (std::size_t from = 0; from <= all.size(); ++from) {
+        for (std::size_t to = from; to <= all.size(); ++to) {
+            LineDecoder d;
+            auto lines = d.on_frame(frame(all.substr(from, to - from)), std::nullopt);
+            std::ranges::move(d.finish(), std::back_inserter(lines));
+            for (const auto& line : lines)
+                EXPECT_THAT(line, testing::Not(HasSubstr("unknown"))) << from << ".." << to;
+            if (from <= 1 && to == all.size()) EXPECT_THAT(lines, testing::SizeIs(2));
+        }
+    }
 }
 
 /// The other end of the line, which answers what it is told to.

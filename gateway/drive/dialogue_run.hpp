@@ -1,0 +1,286 @@
+// Dialogue, second half: what is sent next, and what answers and silences mean.
+// In: the calls of the adapter. Out: as dialogue.hpp says, which includes this; nobody else does.
+// Never repeats what a client worded itself, nor a set-point.
+#pragma once
+
+#include <fmt/core.h>
+
+#include "gateway/drive/dialogue.hpp"
+
+namespace axisgate::drive {
+
+// --- what is to be done ----------------------------------------------------------------------------------------------------------
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
+    const auto in = [](const DriveSetup& s, const AxisSetup& a) {
+        return std::ranges::any_of(s.axes, [&](const AxisSetup& x) { return x.id == a.id && x.channel == a.channel; });
+    };
+    for (const AxisSetup& a : setup_.axes) {
+        if (in(setup, a) || !has(a.channel)) continue;
+        const auto its = [&](const Command& w) { return w.axis == a.id; };
+        tickets_.fail_axis(a.id, Reason::line_down, "the axis was removed or changed", t.out);
+        (void)queue_.interrupt(its, "its removal", tickets_, t);
+        set_points_.forget(a.id);
+        if (job_ && its(job_->command)) job_.reset();
+        polls_.drop(item(a.channel));
+        if (std::exchange(at(a.channel).feedback, {}).moving)  // nobody could stop it any more
+            (void)stops_.add({Ask::Why::stop, stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
+    }
+    for (const AxisSetup& a : setup.axes)
+        if (presence_.online() && !in(setup_, a)) poll_every(a.channel, t);
+    setup_ = setup;
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
+    if (is_urgent(c.body) || is_motion(c.body)) set_points_.forget(c.axis);
+    if (admit(c, setup_.name, presence_, queue_, tickets_, t) != Admission::urgent) return;
+    const auto ends = [&](const Command& w) { return w.axis == c.axis && ended_by(c.body, w.body); };
+    (void)queue_.interrupt(ends, name_of(c.body), tickets_, t);
+    if (job_ && ends(job_->command)) {
+        tickets_.failed(job_->command.ticket, Reason::interrupted, CommandQueue::interrupted_by(name_of(c.body)), t.out);
+        job_.reset();
+    }
+    const int channel = channel_of(c.axis);
+    at(channel).followed = {};
+    exchange_.no_repeats();
+    if (!stops_.add({Ask::Why::stop, stop(c), c.ticket, channel, 0}))
+        tickets_.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::begin(Job job, Turn& t) {
+    Reason reason = Reason::not_supported;
+    std::string why = plan(job, reason);
+    if (why.empty()) {
+        job.number = ++jobs_;
+        job_ = std::move(job);
+    } else if (job.streamed) {
+        at(channel_of(job.command.axis)).followed = {};
+        t.out.stream_ends.push_back({job.command.axis, reason, std::move(why)});
+    } else {
+        tickets_.refused(job.command.ticket, reason, std::move(why), t.out);
+    }
+}
+
+/// A motion without a ticket. Speed and ramps are settings that the drive keeps: they are told again only where they change.
+template <class Message, int Channels>
+typename Dialogue<Message, Channels>::Job Dialogue<Message, Channels>::job_for(const SetPoint& p) {
+    Job job;
+    job.streamed = true;
+    job.command.axis = p.axis;
+    Move wanted = p.as_move();
+    Move& before = at(channel_of(p.axis)).followed;
+    const auto only_new = [](std::optional<std::int64_t>& value, std::optional<std::int64_t>& kept) {
+        if (value && value != std::exchange(kept, value)) return;
+        value.reset();
+    };
+    only_new(wanted.acceleration, before.acceleration);
+    only_new(wanted.deceleration, before.deceleration);
+    only_new(wanted.velocity, before.velocity);
+    job.command.body = wanted;
+    return job;
+}
+
+// --- what is sent next -----------------------------------------------------------------------------------------------------------
+
+template <class Message, int Channels>
+Want Dialogue<Message, Channels>::wants(Instant now) const noexcept {
+    if (exchange_.active() || presence_.is(Presence::Phase::down)) return Want::nothing;
+    if (!stops_.empty()) return Want::urgent;
+    if (!presence_.online()) return presence_.probe_due(now) ? Want::probe : Want::nothing;
+    if (job_ || !queue_.empty() || !set_points_.empty()) return Want::command;
+    const bool moves = std::ranges::any_of(axes_, [](const Axis& a) { return a.feedback.moving; });
+    return !polls_.due(now) ? Want::nothing : moves && !pace_.close() ? Want::quick_poll : Want::poll;
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::go(Turn& t) {
+    if (!stops_.empty()) return send(*stops_.first(), bus_.timing.retries, t);
+    if (!presence_.online()) {
+        presence_.probe_sent();
+        return send({Ask::Why::probe, probe(false), no_ticket, 0, 0}, 0, t);
+    }
+    while (!job_ && !queue_.empty()) {
+        Job next;
+        next.command = queue_.pop();
+        at(channel_of(next.command.axis)).followed = {};  // it may set what a stream has set
+        begin(std::move(next), t);
+    }
+    const bool poll_first = streamed_last_ && polls_.due(t.now);  // where the axis is must be seen, however fast set-points come
+    streamed_last_ = !job_ && !set_points_.empty() && !poll_first;
+    if (streamed_last_) begin(job_for(set_points_.take()), t);
+    if (job_) {
+        const bool once = job_->streamed || std::holds_alternative<Native>(job_->command.body);
+        return send({Ask::Why::step, job_->steps[job_->at], job_->command.ticket, channel_of(job_->command.axis), job_->number},
+                    once ? 0 : bus_.timing.retries, t);
+    }
+    if (const auto channel = polls_.next(t.now)) send({Ask::Why::poll, poll(static_cast<int>(*channel)), no_ticket, 0, 0}, 0, t);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
+    // A late answer to the same question would be taken for the new one: something else is asked before, whose answer comes behind it.
+    // A stop waits for nothing.
+    if (ask.why != Ask::Why::stop && late_.has(mark_of(ask.message))) {
+        ask = {Ask::Why::poll, probe(late_.has(mark_of(probe(false)))), no_ticket, 0, 0};
+        if (late_.has(mark_of(ask.message))) late_.clear();
+        retries = 0;
+    }
+    const Duration patience = bus_.timing.reply_timeout + bus_.on_wire;
+    bus_.turns.began(slot_, ask.why == Ask::Why::probe);
+    exchange_.begin(std::move(ask), t.now, patience, retries);
+    transmit(t);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::transmit(Turn& t) const {
+    const auto why = exchange_.request().why;
+    t.out.send(frame_of(exchange_.request().message), why == Ask::Why::stop   ? Priority::urgent
+                                                      : why == Ask::Why::step ? Priority::command
+                                                                              : Priority::poll);
+}
+
+// --- what comes ------------------------------------------------------------------------------------------------------------------
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
+    const Message& asked = exchange_.request().message;
+    if (!exchange_.active() || mark_of(asked) != mark_of(answer) || !(told(answer).refused || answers(asked, answer))) {
+        ++bus_.counters.unexpected;
+        return presence_.heard(t.now);
+    }
+    const bool again = exchange_.tries() > 1;  // the other copies' answers may still come
+    const Ask ask = exchange_.answered(bus_.counters);
+    const Message mark = mark_of(ask.message);
+    if (again) late_.add(mark);
+    bus_.turns.ended(slot_);
+    bus_.turns.heard(t.now);
+    presence_.answered();
+    if (!late_.has(mark)) late_.clear();
+    answered(ask, answer, t);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer, Turn& t) {
+    const Told what = told(answer);
+    if (what.refused) ++bus_.counters.refused;
+    if (!presence_.online()) {
+        presence_.found();
+        presence_.made_ready();
+        presence_.report(title(ask.why == Ask::Why::probe ? &answer : nullptr), t.out);
+        for (const AxisSetup& a : setup_.axes)
+            poll_every(a.channel, t);
+    }
+    if (!what.refused) learnt(learn(answer), t);
+    if (ask.why == Ask::Why::step && job_ && job_->number == ask.job) return step_answered(answer, t);
+    if (ask.why != Ask::Why::stop) return;
+    if (!stops_.empty()) stops_.remove(stops_.first());
+    (void)polls_.soon(item(ask.channel), t.now);
+    if (!what.refused) tickets_.accepted(ask.ticket, t.out);
+    tickets_.refused(ask.ticket, Reason::drive_refused, "the drive refuses the stop with code " + what.text, t.out);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) {
+    const Told what = told(answer);
+    const CommandBody& body = job_->command.body;
+    if (what.refused && !std::holds_alternative<Native>(body)) {
+        const ErrorCode* known = bus_.catalogue.error(what.code);
+        std::string why = fmt::format("{}: {}", words_of(job_->steps[job_->at]), known ? known->text : "code " + what.text);
+        if (job_->streamed) {
+            at(channel_of(job_->command.axis)).followed = {};
+            t.out.stream_ends.push_back({job_->command.axis, Reason::drive_refused, why});
+        }
+        tickets_.refused(job_->command.ticket, Reason::drive_refused, std::move(why), t.out, what.code);
+        return job_.reset();
+    }
+    stepped(*job_, answer);
+    if (++job_->at < job_->steps.size()) return;
+    const Job job = *std::exchange(job_, std::nullopt);
+    finish(job, what, t);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::finish(const Job& job, const Told& what, Turn& t) {
+    const CommandBody& body = job.command.body;
+    const int channel = channel_of(job.command.axis);
+    AxisFeedback& fb = at(channel).feedback;
+    if (!job.streamed || !fb.moving) (void)polls_.soon(item(channel), t.now);
+    if (job.streamed) return;
+    if (std::holds_alternative<Move>(body)) {
+        fb.target_reached = false;  // the old "reached" must not stand for the new target
+        fb.moving = true;
+        emit(channel, t);
+    }
+    acted(body, fb);
+    if (const Parameter* p = parameter_of(body)) {
+        tickets_.answer(job.command.ticket, Outcome::done, Reason::none, {}, t.out, 0, parse_value(what.text, p->type).value_or(Value{}));
+    } else if (std::holds_alternative<Native>(body)) {
+        tickets_.answer(job.command.ticket, Outcome::accepted, Reason::none, what.text, t.out, 0, {}, {what.text.begin(), what.text.end()});
+    } else {
+        tickets_.accepted(job.command.ticket, t.out);
+    }
+}
+
+template <class Message, int Channels>
+const Parameter* Dialogue<Message, Channels>::parameter_of(const CommandBody& body) const {
+    const auto* read = std::get_if<ReadParameter>(&body);
+    const auto* write = std::get_if<WriteParameter>(&body);
+    return read ? bus_.catalogue.parameter(read->point) : write ? bus_.catalogue.parameter(write->point) : nullptr;
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::learnt(int channel, Turn& t) {
+    if (channel == 0) return;
+    const bool moves = at(channel).feedback.moving;
+    const Duration period = bus_.timing.poll_period;
+    (void)polls_.every(item(channel), pace_.period(period, moves), t.now + pace_.period(period, false));
+    polls_.quick(item(channel), moves && !pace_.close());
+    emit(channel, t);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::emit(int channel, Turn& t) {
+    AxisFeedback& fb = at(channel).feedback;
+    fb.at = t.now;
+    for (const AxisSetup& a : setup_.axes)
+        if (a.channel == channel) t.out.feedback.push_back({a.id, fb});
+}
+
+// --- what does not come ----------------------------------------------------------------------------------------------------------
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::on_deadline(Turn& t) {
+    const auto late = exchange_.on_deadline(t.now, bus_.counters);
+    if (late == Late::repeat) return transmit(t);
+    if (late == Late::no) return;
+    const Ask ask = exchange_.request();
+    bus_.turns.ended(slot_);
+    late_.add(mark_of(ask.message));
+    if (ask.why == Ask::Why::stop && !stops_.empty()) stops_.remove(stops_.first());
+    if (ask.why == Ask::Why::step && job_ && job_->number == ask.job) {
+        at(ask.channel).followed = {};
+        job_.reset();
+    }
+    tickets_.failed(ask.ticket, Reason::no_answer, words_of(ask.message) + " was not answered: whether the drive took it is not known",
+                    t.out);
+    if (presence_.silent(t.now) == Presence::Silence::counted) return;
+    // Stops that were not sent yet still are: a drive that is not heard may hear.
+    end_all(Reason::no_answer, "the drive does not answer", t);
+    presence_.report("the drive does not answer", t.out);
+}
+
+template <class Message, int Channels>
+void Dialogue<Message, Channels>::end_all(Reason reason, std::string_view why, Turn& t) {
+    queue_.clear();
+    polls_.clear();
+    set_points_.clear();
+    job_.reset();
+    for (Axis& a : axes_)
+        a.followed = {};
+    tickets_.fail_all(reason, why, t.out);
+}
+
+}  // namespace axisgate::drive

@@ -1,0 +1,37 @@
+// Text lines: a decoder's sentences around those of the family.
+// In: frames of both directions. Out: a sentence for each line, and for what the recording has of one at its edges. Never shows a control
+// character.
+#include "gateway/drive/text_lines.hpp"
+
+#include <algorithm>
+
+namespace axisgate::drive {
+namespace {
+std::string shown(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c < ' ' || c > '~'; }, '.');
+    return text;
+}
+}  // namespace
+
+std::vector<std::string> TextDecoder::on_frame(const Frame& frame, std::optional<bool> to_drive) {
+    std::vector<std::string> said;
+    Stream& s = streams_[to_drive.value_or(true) ? 0 : 1];
+    if (frame.kind != Frame::Kind::bytes) return {to_text(frame) + "  unknown: a CAN frame on a byte line"};
+    s.lines.push(text_of(frame), [&](std::string_view line) {
+        const bool first = !std::exchange(s.begun, true);
+        const std::string_view what = first ? "the end of a telegram that began before the recording: " : "unknown, no telegram: ";
+        said.push_back(shown(sentence(line).value_or(std::string(what) + std::string(line))));
+    });
+    return said;
+}
+
+std::vector<std::string> TextDecoder::finish() {
+    std::vector<std::string> said;
+    for (Stream& s : streams_)
+        if (const std::string rest = s.lines.take_rest(); !rest.empty())
+            said.push_back(shown("a telegram that had not ended when the recording did: " + rest));
+    return said;
+}
+
+}  // namespace axisgate::drive

@@ -8,39 +8,30 @@
 #include <string>
 
 #include "adapters/linmot/drive.hpp"
-#include "gateway/core/adapter.hpp"
-#include "gateway/drive/roster.hpp"
-#include "gateway/drive/turns.hpp"
+#include "gateway/drive/line_adapter.hpp"
 
 namespace axisgate::linmot {
 
-class LineAdapter final : public Adapter {
+class LineAdapter final : public drive::TurnsAdapter<Drive> {
 public:
-    explicit LineAdapter(const Catalogue& of_family);
+    explicit LineAdapter(const Catalogue& of_family) : TurnsAdapter(bus_), bus_(of_family) {}
 
-    void configure(const LineSetup& setup, Instant now, Out& out) override;
-    void on_line(bool up, Instant now, Out& out) override;
-    void on_command(const Command& command, Instant now, Out& out) override;
-    void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
-    [[nodiscard]] Instant deadline() const override;
-    [[nodiscard]] AdapterCounters counters() const override { return bus_.counters; }
 
 private:
-    void take_manners(const LineSetup& setup, Turn& t);
-    void settle(Drive& drive, Turn& t);
-    void pump(Turn& t);
+    void take(const LineSetup& setup, Turn& t) override;
+    [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
+    [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
+    void leaving(Drive& drive, Turn& t) override;
+    void line_changed(Turn& t) override;
+    void give(Turn& t) override;
     void heard(const Telegram& telegram, Turn& t);
     void free_line();
 
     Bus bus_;
     Framer framer_;
-    drive::Roster<Drive> roster_;
-    drive::Turns turns_;
     Drive* asked_ = nullptr;  ///< whose answer is waited for
-    bool up_ = false;
-    Instant last_{};
 };
 
 }  // namespace axisgate::linmot

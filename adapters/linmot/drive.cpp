@@ -10,10 +10,6 @@ namespace axisgate::linmot {
 using drive::Want;
 using Phase = drive::Presence::Phase;
 
-Duration Bus::wire(std::size_t bytes) const noexcept {
-    return bit_rate == 0 ? Duration{} : Duration{static_cast<std::int64_t>(bytes * bits_per_byte * 1'000'000'000ull / bit_rate)};
-}
-
 DriveOptions drive_options(const DriveSetup& setup, const Bus& bus) {
     drive::OptionReader read(setup.options);
     DriveOptions o;
@@ -64,12 +60,12 @@ void Drive::line_up(Turn& t) {
     control.forget();
 }
 
-void Drive::line_down(Turn& t, std::string_view why) {
-    remove(t, why);
+void Drive::line_down(std::string_view why, Turn& t) {
+    remove(why, t);
     presence.report(std::string(why), t.out);
 }
 
-void Drive::remove(Turn& t, std::string_view why) {
+void Drive::remove(std::string_view why, Turn& t) {
     presence.close();
     exchanges.drop();
     lost(t, {});

@@ -32,8 +32,8 @@ public:
     // --- from the adapter -----------------------------------------------------------------------------------------------
     void begin(Turn& t);  ///< says what was wrong in its options
     void line_up(Turn& t);
-    void line_down(Turn& t, std::string_view why);
-    void remove(Turn& t, std::string_view why);
+    void line_down(std::string_view why, Turn& t);
+    void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void look(const DriveSetup& setup) noexcept {
         if (pace.take(setup)) poll.hurry();

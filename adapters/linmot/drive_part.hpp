@@ -9,10 +9,8 @@
 
 #include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/wire.hpp"
-#include "gateway/core/adapter.hpp"
+#include "gateway/drive/bus.hpp"
 #include "gateway/drive/part.hpp"
-#include "gateway/drive/timing.hpp"
-#include "gateway/drive/turn.hpp"
 
 namespace axisgate::linmot {
 using drive::Turn;
@@ -21,17 +19,11 @@ class Drive;
 using Part = drive::Part<Drive>;
 
 /// What the drives of a line have in common.
-struct Bus {
-    explicit Bus(const Catalogue& of_family) : catalogue(of_family), motions(of_family) {}
-    const Catalogue& catalogue;
+struct Bus : drive::Bus {
+    explicit Bus(const Catalogue& of_family) : drive::Bus(of_family), motions(of_family) {}
     Motions motions;
-    drive::Timing timing;
-    AdapterCounters counters;
     ChecksumRule checksum;
-    std::uint32_t bit_rate = 0;
-    std::uint8_t bits_per_byte = 10;
     std::size_t drives = 0;  ///< on the line
-    [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
 };
 
 /// The drive's options of the site, read once (README.md).

@@ -11,6 +11,7 @@
 #include "adapters/linmot/adapter.hpp"
 #include "adapters/linmot/decoder.hpp"
 #include "adapters/linmot/twin/twin.hpp"
+#include "gateway/drive/scan_range.hpp"
 
 namespace axisgate {
 namespace linmot {
@@ -27,22 +28,7 @@ std::string check_address(std::string_view address) {
                                        : "this");
 }
 
-ScanPlan scan(const ScanWish& wish) {
-    ScanPlan plan;
-    for (const std::string& end : {wish.from, wish.to}) {
-        if (!end.empty() && plan.fault.empty()) plan.fault = check_address(end);
-    }
-    if (!plan.fault.empty()) return plan;
-    const unsigned from = wish.from.empty() ? 0 : static_cast<unsigned>(std::stoul(wish.from)),
-                   to = wish.to.empty() ? 255 : static_cast<unsigned>(std::stoul(wish.to));
-    if (from > to) {
-        plan.fault = fmt::format("from {} to {} is no range: the first address is above the last", from, to);
-        return plan;
-    }
-    for (unsigned id = from; id <= to; ++id)
-        plan.addresses.push_back(std::to_string(id));
-    return plan;
-}
+ScanPlan scan(const ScanWish& wish) { return drive::scan_range(wish, 0, 255, check_address); }
 
 }  // namespace linmot
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "gateway/core/wire_time.hpp"
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::mcode {
@@ -19,35 +18,32 @@ constexpr std::string_view marks = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQR
 constexpr drive::Timing default_timing{.reply_timeout = 120ms};
 }  // namespace
 
-Duration LineAdapter::wire(std::size_t bytes) const noexcept {
-    return wire_time(std::uint64_t{bytes} * setup_.bits_per_byte, setup_.bit_rate);
-}
-
 // --- setup -----------------------------------------------------------------------------------------------------------------------
 
-void LineAdapter::take_timing(const LineSetup& setup, Turn& t) {
-    bus_.timing = drive::timing_of(setup.timing, default_timing);
+void LineAdapter::take(const LineSetup& setup, Turn& t) {
+    bus_.take(setup, default_timing);
     drive::OptionReader options(setup.options);
     bus_.ethernet = options.flag("ethernet", false);
     bus_.em = static_cast<int>(options.whole("em", 0, 3, 1));
     const auto ck = static_cast<int>(options.whole("ck", 0, 2, 1));
     bus_.ck = bus_.ethernet ? 0 : ck;
     bus_.rate_code = bus_.ethernet ? 0 : code_of(setup.bit_rate);
-    for (auto& fault : options.take_faults())
-        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0, std::move(fault), t.now});
-    turns_.set({.window = 1, .probe_window = 1, .pause = bus_.timing.pause});
+    drive::tell_faults(options, t);
+    bus_.turns.set({.pause = bus_.timing.pause});
 }
 
-std::string LineAdapter::fault_of(const DriveSetup& d, bool alone) const {
+std::string LineAdapter::fault(const DriveSetup& d, const LineSetup& line) const {
     if (std::string why = check_address(d.address); !why.empty()) return why;
-    if (d.address == "!" && !alone) return "a drive in single mode (address !) must be alone on its line: give every drive a name";
-    const Drive* other = drives_.find([&](const Drive& o) { return o.address() == d.address; });
+    if (d.address == "!" && line.drives.size() > 1)
+        return "a drive in single mode (address !) must be alone on its line: give every drive a name";
+    const Drive* other = drives().find([&](const Drive& o) { return o.address() == d.address; });
     return other ? fmt::format("the name {} belongs to drive {} already", d.address, other->name()) : std::string();
 }
 
-void LineAdapter::removed(Drive& d, Turn& t) {
-    d.remove(t, fmt::format("drive {} was removed or changed", d.name()));
-    turns_.remove(d.slot());
+std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t slot, Turn&) { return std::make_unique<Drive>(bus_, s, slot); }
+
+void LineAdapter::leaving(Drive& d, Turn& t) {
+    bus_.turns.remove(d.slot());
     if (flight_.drive == &d) {
         late_.missed(t.now, std::max(flight_.deadline - t.now, Duration{}));  // its answer may still be on its way
         flight_ = {};
@@ -58,23 +54,8 @@ void LineAdapter::removed(Drive& d, Turn& t) {
         if (m.drive == &d) m = {};
 }
 
-void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
-    Turn t{now, out};
-    take_timing(setup, t);
-    const auto fresh = drives_.fit(
-        setup, [&](Drive& d) { removed(d, t); }, [&](const DriveSetup& d) { return fault_of(d, setup.drives.size() == 1); },
-        [&](const DriveSetup& d, std::size_t slot) { return std::make_unique<Drive>(bus_, d, slot); }, out);
-    for (Drive* d : fresh)
-        if (up_) d->line_up(t);
-    setup_ = setup;
-    turns_.forget_wishes();
-    pump(t);
-}
-
-void LineAdapter::on_line(bool up, Instant now, Out& out) {
-    if (up == up_) return;
-    Turn t{now, out};
-    up_ = up;
+void LineAdapter::line_changed(Turn& t) {
+    bus_.turns.line_changed(t.now);
     flight_ = {};
     stray_.clear();
     late_drive_ = nullptr;
@@ -82,21 +63,6 @@ void LineAdapter::on_line(bool up, Instant now, Out& out) {
     missed_ = {};
     resync_ = true;
     late_.settled();
-    turns_.line_changed(now);
-    drives_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down(t, "the line went down"); });
-    pump(t);
-}
-
-void LineAdapter::on_command(const Command& c, Instant now, Out& out) {
-    Turn t{now, out};
-    Drive* d = drives_.of(c.axis);
-    if (!d) {
-        return drive::Tickets::refuse(
-            c, Reason::line_down, "this axis is not on the line, or its drive's address or channel is wrong (an MCode drive has one axis)",
-            out);
-    }
-    d->submit(c, t);
-    pump(t);
 }
 
 // --- what comes beside answers ---------------------------------------------------------------------------------------------------
@@ -120,14 +86,14 @@ void LineAdapter::stray_line(Turn& t) {
     line = line.substr(0, line.find_last_not_of('\r') + 1);
     if (!line.empty() && !marked(line, t)) {
         ++bus_.counters.unexpected;
-        std::size_t drives = 0;
+        std::size_t on_line = 0;
         Drive *any = nullptr, *printing = nullptr;
-        drives_.each([&](Drive& d) {
-            ++drives;
+        drives().each([&](Drive& d) {
+            ++on_line;
             any = &d;
             if (!printing && d.feedback.may_print(t.now)) printing = &d;
         });
-        if (Drive* from = drives == 1 ? any : printing) from->foreign(line, t);
+        if (Drive* from = on_line == 1 ? any : printing) from->foreign(line, t);
     }
     stray_.clear();
 }
@@ -159,7 +125,7 @@ void LineAdapter::gather(Verdict v, Turn& t) {
     // A drive gives its line back without its name [L6840-6860].
     const std::string_view nameless = std::string_view(sent).substr(sent.empty() ? 0 : 1);
     if (before.starts_with(nameless)) before.erase(0, nameless.size());
-    if (settled || drives_.find([&](const Drive& d) { return d.feedback.may_print(t.now); })) stray(before, t);
+    if (settled || drives().find([&](const Drive& d) { return d.feedback.may_print(t.now); })) stray(before, t);
     if (!answered) return;
     if (flight_.kind == Expect::Kind::query) {
         answered_mark_ = fmt::format("#{}", marks[mark_]);
@@ -171,7 +137,7 @@ void LineAdapter::gather(Verdict v, Turn& t) {
 // --- one exchange ----------------------------------------------------------------------------------------------------------------
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up_) return;
+    if (!up()) return;
     Turn t{now, out};
     if (frame.kind != Frame::Kind::bytes) {
         ++bus_.counters.garbled;
@@ -180,25 +146,25 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     const std::string_view bytes(reinterpret_cast<const char*>(frame.data().data()), frame.size);
     if (!flight_.drive) {
         stray(bytes, t);
-        return pump(t);
+        return end(t);
     }
     const Verdict v = reader_.push(bytes);
     if (flight_.kind == Expect::Kind::block && v == Verdict::waiting) {
         // A drive that is still speaking must not be spoken to; behind the closing question its answer is waited for.
-        const Duration silence = bus_.timing.reply_timeout / 2 + wire(24);
+        const Duration silence = bus_.timing.reply_timeout / 2 + bus_.wire(24);
         flight_.deadline = std::min(flight_.latest, reader_.closing() ? std::max(flight_.deadline, now + silence) : now + silence);
     } else if (flight_.ends && v == Verdict::garbled) {
         flight_.deadline = now;  // the closing answer was spoiled: asked again
     } else if (v == Verdict::waiting && reader_.maybe_refused()) {
         // Speaking into an answer that still comes would spoil the next one too. 25 ms: what USB converters hold bytes back, and more.
-        flight_.deadline = std::min(flight_.latest, now + 25ms + wire(16));
+        flight_.deadline = std::min(flight_.latest, now + 25ms + bus_.wire(16));
     } else if (v == Verdict::waiting) {
         // Half an answer: the rest is on its way, but noise must not hold the line for ever.
-        flight_.deadline = std::min(flight_.latest, std::max(flight_.deadline, now + 10ms + wire(16)));
+        flight_.deadline = std::min(flight_.latest, std::max(flight_.deadline, now + 10ms + bus_.wire(16)));
     } else {
         finish(v, t);
     }
-    pump(t);
+    end(t);
 }
 
 void LineAdapter::send(std::string_view bytes, Priority priority, Turn& t) const {
@@ -211,7 +177,7 @@ std::string LineAdapter::next_mark() {
 }
 
 void LineAdapter::start(Drive& d, Turn& t) {
-    bus_.reset_hits_others = drives_.find([&](const Drive& o) { return &o != &d && o.hears_every_reset(); }) != nullptr;
+    bus_.reset_hits_others = drives().find([&](const Drive& o) { return &o != &d && o.hears_every_reset(); }) != nullptr;
     Request r = d.next(t);
     Expect e{r.kind, {}, r.end_mark, d.words.sums, d.words.em == 0, r.ends};
     std::string bytes = r.raw;
@@ -228,15 +194,15 @@ void LineAdapter::start(Drive& d, Turn& t) {
     if (lead) bytes.insert(bytes.begin(), lf);
     resync_ = resync_ && !lead;
     d.mode.led(lead || !d.link().party());
-    d.feedback.heard_at = t.now + wire(bytes.size());
-    const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : bus_.timing.reply_timeout + wire(64) + r.patience;
+    d.feedback.heard_at = t.now + bus_.wire(bytes.size());
+    const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : bus_.timing.reply_timeout + bus_.wire(64) + r.patience;
     flight_.deadline = d.feedback.heard_at + expected;
     // Drives that echo one another without end (line.setup with two fresh ones) hold the line for a second at most.
-    flight_.latest = flight_.deadline + (e.kind != Expect::Kind::block ? wire(512) + 200ms
-                                         : r.raw.empty()               ? wire(ReplyReader::limit) + 60s
+    flight_.latest = flight_.deadline + (e.kind != Expect::Kind::block ? bus_.wire(512) + 200ms
+                                         : r.raw.empty()               ? bus_.wire(ReplyReader::limit) + 60s
                                                                        : Duration{1s});
     reader_.begin(std::move(e));
-    turns_.began(d.slot(), false);
+    bus_.turns.began(d.slot(), false);
     send(bytes, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command, t);
 }
 
@@ -248,8 +214,8 @@ bool LineAdapter::close_block(Turn& t) {
     const std::string mark = next_mark();
     const std::string bytes = request(d.link(), fmt::format("PR \"{}\",{}", mark, d.feedback.poll_items(t.now)));
     reader_.close_with(mark, bytes.substr(0, bytes.size() - 1));
-    d.feedback.heard_at = t.now + wire(bytes.size());
-    flight_.deadline = d.feedback.heard_at + bus_.timing.reply_timeout + wire(64);
+    d.feedback.heard_at = t.now + bus_.wire(bytes.size());
+    flight_.deadline = d.feedback.heard_at + bus_.timing.reply_timeout + bus_.wire(64);
     send(bytes, Priority::command, t);
     return true;
 }
@@ -258,15 +224,15 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     Drive& d = *flight_.drive;
     if (flight_.kind != Expect::Kind::block) gather(v, t);
     const Flight f = std::exchange(flight_, {});
-    turns_.ended(d.slot());
-    turns_.heard(t.now);
+    bus_.turns.ended(d.slot());
+    bus_.turns.heard(t.now);
     if (f.to_all) return;
     if (v == Verdict::waiting) {
         late_drive_ = &d;
         late_.missed(t.now, 2 * bus_.timing.reply_timeout);
         resync_ = true;
         if (f.kind == Expect::Kind::query) missed_[mark_] = {&d, t.now};
-        if (!d.away()) drives_.each([](Drive& o) { o.mode.line_missed(); });
+        if (!d.away()) drives().each([](Drive& o) { o.mode.line_missed(); });
     } else if ((f.kind == Expect::Kind::query || f.ends) && v == Verdict::answered && late_drive_ == &d) {
         late_drive_ = nullptr;  // a drive answers in order: nothing older can come any more
         late_.settled();
@@ -277,7 +243,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
     if (flight_.drive && now >= flight_.deadline && !close_block(t)) finish(reader_.give_up(), t);
-    pump(t);
+    end(t);
 }
 
 // --- whose turn it is ------------------------------------------------------------------------------------------------------------
@@ -289,12 +255,12 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     std::string line;
     Drive* first = nullptr;
     std::size_t unsent = 0;
-    const Drive* other = drives_.find([&](const Drive& d) {
+    const Drive* other = drives().find([&](const Drive& d) {
         if (!d.in_reach()) return false;
         const std::string_view own = d.stops.line();
         if (own.empty() || !d.link().party() || (first && (own != line || d.words.sums != first->words.sums))) return true;
         line = own;
-        if (!first) first = drives_.at(d.slot());
+        if (!first) first = drives().at(d.slot());
         unsent += d.stops.confirming() ? 0 : 1;
         return false;
     });
@@ -302,46 +268,46 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     std::string bytes = request({'*', first->words.sums}, line);
     flight_ = {.drive = first, .kind = Expect::Kind::nothing, .sent = bytes.substr(0, bytes.size() - 1), .to_all = true};
     if (std::exchange(resync_, false)) bytes.insert(bytes.begin(), lf);
-    flight_.deadline = flight_.latest = t.now + wire(bytes.size()) + 20ms;
+    flight_.deadline = flight_.latest = t.now + bus_.wire(bytes.size()) + 20ms;
     reader_.begin({Expect::Kind::nothing, {}, false, false, false});
-    drives_.each([&](Drive& d) { d.stops.told_by_all(t.now + wire(bytes.size())); });
-    turns_.began(first->slot(), false);
+    drives().each([&](Drive& d) { d.stops.told_by_all(t.now + bus_.wire(bytes.size())); });
+    bus_.turns.began(first->slot(), false);
     send(bytes, Priority::urgent, t);
     return true;
 }
 
 /// Each drive's wish, as far as the line lets it have one: line.setup keeps the line to itself but from stops.
-void LineAdapter::settle(Instant now) {
-    const Drive* naming = drives_.find([](const Drive& d) { return d.line_setup.naming(); });
-    drives_.each([&](Drive& d) {
+void LineAdapter::settle_all(Instant now) {
+    const Drive* naming = drives().find([](const Drive& d) { return d.line_setup.naming(); });
+    drives().each([&](Drive& d) {
         using drive::Want;
         const Want want = d.wants(now);
         const bool stops = want == Want::urgent || want == Want::command;
-        if (want == Want::nothing || stops || !(naming || held(d, now))) return turns_.settle(d.slot(), want, never, d.wish());
-        turns_.settle(d.slot(), Want::nothing, never, naming || late_.over(now) ? never : late_.until());
+        if (want == Want::nothing || stops || !(naming || held(d, now))) return bus_.turns.settle(d.slot(), want, never, d.wish());
+        bus_.turns.settle(d.slot(), Want::nothing, never, naming || late_.over(now) ? never : late_.until());
     });
 }
 
-void LineAdapter::pump(Turn& t) {
-    if (!up_) return;
+void LineAdapter::end(Turn& t) {
+    if (!up()) return;
     looked_at_ = t.now;
     while (!flight_.drive) {
-        settle(t.now);
-        const auto slot = turns_.next(t.now);
+        settle_all(t.now);
+        const auto slot = bus_.turns.next(t.now);
         if (!slot) return;
-        if (!stop_all_at_once(t)) start(*drives_.at(*slot), t);
+        if (!stop_all_at_once(t)) start(*drives().at(*slot), t);
     }
 }
 
 /// After a time-out: lines wait until late answers are over, and the drive that was late is not asked again while one waits for that.
 bool LineAdapter::held(const Drive& d, Instant now) const noexcept {
     if (d.wants_unmarked(now)) return !late_.over(now);
-    return &d == late_drive_ && drives_.find([now](const Drive& o) { return o.wants_unmarked(now); });
+    return &d == late_drive_ && drives().find([now](const Drive& o) { return o.wants_unmarked(now); });
 }
 
 Instant LineAdapter::deadline() const {
-    if (!up_) return never;
-    return flight_.drive ? flight_.deadline : std::max(turns_.deadline(), looked_at_);
+    if (!up()) return never;
+    return flight_.drive ? flight_.deadline : std::max(bus_.turns.deadline(), looked_at_);
 }
 
 }  // namespace axisgate::mcode

@@ -10,31 +10,30 @@
 
 #include "adapters/mcode/drive.hpp"
 #include "gateway/drive/exchange.hpp"
-#include "gateway/drive/roster.hpp"
-#include "gateway/drive/turns.hpp"
+#include "gateway/drive/line_adapter.hpp"
 
 namespace axisgate::mcode {
 
-class LineAdapter final : public Adapter {
+class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& catalogue) : bus_(catalogue) {}
 
-    void configure(const LineSetup& setup, Instant now, Out& out) override;
-    void on_line(bool up, Instant now, Out& out) override;
-    void on_command(const Command& command, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
     [[nodiscard]] AdapterCounters counters() const override { return bus_.counters; }
 
 private:
-    void take_timing(const LineSetup& setup, Turn& t);
-    [[nodiscard]] std::string fault_of(const DriveSetup& drive, bool alone) const;
-    void removed(Drive& drive, Turn& t);
-    [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
+    void take(const LineSetup& setup, Turn& t) override;
+    [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
+    [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
+    void leaving(Drive& drive, Turn& t) override;
+    void line_changed(Turn& t) override;
     // whose turn it is
-    void pump(Turn& t);
-    void settle(Instant now);
+    void fitted() override { bus_.turns.forget_wishes(); }
+    void settle(Drive&, Turn&) override {}  // all of them at once, before a place is given away
+    void end(Turn& t) override;
+    void settle_all(Instant now);
     [[nodiscard]] bool held(const Drive& drive, Instant now) const noexcept;
     [[nodiscard]] bool stop_all_at_once(Turn& t);
     // one exchange
@@ -50,10 +49,6 @@ private:
     [[nodiscard]] bool marked(std::string_view line, Turn& t);
 
     Bus bus_;
-    LineSetup setup_;
-    bool up_ = false;
-    drive::Roster<Drive> drives_;
-    drive::Turns turns_;
 
     struct Flight {
         Drive* drive = nullptr;  ///< null: the line is free

@@ -71,13 +71,13 @@ void Drive::fail_all(Reason reason, const std::string& why, Turn& t) {
     jobs.fail_all(reason, why, t);
 }
 
-void Drive::remove(Turn& t, std::string_view why) {
+void Drive::remove(std::string_view why, Turn& t) {
     restart.over(Outcome::failed, Reason::line_down, why, t);
     fail_all(Reason::line_down, std::string(why), t);
 }
 
-void Drive::line_down(Turn& t, std::string_view why) {
-    remove(t, why);
+void Drive::line_down(std::string_view why, Turn& t) {
+    remove(why, t);
     programs.drive_away();
     mode.away(true);
     unanswered_ = 0;

@@ -31,8 +31,8 @@ public:
 
     // --- from the line ------------------------------------------------------------------------------------------------------
     void line_up(Turn& t) { start.probe_anew(t); }
-    void line_down(Turn& t, std::string_view why);
-    void remove(Turn& t, std::string_view why);
+    void line_down(std::string_view why, Turn& t);
+    void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     /// Stops are urgent until they are sent, commands until they are confirmed; all else takes turns.
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;

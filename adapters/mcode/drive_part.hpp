@@ -9,20 +9,15 @@
 
 #include "adapters/mcode/wire.hpp"
 #include "adapters/mcode/wire_reply.hpp"
-#include "gateway/core/catalogue.hpp"
+#include "gateway/drive/bus.hpp"
 #include "gateway/drive/part.hpp"
-#include "gateway/drive/timing.hpp"
-#include "gateway/drive/turn.hpp"
 
 namespace axisgate::mcode {
 using drive::Turn;
 
 /// What the drives of a line share: the site's numbers with this family's own defaults filled in, and what one must know of the others.
-struct Bus {
-    explicit Bus(const Catalogue& of_family) noexcept : catalogue(of_family) {}
-    const Catalogue& catalogue;
-    drive::Timing timing;
-    AdapterCounters counters;
+struct Bus : drive::Bus {
+    using drive::Bus::Bus;
     int em = 1;                      ///< echo mode wanted
     int ck = 1;                      ///< checksum mode wanted
     bool ethernet = false;           ///< MCode/TCP: no CK, no names [L1173-1191]

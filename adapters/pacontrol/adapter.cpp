@@ -6,10 +6,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "gateway/drive/option_reader.hpp"
-#include "gateway/drive/tickets.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -25,74 +23,46 @@ std::string check_address(std::string_view address) {
                                        : "this");
 }
 
-LineAdapter::LineAdapter(const Catalogue& of_family, LineKind) : catalogue_(of_family), elements_(of_family) {}
-
-void LineAdapter::read_form(const LineSetup& setup, Turn& t) {
-    line_.timing = drive::timing_of(setup.timing, timing_defaults);
-    line_.bit_rate = setup.bit_rate;
-    line_.bits_per_byte = setup.bits_per_byte;
+void LineAdapter::take(const LineSetup& setup, Turn& t) {
+    line_.take(setup, timing_defaults);  // the reply time-out counts besides the time that the bytes take
     drive::OptionReader read(setup.options);
     line_.check = check_mode_named(read.word("check", {"learn", "compute", "zero"})).value_or(CheckMode::learn);
     line_.strict = read.flag("strict", false);
-    for (std::string& fault : read.take_faults())
-        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0, std::move(fault), t.now});
+    drive::tell_faults(read, t);
 }
 
-void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
-    Turn t{now, out};
-    read_form(setup, t);
-    const auto fault = [&](const DriveSetup& s) -> std::string {
-        const Drive* other = drives_.at(0);
-        if (!other || !check_address(s.address).empty()) return check_address(s.address);
-        return fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", other->setup().name);
-    };
-    drives_.fit_axes(setup, [&](Drive& d, const DriveSetup& s) { d.set_axes(s, t); });
-    const auto fresh = drives_.fit(
-        setup, [&](Drive& d) { d.line_down(t, fmt::format("drive {} was removed or changed", d.setup().name)); }, fault,
-        [&](const DriveSetup& s, std::size_t) { return std::make_unique<Drive>(catalogue_, elements_, counters_, line_, s); }, out);
-    for (Drive* d : fresh)
-        if (up_) d->line_up(t);
-    pump(t);
+std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
+    const Drive* other = drives().at(0);
+    if (!other || !check_address(s.address).empty()) return check_address(s.address);
+    return fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", other->setup().name);
 }
 
-void LineAdapter::pump(Turn& t) {
+std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t, Turn&) { return std::make_unique<Drive>(line_, s); }
+
+void LineAdapter::end(Turn& t) {
     last_ = t.now;
-    drives_.each([&](Drive& d) { d.pump(t); });
-}
-
-void LineAdapter::on_line(bool up, Instant now, Out& out) {
-    Turn t{now, out};
-    if (std::exchange(up_, up) != up) drives_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down(t, "the line is down"); });
-    pump(t);
-}
-
-void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
-    Turn t{now, out};
-    Drive* d = drives_.of(command.axis);
-    if (!d) return drive::Tickets::refuse(command, Reason::line_down, "this axis is not on the line, or its channel is not 1 to 16", out);
-    d->submit(command, t);
-    pump(t);
+    drives().each([&](Drive& d) { d.pump(t); });
 }
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
+    if (!up()) return;
     Turn t{now, out};
-    if (!up_) return;
     if (frame.kind != Frame::Kind::bytes) {
-        ++counters_.garbled;
+        ++line_.counters.garbled;
         return;
     }
-    drives_.each([&](Drive& d) { d.on_bytes(frame.data(), t); });
-    pump(t);
+    drives().each([&](Drive& d) { d.on_bytes(frame.data(), t); });
+    end(t);
 }
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    drives_.each([&](Drive& d) { d.on_deadline(t); });
-    pump(t);
+    drives().each([&](Drive& d) { d.on_deadline(t); });
+    end(t);
 }
 
 Instant LineAdapter::deadline() const {
-    const Drive* d = drives_.at(0);
+    const Drive* d = drives().at(0);
     return d ? std::max(d->deadline(last_), last_) : never;
 }
 

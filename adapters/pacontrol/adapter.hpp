@@ -7,36 +7,31 @@
 #include <string_view>
 
 #include "adapters/pacontrol/drive.hpp"
-#include "gateway/core/adapter.hpp"
-#include "gateway/drive/roster.hpp"
+#include "gateway/drive/line_adapter.hpp"
 
 namespace axisgate::pacontrol {
 
 /// Empty if `address` is "com1", else what is wrong and what would be right.
 [[nodiscard]] std::string check_address(std::string_view address);
 
-class LineAdapter final : public Adapter {
+class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
-    LineAdapter(const Catalogue& of_family, LineKind on);
+    LineAdapter(const Catalogue& of_family, LineKind) : line_(of_family) {}
 
-    void configure(const LineSetup& setup, Instant now, Out& out) override;
-    void on_line(bool up, Instant now, Out& out) override;
-    void on_command(const Command& command, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
-    [[nodiscard]] AdapterCounters counters() const override { return counters_; }
+    [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
-    void read_form(const LineSetup& setup, Turn& t);
-    void pump(Turn& t);
+    void take(const LineSetup& setup, Turn& t) override;
+    [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
+    [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
+    void line_changed(Turn&) override {}
+    void settle(Drive&, Turn&) override {}
+    void end(Turn& t) override;
 
-    const Catalogue& catalogue_;
-    const Elements elements_;
-    AdapterCounters counters_;
     LineForm line_;
-    drive::Roster<Drive> drives_;  ///< one at most: the port is point to point
-    bool up_ = false;
     Instant last_{};
 };
 

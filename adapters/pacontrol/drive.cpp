@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint8_t commands_per_poll = 4;
 }
 
-Drive::Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const LineForm& line, const DriveSetup& setup)
-    : pac_(catalogue, elements, counters, line, setup),
+Drive::Drive(LineForm& line, const DriveSetup& setup)
+    : pac_(line, setup),
       port_(pac_, *this),
       polls_(pac_),
       demands_(pac_, port_, polls_),

@@ -17,12 +17,13 @@ class Drive final : private Port::User {
 public:
     static constexpr int channels = Control::channels;
 
-    Drive(const Catalogue& catalogue, const Elements& elements, AdapterCounters& counters, const LineForm& line, const DriveSetup& setup);
+    Drive(LineForm& line, const DriveSetup& setup);
     Drive(const Drive&) = delete;
     Drive& operator=(const Drive&) = delete;
 
     void line_up(Turn& t);
-    void line_down(Turn& t, std::string_view why);
+    void line_down(std::string_view why, Turn& t);
+    void remove(std::string_view why, Turn& t);
     /// Other axes of the same control: those that stay go on undisturbed.
     void set_axes(const DriveSetup& setup, Turn& t);
     void submit(const Command& command, Turn& t);

@@ -42,11 +42,10 @@ DriveOptions drive_options(const DriveSetup& d) {
     return o;
 }
 
-Control::Control(const Catalogue& of_family, const Elements& of_catalogue, AdapterCounters& of_line, const LineForm& form,
-                 const DriveSetup& of_site)
-    : catalogue(of_family),
-      elements(of_catalogue),
-      counters(of_line),
+Control::Control(LineForm& form, const DriveSetup& of_site)
+    : catalogue(form.catalogue),
+      elements(form.elements),
+      counters(form.counters),
       line(form),
       setup(of_site),
       options(drive_options(of_site)),

@@ -7,18 +7,17 @@
 #include <vector>
 
 #include "adapters/pacontrol/drive_axis.hpp"
+#include "gateway/drive/bus.hpp"
 #include "gateway/drive/notices.hpp"
 #include "gateway/drive/presence.hpp"
 #include "gateway/drive/tickets.hpp"
-#include "gateway/drive/timing.hpp"
 
 namespace axisgate::pacontrol {
 
 /// What all of a line have in common.
-struct LineForm {
-    drive::Timing timing;  ///< its reply_timeout counts besides the time that the bytes take
-    std::uint32_t bit_rate = 0;
-    std::uint8_t bits_per_byte = 9;  ///< 7N1
+struct LineForm : drive::Bus {
+    explicit LineForm(const Catalogue& of_family) : Bus(of_family), elements(of_family) {}
+    const Elements elements;
     CheckMode check = CheckMode::learn;
     bool strict = false;
 };
@@ -53,8 +52,7 @@ struct Control {
     static constexpr std::size_t channels = 16;
     static constexpr std::size_t stop_limit = 32;  ///< urgent commands that wait; one more is refused as busy
 
-    Control(const Catalogue& of_family, const Elements& of_catalogue, AdapterCounters& of_line, const LineForm& form,
-            const DriveSetup& of_site);
+    Control(LineForm& form, const DriveSetup& of_site);
 
     const Catalogue& catalogue;
     const Elements& elements;

@@ -5,8 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "gateway/core/wire_time.hpp"
-
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::size_t reply_bytes = 48;  // of the longest acknowledgement but rare ones
@@ -31,7 +29,7 @@ void Port::forget() {
 void Port::begin(Sent what, std::span<const std::uint8_t> bytes, Priority priority, Turn& t) {
     t.out.send(Frame::run(bytes), priority);
     const LineForm& line = pac_.line;
-    const Duration patience = line.timing.reply_timeout + wire_time((bytes.size() + reply_bytes) * line.bits_per_byte, line.bit_rate);
+    const Duration patience = line.timing.reply_timeout + line.wire(bytes.size() + reply_bytes);
     exchange_.begin(std::move(what), t.now, patience, 0);
     ++pac_.exchanges;
     framer_.reset();

@@ -24,11 +24,15 @@ void Drive::line_up(Turn& t) {
         pac_.notice(Severity::warning, "setup", 0, f, t);
 }
 
-void Drive::line_down(Turn& t, std::string_view why) {
+void Drive::line_down(std::string_view why, Turn& t) {
+    remove(why, t);
+    pac_.presence.report(std::string(why), t.out);
+}
+
+void Drive::remove(std::string_view why, Turn& t) {
     fail_all(Reason::line_down, std::string(why), t);
     forget();
     pac_.presence.close();
-    pac_.presence.report(std::string(why), t.out);
 }
 
 void Drive::found(Turn& t) {

@@ -4,26 +4,28 @@
 #pragma once
 
 #include "adapters/remote/drive.hpp"
-#include "gateway/drive/roster.hpp"
+#include "gateway/drive/line_adapter.hpp"
 
 namespace axisgate::remote {
 
-class LineAdapter final : public Adapter {
+class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& catalogue) : line_(catalogue) {}
-    void configure(const LineSetup& setup, Instant now, Out& out) override;
-    void on_line(bool up, Instant now, Out& out) override;
-    void on_command(const Command& command, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
     [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
+    void take(const LineSetup& setup, Turn& t) override { line_.take(setup, t.now); }
+    [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
+    [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
+    void line_changed(Turn&) override { framer_.clear(); }
+    void settle(Drive& d, Turn& t) override { d.go(t); }
+    void end(Turn&) override {}
+
     Line line_;
-    drive::Roster<Drive> drives_;
     mirror::Framer framer_;
-    bool up_ = false;
 };
 
 }  // namespace axisgate::remote

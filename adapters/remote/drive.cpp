@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
+#include "gateway/drive/text_lines.hpp"
+
 namespace axisgate::remote {
 using mirror::Telegram;
 using Phase = Presence::Phase;
 using namespace std::chrono_literals;
 
 void Line::take(const LineSetup& setup, Instant now) {
-    timing = drive::timing_of(setup.timing, drive::Timing{.reply_timeout = 300ms, .poll_period = 50ms});
+    Bus::take(setup, {.reply_timeout = 300ms, .poll_period = 50ms});
     stale_after = setup.timing.stale_after > Duration::zero() ? setup.timing.stale_after : Duration(3s);
     if (next == 0) next = static_cast<std::uint64_t>(std::max<std::int64_t>(1, now.time_since_epoch() / 1ms));
 }
@@ -19,12 +21,12 @@ Drive::Drive(Line& line, const DriveSetup& setup) : line_(line), setup_(setup), 
     answer_time_ = std::chrono::milliseconds(std::atoi(option(setup.options, "answer_ms", "5000").c_str()));
 }
 
-void Drive::line_up(Turn& t) {
-    presence_.begin(t.now);
-    go(t);
+void Drive::line_down(std::string_view why, Turn& t) {
+    remove(why, t);
+    presence_.report(std::string(why), t.out);
 }
 
-void Drive::line_down(std::string_view why, Turn& t) {
+void Drive::remove(std::string_view why, Turn& t) {
     presence_.close();
     poll_.drop();
     timer_.stop();
@@ -33,13 +35,11 @@ void Drive::line_down(std::string_view why, Turn& t) {
     running_.reset();
     renewal_.reset();
     tickets_.fail_all(Reason::line_down, why, t.out);
-    presence_.report(std::string(why), t.out);
 }
 
 void Drive::submit(const Command& c, Turn& t) {
     if (drive::admit(c, setup_.name, presence_, queue_, tickets_, t) != drive::Admission::urgent) return;
-    const bool off = std::holds_alternative<Disable>(c.body);
-    const auto ends = [&](const Command& w) { return drive::is_motion(w.body) || (off && std::holds_alternative<Enable>(w.body)); };
+    const auto ends = [&](const Command& w) { return drive::ended_by(c.body, w.body); };
     (void)queue_.interrupt(ends, name_of(c.body), tickets_, t);
     if (running_ && ends(running_->command)) {
         tickets_.failed(running_->command.ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(name_of(c.body)), t.out);
@@ -58,7 +58,7 @@ std::uint64_t Drive::send(const mirror::Order& order, Priority priority, Turn& t
     std::string text = mirror::text_of({Telegram::Kind::request, number, setup_.address, body_of(order)});
     // Whatever a stop may come into the middle of has ended with that: it is a line of its own.
     if (priority == Priority::urgent) text.insert(0, "\n");
-    for_each_run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, [&](const Frame& f) { t.out.send(f, priority); });
+    for_each_run(drive::bytes_of(text), [&](const Frame& f) { t.out.send(f, priority); });
     return number;
 }
 

@@ -6,13 +6,12 @@
 
 #include <optional>
 
-#include "gateway/core/catalogue.hpp"
+#include "gateway/drive/bus.hpp"
 #include "gateway/drive/command_queue.hpp"
 #include "gateway/drive/exchange.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/drive/presence.hpp"
 #include "gateway/drive/tickets.hpp"
-#include "gateway/drive/turn.hpp"
 #include "gateway/protocols/mirror/telegram.hpp"
 
 namespace axisgate::remote {
@@ -20,13 +19,10 @@ using drive::Presence;
 using drive::Turn;
 
 /// What the axes of one line share.
-struct Line {
-    explicit Line(const Catalogue& of_family) : catalogue(of_family) {}
+struct Line : drive::Bus {
+    using drive::Bus::Bus;
     void take(const LineSetup& setup, Instant now);
-    const Catalogue& catalogue;
-    drive::Timing timing;
     Duration stale_after{};
-    AdapterCounters counters;
     std::uint64_t next = 0;  ///< number of the next request: those of an adapter made later are greater
 };
 
@@ -37,8 +33,9 @@ public:
     static constexpr Duration renewed = std::chrono::milliseconds(600);  ///< ... and how often it is renewed
     Drive(Line& line, const DriveSetup& setup);
 
-    void line_up(Turn& t);
+    void line_up(Turn& t) { presence_.begin(t.now); }
     void line_down(std::string_view why, Turn& t);
+    void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void on_telegram(const mirror::Telegram& telegram, Turn& t);
     /// Sends what there is to be sent now.

@@ -12,7 +12,7 @@ namespace axisgate::uim342 {
 void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
     std::vector<Drive*> members;
     for (const AxisId axis : what.axes) {
-        Drive* n = roster_.of(axis);
+        Drive* n = drives().of(axis);
         if (!n) {
             return drive::Tickets::refuse(command, Reason::line_down,
                                           fmt::format("axis {} of the list is not on this line", index_of(axis)), t.out);
@@ -41,7 +41,7 @@ void LineAdapter::start_group(const Command& command, const std::string& argumen
                                       t.out);
     }
     std::vector<Drive*> members;
-    roster_.each([&](Drive& d) {
+    drives().each([&](Drive& d) {
         if (d.ever_seen() && d.group() == group) members.push_back(&d);
     });
     if (members.empty()) {
@@ -87,7 +87,7 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
     const auto group = joint_.members.front()->group();
     if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->group() == group; })) {
         std::vector<std::string> others;
-        roster_.each([&](const Drive& d) {
+        drives().each([&](const Drive& d) {
             if (d.address() == *group) others.push_back(d.name() + " (its node ID)");
             if (!member(&d) && d.ever_seen() && d.group() == group) others.push_back(d.name());
         });
@@ -100,7 +100,7 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
         why = "they do not share a group ID (PP[8])";
     }
     std::vector<std::string> others;
-    roster_.each([&](const Drive& d) {
+    drives().each([&](const Drive& d) {
         if (!member(&d) && d.ever_seen()) others.push_back(d.name());
     });
     if (others.empty()) {
@@ -140,7 +140,7 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
     }
     if (joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::interrupted, "interrupted by global_stop", 0, t);
     std::vector<Drive*> members;
-    roster_.each([&](Drive& d) {
+    drives().each([&](Drive& d) {
         if (d.online()) members.push_back(&d);
     });
     if (members.empty()) return (void)tickets_.failed(command.ticket, Reason::no_answer, "sent; no drive of the line answers", t.out);

@@ -6,18 +6,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "gateway/core/text.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::uim342 {
 namespace {
 std::optional<std::uint8_t> address_of(std::string_view text) {
-    unsigned v = 0;
-    const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (ec != std::errc{} || p != text.data() + text.size() || v < first_node || v > last_node) return std::nullopt;
-    return static_cast<std::uint8_t>(v);
+    const auto v = parse_whole(text, first_node, last_node);
+    return v ? std::optional(static_cast<std::uint8_t>(*v)) : std::nullopt;
 }
 }  // namespace
 
@@ -26,17 +24,14 @@ std::string check_address(std::string_view address) {
     return fmt::format("{} is not an address: a UIM342 has a node ID 5..126 (PP[7]; 5 when new)", address.empty() ? "nothing" : address);
 }
 
-LineAdapter::LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_family, on) {}
-
-void LineAdapter::take_options(const LineSetup& setup, Turn& t) {
+void LineAdapter::take(const LineSetup& setup, Turn& t) {
     const bool can = kind == LineKind::can;
     using std::chrono::milliseconds;
-    timing = drive::timing_of(setup.timing, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
-                                                : drive::Timing{.reply_timeout = milliseconds(200), .poll_period = milliseconds(50)});
-    bit_rate = setup.bit_rate;
+    Bus::take(setup, can ? drive::Timing{.reply_timeout = milliseconds(50), .poll_period = milliseconds(20)}
+                         : drive::Timing{.reply_timeout = milliseconds(200), .poll_period = milliseconds(50)});
 
     // On a slow line fewer exchanges fit into the time that each may take: no more are begun than half of it holds.
-    const Duration exchange = can ? wire_time(2 * 160, bit_rate) : wire_time(32u * setup.bits_per_byte, bit_rate);
+    const Duration exchange = can ? wire_time(2 * 160, bit_rate) : wire(32);
     drive::OptionReader read(setup.options);
     drive::TurnRules rules;
     rules.window = static_cast<std::size_t>(read.whole(
@@ -49,96 +44,57 @@ void LineAdapter::take_options(const LineSetup& setup, Turn& t) {
     turns.set(rules);
 
     const CrcMode crc = crc_mode_named(read.word("crc", {"12", "13", "auto", "none"})).value_or(CrcMode::twelve);
-    if (crc != crc_ || !configured_) {
+    if (crc != crc_ || !std::exchange(configured_, true)) {
         crc_ = crc;
         framer_ = UiFramer(crc);
         other_crc_told_ = false;
     }
-    for (auto& fault : read.take_faults())
-        t.out.notices.push_back({Severity::warning, no_drive, no_axis, "setup", 0, std::move(fault), t.now});
+    drive::tell_faults(read, t);
 }
 
-void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
-    Turn t{now, out};
-    take_options(setup, t);
-    configured_ = true;
-    const auto fresh = roster_.fit(
-        setup,
-        [&](Drive& d) {
-            if (std::ranges::find(joint_.members, &d) != joint_.members.end())
-                end_joint(Outcome::failed, Reason::line_down, fmt::format("drive {} was removed", d.name()), 0, t);
-            d.remove(t, fmt::format("drive {} was removed or changed", d.name()));
-            turns.remove(d.slot());
-            by_id_[d.address()] = nullptr;
-        },
-        [&](const DriveSetup& s) {
-            const auto id = address_of(s.address);
-            if (!id) return check_address(s.address);
-            return by_id_[*id] ? fmt::format("ID {} belongs to drive {} already", s.address, by_id_[*id]->name()) : std::string();
-        },
-        [&](const DriveSetup& s, std::size_t slot) {
-            const auto id = address_of(s.address).value_or(first_node);
-            auto made = std::make_unique<Drive>(static_cast<Bus&>(*this), s, id, slot);
-            by_id_[id] = made.get();
-            return made;
-        },
-        out);
-    turns.forget_wishes();
-    if (up_) {
-        for (Drive* d : fresh)
-            d->line_up(t);
-    }
-    settle_all(t);
+std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
+    const auto id = address_of(s.address);
+    if (!id) return check_address(s.address);
+    return by_id_[*id] ? fmt::format("ID {} belongs to drive {} already", s.address, by_id_[*id]->name()) : std::string();
 }
 
-void LineAdapter::on_line(bool up, Instant now, Out& out) {
-    Turn t{now, out};
-    if (up == up_) return;
-    up_ = up;
+std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t slot, Turn&) {
+    const auto id = address_of(s.address).value_or(first_node);
+    auto made = std::make_unique<Drive>(static_cast<Bus&>(*this), s, id, slot);
+    by_id_[id] = made.get();
+    return made;
+}
+
+void LineAdapter::leaving(Drive& d, Turn& t) {
+    if (std::ranges::find(joint_.members, &d) != joint_.members.end())
+        end_joint(Outcome::failed, Reason::line_down, fmt::format("drive {} was removed", d.name()), 0, t);
+    TurnsAdapter::leaving(d, t);
+    by_id_[d.address()] = nullptr;
+}
+
+void LineAdapter::line_changed(Turn& t) {
     framer_.reset();
     other_crc_told_ = false;
-    if (!up && joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::line_down, "the line went down", 0, t);
-    roster_.each([&](Drive& d) { up ? d.line_up(t) : d.line_down(t, "the line is down"); });
-    turns.line_changed(now);
-    settle_all(t);
-}
-
-void LineAdapter::settle_all(Turn& t) {
-    roster_.each([&](const Drive& d) { drive::settle(turns, d, t.now); });
-    serve(t);
-}
-
-void LineAdapter::serve(Turn& t) {
-    if (up_) drive::serve(turns, roster_, t);
+    if (!up() && joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::line_down, "the line went down", 0, t);
+    TurnsAdapter::line_changed(t);
 }
 
 void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
-    Turn t{now, out};
-    Drive* d = roster_.of(command.axis);
-    if (!d) {
-        return drive::Tickets::refuse(command, Reason::line_down,
-                                      "this axis is not on the line, or its drive's address or channel is wrong (a UIM342 has one axis)",
-                                      out);
-    }
     const auto* together = std::get_if<StartTogether>(&command.body);
     const auto* action = std::get_if<Action>(&command.body);
-    if (up_ && together) {
-        start_together(command, *together, t);
-    } else if (up_ && action && action->name == "start_group") {
-        start_group(command, action->argument, t);
-    } else if (up_ && action && action->name == "global_stop") {
-        global_stop(command, t);
-    } else {
-        d->submit(command, t);
-        drive::settle(turns, *d, now);
-    }
-    serve(t);
+    const bool group = action && action->name == "start_group", all = action && action->name == "global_stop";
+    if (!up() || !drives().of(command.axis) || !(together || group || all)) return TurnsAdapter::on_command(command, now, out);
+    Turn t{now, out};
+    if (together) start_together(command, *together, t);
+    if (group) start_group(command, action->argument, t);
+    if (all) global_stop(command, t);
+    end(t);
 }
 
 // --- what arrives ----------------------------------------------------------------------------------------------------------------
 
 void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up_) return;
+    if (!up()) return;
     Turn t{now, out};
     if (kind == LineKind::bytes) {
         if (frame.kind != Frame::Kind::bytes) {
@@ -157,7 +113,7 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         }
         deliver(m->message, t);
     }
-    serve(t);
+    end(t);
 }
 
 /// Once each time the line comes up: nothing would be heard, and nobody would know why.
@@ -184,7 +140,7 @@ void LineAdapter::deliver(const Message& m, Turn& t) {
     }
     turns.heard(t.now);
     d->on_message(m, t);
-    drive::settle(turns, *d, t.now);
+    settle(*d, t);
 }
 
 void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
@@ -201,19 +157,11 @@ void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
     t.out.send(Frame::run(to_uimessage(m, mode)), priority);
 }
 
-void LineAdapter::on_deadline(Instant now, Out& out) {
-    Turn t{now, out};
-    drive::wake(turns, roster_, t);
-    serve(t);
-}
-
-Instant LineAdapter::deadline() const { return up_ ? turns.deadline() : never; }
-
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------
 
 std::string LineAdapter::user_of(std::uint8_t id, const Drive& but) const {
     if (id < by_id_.size() && by_id_[id] && by_id_[id] != &but) return fmt::format("{}'s node ID", by_id_[id]->name());
-    const Drive* member = roster_.find([&](const Drive& d) { return &d != &but && d.group() == id; });
+    const Drive* member = drives().find([&](const Drive& d) { return &d != &but && d.group() == id; });
     return member ? fmt::format("{}'s group ID", member->name()) : std::string();
 }
 

@@ -12,39 +12,35 @@
 
 #include "adapters/uim342/drive.hpp"
 #include "adapters/uim342/wire_uimessage.hpp"
-#include "gateway/core/adapter.hpp"
-#include "gateway/drive/roster.hpp"
-#include "gateway/drive/tickets.hpp"
+#include "gateway/drive/line_adapter.hpp"
 
 namespace axisgate::uim342 {
 
 /// Empty if `address` is a node ID 5..126, else what is wrong and what would be right.
 [[nodiscard]] std::string check_address(std::string_view address);
 
-class LineAdapter final : public Adapter, private Bus {
+class LineAdapter final : private Bus, public drive::TurnsAdapter<Drive> {
 public:
-    LineAdapter(const Catalogue& of_family, LineKind on);
+    LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_family, on), TurnsAdapter(static_cast<drive::Bus&>(*this)) {}
 
-    void configure(const LineSetup& setup, Instant now, Out& out) override;
-    void on_line(bool up, Instant now, Out& out) override;
     void on_command(const Command& command, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
-    void on_deadline(Instant now, Out& out) override;
-    [[nodiscard]] Instant deadline() const override;
-    [[nodiscard]] AdapterCounters counters() const override { return Bus::counters; }
+    using TurnsAdapter::counters;
 
 private:
+    void take(const LineSetup& setup, Turn& t) override;
+    [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
+    [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
+    void leaving(Drive& drive, Turn& t) override;
+    void line_changed(Turn& t) override;
     // Bus
     void transmit(const Message& m, Priority priority, Turn& t) override;
     void share_ready(Drive& drive, Turn& t) override;
     void share_done(Drive& drive, Share share, Turn& t) override;
     [[nodiscard]] std::string user_of(std::uint8_t id, const Drive& but) const override;
 
-    void take_options(const LineSetup& setup, Turn& t);
     void deliver(const Message& m, Turn& t);
     void tell_other_crc(Turn& t);
-    void settle_all(Turn& t);
-    void serve(Turn& t);
 
     // joint orders: actions.cpp
     struct Joint {
@@ -67,12 +63,11 @@ private:
     void end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t);
     [[nodiscard]] std::string whom_to_start(std::uint8_t& id) const;
 
-    bool up_ = false, configured_ = false;
+    bool configured_ = false;
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
     bool try_thirteen_ = false;    ///< auto: the next unproved frame goes out with the other range
     bool other_crc_told_ = false;  ///< since the line came up
-    drive::Roster<Drive> roster_;
     std::array<Drive*, 128> by_id_{};
     drive::Tickets tickets_;  ///< of joint orders
     Joint joint_;

@@ -47,15 +47,15 @@ void Drive::line_up(Turn& t) {
     start.begin(t);
 }
 
-void Drive::line_down(Turn& t, std::string_view why) {
+void Drive::line_down(std::string_view why, Turn& t) {
     const bool was_online = online();
-    remove(t, why);
+    remove(why, t);
     exchanges.forget_late();  // nothing of before comes through a line that was down
     polls.stop();
     if (was_online) presence.report(std::string(why), t.out);
 }
 
-void Drive::remove(Turn& t, std::string_view why) {
+void Drive::remove(std::string_view why, Turn& t) {
     fail_all(Reason::line_down, std::string(why), t);
     presence.close();
 }

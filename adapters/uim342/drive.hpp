@@ -31,9 +31,9 @@ public:
 
     // --- from the adapter -----------------------------------------------------------------------------------------------
     void line_up(Turn& t);
-    void line_down(Turn& t, std::string_view why);
+    void line_down(std::string_view why, Turn& t);
     /// Ends everything; the drive is about to be destroyed.
-    void remove(Turn& t, std::string_view why);
+    void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void look(const DriveSetup& setup) noexcept { polls.look(setup); }
     void on_message(const Message& m, Turn& t);

@@ -10,11 +10,8 @@
 
 #include "adapters/uim342/parameters_points.hpp"
 #include "adapters/uim342/wire_instructions.hpp"
-#include "gateway/core/adapter.hpp"
+#include "gateway/drive/bus.hpp"
 #include "gateway/drive/part.hpp"
-#include "gateway/drive/timing.hpp"
-#include "gateway/drive/turn.hpp"
-#include "gateway/drive/turns.hpp"
 
 namespace axisgate::uim342 {
 
@@ -30,8 +27,8 @@ struct Share {
     std::string text{};
 };
 
-struct Bus {
-    Bus(const Catalogue& c, LineKind k) : catalogue(c), points(c), kind(k) {}
+struct Bus : drive::Bus {
+    Bus(const Catalogue& c, LineKind k) : drive::Bus(c), points(c), kind(k) {}
     Bus(const Bus&) = delete;
     Bus& operator=(const Bus&) = delete;
 
@@ -44,13 +41,8 @@ struct Bus {
     /// Name of the drive of this line that has `id` as its node ID or, as far as known, its group ID; empty: nobody.
     [[nodiscard]] virtual std::string user_of(std::uint8_t id, const Drive& but) const = 0;
 
-    const Catalogue& catalogue;
     const Points points;
     const LineKind kind;
-    drive::Timing timing;
-    AdapterCounters counters;
-    std::uint32_t bit_rate = 0;
-    drive::Turns turns;  ///< a drive says there when an exchange begins and ends
 
 protected:
     ~Bus() = default;

@@ -121,10 +121,12 @@ protected:
     void fitted() override { shared_.turns.forget_wishes(); }
     void line_changed(Turn& t) override { shared_.turns.line_changed(t.now); }
     void settle(Drive& d, Turn& t) override { drive::settle(shared_.turns, d, t.now); }
-    void end(Turn& t) override {
+    void end(Turn& t) final {
         looked_at_ = t.now;
-        if (this->up()) serve(shared_.turns, this->drives(), t);
+        if (this->up()) give(t);
     }
+    /// Gives every free place of the line away.
+    virtual void give(Turn& t) { serve(shared_.turns, this->drives(), t); }
 
 private:
     Bus& shared_;

@@ -1,6 +1,6 @@
 // Dialogue: a drive that answers each request by one message, as most text and register languages do: everything of it but its language.
 // In: commands, set-points, messages, the passing of time, a place on the line. Out: requests; feedback, results, links, ends of streams.
-// The family derives, and says by the functions under "the language" what a command is in messages and what a message means.
+// The family derives, and says by the functions of Language what a command is in messages and what a message means.
 // One question at a time; a stop goes before what waits, and ends it; what came too late is never taken for something new.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include "gateway/drive/bus.hpp"
 #include "gateway/drive/command_queue.hpp"
 #include "gateway/drive/exchange.hpp"
+#include "gateway/drive/language.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/drive/presence.hpp"
 #include "gateway/drive/set_points.hpp"
@@ -23,26 +24,9 @@
 
 namespace axisgate::drive {
 
-/// What an answer says, whatever the language.
-struct Told {
-    bool refused = false;
-    std::int32_t code = 0;  ///< of the refusal: the catalogue has its words
-    std::string text;       ///< the value; of a refusal what came
-};
-
-/// A command taken apart into exchanges, one after the other.
-template <class Message>
-struct DialogueJob {
-    Command command;
-    std::vector<Message> steps;
-    std::size_t at = 0;
-    bool streamed = false;  ///< a set-point: it owes no result, and is not repeated, because the next one is newer
-    std::uint64_t number = 0;
-};
-
 /// `Message` is the family's: a value that can be compared. Axes are told apart by their channel 1..`Channels`.
 template <class Message, int Channels>
-class Dialogue {
+class Dialogue : protected Language<Message> {
 public:
     static constexpr int channels = Channels;
     static constexpr std::size_t stop_limit = 8;  ///< on their way at once; one more is refused as busy
@@ -50,9 +34,6 @@ public:
 
     Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot)
         : bus_(bus), setup_(setup), slot_(slot), presence_(setup.id, bus.timing) {}
-    Dialogue(const Dialogue&) = delete;
-    Dialogue& operator=(const Dialogue&) = delete;
-    virtual ~Dialogue() = default;
 
     // --- for LineAdapter, and for settle, serve and wake ------------------------------------------------------------------------
     void line_up(Turn& t) { presence_.begin(t.now); }
@@ -85,35 +66,9 @@ public:
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
 
 protected:
-    // --- the language ---------------------------------------------------------------------------------------------------------------
-    [[nodiscard]] virtual Frame frame_of(const Message& request) const = 0;
-    /// A message without what its answer cannot be known by: an answer fits a request if their marks are equal.
-    [[nodiscard]] virtual Message mark_of(const Message& message) const = 0;
-    /// What a write is answered with, besides its mark.
-    [[nodiscard]] virtual bool answers(const Message& /*request*/, const Message& /*answer*/) const { return true; }
-    [[nodiscard]] virtual Told told(const Message& answer) const = 0;
-    /// A request that changes nothing, and another one with another mark: whether somebody is there; what parts late answers from new ones.
-    [[nodiscard]] virtual Message probe(bool other) const = 0;
-    /// What the link says of a drive that was found; `answer` is the probe's, nullptr if it was found by something else.
-    [[nodiscard]] virtual std::string title(const Message* answer) const = 0;
-    /// The question for the state of an axis.
-    [[nodiscard]] virtual Message poll(int channel) const = 0;
-    /// A state of an axis, whoever asked for it: taken into `axis(channel)`. Returns the channel; 0: it is none.
-    [[nodiscard]] virtual int learn(const Message& answer) = 0;
-    /// The request of a Halt, QuickStop or Disable.
-    [[nodiscard]] virtual Message stop(const Command& command) const = 0;
-    /// Adds the steps of a command; a Move without speed or ramps leaves those that the drive has. Empty, or why it is refused.
-    [[nodiscard]] virtual std::string plan(Job& job, Reason& reason) const = 0;
-    /// A step was answered well: more steps may be added.
-    virtual void stepped(Job&, const Message& /*answer*/) {}
-    /// The last step was: what is known by that before the next poll.
-    virtual void acted(const CommandBody&, AxisFeedback&) {}
-    /// A request in messages for people.
-    [[nodiscard]] virtual std::string words_of(const Message& request) const = 0;
-
-    // --- for the language -------------------------------------------------------------------------------------------------------
-    [[nodiscard]] AxisFeedback& axis(int channel) noexcept { return axes_[static_cast<std::size_t>(channel)].feedback; }
-    [[nodiscard]] const AxisFeedback& axis(int channel) const noexcept { return axes_[static_cast<std::size_t>(channel)].feedback; }
+    // --- for its language -------------------------------------------------------------------------------------------------------
+    [[nodiscard]] AxisFeedback& axis(int channel) noexcept { return at(channel).feedback; }
+    [[nodiscard]] const AxisFeedback& axis(int channel) const noexcept { return axes_[place(channel)].feedback; }
     [[nodiscard]] int channel_of(AxisId axis) const noexcept {
         const auto it = std::ranges::find(setup_.axes, axis, &AxisSetup::id);
         return it == setup_.axes.end() || !has(it->channel) ? 1 : it->channel;
@@ -134,7 +89,8 @@ private:
         Move followed;  ///< whose ramps and speed the drive was told last by a stream
     };
     [[nodiscard]] static Polls::Item item(int channel) noexcept { return static_cast<Polls::Item>(channel); }
-    [[nodiscard]] Axis& at(int channel) noexcept { return axes_[static_cast<std::size_t>(channel)]; }
+    [[nodiscard]] static std::size_t place(int channel) noexcept { return has(channel) ? static_cast<std::size_t>(channel) : 0; }
+    [[nodiscard]] Axis& at(int channel) noexcept { return axes_[place(channel)]; }
     [[nodiscard]] static bool has(int channel) noexcept { return channel >= 1 && channel <= Channels; }
     void poll_every(int channel, Turn& t) {
         if (has(channel)) (void)polls_.every(item(channel), bus_.timing.poll_period, t.now);
@@ -166,7 +122,7 @@ private:
     bool streamed_last_ = false;
     std::optional<Job> job_;
     std::uint64_t jobs_ = 0;
-    std::array<Axis, Channels + 1> axes_;  ///< by channel
+    std::array<Axis, Channels + 1> axes_;  ///< by channel; 0: of a channel that there is not
 };
 
 }  // namespace axisgate::drive

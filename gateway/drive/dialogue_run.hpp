@@ -25,7 +25,7 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
         if (job_ && its(job_->command)) job_.reset();
         polls_.drop(item(a.channel));
         if (std::exchange(at(a.channel).feedback, {}).moving)  // nobody could stop it any more
-            (void)stops_.add({Ask::Why::stop, stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
+            (void)stops_.add({Ask::Why::stop, this->stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
     }
     for (const AxisSetup& a : setup.axes)
         if (presence_.online() && !in(setup_, a)) poll_every(a.channel, t);
@@ -45,14 +45,15 @@ void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
     const int channel = channel_of(c.axis);
     at(channel).followed = {};
     exchange_.no_repeats();
-    if (!stops_.add({Ask::Why::stop, stop(c), c.ticket, channel, 0}))
+    if (!stops_.add({Ask::Why::stop, this->stop(c), c.ticket, channel, 0}))
         tickets_.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
 }
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::begin(Job job, Turn& t) {
     Reason reason = Reason::not_supported;
-    std::string why = plan(job, reason);
+    std::string why = this->plan(job, reason);
+    if (why.empty() && job.steps.empty()) why = "there is nothing to be sent for it";
     if (why.empty()) {
         job.number = ++jobs_;
         job_ = std::move(job);
@@ -100,7 +101,7 @@ void Dialogue<Message, Channels>::go(Turn& t) {
     if (!stops_.empty()) return send(*stops_.first(), bus_.timing.retries, t);
     if (!presence_.online()) {
         presence_.probe_sent();
-        return send({Ask::Why::probe, probe(false), no_ticket, 0, 0}, 0, t);
+        return send({Ask::Why::probe, this->probe(false), no_ticket, 0, 0}, 0, t);
     }
     while (!job_ && !queue_.empty()) {
         Job next;
@@ -116,16 +117,16 @@ void Dialogue<Message, Channels>::go(Turn& t) {
         return send({Ask::Why::step, job_->steps[job_->at], job_->command.ticket, channel_of(job_->command.axis), job_->number},
                     once ? 0 : bus_.timing.retries, t);
     }
-    if (const auto channel = polls_.next(t.now)) send({Ask::Why::poll, poll(static_cast<int>(*channel)), no_ticket, 0, 0}, 0, t);
+    if (const auto channel = polls_.next(t.now)) send({Ask::Why::poll, this->poll(static_cast<int>(*channel)), no_ticket, 0, 0}, 0, t);
 }
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
     // A late answer to the same question would be taken for the new one: something else is asked before, whose answer comes behind it.
     // A stop waits for nothing.
-    if (ask.why != Ask::Why::stop && late_.has(mark_of(ask.message))) {
-        ask = {Ask::Why::poll, probe(late_.has(mark_of(probe(false)))), no_ticket, 0, 0};
-        if (late_.has(mark_of(ask.message))) late_.clear();
+    if (ask.why != Ask::Why::stop && late_.has(this->mark_of(ask.message))) {
+        ask = {Ask::Why::poll, this->probe(late_.has(this->mark_of(this->probe(false)))), no_ticket, 0, 0};
+        if (late_.has(this->mark_of(ask.message))) late_.clear();
         retries = 0;
     }
     const Duration patience = bus_.timing.reply_timeout + bus_.on_wire;
@@ -137,9 +138,9 @@ void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::transmit(Turn& t) const {
     const auto why = exchange_.request().why;
-    t.out.send(frame_of(exchange_.request().message), why == Ask::Why::stop   ? Priority::urgent
-                                                      : why == Ask::Why::step ? Priority::command
-                                                                              : Priority::poll);
+    t.out.send(this->frame_of(exchange_.request().message), why == Ask::Why::stop   ? Priority::urgent
+                                                            : why == Ask::Why::step ? Priority::command
+                                                                                    : Priority::poll);
 }
 
 // --- what comes ------------------------------------------------------------------------------------------------------------------
@@ -147,13 +148,14 @@ void Dialogue<Message, Channels>::transmit(Turn& t) const {
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
     const Message& asked = exchange_.request().message;
-    if (!exchange_.active() || mark_of(asked) != mark_of(answer) || !(told(answer).refused || answers(asked, answer))) {
+    if (!exchange_.active() || this->mark_of(asked) != this->mark_of(answer) ||
+        !(this->told(answer).refused || this->answers(asked, answer))) {
         ++bus_.counters.unexpected;
         return presence_.heard(t.now);
     }
     const bool again = exchange_.tries() > 1;  // the other copies' answers may still come
     const Ask ask = exchange_.answered(bus_.counters);
-    const Message mark = mark_of(ask.message);
+    const Message mark = this->mark_of(ask.message);
     if (again) late_.add(mark);
     bus_.turns.ended(slot_);
     bus_.turns.heard(t.now);
@@ -164,16 +166,16 @@ void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer, Turn& t) {
-    const Told what = told(answer);
+    const Told what = this->told(answer);
     if (what.refused) ++bus_.counters.refused;
     if (!presence_.online()) {
         presence_.found();
         presence_.made_ready();
-        presence_.report(title(ask.why == Ask::Why::probe ? &answer : nullptr), t.out);
+        presence_.report(this->title(ask.why == Ask::Why::probe ? &answer : nullptr), t.out);
         for (const AxisSetup& a : setup_.axes)
             poll_every(a.channel, t);
     }
-    if (!what.refused) learnt(learn(answer), t);
+    if (!what.refused) learnt(this->learn(answer), t);
     if (ask.why == Ask::Why::step && job_ && job_->number == ask.job) return step_answered(answer, t);
     if (ask.why != Ask::Why::stop) return;
     if (!stops_.empty()) stops_.remove(stops_.first());
@@ -184,11 +186,11 @@ void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) {
-    const Told what = told(answer);
+    const Told what = this->told(answer);
     const CommandBody& body = job_->command.body;
     if (what.refused && !std::holds_alternative<Native>(body)) {
         const ErrorCode* known = bus_.catalogue.error(what.code);
-        std::string why = fmt::format("{}: {}", words_of(job_->steps[job_->at]), known ? known->text : "code " + what.text);
+        std::string why = fmt::format("{}: {}", this->words_of(job_->steps[job_->at]), known ? known->text : "code " + what.text);
         if (job_->streamed) {
             at(channel_of(job_->command.axis)).followed = {};
             t.out.stream_ends.push_back({job_->command.axis, Reason::drive_refused, why});
@@ -196,7 +198,7 @@ void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) 
         tickets_.refused(job_->command.ticket, Reason::drive_refused, std::move(why), t.out, what.code);
         return job_.reset();
     }
-    stepped(*job_, answer);
+    this->stepped(*job_, answer);
     if (++job_->at < job_->steps.size()) return;
     const Job job = *std::exchange(job_, std::nullopt);
     finish(job, what, t);
@@ -214,7 +216,7 @@ void Dialogue<Message, Channels>::finish(const Job& job, const Told& what, Turn&
         fb.moving = true;
         emit(channel, t);
     }
-    acted(body, fb);
+    this->acted(body, fb);
     if (const Parameter* p = parameter_of(body)) {
         tickets_.answer(job.command.ticket, Outcome::done, Reason::none, {}, t.out, 0, parse_value(what.text, p->type).value_or(Value{}));
     } else if (std::holds_alternative<Native>(body)) {
@@ -233,7 +235,7 @@ const Parameter* Dialogue<Message, Channels>::parameter_of(const CommandBody& bo
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::learnt(int channel, Turn& t) {
-    if (channel == 0) return;
+    if (!has(channel)) return;
     const bool moves = at(channel).feedback.moving;
     const Duration period = bus_.timing.poll_period;
     (void)polls_.every(item(channel), pace_.period(period, moves), t.now + pace_.period(period, false));
@@ -258,14 +260,14 @@ void Dialogue<Message, Channels>::on_deadline(Turn& t) {
     if (late == Late::no) return;
     const Ask ask = exchange_.request();
     bus_.turns.ended(slot_);
-    late_.add(mark_of(ask.message));
+    late_.add(this->mark_of(ask.message));
     if (ask.why == Ask::Why::stop && !stops_.empty()) stops_.remove(stops_.first());
     if (ask.why == Ask::Why::step && job_ && job_->number == ask.job) {
         at(ask.channel).followed = {};
         job_.reset();
     }
-    tickets_.failed(ask.ticket, Reason::no_answer, words_of(ask.message) + " was not answered: whether the drive took it is not known",
-                    t.out);
+    tickets_.failed(ask.ticket, Reason::no_answer,
+                    this->words_of(ask.message) + " was not answered: whether the drive took it is not known", t.out);
     if (presence_.silent(t.now) == Presence::Silence::counted) return;
     // Stops that were not sent yet still are: a drive that is not heard may hear.
     end_all(Reason::no_answer, "the drive does not answer", t);

@@ -17,7 +17,7 @@ std::string shown(std::string text) {
 std::vector<std::string> TextDecoder::on_frame(const Frame& frame, std::optional<bool> to_drive) {
     std::vector<std::string> said;
     Stream& s = streams_[to_drive.value_or(true) ? 0 : 1];
-    if (frame.kind != Frame::Kind::bytes) return {to_text(frame) + "  unknown: a CAN frame on a byte line"};
+    if (frame.kind == Frame::Kind::can_error) return said;  // the controller's word, and nobody's text
     s.lines.push(text_of(frame), [&](std::string_view line) {
         const bool first = !std::exchange(s.begun, true);
         const std::string_view what = first ? "the end of a telegram that began before the recording: " : "unknown, no telegram: ";

@@ -1,5 +1,5 @@
-// Languages: chosen by the browser or by the reader, loaded only then; in each of them, at three widths, no page is wider than the screen, every
-// stop can be pressed, and the words are in that language.
+// Languages: chosen by the browser or by the reader, loaded only then; what the gateway says is English in each, and marked so; the conditions of every
+// twin have names in it. Each part of the page in each language is gone through in whole-*.test.mjs.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open, shot, tooWide } from './lib/browser.mjs';
@@ -50,29 +50,3 @@ test('what the gateway says is marked as English; what it names by an identifier
   assert.ok(!bits.some((b) => /Fault|Warning|Remote|Stale|Referenced|Simulated/.test(b)), bits.join());
   await p.context().close();
 });
-
-for (const language of ['de', 'zh']) {
-  test(`${language}: no page is wider than the screen, and the stop of all is there, at three widths`, async () => {
-    const wrong = [];
-    for (const [width, height] of [[360, 740], [768, 1024], [1280, 900]]) {
-      const p = await open(browser, program.url + '/', { locale: language, viewport: { width, height }, hasTouch: width < 800, isMobile: width < 800 });
-      for (const part of parts) {
-        await p.goto(program.url + part.path);
-        await p.locator('main h1').first().waitFor();
-        await p.locator('.stop-all').first().waitFor();
-        const wide = await tooWide(p);
-        if (wide > 0) wrong.push(`${part.path} at ${width} px is ${wide} px too wide`);
-        const stop = await p.locator('.stop-all').first().evaluate((e) => {
-          const r = e.getBoundingClientRect();
-          return { whole: r.left >= 0 && r.right <= innerWidth + 0.5 && r.bottom <= innerHeight + 0.5, on_top: e.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)), text: e.innerText };
-        });
-        if (!stop.whole || !stop.on_top || !stop.text.includes(words[language][1])) wrong.push(`${part.path} at ${width} px: stop ${JSON.stringify(stop)}`);
-        const hidden = await p.locator('.nav').evaluate((e) => e.scrollWidth - e.clientWidth);
-        if (hidden > 0) wrong.push(`${part.path} at ${width} px: ${hidden} px of the navigation are out of sight`);
-        if (width === 1280) await shot(p, `${language}-${part.name}`, { fullPage: true });
-      }
-      await p.context().close();
-    }
-    assert.deepEqual(wrong, []);
-  });
-}

@@ -122,17 +122,3 @@ for (const width of [390, 320]) {
     await page.context().close();
   });
 }
-
-test('320 px: no part scrolls sideways', async () => {
-  await furnish(program);
-  const page = await phone('/', 320, 640);
-  const wrong = [];
-  for (const part of parts) {
-    await arrive(page, program, part);
-    const wide = await tooWide(page);
-    if (wide > 0) wrong.push(`${part.path} is ${wide} px too wide`);
-    await shot(page, `phone-320-${part.name}`, { fullPage: true });
-  }
-  assert.deepEqual(wrong, []);
-  await page.context().close();
-});

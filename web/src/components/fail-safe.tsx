@@ -1,6 +1,7 @@
 // Fail-safe: what happens to each axis when who commands it is lost, by cause; and the rehearsal on models, with its report. In: the HTTP door.
 // Out: a section. One change at a time, in force at once. Never moves anything: the rehearsal plays on models of the drives.
 import { midSentence, t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -31,7 +32,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const no = useBarred('engineer');
   const load = async () => void (matrix.value = await door.matrix());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.words));
-  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{why}</p>}</Section> : null;
+  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
   const put = async (row: FailSafeRow, choice: Wish, what: string) => {
     told.value = { tone: 'busy', text: t('Changing …') };

@@ -1,6 +1,7 @@
 // Form: labelled fields with their fault in words beneath, and a line that tells how it went. In: text and why it is wrong. Out: what is typed.
 // The fault is bound to its field for screen readers; what was typed is never changed here.
 import type { ComponentChildren } from 'preact';
+import { marked } from './marked';
 import { useId } from 'preact/hooks';
 import { t } from '../language';
 import type { Outcome } from '../state/mappings';
@@ -107,7 +108,7 @@ function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint
   if (fault) {
     return (
       <p class="form-told is-fault" id={id}>
-        {fault}
+        {marked(fault)}
       </p>
     );
   }
@@ -130,7 +131,7 @@ const capital = (s: string) => s.charAt(0).toUpperCase() + s.slice(1);
 export function Tell({ told, field }: { told: Told; field?: string }) {
   return (
     <p class={`tell result-${told.tone}`} role="status" data-field={field}>
-      {told.text}
+      {marked(told.text)}
     </p>
   );
 }

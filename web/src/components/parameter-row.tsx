@@ -2,6 +2,7 @@
 // In: the row's signals. Out: a row that keeps its height: each cell is drawn for itself, has room for the longest text that its value can have, and
 // what has the keyboard is not drawn anew by a value that comes. Never asks the gateway: reading and writing are handed in.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
@@ -171,7 +172,7 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
         />
       )}
       <p class={`row-note result-${n.tone}`} id={note} role="status">
-        {n.text || typedText(row.typed.value, row.data.peek())}
+        {marked(n.text || typedText(row.typed.value, row.data.peek()))}
       </p>
     </td>
   );
@@ -213,7 +214,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
                   onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
                 >
                   {f.allowed?.map((c) => (
-                    <option key={c.value} value={String(c.value)}>
+                    <option key={c.value} value={String(c.value)} {...gatewayWords}>
                       {c.value} {c.meaning}
                     </option>
                   ))}
@@ -228,7 +229,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             {t('choose')}
           </option>
           {choices.map((c) => (
-            <option key={c.value} value={String(c.value)}>
+            <option key={c.value} value={String(c.value)} {...gatewayWords}>
               {c.value} {c.meaning}
             </option>
           ))}

@@ -1,6 +1,7 @@
 // Profiles: units that speak another device's language: which there are, what stands at their registers, adding and taking away.
 // In: the HTTP door, the revision of the site, units that have mappings. Out: a section, and what it has loaded for others. Asks before a profile is taken away.
 import { useSignal, type Signal } from '@preact/signals';
+import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
@@ -36,7 +37,7 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('profiles')) : p.words));
-  if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{why}</p>}</Section> : null;
+  if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { languages, profiles } = listed.value;
   const chosen = languages.find((l) => l.language === language.value);
   const title = (p: Profile) => languages.find((l) => l.language === p.language)?.title ?? p.language;

@@ -1,6 +1,7 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -148,7 +149,7 @@ export function RunHead({ run, saved }: { run: Run; saved: boolean }) {
             )}
           </div>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{saved ? result.value.text : t('Save the recipe to run it.')}</span>
+            <span>{marked(saved ? result.value.text : t('Save the recipe to run it.'))}</span>
           </p>
           {r && (
             <p class="run-now where" data-field="run-now">

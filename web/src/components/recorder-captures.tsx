@@ -1,6 +1,7 @@
 // Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
 // triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
-import { midSentence, t } from '../language';
+import { midSentence, t, theirs } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -89,7 +90,7 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
       </Section>
       {drawn.value.length > 0 && <Overlay captures={drawn.value} />}
       <Section title={captures.length > 0 ? t('Captures, {n}', { n: captures.length }) : t('Captures')} beside={list.value && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(list.value.disk_bytes), disk_most_bytes: bytesWords(list.value.disk_most_bytes) })}</span>}>
-        {list.value?.disk_fault && <p class="notice tone-fault">{capital(list.value.disk_fault)}</p>}
+        {list.value?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(list.value.disk_fault)))}</p>}
         {captures.length === 0 ? (
           <Empty text={waiting || t('No capture yet.')} />
         ) : (
@@ -118,7 +119,7 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
         <span class="where">
           {' '}
           {c.triggered_at ? dateTime(c.triggered_at) : ''} {captureAbout(c)} · {triggerWords(c.trigger, unit)}
-          {c.why ? ` · ${c.why}` : ''}
+          {c.why ? marked(` · ${theirs(c.why)}`) : ''}
         </span>
       </span>
       <span class="recorder-buttons">

@@ -1,6 +1,7 @@
 // Recordings: what is being recorded, a button that freezes it, the files that there are, and one of them played back.
 // In: GET /recorder/recordings, with each connection and after each change. Out: requests, downloads.
-import { t } from '../language';
+import { t, theirs } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -75,7 +76,7 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
       </Section>
       {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
       <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(now.disk_bytes), disk_most_bytes: bytesWords(now.disk_most_bytes) })}</span>}>
-        {now?.disk_fault && <p class="notice tone-fault">{capital(now.disk_fault)}</p>}
+        {now?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(now.disk_fault)))}</p>}
         {recordings.length === 0 ? (
           <Empty text={waiting || t('No recording yet. An alarm makes one by itself.')} />
         ) : (
@@ -102,9 +103,9 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
           {' '}
           {r.at ? dateTime(r.at) : ''} {bytesWords(r.bytes)}
           {r.automatic ? ` · ${t('by an alarm')}` : ''}
-          {r.why ? ` · ${r.why}` : ''}
+          {r.why ? marked(` · ${r.automatic ? theirs(r.why) : r.why}`) : ''}
           {r.who ? ` · ${r.who}` : ''}
-          {r.fault ? ` · ${r.fault}` : ''}
+          {r.fault ? marked(` · ${theirs(r.fault)}`) : ''}
         </span>
       </span>
       <span class="recorder-buttons">

@@ -1,6 +1,7 @@
 // Site history: the states that were applied before, newest first, page by page. In: the draft, the door. Out: a list; a difference on demand; a
 // restore, which is staged and then checked and applied like every change. Changes of one's own are never dropped for it unasked.
 import { t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { HistoryEntry, SiteDoor } from '../api/site';
@@ -64,7 +65,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     <Section title={t('Applied states')} class="site-history">
       <div class="card" data-field="history">
         {why ? (
-          <p class="empty">{why}</p>
+          <p class="empty">{marked(why)}</p>
         ) : list.value.length === 0 ? (
           <p class="empty">{t('No earlier state is kept.')}</p>
         ) : (
@@ -121,7 +122,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                   {t('Older')}
                 </button>
               )}
-              {older.value.why && <span class="tell result-refused">{older.value.why}</span>}
+              {older.value.why && <span class="tell result-refused">{marked(older.value.why)}</span>}
             </div>
           </>
         )}

@@ -1,6 +1,6 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { checkedWords, stagerOf, type SiteDraft } from '../state/site-draft';
@@ -138,7 +138,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
         <ul class="stage-faults" aria-label={t('Faults')}>
           {list.slice(0, 50).map((f) => (
             <li key={f.pointer + f.text} class="fault-text">
-              <span class="mono">{f.pointer}</span> {f.text}: {f.remedy}
+              <span class="mono">{f.pointer}</span> <span {...gatewayWords}>{f.text}: {f.remedy}</span>
             </li>
           ))}
         </ul>

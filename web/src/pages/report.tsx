@@ -2,6 +2,7 @@
 // hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
 // opened and again by the button. Out: a page that the browser prints or saves as PDF. Nothing is read from a drive for it.
 import { t } from '../language';
+import { marked } from '../components/marked';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Rehearsal } from '../api/fail-safe';
@@ -82,7 +83,7 @@ export function ReportPage() {
           <span class="where">{t('Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.')}</span>
         </div>
       </div>
-      {!w && <p class="where" role="status">{why}</p>}
+      {!w && <p class="where" role="status">{marked(why)}</p>}
       {w && (
         <article class="report" data-field="report">
           <dl class="report-facts">

@@ -1,7 +1,7 @@
 // Reach: by keyboard alone, by screen reader (axe-core), on a phone; nothing jumps while values change.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { becomes, drawn, examine, launch, look, open, quiet, tileOf, until } from './lib/browser.mjs';
+import { becomes, examine, launch, look, open, quiet, tileOf, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;

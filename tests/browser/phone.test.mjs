@@ -3,7 +3,6 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open, shot, tooWide, until } from './lib/browser.mjs';
-import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;

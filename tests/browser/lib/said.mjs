@@ -18,17 +18,18 @@ export const underscored = (page) =>
   });
 
 /** Texts with words that only English has, outside of all that says `lang="en"`: the page's own sentence that was forgotten, or the gateway's without its mark. */
-export const english = (page) =>
-  page.evaluate(() => {
+export const english = (page, typedWords = []) =>
+  page.evaluate((own) => {
+    // A person's own words, such as the comment of a mapping, are hers in every language.
+    const typed = new Set(own);
     const found = new Set();
     const walk = document.createTreeWalker(document.querySelector('#app') ?? document.body, NodeFilter.SHOW_TEXT);
     for (let n = walk.nextNode(); n; n = walk.nextNode()) {
       const e = n.parentElement;
       if (!e || e.closest('[lang=en], code, pre, kbd, textarea, script, style, .mono')) continue;
-      // A person's own words, such as the comment of a mapping, are hers in every language.
-      if (e.closest('[data-typed]')) continue;
+      if (typed.has(n.data.trim())) continue;
       const words = n.data.match(/(?<![\p{L}\d_./-])(?:the|is|are|of|with|not|and|to|from|there|been|has|does|which|by|this|that|for|it|be|no|at)(?![\p{L}\d_./-])/gu) ?? [];
       if (words.length > 0) found.add(`“${n.data.trim().replace(/\s+/g, ' ').slice(0, 90)}” is not said to be English (${e.localName}.${e.className.baseVal ?? e.className} in ${e.closest('[data-field], [class]')?.dataset.field ?? e.parentElement?.className})`);
     }
     return [...found];
-  });
+  }, typedWords);

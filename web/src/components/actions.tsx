@@ -4,7 +4,6 @@
 import { gatewayWords, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
@@ -14,6 +13,7 @@ import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Gate } from './gate';
 import { useLoaded } from './loaded';
+import { refusal } from './told';
 
 export function Actions({ axis, family }: { axis: string; family: string }) {
   const { client } = useGateway();
@@ -71,7 +71,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       const a = await client.act(axis, body);
       told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
   const asStep = Object.keys(faults).length === 0 ? recipeText(command, values) : '';

@@ -21,7 +21,7 @@ export interface TextFieldProps extends Common {
   number?: boolean;
   disabled?: boolean;
   /** Offers while typing. */
-  offers?: readonly { value: string; text?: string }[];
+  offers?: readonly { value: string; text?: string; lang?: 'en' }[];
   mono?: boolean;
   password?: boolean;
   /** What a password manager may fill in. */
@@ -54,7 +54,7 @@ export function TextField(p: TextFieldProps) {
       {p.offers && (
         <datalist id={`${id}-offers`}>
           {p.offers.map((o) => (
-            <option key={o.value} value={o.value}>
+            <option key={o.value} value={o.value} lang={o.lang}>
               {o.text}
             </option>
           ))}
@@ -68,7 +68,7 @@ export function TextField(p: TextFieldProps) {
 export interface ChoiceProps extends Common {
   value: string;
   onChoice: (value: string) => void;
-  choices: readonly { value: string; text: string; disabled?: boolean }[];
+  choices: readonly { value: string; text: string; disabled?: boolean; lang?: 'en' }[];
   disabled?: boolean;
 }
 
@@ -89,7 +89,7 @@ export function Choice(p: ChoiceProps) {
       <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
         {!known && <option value={p.value}>{p.value || t('choose')}</option>}
         {p.choices.map((c) => (
-          <option key={c.value} value={c.value} disabled={c.disabled}>
+          <option key={c.value} value={c.value} disabled={c.disabled} lang={c.lang}>
             {c.text}
           </option>
         ))}
@@ -114,7 +114,7 @@ function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint
   }
   return hint === undefined ? null : (
     <p class="form-told" id={id}>
-      {hint}
+      {typeof hint === 'string' ? marked(hint) : hint}
     </p>
   );
 }

@@ -13,6 +13,7 @@ import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } 
 import { editText } from '../text/parameter';
 import { parseNumber } from '../text/number';
 import { Empty } from './lines';
+import { refusal } from './told';
 
 const period_ms = 2_000;
 
@@ -32,7 +33,7 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
       try {
         if (!document.hidden) items.value = await client.hand(drive, end.signal);
       } catch (error) {
-        if (!end.signal.aborted && items.peek() === null) note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+        if (!end.signal.aborted && items.peek() === null) note.value = refusal(error);
       }
       if (!end.signal.aborted) timer = setTimeout(() => void look(), period_ms);
     };

@@ -91,7 +91,7 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
       </span>
       {(p.fields ?? []).map((f, i) => (
         <span key={f.name} class="part roomy" data-longest={`${f.name.replaceAll('_', ' ')}: ${longestOf(f.allowed?.map((a) => a.meaning) ?? [])}`}>
-          <span>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
+          <span {...gatewayWords}>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
         </span>
       ))}
     </td>
@@ -205,7 +205,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             const whole = typeof p.value === 'number' && text === '' ? p.value : Number(text || 0);
             return (
               <label key={f.name}>
-                <span>{f.name.replaceAll('_', ' ')}</span>
+                <span {...gatewayWords}>{f.name.replaceAll('_', ' ')}</span>
                 <select
                   {...keyboard}
                   aria-label={t('New {part} of {id}', { part: f.name.replaceAll('_', ' '), id: p.id })}

@@ -4,7 +4,6 @@ import { midSentence, t, theirs } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { RecorderDoor } from '../api/recorder';
 import type { Capture, CaptureList, CaptureTrigger, CaptureWish, CaptureWithRows } from '../api/types';
 import { useGateway } from '../gateway';
@@ -24,6 +23,7 @@ import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
 import { RenameForm } from './rename-form';
 import { saveText } from './save';
 import { Section } from './section';
+import { refusal, tellOf } from './told';
 
 const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-5'];
 export const mostOverlaid = 4;
@@ -50,20 +50,10 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
       drawn.value = [...drawn.peek().filter((c) => c.name !== name), whole].slice(-mostOverlaid);
       told.value = quiet;
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
-  const act = async (what: () => Promise<unknown>, done: string) => {
-    try {
-      await what();
-      told.value = { tone: 'good', text: done };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-      return false;
-    }
-  };
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
   // One that was just armed here is drawn when it is done.
   const mine = useRef('');
   useEffect(() => {

@@ -4,7 +4,6 @@ import { t, theirs } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { RecorderDoor, recordingFile } from '../api/recorder';
 import type { Recording, RecordingList } from '../api/types';
 import { useGateway } from '../gateway';
@@ -19,6 +18,7 @@ import { Pill } from './pill';
 import { PlaybackPart } from './playback';
 import { RenameForm } from './rename-form';
 import { Section } from './section';
+import { tellOf } from './told';
 
 export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
   const { client } = useGateway();
@@ -30,18 +30,7 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
   const why = useSignal('');
   const load = async () => void (list.value = await door.recordings());
   const waiting = useLoaded(load, [door]);
-  const act = async (what: () => Promise<unknown>, done: string) => {
-    told.value = { tone: 'busy', text: t('Asking the gateway.') };
-    try {
-      await what();
-      told.value = { tone: 'good', text: done };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-      return false;
-    }
-  };
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
   const recordings = list.value?.recordings ?? [];
   const wanted = name.value || freeName('recording', recordings.map((r) => r.name));
   const fault = nameFault(wanted);

@@ -16,6 +16,7 @@ import { notOffered } from './form';
 import { useLoaded } from './loaded';
 import { Section } from './section';
 import { DifferenceList } from './site-stage';
+import { refusal } from './told';
 
 const absent = (status: number) => status === 404 || status === 405 || status === 501;
 /** As many as are asked for at once. */
@@ -58,7 +59,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     try {
       shown.value = { revision: n, changes: differenceOf(draft.base.peek(), await door.old(n)) };
     } catch (error) {
-      draft.told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      draft.told.value = refusal(error);
     }
   };
   return (

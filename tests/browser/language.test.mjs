@@ -64,7 +64,7 @@ test('a refusal is marked as English within the sentence of the page, on the axi
   await p.locator('[data-live=true]').first().waitFor();
   await p.getByLabel('Ziel', { exact: true }).fill('3'); // of an axis that is not enabled
   await p.getByLabel('Ziel', { exact: true }).press('Enter');
-  await marked('[id="result-slide.x"]', /\w+ \w+/);
+  await marked('main .result-refused', /\w+ \w+/);
   await p.goto(program.url + '/axes/feeder/simulation');
   const load = p.locator('[data-hand=position] input').first();
   await load.fill('99999999999');

@@ -1,7 +1,7 @@
 // Reach: by keyboard alone, by screen reader (axe-core), on a phone; nothing jumps while values change.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { becomes, drawn, examine, launch, look, open, quiet, tileOf, tooWide, until } from './lib/browser.mjs';
+import { becomes, examine, launch, look, open, quiet, tileOf, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -88,33 +88,6 @@ test('the first Tab offers the way past the head', async () => {
   assert.equal(await page.evaluate(() => document.activeElement.textContent.trim()), 'To the content');
   await page.context().close();
 });
-
-for (const widths of [[390, 320], [768, 1024, 1440]]) {
-  test(`at ${widths.join(', ')} px no page scrolls sideways and the stops are in sight`, async () => {
-    const fingers = widths[0] < 500;
-    const page = await open(browser, program.url, { viewport: { width: widths[0], height: 844 }, hasTouch: fingers, isMobile: fingers });
-    for (const path of ['/', '/axes/feeder', '/axes/slide.x/', '/axes/feeder/scope', '/axes/feeder/drive', '/axes/feeder/simulation', '/axes/feeder/events', '/lines', '/lines/can0', '/events', '/gateway', '/mappings', '/site', '/axes/feeder/parameters', '/recorder/trends/', '/recorder/captures/', '/recorder/recordings/']) {
-      await page.goto(program.url + path);
-      await settled(page);
-      if (path.endsWith('/parameters')) await page.locator('[data-parameter]').first().waitFor();
-      await quiet(page);
-      for (const width of widths) {
-        await page.setViewportSize({ width, height: 844 });
-        await page.evaluate(() => scrollTo(0, 0));
-        await drawn(page);
-        const wide = await tooWide(page);
-        assert.ok(wide <= 0, `${path} is ${wide} px too wide at ${width} px`);
-        assert.ok(await page.getByRole('button', { name: /^Stop all/ }).isVisible());
-        await page.evaluate(() => scrollTo(0, 1e6));
-        const box = await page.getByRole('button', { name: /^Stop all/ }).boundingBox();
-        // On a phone it lies across the foot (phone.test.mjs), elsewhere it is in the head.
-        const there = width <= 480 ? box && box.y > 600 && box.y + box.height <= 844 : box && box.y >= 0 && box.y < 100;
-        assert.ok(there && box.x + box.width <= width, `${path} at ${width} px: Stop all is at ${JSON.stringify(box)}`);
-      }
-    }
-    await page.context().close();
-  });
-}
 
 test('fingers find controls that are large enough', async () => {
   const page = await open(browser, program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });

@@ -1,9 +1,10 @@
-// Languages: chosen by the browser or by the reader, loaded only then; in each of them, at three widths, no page is wider than the screen, every
-// stop can be pressed, and the words are in that language.
+// Languages: chosen by the browser or by the reader, loaded only then; what the gateway says is English in each, and marked so; the conditions of every
+// twin have names in it. Each part of the page in each language is gone through in whole-*.test.mjs.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { launch, open, shot, tooWide } from './lib/browser.mjs';
-import { furnish, parts } from './lib/parts.mjs';
+import { launch, open, until } from './lib/browser.mjs';
+import { furnish } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
 const words = { en: ['Axes', 'Stop all'], de: ['Achsen', 'Alle stoppen'], zh: ['轴', '全部停止'] };
@@ -51,28 +52,53 @@ test('what the gateway says is marked as English; what it names by an identifier
   await p.context().close();
 });
 
-for (const language of ['de', 'zh']) {
-  test(`${language}: no page is wider than the screen, and the stop of all is there, at three widths`, async () => {
-    const wrong = [];
-    for (const [width, height] of [[360, 740], [768, 1024], [1280, 900]]) {
-      const p = await open(browser, program.url + '/', { locale: language, viewport: { width, height }, hasTouch: width < 800, isMobile: width < 800 });
-      for (const part of parts) {
-        await p.goto(program.url + part.path);
-        await p.locator('main h1').first().waitFor();
-        await p.locator('.stop-all').first().waitFor();
-        const wide = await tooWide(p);
-        if (wide > 0) wrong.push(`${part.path} at ${width} px is ${wide} px too wide`);
-        const stop = await p.locator('.stop-all').first().evaluate((e) => {
-          const r = e.getBoundingClientRect();
-          return { whole: r.left >= 0 && r.right <= innerWidth + 0.5 && r.bottom <= innerHeight + 0.5, on_top: e.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)), text: e.innerText };
-        });
-        if (!stop.whole || !stop.on_top || !stop.text.includes(words[language][1])) wrong.push(`${part.path} at ${width} px: stop ${JSON.stringify(stop)}`);
-        const hidden = await p.locator('.nav').evaluate((e) => e.scrollWidth - e.clientWidth);
-        if (hidden > 0) wrong.push(`${part.path} at ${width} px: ${hidden} px of the navigation are out of sight`);
-        if (width === 1280) await shot(p, `${language}-${part.name}`, { fullPage: true });
+test('a refusal is marked as English within the sentence of the page, on the axis, in a form and in a field', async () => {
+  const p = await open(browser, program.url + '/axes/slide.x/', { locale: 'de' });
+  const marked = async (where, words) => {
+    const said = p.locator(`${where} [lang=en]`).first();
+    await until(`${where} says it`, async () => words.test(await said.innerText().catch(() => '')) || (await p.locator(where).first().innerText().catch(() => '')));
+    const whole = await p.locator(where).filter({ has: p.locator('[lang=en]') }).first().innerText();
+    assert.ok(whole.length > (await said.innerText()).length + 3, `${whole}: the sentence around it is German`);
+    assert.doesNotMatch(whole, /[\u2068\u2069]/, 'the signs are not shown');
+  };
+  await p.locator('[data-live=true]').first().waitFor();
+  await p.getByLabel('Ziel', { exact: true }).fill('3'); // of an axis that is not enabled
+  await p.getByLabel('Ziel', { exact: true }).press('Enter');
+  await marked('main .result-refused', /\w+ \w+/);
+  await p.goto(program.url + '/axes/feeder/simulation');
+  const load = p.locator('[data-hand=position] input').first();
+  await load.fill('99999999999');
+  await load.press('Enter');
+  await marked('.hand .result', /\w+ \w+/);
+  await p.context().close();
+});
+
+test('each condition of each twin has a name in German and in Chinese', async () => {
+  const demo = JSON.parse(readFileSync(new URL('../../deploy/examples/demo-site.json', import.meta.url), 'utf8'));
+  const all = await Program.start({ site: { ...demo, drives: demo.drives.map(({ description, ...d }) => d) } });
+  try {
+    const lines = demo.lines.map((l) => l.name);
+    const names = async (locale) => {
+      const p = await open(browser, all.url, { locale });
+      const found = new Map();
+      for (const line of lines) {
+        await p.goto(`${all.url}/lines/${line}`);
+        await p.locator('[data-hand]').first().waitFor();
+        for (const [id, name] of await p.locator('[data-hand]').evaluateAll((l) => l.map((e) => [e.dataset.hand, e.querySelector('.hand-name').firstChild.data]))) found.set(`${line} ${id}`, name);
       }
       await p.context().close();
+      return found;
+    };
+    const english = await names('en');
+    assert.ok(new Set([...english.values()]).size > 50, `${english.size} conditions`);
+    for (const locale of ['de', 'zh']) {
+      const said = await names(locale);
+      assert.deepEqual([...said.keys()].sort(), [...english.keys()].sort());
+      const same = [...said].filter(([id, name]) => name === english.get(id) && name !== 'Position');
+      assert.deepEqual(same, [], locale);
+      if (locale === 'zh') assert.deepEqual([...said].filter(([, name]) => !/\p{Script=Han}/u.test(name)), []);
     }
-    assert.deepEqual(wrong, []);
-  });
-}
+  } finally {
+    await all.end();
+  }
+});

@@ -237,6 +237,26 @@ test('a snapshot of another family says so, and can be neither restored nor comp
   await program.call('DELETE', `/axes/feeder/snapshots/${mine.n}`);
 });
 
+test('reading again takes at most a quarter of the time of the line, one value at a time', async () => {
+  const other = await open(browser, program.url);
+  const answers = []; // from, to: as long as a slow line takes
+  await other.route(/\/api\/v1\/axes\/feeder\/parameters\/[^/?]+$/, async (r) => {
+    if (r.request().method() !== 'GET') return r.continue();
+    const from = performance.now();
+    await new Promise((done) => setTimeout(done, 200));
+    await r.continue();
+    answers.push([from, performance.now()]);
+  });
+  await other.goto(program.url + path);
+  await until('it has read again often enough', async () => answers.length >= 6 || answers.length, 20_000);
+  const seen = answers.slice(0, 6);
+  for (let i = 1; i < seen.length; i += 1) {
+    const took = seen[i - 1][1] - seen[i - 1][0];
+    assert.ok(seen[i][0] - seen[i - 1][1] >= 2.9 * took, `answer ${i} took ${took} ms, the next was asked for ${seen[i][0] - seen[i - 1][1]} ms later`);
+  }
+  await other.context().close();
+});
+
 test('what was read before the connection was lost is old while it is away, and live again only when the drive has said it anew', async () => {
   const other = await open(browser, program.url + path);
   for (const p of [page, other]) p.expectLoss(true);

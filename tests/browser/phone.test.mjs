@@ -3,7 +3,6 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, open, shot, tooWide, until } from './lib/browser.mjs';
-import { arrive, furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
 let program, browser;
@@ -122,17 +121,3 @@ for (const width of [390, 320]) {
     await page.context().close();
   });
 }
-
-test('320 px: no part scrolls sideways', async () => {
-  await furnish(program);
-  const page = await phone('/', 320, 640);
-  const wrong = [];
-  for (const part of parts) {
-    await arrive(page, program, part);
-    const wide = await tooWide(page);
-    if (wide > 0) wrong.push(`${part.path} is ${wide} px too wide`);
-    await shot(page, `phone-320-${part.name}`, { fullPage: true });
-  }
-  assert.deepEqual(wrong, []);
-  await page.context().close();
-});

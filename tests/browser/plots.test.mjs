@@ -64,7 +64,9 @@ test('30 plots of a moving axis: one feed each, no topic oftener than asked, not
     assert.ok(f.asked.size <= 10, `${f.asked.size} topics`);
     for (const [topic, times] of f.came) {
       const period = f.asked.get(topic) ?? f.asked.get(topic.replace(/\/.*/, '/*'));
-      if (period && !/^(events|alarms|site|recipes)$/.test(topic) && times.length > (seconds * 1000) / period + 3) wrong.push(`tab ${i}: ${topic} came ${times.length} times in ${seconds} s for ${period} ms`);
+      // By the gateway's own clock: what waited in a busy browser comes all at once.
+      const [first, last] = [times[0], times.at(-1)].map((ns) => ns / 1e6);
+      if (period && !/^(events|alarms|site|recipes)$/.test(topic) && times.length > (last - first) / period + 3) wrong.push(`tab ${i}: ${topic} came ${times.length} times in ${last - first} ms for ${period} ms`);
     }
   }
   assert.deepEqual(wrong, []);

@@ -1,6 +1,7 @@
 // The recorder's page: trends of two axes that a reload does not empty, zoomed and read by a real mouse; two captures laid over each other; a
 // recording played back by its slider; the report. In: the program. Out: pictures under build/browser.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { isMock, Program } from './lib/program.mjs';
@@ -118,6 +119,17 @@ test('captures: armed by a command, drawn with the trigger, a second one laid ov
   await page.context().close();
 });
 
+/** The sections of a recording, as the handbook has them: name, size, hash, data. */
+function sectionsOf(file) {
+  const found = new Map();
+  for (let at = 16; at + 44 <= file.length; ) {
+    const size = Number(file.readBigUInt64LE(at + 4));
+    found.set(file.toString('latin1', at, at + 4), file.subarray(at + 44, at + 44 + size));
+    at += 44 + size;
+  }
+  return found;
+}
+
 test('recordings: made, played back by the slider, downloaded, deleted', { skip }, async () => {
   const page = await open(browser, `${program.url}/recorder/recordings/`);
   const form = page.getByRole('form', { name: 'New recording' });
@@ -139,6 +151,12 @@ test('recordings: made, played back by the slider, downloaded, deleted', { skip 
   await shot(page, 'recorder-playback', { fullPage: true });
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: 'Download crash' }).click()]);
   assert.equal(download.suggestedFilename(), 'crash.axr');
+  const sections = sectionsOf(readFileSync(await download.path()));
+  for (const name of ['META', 'SITE', 'RECS', 'PCAP', 'END ']) assert.ok(sections.has(name), `${name} is not in ${[...sections.keys()]}`);
+  const frames = sections.get('PCAP'); // for Wireshark: each line's frames begin with the block that begins a pcapng
+  assert.equal(frames.readUInt32LE(0), 0x0a0d0d0a);
+  assert.equal(frames.readUInt32LE(8), 0x1a2b3c4d);
+  assert.ok(frames.length > 500, `${frames.length} bytes of frames`);
   await page.getByRole('button', { name: 'Delete crash' }).click();
   await becomes('it is gone', () => page.locator('[data-recording="crash"]').count(), 0);
   assert.deepEqual(page.faults(), []);

@@ -216,12 +216,12 @@ export function tableOf(file) {
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const { exempt } = await import('./language-lists.mjs');
+  const { derived, exempt } = await import('./language-lists.mjs');
   const at = process.argv.indexOf('--src');
   const root = at > 0 ? resolve(process.argv[at + 1] ?? '') : fileURLToPath(new URL('../src', import.meta.url));
   const files = ts.sys.readDirectory(root, ['.ts', '.tsx'], ['**/*.d.ts']);
   const { uses, faults } = examine({ root, files, exempt, options: { types: ['vite/client'], exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true } });
-  const keys = new Set(uses.map((u) => u.key));
+  const keys = new Set([...uses.map((u) => u.key), ...derived]);
   if (process.argv.includes('--keys')) {
     writeFileSync(1, JSON.stringify(uses));
     process.exit(0);

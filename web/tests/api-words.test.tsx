@@ -42,3 +42,34 @@ it('states, reasons, points and settings have plain words, behind an axis and a 
   expect([plainWord('retry_pause_min_ms'), plainWord('timeout_s'), plainWord('target_reached'), plainWord('wrong_state')]).toEqual(['retry pause min in ms', 'timeout in s', 'target reached', 'not possible in this state']);
   expect(plain('line slide.move_absolute is up')).toBe('line slide.move_absolute is up');
 });
+
+it('what had words of its maker has plain ones: confirm within, save to draft, fault simulation, unit ID', async () => {
+  const shows = async (path: string, where: string, words: RegExp) => {
+    p = await openPage(path);
+    await p.see(where, words);
+    p.close();
+  };
+  await shows('/axes/feeder/simulation', 'main h2', /^Fault simulation/);
+  await shows('/mappings', 'main', /Unit ID/);
+  p = await openPage('/site');
+  await p.see('[data-entry="axes/feeder"]', 'feeder');
+  await p.press('Change axis feeder');
+  await p.see('form[aria-label="Change axis feeder"]', 'Unit');
+  p.type(p.field('Unit'), 'cm');
+  await p.press('Save to draft');
+  await p.see('main', /Confirm within, s/);
+  expect(p.root.textContent).not.toMatch(/Take into the draft|\bSlave\b|Rehearse faults/);
+});
+
+it('the four ways to stop are told apart where they are: by title each, and in one sentence on the page of the axis; a tile has its stop and halt alone', async () => {
+  p = await openPage('/axes/feeder');
+  await p.see('.stops-told', /Halt slows down on the profile ramp.*Quick stop, STOP and Esc slow down on the quick-stop ramp.*Disable takes the power off at once/);
+  const title = (name: RegExp) => [...p.root.querySelectorAll('main button')].find((b) => name.test(b.textContent ?? ''))?.getAttribute('title') ?? '';
+  expect([title(/^Halt$/), title(/^Quick stop$/), title(/^STOP$/)]).toEqual(['Stop on the profile ramp, stay enabled', 'Stop on the quick-stop ramp; enable to go on', expect.stringContaining('Quick stop of feeder. Not a safety function')]);
+  expect(title(/^Disable$/)).toMatch(/power off at once/);
+  p.close();
+  p = await openPage('/');
+  await p.see('[data-axis=feeder]', /STOP/);
+  const tile = p.root.querySelector('[data-axis=feeder]') as Element;
+  expect([...tile.querySelectorAll('button')].map((b) => b.textContent?.trim()).filter((w) => /stop|halt/i.test(w ?? ''))).toEqual(['STOP', 'Halt']);
+});

@@ -34,6 +34,9 @@ const recipe = {
   ],
 };
 
+/** What `furnish` types as a person does, in a language of her own. */
+export const typed = ['shown on the panel', recipe.description, 'one way', 'the end', 'which', 'three times the distance', 'as delivered'];
+
 /** On the page of the part, with all of its documents. */
 export async function arrive(page, program, part) {
   await page.goto(program.url + part.path);

@@ -1,6 +1,6 @@
 // Problem: what went wrong with a request, always with a sentence for people.
 // In: a response that is not good, or what fetch threw. Out: a Problem. Never shows a status number where the gateway gave words.
-import { language, t } from '../language';
+import { language, t, theirs } from '../language';
 import { plain } from '../text/plain';
 import { reasonWord } from '../text/reason';
 import type { ProblemDocument } from './types';
@@ -39,7 +39,8 @@ export class Problem extends Error {
   get words(): string {
     const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));
     const code = this.document.code;
-    const said = [this.message, ...faults.map(plain)].join('; ');
+    const own = [this.message, ...faults.map(plain)].join('; ');
+    const said = this.document.detail || this.document.title ? theirs(own) : own;
     // The gateway speaks English; what kind of refusal it is stands before its own words in the reader's language.
     const kind = language() === 'en' || this.kind !== 'answered' ? '' : reasonWord(this.reason);
     const words = kind ? `${kind}: ${said}` : said;

@@ -2,8 +2,8 @@
 // pressed, after a question where the catalogue says what is lost; the answer in words. What was typed stays for the visit, whatever becomes of it.
 // Never sends by itself, nor twice.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
@@ -13,6 +13,7 @@ import { Ask } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { Gate } from './gate';
 import { useLoaded } from './loaded';
+import { refusal } from './told';
 
 export function Actions({ axis, family }: { axis: string; family: string }) {
   const { client } = useGateway();
@@ -20,7 +21,7 @@ export function Actions({ axis, family }: { axis: string; family: string }) {
   const sought = persisted(`typed.action.sought.${axis}`);
   const chosen = persisted(`typed.action.name.${axis}`);
   const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered(t('actions of this family')) : p.words));
-  if (commands.value === null) return <p class="where">{why}</p>;
+  if (commands.value === null) return <p class="where">{marked(why)}</p>;
   const offered = found(commands.value, sought.value);
   const command = commands.value.find((c) => c.id === chosen.value);
   const listed = command && !offered.includes(command) ? [command, ...offered] : offered;
@@ -70,7 +71,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       const a = await client.act(axis, body);
       told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
   const asStep = Object.keys(faults).length === 0 ? recipeText(command, values) : '';

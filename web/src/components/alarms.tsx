@@ -3,12 +3,10 @@
 import { gatewayWords, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { RecorderDoor } from '../api/recorder';
 import type { Alarm, Recording } from '../api/types';
 import { useGateway } from '../gateway';
 import { framesPath, linePath, recorderPath } from '../router';
-import { capital } from '../state/commander';
 import { emptied } from '../state/persisted';
 import { alarmWord, canAcknowledge, recordingOf, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
@@ -21,6 +19,7 @@ import { useLoaded } from './loaded';
 import { AxisName, DriveName } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
+import { tellOf } from './told';
 
 export function AlarmSection() {
   const { store, client } = useGateway();
@@ -37,17 +36,7 @@ export function AlarmSection() {
   useLoaded(async () => void (recordings.value = (await door.recordings()).recordings), [door, times.value]);
   const all = list?.alarms ?? [];
   const open = all.filter(canAcknowledge);
-  const act = async (what: () => Promise<unknown>, done: string) => {
-    told.value = { tone: 'busy', text: t('Asking the gateway.') };
-    try {
-      await what();
-      told.value = { tone: 'good', text: done };
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-      return false;
-    }
-  };
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done);
   return (
     <Section
       title={open.length === 0 ? t('Alarms') : t('Alarms, {n} not acknowledged', { n: open.length })}

@@ -1,9 +1,9 @@
 // Assemblies: EtherNet/IP instances of the site's own, beside those of the axes: which there are, what stands at which byte, adding, changing,
 // taking away, and a table of all of them. In: the HTTP door, the revision of the site. Out: a section. Asks before one is taken away: its connections are closed.
 import { useSignal } from '@preact/signals';
+import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { AssemblyDoor, type Assemblies as Listed, type Assembly } from '../api/assemblies';
-import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { assemblyWords, bytesWords, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
@@ -14,6 +14,7 @@ import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
+import { tellOf } from './told';
 
 export function Assemblies({ revision }: { revision: unknown }) {
   const { client } = useGateway();
@@ -27,21 +28,10 @@ export function Assemblies({ revision }: { revision: unknown }) {
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('assemblies')) : p.words));
-  if (!listed.value) return why ? <Section title={t('EtherNet/IP assemblies')}>{<p class="where">{why}</p>}</Section> : null;
+  if (!listed.value) return why ? <Section title={t('EtherNet/IP assemblies')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { assemblies, most } = listed.value;
 
-  const send = async (what: string, how: () => Promise<unknown>, good: string) => {
-    told.value = { tone: 'busy', text: what };
-    try {
-      await how();
-      told.value = { tone: 'good', text: good };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: asProblem(error).words };
-      return false;
-    }
-  };
+  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(told, what, how, good, load);
   const put = (key: keyof AssemblyDraft) => (value: string) => (draft.value = { ...draft.value, [key]: value });
   const leave = () => {
     editing.value = null;

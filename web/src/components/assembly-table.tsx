@@ -1,9 +1,10 @@
 // Assembly table: the assemblies of the site as a file, and many at once from one or from a spreadsheet's clipboard. In: text. Out: what the gateway
 // would make of it, or each faulty line; then all rows or none. The gateway reads the table: what it takes, it shows first.
 import { useSignal } from '@preact/signals';
+import { marked } from './marked';
 import { assembliesAddress, type AssemblyDoor } from '../api/assemblies';
 import { asProblem, type Problem } from '../api/problem';
-import { t } from '../language';
+import { gatewayWords, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import { quiet, Tell, type Told } from './form';
 import { useBarred } from './gate';
@@ -17,7 +18,7 @@ interface Report {
   differences: string[];
   faults: { line: string; words: string }[];
 }
-const faultsOf = (p: Problem) => (p.document.faults ?? []).map((f) => ({ line: /^\/(\d+)/.exec(f.pointer)?.[1] ?? '', words: f.text }));
+const faultsOf = (p: Problem) => (p.document.faults ?? []).map((f) => ({ line: /^\/(\d+)/.exec(f.pointer)?.[1] ?? '', words: theirs(f.text) }));
 
 export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () => Promise<void> }) {
   const replace = useSignal(false);
@@ -90,7 +91,7 @@ export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () =
         {shown && shown.differences.length > 0 && (
           <ul class="differences" aria-label={t('What would change')}>
             {shown.differences.map((d) => (
-              <li key={d}>{d}</li>
+              <li key={d} {...gatewayWords}>{d}</li>
             ))}
           </ul>
         )}
@@ -98,7 +99,7 @@ export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () =
           <ul class="differences" aria-label={t('What is wrong with the table')}>
             {shown.faults.map((f, i) => (
               <li key={i} class="fault-text" data-line={f.line}>
-                {f.line === '' ? f.words : t('Line {n}: {words}', { n: f.line, words: f.words })}
+                {marked(f.line === '' ? f.words : t('Line {n}: {words}', { n: f.line, words: f.words }))}
               </li>
             ))}
           </ul>

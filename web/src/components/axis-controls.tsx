@@ -1,6 +1,7 @@
 // Axis controls: what a person can tell an axis: power, motion, jog, stops. In: the axis' name and unit. Out: commands; the answer in
 // words underneath. Whether the axis may do it is for the gateway to say: nothing is greyed by guesswork, a refusal tells its reason.
 import { signal, useSignal, type Signal } from '@preact/signals';
+import { marked } from './marked';
 import { useId, useMemo } from 'preact/hooks';
 import type { Axis, Command } from '../api/types';
 import { useGateway } from '../gateway';
@@ -85,7 +86,7 @@ export function ResultLine({ axis, id, by }: { axis: string; id: string; by?: Co
     <p class={`result result-${note.tone}`} id={id} role="status" title={note.text}>
       {(note.tone === 'refused' || note.tone === 'partly') && <Icon name="triangle" size={14} />}
       {note.tone === 'good' && <Icon name="check" size={14} />}
-      <span>{note.text}</span>
+      <span>{marked(note.text)}</span>
     </p>
   );
 }

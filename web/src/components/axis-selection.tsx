@@ -2,6 +2,7 @@
 // itself, as its own tile would give it, and what each answered. Axes that are filtered away keep their selection: they are named, never forgotten.
 // The bar is always there, so that nothing moves when something is selected.
 import { useSignal } from '@preact/signals';
+import { marked } from './marked';
 import type { Command } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
@@ -111,7 +112,7 @@ function Answers({ of }: { of: Given }) {
       <ul aria-label={t('Answers of the axes')}>
         {notes.map(({ axis, note }) => (
           <li key={axis} class={`result-${note.tone}`} data-answer={axis}>
-            <AxisName name={axis} /> <span>{note.text || '–'}</span>
+            <AxisName name={axis} /> <span>{marked(note.text || '–')}</span>
           </li>
         ))}
       </ul>

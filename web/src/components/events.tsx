@@ -1,6 +1,7 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
-import { gatewayWords, t } from '../language';
+import { gatewayWords, t, theirs } from '../language';
+import { marked } from './marked';
 import type { GatewayEvent, Severity } from '../api/types';
 import { withoutSubject } from '../text/alarm';
 import { plainWord } from '../text/plain';
@@ -49,7 +50,7 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
             <ErrorHelp axis={event.axis} drive={event.drive} code={event.code} />
           </details>
         ) : null}
-        {event.who && <span class="event-who">{' '}{t('by {who}', { who: event.who })}</span>}
+        {event.who && <span class="event-who">{' '}{marked(t('by {who}', { who: theirs(event.who) }))}</span>}
       </span>
     </li>
   );
@@ -73,7 +74,7 @@ function EventGroup({ events, scale }: { events: GatewayEvent[]; scale?: Scale |
       <div class="event-what">
         <b>{subject(newest)} </b>
         {t('{n} parameters written', { n: events.length })}
-        <span class="event-who">{' '}{t('by {who}', { who: newest.who ?? '' })}</span>
+        <span class="event-who">{' '}{marked(t('by {who}', { who: theirs(newest.who ?? '') }))}</span>
         <details>
           <summary>{t('each of them')}</summary>
           <ol class="events">

@@ -1,10 +1,10 @@
 // Fail-safe: what happens to each axis when who commands it is lost, by cause; and the rehearsal on models, with its report. In: the HTTP door.
 // Out: a section. One change at a time, in force at once. Never moves anything: the rehearsal plays on models of the drives.
 import { midSentence, t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
-import { FailSafeDoor, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
+import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
 import { useGateway } from '../gateway';
 import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog, watchdogWords } from '../text/fail-safe';
 import { dateTime } from '../text/time';
@@ -12,6 +12,7 @@ import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { Section } from './section';
+import { refusal, tellOf } from './told';
 
 const look_ms = 1_000;
 
@@ -31,18 +32,9 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const no = useBarred('engineer');
   const load = async () => void (matrix.value = await door.matrix());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.words));
-  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{why}</p>}</Section> : null;
+  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
-  const put = async (row: FailSafeRow, choice: Wish, what: string) => {
-    told.value = { tone: 'busy', text: t('Changing …') };
-    try {
-      await door.put(row.axis, choice);
-      await load();
-      told.value = { tone: 'good', text: t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }) };
-    } catch (error) {
-      told.value = { tone: 'refused', text: asProblem(error).words };
-    }
-  };
+  const put = (row: FailSafeRow, choice: Wish, what: string) => tellOf(told, t('Changing …'), () => door.put(row.axis, choice).then(load), t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }));
   return (
     <Section title={t('When who commands is lost')} class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
@@ -61,7 +53,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
             ))}
           </div>
           <p class="where" data-field="drive-watchdog">
-            {watchdogWords(row)}
+            {marked(watchdogWords(row))}
           </p>
           <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, t('the time of a silent Modbus client'))} />
         </details>
@@ -126,7 +118,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
     try {
       now.value = await door.rehearse();
     } catch (error) {
-      told.value = { tone: 'refused', text: asProblem(error).words };
+      told.value = refusal(error);
     }
   };
   const report = now.value?.report ?? null;
@@ -169,25 +161,30 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
                 </tr>
               </thead>
               <tbody>
-                {report.cells.map((c) => {
-                  const r = cellRow(c, unit(c.axis));
-                  return (
-                    <tr key={r.key} title={c.text}>
-                      <th scope="row">{r.axis}</th>
-                      <td>{r.cause}</td>
-                      <td>{r.action}</td>
-                      <td class="num">{r.acted}</td>
-                      <td class="num">{r.slower}</td>
-                      <td class="num">{r.stood}</td>
-                      <td class="num">{r.way}</td>
-                    </tr>
-                  );
-                })}
+                {report.cells.map((c) => (
+                  <CellOf key={`${c.axis} ${c.cause}`} cell={c} unit={unit(c.axis)} />
+                ))}
               </tbody>
             </table>
           </div>
         </>
       )}
     </div>
+  );
+}
+
+/** One cell of the rehearsal as a row, on the page and in the commissioning report. */
+export function CellOf({ cell, unit }: { cell: Cell; unit: string }) {
+  const r = cellRow(cell, unit);
+  return (
+    <tr title={cell.text}>
+      <th scope="row">{r.axis}</th>
+      <td>{r.cause}</td>
+      <td>{r.action}</td>
+      <td class="num">{r.acted}</td>
+      <td class="num">{r.slower}</td>
+      <td class="num">{r.stood}</td>
+      <td class="num">{r.way}</td>
+    </tr>
   );
 }

@@ -1,6 +1,7 @@
 // Form: labelled fields with their fault in words beneath, and a line that tells how it went. In: text and why it is wrong. Out: what is typed.
 // The fault is bound to its field for screen readers; what was typed is never changed here.
 import type { ComponentChildren } from 'preact';
+import { marked } from './marked';
 import { useId } from 'preact/hooks';
 import { t } from '../language';
 import type { Outcome } from '../state/mappings';
@@ -20,7 +21,7 @@ export interface TextFieldProps extends Common {
   number?: boolean;
   disabled?: boolean;
   /** Offers while typing. */
-  offers?: readonly { value: string; text?: string }[];
+  offers?: readonly { value: string; text?: string; lang?: 'en' }[];
   mono?: boolean;
   password?: boolean;
   /** What a password manager may fill in. */
@@ -53,7 +54,7 @@ export function TextField(p: TextFieldProps) {
       {p.offers && (
         <datalist id={`${id}-offers`}>
           {p.offers.map((o) => (
-            <option key={o.value} value={o.value}>
+            <option key={o.value} value={o.value} lang={o.lang}>
               {o.text}
             </option>
           ))}
@@ -67,7 +68,7 @@ export function TextField(p: TextFieldProps) {
 export interface ChoiceProps extends Common {
   value: string;
   onChoice: (value: string) => void;
-  choices: readonly { value: string; text: string; disabled?: boolean }[];
+  choices: readonly { value: string; text: string; disabled?: boolean; lang?: 'en' }[];
   disabled?: boolean;
 }
 
@@ -88,7 +89,7 @@ export function Choice(p: ChoiceProps) {
       <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
         {!known && <option value={p.value}>{p.value || t('choose')}</option>}
         {p.choices.map((c) => (
-          <option key={c.value} value={c.value} disabled={c.disabled}>
+          <option key={c.value} value={c.value} disabled={c.disabled} lang={c.lang}>
             {c.text}
           </option>
         ))}
@@ -107,13 +108,13 @@ function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint
   if (fault) {
     return (
       <p class="form-told is-fault" id={id}>
-        {fault}
+        {marked(fault)}
       </p>
     );
   }
   return hint === undefined ? null : (
     <p class="form-told" id={id}>
-      {hint}
+      {typeof hint === 'string' ? marked(hint) : hint}
     </p>
   );
 }
@@ -130,7 +131,7 @@ const capital = (s: string) => s.charAt(0).toUpperCase() + s.slice(1);
 export function Tell({ told, field }: { told: Told; field?: string }) {
   return (
     <p class={`tell result-${told.tone}`} role="status" data-field={field}>
-      {told.text}
+      {marked(told.text)}
     </p>
   );
 }

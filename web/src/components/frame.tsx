@@ -1,6 +1,7 @@
 // Frame: head, navigation, strip and regions that every page shares. In: the store and the route. Out: what is around a page.
 // The strip under the head is always there, so that nothing moves when the connection is lost: its words change, not its place.
 import { useEffect } from 'preact/hooks';
+import { marked } from './marked';
 import { signal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { t } from '../language';
@@ -138,7 +139,7 @@ export function Strip() {
     return (
       <div class="strip" data-field="strip">
         <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? t('Your session has ended: no values are shown until you sign in again.') : t('Not signed in: no values are shown. This gateway serves nobody without a sign-in.')}</span>
-        <span class={`strip-stop result-${said.tone}`}>{said.text}</span>
+        <span class={`strip-stop result-${said.tone}`}>{marked(said.text)}</span>
         <HelpLink />
       </div>
     );
@@ -160,7 +161,7 @@ export function Strip() {
             {c.why && `${c.why.charAt(0).toUpperCase()}${c.why.slice(1)}. `}
             {next}
           </span>
-          {stop.tone !== 'none' && <b> {stop.text}</b>}
+          {stop.tone !== 'none' && <b> {marked(stop.text)}</b>}
         </span>
         {!silent && (
           <button type="button" class="button" onClick={() => gateway.stream.retryNow()}>
@@ -181,7 +182,7 @@ export function Strip() {
         <Counted n={n.simulated} words={t('simulated')} filter={t('simulated')} />
         <Counted n={n.offline} words={t('offline')} tone="warning" filter={t('offline')} />
       </span>
-      <span class={`strip-stop result-${stop.tone}`}>{stop.text}</span>
+      <span class={`strip-stop result-${stop.tone}`}>{marked(stop.text)}</span>
       <Trial />
       <HelpLink />
     </div>

@@ -2,6 +2,7 @@
 // In: what the twin offers, asked again every 2 s while shown; the axis whose page it is. Out: changes of one condition at a time. Only where a
 // twin answers. What belongs to another axis than this one stands folded under that one's name, so that nobody takes the wrong one in hand.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -12,6 +13,7 @@ import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } 
 import { editText } from '../text/parameter';
 import { parseNumber } from '../text/number';
 import { Empty } from './lines';
+import { refusal } from './told';
 
 const period_ms = 2_000;
 
@@ -31,7 +33,7 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
       try {
         if (!document.hidden) items.value = await client.hand(drive, end.signal);
       } catch (error) {
-        if (!end.signal.aborted && items.peek() === null) note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+        if (!end.signal.aborted && items.peek() === null) note.value = refusal(error);
       }
       if (!end.signal.aborted) timer = setTimeout(() => void look(), period_ms);
     };
@@ -76,7 +78,7 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
         <Group key={g.title} group={g} set={set} named={g.kind === 'axis' && (g.folded || own === null)} />
       ))}
       <p class={`result result-${note.value.tone}`} role="status">
-        {note.value.text}
+        {marked(note.value.text)}
       </p>
     </div>
   );
@@ -192,7 +194,7 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
       )}
       {wrong.value && (
         <span class="hand-wrong" id={why} role="alert" data-field="hand-wrong">
-          {wrong.value}
+          {marked(wrong.value)}
         </span>
       )}
     </li>

@@ -1,6 +1,7 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
-import { midSentence, t } from '../language';
+import { gatewayWords, midSentence, t, theirs } from '../language';
+import { marked } from './marked';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
@@ -67,7 +68,7 @@ export function LineCard({ name }: { name: string }) {
       </div>
       <p class="where">
         {s.families?.length ? s.families.map((f) => f.family).join(', ') : line.family} · <span class="mono">{line.uri}</span>
-        {s.text && s.text !== 'up' ? ` · ${s.text}` : ''}
+        {s.text && s.text !== 'up' ? marked(` · ${theirs(s.text)}`) : ''}
       </p>
       <dl class="counts">
         <Count label={t('Exchanges')} value={s.counters.exchanges} />
@@ -105,7 +106,7 @@ function DriveCard({ name }: { name: string }) {
       <p class="where">
         {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {presenceText(drive.presence)}
       </p>
-      <p class="why">{s.text || '\u00a0'}</p>
+      <p class="why" {...gatewayWords}>{s.text || '\u00a0'}</p>
       <p class="where">
         {drive.axes.length === 0 ? t('no axis') : <>{t('Axes:')} </>}
         {drive.axes.map((a, i) => (
@@ -149,7 +150,7 @@ export function DriveList({ of }: { of?: string[] }) {
 export function Empty({ text }: { text: string }) {
   return (
     <p class="empty">
-      <Icon name="info" /> {text}
+      <Icon name="info" /> {marked(text)}
     </p>
   );
 }

@@ -4,7 +4,7 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { gatewayWords, t, theirs } from '../language';
 import { addressBase, addressField, forgetAddressField } from '../state/address-base';
 import { emptied, persisted } from '../state/persisted';
 import type { Clash, MappingBook } from '../state/mappings';
@@ -136,7 +136,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
     }
   };
   const names = known.parameters(texts.axis) ?? [];
-  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
+  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description, ...gatewayWords })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
   return (
     <Section title={editing ? t('Change {id}', { id: editing.id }) : t('Add a mapping')} class="mapping-form">
       <form
@@ -152,7 +152,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
       >
         <div class="form-grid">
           <Choice label={t('Axis')} value={texts.axis} onChoice={set('axis')} fault={shown('axis')} choices={[{ value: '', text: t('choose') }, ...store.axisNames.value.map((n) => ({ value: n, text: named(n) }))]} />
-          <TextField label={t('Point or parameter')} class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder={t('position, MT[1] …')} hint={known.points.find((p) => p.point === texts.point)?.description} />
+          <TextField label={t('Point or parameter')} class="wide" value={texts.point} onText={set('point')} fault={shown('point')} offers={offers} placeholder={t('position, MT[1] …')} hint={theirs(known.points.find((p) => p.point === texts.point)?.description ?? '') || undefined} />
           <TextField label={t('Unit ID')} number value={texts.unit} onText={set('unit')} fault={shown('unit')} />
           <Choice label={t('Table')} value={texts.table} onChoice={set('table')} fault={shown('table')} choices={tables.map((x) => ({ value: x.id, text: x.name }))} />
           <TextField

@@ -2,6 +2,7 @@
 // there, and what it is of. In: unit, table, address, count, word order. Out: a form and the map; an exception in words, with the places that
 // nothing answers for. Follows once a second when it is asked to. Never writes.
 import { computed, signal, useSignal } from '@preact/signals';
+import { marked } from './marked';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { MappingDoor, Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
@@ -127,7 +128,7 @@ export function MappingHmi({ door, rows }: { door: MappingDoor; rows: readonly M
             {following.value ? t('Following each second') : t('Follow')}
           </button>
           <p class={`tell result-${why.value ? 'refused' : 'none'}`} role="status" data-field="hmi-told">
-            {why.value || refused || (waiting.value && !a ? t('Asking …') : '')}
+            {marked(why.value || refused || (waiting.value && !a ? t('Asking …') : ''))}
           </p>
         </div>
         {a && !a.exception && former && (

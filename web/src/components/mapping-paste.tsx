@@ -1,10 +1,11 @@
 // Mapping paste: many mappings at once, from a spreadsheet's clipboard or a CSV file. In: text. Out: rows, each checked; then a dry run by the
 // gateway; then all of them or none. The text stays until the gateway took it.
 import { useSignal } from '@preact/signals';
+import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { midSentence, t } from '../language';
+import { gatewayWords, midSentence, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
 import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
@@ -103,7 +104,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
         {report.value && report.value.for === text.value && report.value.differences.length > 0 && (
           <ul class="differences" aria-label={t('What would change')}>
             {report.value.differences.slice(0, mostShown).map((d) => (
-              <li key={d}>{d}</li>
+              <li key={d} {...gatewayWords}>{d}</li>
             ))}
           </ul>
         )}
@@ -127,7 +128,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
                       <th scope="row" class="mono">{r.line}</th>
                       <td data-label={t('Register place')}>{r.spec ? t('unit {unit}, {table} {place}', { unit: r.spec.unit ?? '', table: midSentence(tableOf(r.spec.table ?? 'holding_registers').short), place: placeText({ type: 'i32', table: 'holding_registers', ...r.spec }) }) : <span class="mono">{r.texts.address || '–'}</span>}</td>
                       <td data-label={t('Point')}>{[r.texts.axis, r.texts.point].filter(Boolean).join(' ') || '–'}</td>
-                      <td data-label={t('Verdict')}>{faults.length > 0 ? <span class="fault-text">{faults.join(' ')}</span> : waits !== '' ? <span class="where">{t('waits')}</span> : <span class="good-text">{t('good')}</span>}</td>
+                      <td data-label={t('Verdict')}>{faults.length > 0 ? <span class="fault-text">{marked(faults.join(' '))}</span> : waits !== '' ? <span class="where">{t('waits')}</span> : <span class="good-text">{t('good')}</span>}</td>
                     </tr>
                   );
                 })}
@@ -149,7 +150,7 @@ function linesOf(problem: Problem, rows: number, lines: readonly number[]): Map<
   for (const f of problem.document.faults ?? []) {
     const at = Number(/^\/(\d+)/.exec(f.pointer)?.[1] ?? NaN);
     const line = lines[at - 2];
-    if (Number.isFinite(at) && at >= 2 && at - 2 < rows && line !== undefined) found.set(line, `${f.text}; ${f.remedy}`);
+    if (Number.isFinite(at) && at >= 2 && at - 2 < rows && line !== undefined) found.set(line, theirs(`${f.text}; ${f.remedy}`));
   }
   if (found.size === 0) found.set(-1, problem.words);
   return found;

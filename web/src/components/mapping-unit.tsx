@@ -3,11 +3,11 @@
 import { useSignal } from '@preact/signals';
 import { useCallback } from 'preact/hooks';
 import type { MappingDoor, ModbusUnit } from '../api/mappings';
-import { asProblem } from '../api/problem';
 import { t } from '../language';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { quiet, Tell, type Told } from './form';
+import { tellOf } from './told';
 
 const words: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: t('read 0'), refuse: t('are refused') };
 
@@ -19,16 +19,7 @@ export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit:
   const why = useLoaded(load, [door, revision], (p) => p.words);
   if (why || !units.value) return null;
   const here = units.value.find((u) => u.unit === unit);
-  const set = async (gaps: ModbusUnit['gaps']) => {
-    told.value = { tone: 'busy', text: t('Changing …') };
-    try {
-      const now = await door.setGaps(unit, gaps);
-      told.value = { tone: 'good', text: now.shown === 'zero' ? t('Gaps of unit {unit} read 0 now.', { unit }) : t('Gaps of unit {unit} are refused now.', { unit }) };
-      await load();
-    } catch (error) {
-      told.value = { tone: 'refused', text: asProblem(error).words };
-    }
-  };
+  const set = (gaps: ModbusUnit['gaps']) => tellOf(told, t('Changing …'), () => door.setGaps(unit, gaps), (now) => (now.shown === 'zero' ? t('Gaps of unit {unit} read 0 now.', { unit }) : t('Gaps of unit {unit} are refused now.', { unit })), load);
   return (
     <>
       <label class="select" title={t('What a client gets for addresses between and around what is mapped. Panels that read in blocks need 0; a client that must never read a wrong address wants a refusal.')}>

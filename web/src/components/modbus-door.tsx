@@ -1,17 +1,16 @@
 // Modbus door: who may come in, what may be asked, whether anything may be written, who is connected. In: /modbus. Out: a list and one switch.
 // Read-only is kept over a restart; the rest stands in the configuration. Never changes anything but the switch.
 import { useSignal } from '@preact/signals';
-import { asProblem } from '../api/problem';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { capital } from '../state/commander';
 import { allowedWords, functionWords } from '../text/register-map';
 import { quiet, Tell, type Told } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { Section } from './section';
+import { tellOf } from './told';
 
 export function ModbusDoor() {
   const { client } = useGateway();
@@ -19,15 +18,7 @@ export function ModbusDoor() {
   const door = useSignal<Door | null>(null);
   const told = useSignal<Told>(quiet);
   const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? t('This gateway does not say more about its Modbus door.') : p.words));
-  const change = async (read_only: boolean) => {
-    told.value = { tone: 'busy', text: t('Changing …') };
-    try {
-      door.value = await client.setModbus(read_only);
-      told.value = { tone: 'good', text: read_only ? t('Read-only now: writes are refused, a quick stop and switching off are not.') : t('Writing is allowed now.') };
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-    }
-  };
+  const change = (read_only: boolean) => tellOf(told, t('Changing …'), async () => (door.value = await client.setModbus(read_only)), read_only ? t('Read-only now: writes are refused, a quick stop and switching off are not.') : t('Writing is allowed now.'));
   const d = door.value;
   return (
     <Section title={t('Modbus door')} help="door-modbus-tcp">

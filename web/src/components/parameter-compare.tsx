@@ -4,7 +4,6 @@
 import { t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
@@ -16,6 +15,7 @@ import { Choice, quiet, Tell, type Told } from './form';
 import { Empty } from './lines';
 import { SimulatedMark, useNamed } from './name';
 import { Section } from './section';
+import { refusal } from './told';
 
 const plain = { allowed: null };
 
@@ -99,7 +99,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
       result.value = { title, rows };
       told.value = { tone: 'good', text: `${comparedWords(rows, of)}${missing ? ` ${capital(missing)}.` : ''}` };
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
   const rows = (result.value?.rows ?? []).filter((r) => all.value || (!r.same && (r.known !== false || fromSnapshot)));

@@ -1,6 +1,7 @@
 // Parameter history: who wrote it last, and on demand all writes that are kept: when, who, through which door, from what to what.
 // In: the parameter. Out: the cell of the table. At most 20 writes are asked for.
 import { t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
@@ -36,7 +37,7 @@ export function Written({ axis, p }: { axis: string; p: AxisParameter }) {
       </button>
       {open.value && (
         <ol class="history" aria-label={t('Writes of {id}, newest first', { id: p.id })}>
-          {why.value && <li class="fault-text">{why.value}</li>}
+          {why.value && <li class="fault-text">{marked(why.value)}</li>}
           {history.value === null && !why.value && <li class="where">{t('Asking …')}</li>}
           {history.value?.length === 0 && <li class="where">{t('No write is kept.')}</li>}
           {history.value?.map((h) => (

@@ -2,6 +2,7 @@
 // In: the row's signals. Out: a row that keeps its height: each cell is drawn for itself, has room for the longest text that its value can have, and
 // what has the keyboard is not drawn anew by a value that comes. Never asks the gateway: reading and writing are handed in.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
@@ -90,7 +91,7 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
       </span>
       {(p.fields ?? []).map((f, i) => (
         <span key={f.name} class="part roomy" data-longest={`${f.name.replaceAll('_', ' ')}: ${longestOf(f.allowed?.map((a) => a.meaning) ?? [])}`}>
-          <span>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
+          <span {...gatewayWords}>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
         </span>
       ))}
     </td>
@@ -171,7 +172,7 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
         />
       )}
       <p class={`row-note result-${n.tone}`} id={note} role="status">
-        {n.text || typedText(row.typed.value, row.data.peek())}
+        {marked(n.text || typedText(row.typed.value, row.data.peek()))}
       </p>
     </td>
   );
@@ -204,7 +205,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             const whole = typeof p.value === 'number' && text === '' ? p.value : Number(text || 0);
             return (
               <label key={f.name}>
-                <span>{f.name.replaceAll('_', ' ')}</span>
+                <span {...gatewayWords}>{f.name.replaceAll('_', ' ')}</span>
                 <select
                   {...keyboard}
                   aria-label={t('New {part} of {id}', { part: f.name.replaceAll('_', ' '), id: p.id })}
@@ -213,7 +214,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
                   onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
                 >
                   {f.allowed?.map((c) => (
-                    <option key={c.value} value={String(c.value)}>
+                    <option key={c.value} value={String(c.value)} {...gatewayWords}>
                       {c.value} {c.meaning}
                     </option>
                   ))}
@@ -228,7 +229,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             {t('choose')}
           </option>
           {choices.map((c) => (
-            <option key={c.value} value={String(c.value)}>
+            <option key={c.value} value={String(c.value)} {...gatewayWords}>
               {c.value} {c.meaning}
             </option>
           ))}

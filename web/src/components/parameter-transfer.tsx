@@ -7,13 +7,13 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
-import { capital } from '../state/commander';
 import { emptied, persisted } from '../state/persisted';
 import { editText, steppedText, unitWords, valueText } from '../text/parameter';
 import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../text/transfer';
 import { quiet, Tell, type Told } from './form';
 import { saveText } from './save';
 import { Section } from './section';
+import { refusal } from './told';
 
 const largest = 2_000_000;
 
@@ -46,7 +46,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
       else saveText(`${axis}-parameters.json`, 'application/json', jsonOfParameters(axis, all));
       told.value = { tone: known === 0 ? 'refused' : 'good', text: known < all.length ? t('{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.', { known, n: all.length }) : t('{known} of {n} values are known and in the file.', { known, n: all.length }) };
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
   const take = async (file: File | undefined) => {

@@ -17,6 +17,7 @@ import { Empty } from './lines';
 import { heardAt, useOnScreen } from './parameter-live';
 import { isLongArray, newRow, ParameterRow, type Row } from './parameter-row';
 import { Section } from './section';
+import { refusal } from './told';
 
 const rowsAtOnce = 100;
 const idle_ms = 400;
@@ -143,7 +144,7 @@ export function Parameters({ axis }: { axis: string }) {
       row.data.value = p;
       row.note.value = p.quality === 'stale' ? { tone: 'refused', text: capital(p.text || 'stale') } : { tone: 'none', text: '' };
     } catch (error) {
-      row.note.value = end?.aborted ? { tone: 'none', text: '' } : { tone: 'refused', text: capital(asProblem(error).words) };
+      row.note.value = end?.aborted ? { tone: 'none', text: '' } : refusal(error);
     }
   };
 
@@ -182,7 +183,7 @@ export function Parameters({ axis }: { axis: string }) {
       row.data.value = now;
     } catch (error) {
       if (row.note.peek().tone === 'good') return; // it was written; only the look afterwards failed
-      row.note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      row.note.value = refusal(error);
     }
   };
 
@@ -196,7 +197,7 @@ export function Parameters({ axis }: { axis: string }) {
       rows.value = rows.peek().toSpliced(at, 0, ...list.map(newRow));
       row.note.value = { tone: 'none', text: t('{n} of {count} elements are listed below.', { n: known.length + list.length, count: p.count ?? 0 }) };
     } catch (error) {
-      row.note.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      row.note.value = refusal(error);
     }
   };
 

@@ -2,6 +2,7 @@
 // their registers, the frames before it in words, and what had happened. In: GET .../playback, 100 ms after the slider rests, or four times a
 // second while it plays. Out: a part of the page. Nothing in it can be commanded.
 import { t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -110,7 +111,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
       }
     >
       <div class="card form playback" data-field="playback" data-at={now?.at}>
-        {fault.value && <p class="notice tone-fault" role="status">{fault.value}</p>}
+        {fault.value && <p class="notice tone-fault" role="status">{marked(fault.value)}</p>}
         {!doc && !fault.value && <p class="where">{t('Reading the recording.')}</p>}
         {doc && now && (
           <>

@@ -1,11 +1,11 @@
 // Profiles: units that speak another device's language: which there are, what stands at their registers, adding and taking away.
 // In: the HTTP door, the revision of the site, units that have mappings. Out: a section, and what it has loaded for others. Asks before a profile is taken away.
 import { useSignal, type Signal } from '@preact/signals';
+import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
 import { useGateway } from '../gateway';
-import { t } from '../language';
+import { gatewayWords, t, theirs } from '../language';
 import { addressBase } from '../state/address-base';
 import { persisted } from '../state/persisted';
 import { instanceWords, profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
@@ -15,6 +15,7 @@ import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
+import { tellOf } from './told';
 
 const unit = persisted('profile.unit');
 const language = persisted('profile.language', 'lexium');
@@ -36,23 +37,12 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('profiles')) : p.words));
-  if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{why}</p>}</Section> : null;
+  if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { languages, profiles } = listed.value;
   const chosen = languages.find((l) => l.language === language.value);
   const title = (p: Profile) => languages.find((l) => l.language === p.language)?.title ?? p.language;
 
-  const send = async (what: string, how: () => Promise<unknown>, good: string) => {
-    told.value = { tone: 'busy', text: what };
-    try {
-      await how();
-      told.value = { tone: 'good', text: good };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: asProblem(error).words };
-      return false;
-    }
-  };
+  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(told, what, how, good, load);
   const add = async () => {
     const taken = new Map<number, string>([...[...mapped].map((u) => [u, t('mappings')] as const), ...profiles.map((p) => [p.unit, t('the profile {title}', { title: title(p) })] as const)]);
     const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value, input: input.value, output: output.value, object: object.value }, languages, taken);
@@ -117,7 +107,7 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
             }}
             choices={languages.map((l) => ({ value: l.language, text: l.title }))}
             fault={faults.value.language}
-            hint={chosen?.description}
+            hint={chosen && theirs(chosen.description)}
           />
           {axes.value.map((a, i) => (
             <Choice
@@ -173,7 +163,7 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
               <th scope="row">{r.name}</th>
               <td class="mono">{r.type}</td>
               <td>{r.access}</td>
-              <td>{r.text}</td>
+              <td {...gatewayWords}>{r.text}</td>
               {profile.object_instance != null && <td>{r.object}</td>}
             </tr>
           ))}

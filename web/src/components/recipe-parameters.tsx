@@ -1,6 +1,6 @@
 // Parameters of a recipe as a form: name, type, default, bounds, unit, what each is for. In: the document and the faults found in it.
 // Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { defaultOf, parameterFault, parameterTypeName, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
 import { Icon } from './icon';
@@ -117,7 +117,7 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
         </p>
       )}
       {faults.map((f) => (
-        <p key={f.pointer + f.text} class="step-fault">
+        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
           {f.text}. {f.remedy}.
         </p>
       ))}

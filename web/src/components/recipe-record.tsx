@@ -2,6 +2,7 @@
 // /recorder/steps, once a second. Out: the steps, added to the recipe when it is ended. It goes on while one looks at other pages: what is on is kept
 // for the tab. Nothing is commanded from here, and nothing is saved.
 import { t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -135,7 +136,7 @@ export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept:
         </div>
       )}
       {done.value && <p class="where" role="status">{done.value}</p>}
-      {fault.value && <p class="step-fault" role="status">{fault.value}</p>}
+      {fault.value && <p class="step-fault" role="status">{marked(fault.value)}</p>}
     </div>
   );
 }

@@ -1,10 +1,10 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
 import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
@@ -16,6 +16,7 @@ import { useLoaded } from './loaded';
 import { AxisName, SimulatedMark, useNamed } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
+import { refusal } from './told';
 
 const begun = (n: number) => t('Run {n} has begun.', { n });
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
@@ -89,14 +90,14 @@ export function useRun(name: string, parameters: NonNullable<RecipeDocument['par
         result.value = { tone: 'good', text: isOver(report.peek()?.state ?? '') ? '' : begun(report.peek()?.n ?? 0) };
       }
     } catch (error) {
-      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      result.value = refusal(error);
     }
   };
   const cancel = async (n: number) => {
     try {
       await client.cancelRun(name, n);
     } catch (error) {
-      result.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      result.value = refusal(error);
     }
   };
   const look = (n: number) => void client.recipeRun(name, n).then((w) => (report.value = w), () => undefined);
@@ -148,7 +149,7 @@ export function RunHead({ run, saved }: { run: Run; saved: boolean }) {
             )}
           </div>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{saved ? result.value.text : t('Save the recipe to run it.')}</span>
+            <span>{marked(saved ? result.value.text : t('Save the recipe to run it.'))}</span>
           </p>
           {r && (
             <p class="run-now where" data-field="run-now">
@@ -238,7 +239,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
               <Icon name={word.icon} size={14} />
               <span class="report-word">{word.text}</span>
               <span class="report-what">
-                <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span>{plain(stepWhat(s))}</span>
+                <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span {...gatewayWords}>{plain(stepWhat(s))}</span>
                 {s.times > 1 && ` × ${s.times}`}
                 {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
                 {s.text && <span {...gatewayWords}> {plain(s.text)}</span>}

@@ -1,6 +1,6 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
-import { midSentence, t } from '../language';
+import { gatewayWords, midSentence, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
@@ -142,7 +142,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
         </label>
       </div>}
       {mine.map((f) => (
-        <p key={f.pointer + f.text} class="step-fault">
+        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
           {f.text}. {f.remedy}.
         </p>
       ))}

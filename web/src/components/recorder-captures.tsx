@@ -1,9 +1,9 @@
 // Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
 // triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
-import { midSentence, t } from '../language';
+import { midSentence, t, theirs } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { RecorderDoor } from '../api/recorder';
 import type { Capture, CaptureList, CaptureTrigger, CaptureWish, CaptureWithRows } from '../api/types';
 import { useGateway } from '../gateway';
@@ -23,6 +23,7 @@ import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
 import { RenameForm } from './rename-form';
 import { saveText } from './save';
 import { Section } from './section';
+import { refusal, tellOf } from './told';
 
 const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-5'];
 export const mostOverlaid = 4;
@@ -49,20 +50,10 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
       drawn.value = [...drawn.peek().filter((c) => c.name !== name), whole].slice(-mostOverlaid);
       told.value = quiet;
     } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      told.value = refusal(error);
     }
   };
-  const act = async (what: () => Promise<unknown>, done: string) => {
-    try {
-      await what();
-      told.value = { tone: 'good', text: done };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-      return false;
-    }
-  };
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
   // One that was just armed here is drawn when it is done.
   const mine = useRef('');
   useEffect(() => {
@@ -89,7 +80,7 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
       </Section>
       {drawn.value.length > 0 && <Overlay captures={drawn.value} />}
       <Section title={captures.length > 0 ? t('Captures, {n}', { n: captures.length }) : t('Captures')} beside={list.value && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(list.value.disk_bytes), disk_most_bytes: bytesWords(list.value.disk_most_bytes) })}</span>}>
-        {list.value?.disk_fault && <p class="notice tone-fault">{capital(list.value.disk_fault)}</p>}
+        {list.value?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(list.value.disk_fault)))}</p>}
         {captures.length === 0 ? (
           <Empty text={waiting || t('No capture yet.')} />
         ) : (
@@ -118,7 +109,7 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
         <span class="where">
           {' '}
           {c.triggered_at ? dateTime(c.triggered_at) : ''} {captureAbout(c)} · {triggerWords(c.trigger, unit)}
-          {c.why ? ` · ${c.why}` : ''}
+          {c.why ? marked(` · ${theirs(c.why)}`) : ''}
         </span>
       </span>
       <span class="recorder-buttons">

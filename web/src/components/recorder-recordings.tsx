@@ -1,9 +1,9 @@
 // Recordings: what is being recorded, a button that freezes it, the files that there are, and one of them played back.
 // In: GET /recorder/recordings, with each connection and after each change. Out: requests, downloads.
-import { t } from '../language';
+import { t, theirs } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { RecorderDoor, recordingFile } from '../api/recorder';
 import type { Recording, RecordingList } from '../api/types';
 import { useGateway } from '../gateway';
@@ -18,6 +18,7 @@ import { Pill } from './pill';
 import { PlaybackPart } from './playback';
 import { RenameForm } from './rename-form';
 import { Section } from './section';
+import { tellOf } from './told';
 
 export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
   const { client } = useGateway();
@@ -29,18 +30,7 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
   const why = useSignal('');
   const load = async () => void (list.value = await door.recordings());
   const waiting = useLoaded(load, [door]);
-  const act = async (what: () => Promise<unknown>, done: string) => {
-    told.value = { tone: 'busy', text: t('Asking the gateway.') };
-    try {
-      await what();
-      told.value = { tone: 'good', text: done };
-      await load();
-      return true;
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-      return false;
-    }
-  };
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
   const recordings = list.value?.recordings ?? [];
   const wanted = name.value || freeName('recording', recordings.map((r) => r.name));
   const fault = nameFault(wanted);
@@ -75,7 +65,7 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
       </Section>
       {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
       <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(now.disk_bytes), disk_most_bytes: bytesWords(now.disk_most_bytes) })}</span>}>
-        {now?.disk_fault && <p class="notice tone-fault">{capital(now.disk_fault)}</p>}
+        {now?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(now.disk_fault)))}</p>}
         {recordings.length === 0 ? (
           <Empty text={waiting || t('No recording yet. An alarm makes one by itself.')} />
         ) : (
@@ -102,9 +92,9 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
           {' '}
           {r.at ? dateTime(r.at) : ''} {bytesWords(r.bytes)}
           {r.automatic ? ` · ${t('by an alarm')}` : ''}
-          {r.why ? ` · ${r.why}` : ''}
+          {r.why ? marked(` · ${r.automatic ? theirs(r.why) : r.why}`) : ''}
           {r.who ? ` · ${r.who}` : ''}
-          {r.fault ? ` · ${r.fault}` : ''}
+          {r.fault ? marked(` · ${theirs(r.fault)}`) : ''}
         </span>
       </span>
       <span class="recorder-buttons">

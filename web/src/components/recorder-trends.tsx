@@ -1,6 +1,7 @@
 // Trends: what the gateway remembers of the last minutes of any axes, in one plot: axes and points to choose, zoom, cursors, a table as CSV.
 // In: GET /recorder/trends, asked for what is seen, at most every second and soon after each zoom. Out: a plot that a reload does not empty.
 import { midSentence, t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -183,7 +184,7 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         ))}
       </ul>
       <p class="where" role="status" data-field="trend-rate">
-        {fault.value || (doc ? doc.axes.map((a) => `${a.axis} ${rateWords(a.rate_hz)}`).join(' · ') : t('Waiting for the gateway.'))}
+        {fault.value ? marked(fault.value) : (doc ? doc.axes.map((a) => `${a.axis} ${rateWords(a.rate_hz)}`).join(' · ') : t('Waiting for the gateway.'))}
         {!follow.value && !fault.value && ` · ${t('held: choose a time to follow again')}`}
       </p>
       <CursorTable view={v} curves={curves} read={(c, instant) => readAt(drawn.current.at, drawn.current.columns[curves.indexOf(c)] ?? [], instant)} clock={(instant) => instantText(instant, 1)} />

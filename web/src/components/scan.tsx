@@ -1,6 +1,7 @@
 // Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
 // Never adds a drive by itself, and never begins to look by itself.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
+import { marked } from './marked';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
@@ -79,7 +80,7 @@ export function ScanSection({ line }: { line: string }) {
           )}
         </div>
         <p class="result result-refused" role="status">
-          <span>{fault.value}</span>
+          <span>{marked(fault.value)}</span>
         </p>
         {r && r.found.length > 0 && (
           <ul aria-label={t('Drives found')}>
@@ -91,7 +92,7 @@ export function ScanSection({ line }: { line: string }) {
                   </h3>
                   <span class="where">{f.known_as ? t('is the drive {known_as}', { known_as: f.known_as }) : t('not in the site yet')}</span>
                 </div>
-                {f.text && <p class="why">{f.text}</p>}
+                {f.text && <p class="why" {...gatewayWords}>{f.text}</p>}
               </li>
             ))}
           </ul>

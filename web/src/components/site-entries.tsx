@@ -1,6 +1,6 @@
 // Site entries: the form of a line, a drive or an axis of the draft. In: the draft, which form is open. Out: the draft, changed; nothing is sent from here.
 // Faults of the gateway's last check stand beside their field. What is typed in an open form stays while the page is elsewhere.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -117,7 +117,7 @@ export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
   switch (f.kind) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
-    case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
+    case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ ...gatewayWords, value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default: {
       const field = (

@@ -1,6 +1,7 @@
 // Site history: the states that were applied before, newest first, page by page. In: the draft, the door. Out: a list; a difference on demand; a
 // restore, which is staged and then checked and applied like every change. Changes of one's own are never dropped for it unasked.
 import { t } from '../language';
+import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { asProblem } from '../api/problem';
 import type { HistoryEntry, SiteDoor } from '../api/site';
@@ -15,6 +16,7 @@ import { notOffered } from './form';
 import { useLoaded } from './loaded';
 import { Section } from './section';
 import { DifferenceList } from './site-stage';
+import { refusal } from './told';
 
 const absent = (status: number) => status === 404 || status === 405 || status === 501;
 /** As many as are asked for at once. */
@@ -57,14 +59,14 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     try {
       shown.value = { revision: n, changes: differenceOf(draft.base.peek(), await door.old(n)) };
     } catch (error) {
-      draft.told.value = { tone: 'refused', text: capital(asProblem(error).words) };
+      draft.told.value = refusal(error);
     }
   };
   return (
     <Section title={t('Applied states')} class="site-history">
       <div class="card" data-field="history">
         {why ? (
-          <p class="empty">{why}</p>
+          <p class="empty">{marked(why)}</p>
         ) : list.value.length === 0 ? (
           <p class="empty">{t('No earlier state is kept.')}</p>
         ) : (
@@ -121,7 +123,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                   {t('Older')}
                 </button>
               )}
-              {older.value.why && <span class="tell result-refused">{older.value.why}</span>}
+              {older.value.why && <span class="tell result-refused">{marked(older.value.why)}</span>}
             </div>
           </>
         )}

@@ -1,6 +1,7 @@
 // Site HMI: how another machine reads an axis, told with its live words: host, port, unit, addresses, a line to try it with. In: the axis. Out: text.
 // Asks for the same words as the Modbus door answers, once a second while the page is seen. Nothing is written.
 import { useSignal } from '@preact/signals';
+import { marked } from './marked';
 import { useEffect } from 'preact/hooks';
 import { MappingDoor, type Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
@@ -90,7 +91,7 @@ export function ReadFromHmi({ axis }: { axis: string }) {
         </tbody>
       </table>
       <p class="form-told" role="status">
-        {why.value || raw.fault}
+        {marked(why.value || raw.fault)}
       </p>
       <p class="form-foot">
         <code data-field="mbpoll">{line}</code>

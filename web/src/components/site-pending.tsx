@@ -3,14 +3,13 @@
 import { t } from '../language';
 import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import type { Pending, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
-import { capital } from '../state/commander';
 import { pendingWords } from '../text/site-files';
 import { quiet, Tell, type Told } from './form';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
+import { tellOf } from './told';
 
 const lookAgain_ms = 10_000;
 /** Counts up when this page has laid one down. */
@@ -33,13 +32,7 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
     return () => clearInterval(timer);
   }, [door, may]);
   const drop = async () => {
-    told.value = { tone: 'busy', text: t('Dropping it …') };
-    try {
-      await door.dropPending();
-      told.value = { tone: 'good', text: t('Dropped: the next start goes on with the database as it is.') };
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-    }
+    await tellOf(told, t('Dropping it …'), () => door.dropPending(), t('Dropped: the next start goes on with the database as it is.'));
     asked.value = false;
     await look().catch(() => undefined);
   };

@@ -1,17 +1,17 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { checkedWords, stagerOf, type SiteDraft } from '../state/site-draft';
 import { persisted } from '../state/persisted';
-import { barred } from '../state/session';
 import { differenceWords, sameDocument, type Difference } from '../text/site';
 import type { StageDiff } from '../api/site';
 import { parseNumber } from '../text/number';
 import { Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { Icon } from './icon';
+import { KeepOrBack } from './keep-or-back';
 import { keepBarred, useTrialRest } from './trial';
 import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
 
@@ -38,7 +38,6 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
   const no = useBarred('engineer');
   const stage = draft.stage.value;
   const rest = useTrialRest(draft);
-  const keep = barred(keepBarred(draft, session, tab.name.value));
 
   const changes = draft.changes.value;
   const theirs = draft.theirs.value;
@@ -65,13 +64,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
           {appliedWords(stage, tab.name.value, keepBarred(draft, session, tab.name.value))}
         </p>
         <div class="form-foot">
-          <button type="button" class="button primary" disabled={busy} {...keep} onClick={() => void draft.confirm()}>
-            {t('Keep')}
-          </button>
-          <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
-            {t('Roll back now')}
-          </button>
-          <Tell told={draft.told.value} field="stage-told" />
+          <KeepOrBack draft={draft} primary />
         </div>
         {(stage.diff?.length ?? 0) > 0 && <DifferenceList list={stage.diff ?? []} label={t('What was changed')} />}
         {changes.length > 0 && (
@@ -138,7 +131,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
         <ul class="stage-faults" aria-label={t('Faults')}>
           {list.slice(0, 50).map((f) => (
             <li key={f.pointer + f.text} class="fault-text">
-              <span class="mono">{f.pointer}</span> {f.text}: {f.remedy}
+              <span class="mono">{f.pointer}</span> <span {...gatewayWords}>{f.text}: {f.remedy}</span>
             </li>
           ))}
         </ul>

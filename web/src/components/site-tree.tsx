@@ -1,9 +1,10 @@
 // Site tree: lines, the drives on each, the axes of each, with what they are now beside what the draft says. In: the draft, the store. Out: forms that
 // change the draft; nothing is sent from here. A line can be folded; one with a fault or an open form below it is never hidden.
 import { useSignal, type Signal } from '@preact/signals';
+import { marked } from './marked';
 import type { ComponentChildren } from 'preact';
 import { useGateway } from '../gateway';
-import { midSentence, t } from '../language';
+import { midSentence, t, theirs } from '../language';
 import { axisPath, linePath } from '../router';
 import type { SiteDraft } from '../state/site-draft';
 import { stateWord, type Word } from '../text/axis';
@@ -45,7 +46,7 @@ export function SiteTree({ draft, extra, below }: Pick<Tree, 'draft' | 'extra' |
   const checked = draft.checked.value;
   const faults = draft.faults.value.flatMap((f): Fault[] => {
     const place = checked ? placeOf(f.pointer, checked) : null;
-    return place ? [{ ...place, text: `${f.text}; ${f.remedy}` }] : [];
+    return place ? [{ ...place, text: theirs(`${f.text}; ${f.remedy}`) }] : [];
   });
   const tree: Tree = { draft, site, faults, extra, below };
   const { lines, lostDrives, lostAxes } = treeOf(site);
@@ -195,7 +196,7 @@ function Node({ room, e, tree, fold, children }: NodeProps) {
       </div>
       {own.map((f) => (
         <p key={f.key} class="form-told is-fault">
-          {f.key.replaceAll('_', ' ')}: {f.text}
+          {f.key.replaceAll('_', ' ')}: {marked(f.text)}
         </p>
       ))}
       {removing.value && (

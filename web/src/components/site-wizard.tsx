@@ -6,7 +6,6 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { barred } from '../state/session';
 import { persisted } from '../state/persisted';
 import type { SiteDraft } from '../state/site-draft';
 import { checkEntry, fieldsOf, freeName, freeNumber, sameDocument, withEntry, type Room, type Texts } from '../text/site';
@@ -18,7 +17,8 @@ import { ScanPanel } from './site-scan';
 import { EntryField } from './site-entries';
 import { ReadFromHmi } from './site-hmi';
 import { SiteStage } from './site-stage';
-import { keepBarred, useTrialRest } from './trial';
+import { KeepOrBack } from './keep-or-back';
+import { useTrialRest } from './trial';
 
 const kinds = [
   { id: 'twin', text: t('No drive yet: simulate it'), uri: 'twin' },
@@ -167,15 +167,12 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
 
 /** The question whether the site stays, asked when the axis has moved for the first time; before that it can be answered, too. */
 function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
-  const { session, store, tab } = useGateway();
+  const { store } = useGateway();
   const entry = store.axis(axis)?.value.data;
   const moved = useSignal(false);
   const rest = useTrialRest(draft);
   if (entry?.moving) moved.value = true;
   const asks = moved.value && entry?.moving === false;
-  const busy = draft.told.value.tone === 'busy';
-  const no = barred(session.mayNot('engineer'));
-  const keep = barred(keepBarred(draft, session, tab.name.value));
   return (
     <section class={`card stage is-applied${asks ? ' is-asking' : ''}`} aria-label={t('Keep the site?')} data-field="keep-after-move" data-asks={asks}>
       <p class="stage-count" role="status">
@@ -183,13 +180,7 @@ function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
         {asks ? t('{axis} has moved. Was it right? Then keep the site; else it is rolled back by itself in {n} s.', { axis, n: rest }) : t('The site is on trial, for {n} s more: move {axis} first, then you are asked whether it stays.', { axis, n: rest })}
       </p>
       <div class="form-foot">
-        <button type="button" class={`button${asks ? ' primary' : ''}`} disabled={busy} {...keep} onClick={() => void draft.confirm()}>
-          {t('Keep')}
-        </button>
-        <button type="button" class="button" disabled={busy} {...no} onClick={() => void draft.rollBack()}>
-          {t('Roll back now')}
-        </button>
-        <Tell told={draft.told.value} field="stage-told" />
+        <KeepOrBack draft={draft} primary={asks} />
       </div>
     </section>
   );

@@ -5,7 +5,6 @@ import { barred } from '../state/session';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import { SnapshotDoor, type RestoreReport, type Snapshot } from '../api/snapshots';
 import type { AxisParameter, MaybeValue } from '../api/types';
 import { useGateway } from '../gateway';
@@ -19,6 +18,7 @@ import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { AxisName } from './name';
 import { Section } from './section';
+import { tellOf } from './told';
 
 const plain = { allowed: null };
 const gone = (status: number) => status === 404 || status === 405 || status === 501;
@@ -47,14 +47,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
 
   /** What was done is done, whether or not the list can be read after it. */
   const again = () => load().catch(() => undefined);
-  const tell = async (busy: string, act: () => Promise<string>) => {
-    told.value = { tone: 'busy', text: busy };
-    try {
-      told.value = { tone: 'good', text: await act() };
-    } catch (error) {
-      told.value = { tone: 'refused', text: capital(asProblem(error).words) };
-    }
-  };
+  const tell = (busy: string, act: () => Promise<string>) => tellOf(told, busy, act, (words) => words);
   const save = () => {
     wrong.value = name.value.trim() === '';
     if (wrong.value) return;

@@ -1,7 +1,6 @@
 // Tokens: access for programs, with a role and an end. In: GET /tokens (the own ones; an administrator's: all). Out: made and deleted tokens.
 // The secret is shown once, right after it was made, and is kept nowhere in the page.
 import { useState } from 'preact/hooks';
-import { asProblem } from '../api/problem';
 import type { MadeToken, Token } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
@@ -9,6 +8,7 @@ import { barred, roles, roleWord } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { refusal } from './told';
 
 const ends = [
   { value: '86400', text: t('in a day') },
@@ -41,7 +41,7 @@ export function Tokens() {
       setName((now) => (now === name ? '' : now));
       await list();
     } catch (error) {
-      setTold({ tone: 'refused', text: asProblem(error).words });
+      setTold(refusal(error));
     }
   };
   const remove = async (k: Token) => {
@@ -53,7 +53,7 @@ export function Tokens() {
       setTold({ tone: 'good', text: t('Deleted {name}.', { name: k.name }) });
       await list();
     } catch (error) {
-      setTold({ tone: 'refused', text: asProblem(error).words });
+      setTold(refusal(error));
     }
   };
   const copy = async (secret: string) => {

@@ -44,6 +44,9 @@ export function t(text: string, values?: Values): string {
   return values === undefined ? said : said.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
 }
 
+/** A word that is made of a name of the API, such as `fault_cleared` or a condition of a twin: which there are is listed in scripts/language-lists.mjs. */
+export const word = (english: string): string => table[english] ?? english;
+
 /** A sentence with elements in it: t() whose values may be links, marks or fields. Out: what Preact draws, in the order of the language. */
 export function rich<T>(text: string, values: Readonly<Record<string, T>>): (string | T)[] {
   return (table[text] ?? text).split(/(\{\w+\})/).map((part) => {
@@ -57,6 +60,10 @@ export const midSentence = (words: string): string => (spoken === 'en' && !/^(Mo
 
 /** Upon an element that shows what the gateway, a catalogue or a drive says itself: English in every language, and read so by a screen reader. */
 export const gatewayWords = { lang: 'en' } as const;
+
+/** The same where such words become a piece of a sentence of the page: they stand between the signs that Unicode has for a foreign piece of text, which
+ * no reader sees, and which `marked()` turns into that attribute where the sentence is drawn. */
+export const theirs = (words: string): string => (spoken === 'en' || words === '' ? words : `\u2068${words}\u2069`);
 
 /** For tests: the sentences of a table, or English again. */
 export function speak(l: Language, sentences: Table = {}): void {

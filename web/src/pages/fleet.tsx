@@ -1,6 +1,7 @@
 // Fleet: every gateway of the domain and its axes, as they tell them, and commands to each. In: GET /fleet, once a second while the page is seen.
 // Out: a card for each gateway; commands by DDS, each with its one result. Never commands by itself; old words are greyed and say how old they are.
 import { useSignal } from '@preact/signals';
+import { marked } from '../components/marked';
 import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Command, FleetAxis, FleetGateway } from '../api/types';
@@ -57,7 +58,7 @@ export function FleetPage() {
   return (
     <main class="page fleet">
       <h1 tabIndex={-1}>{t('Fleet')}</h1>
-      {fault.value && <p class="card form" role="status" data-field="fleet-fault">{fault.value}</p>}
+      {fault.value && <p class="card form" role="status" data-field="fleet-fault">{marked(fault.value)}</p>}
       {!known && !fault.value && <Empty text={awayWords(connection) || waiting} />}
       {known && !known.enabled && <Empty text={t('This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true.')} />}
       {known?.enabled && (

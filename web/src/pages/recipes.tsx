@@ -1,6 +1,7 @@
 // Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
+import { marked } from '../components/marked';
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
@@ -96,7 +97,7 @@ export function RecipesPage() {
         </button>
       </form>
       <p class="result result-refused" role="status">
-        <span>{fault.value}</span>
+        <span>{marked(fault.value)}</span>
       </p>
     </main>
   );
@@ -160,7 +161,7 @@ export function RecipePage({ name }: { name: string }) {
       result.value = nobody.length > 0 ? { tone: 'partly', text: t('Saved. But {nobody}', { nobody: unknownWords(nobody) }) } : { tone: 'good', text: t('Saved.') };
     } else if (!outcome.clash) {
       faults.value = (outcome.problem.document.faults ?? []) as Fault[];
-      result.value = { tone: 'refused', text: capital(outcome.problem.message) };
+      result.value = { tone: 'refused', text: capital(outcome.problem.words) };
     }
   };
   /** Goes on from what somebody else has made of it. */
@@ -240,7 +241,7 @@ export function RecipePage({ name }: { name: string }) {
             </div>
           </Gate>
           <p class={`result result-${result.value.tone}`} role="status">
-            <span>{clash.value ? t('{text} What you typed is kept.', { text: clash.value.text }) : unsaved && result.value.tone !== 'refused' ? t('Not saved yet.') : result.value.text}</span>
+            <span>{clash.value ? t('{text} What you typed is kept.', { text: clash.value.text }) : unsaved && result.value.tone !== 'refused' ? t('Not saved yet.') : marked(result.value.text)}</span>
           </p>
           {clash.value && (
             <div class="theirs card form" role="group" aria-label={t('Somebody else\'s change')} data-field="recipe-clash">
@@ -280,7 +281,7 @@ export function RecipePage({ name }: { name: string }) {
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
                       .map((f) => (
-                        <p key={f.pointer + f.text} class="step-fault">
+                        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
                           {f.pointer}: {f.text}. {f.remedy}.
                         </p>
                       ))}

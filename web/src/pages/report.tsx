@@ -1,7 +1,8 @@
 // Commissioning report: one document to print and sign: the site and its wiring, parameters beside snapshot and default, the register list with its
 // hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
 // opened and again by the button. Out: a page that the browser prints or saves as PDF. Nothing is read from a drive for it.
-import { t } from '../language';
+import { gatewayWords, t } from '../language';
+import { marked } from '../components/marked';
 import { useSignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Rehearsal } from '../api/fail-safe';
@@ -17,7 +18,6 @@ import { Overlay } from '../components/recorder-captures';
 import { useGateway } from '../gateway';
 import { persisted } from '../state/persisted';
 import { markOf, unitOf } from '../text/axis';
-import { cellRow } from '../text/fail-safe';
 import type { MappingPoint } from '../text/mapping';
 import { formatExact } from '../text/number';
 import { steppedText, unitWords, valueText } from '../text/parameter';
@@ -26,6 +26,7 @@ import { captureAbout, triggerWords } from '../text/recorder';
 import { comparedSentence, parameterReport, type ParameterReport, type SnapshotValues } from '../text/report';
 import { dateTime } from '../text/time';
 import type { MaybeValue } from '../api/types';
+import { CellOf } from '../components/fail-safe';
 
 const fields = { machine: persisted('report.machine', '', 'browser'), place: persisted('report.place', '', 'browser'), who: persisted('report.who', '', 'browser'), notes: persisted('report.notes', '', 'browser') };
 const mostCaptures = 3;
@@ -82,7 +83,7 @@ export function ReportPage() {
           <span class="where">{t('Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.')}</span>
         </div>
       </div>
-      {!w && <p class="where" role="status">{why}</p>}
+      {!w && <p class="where" role="status">{marked(why)}</p>}
       {w && (
         <article class="report" data-field="report">
           <dl class="report-facts">
@@ -153,7 +154,7 @@ export function ReportPage() {
                   {a.report.rows.map((r) => (
                     <tr key={r.id}>
                       <th scope="row" class="mono">{r.id}</th>
-                      <td>{r.name}</td>
+                      <td {...gatewayWords}>{r.name.replaceAll('_', ' ')}</td>
                       <td>{shown(r.now, r.unit)}</td>
                       <td>{shown(r.otherwise, r.unit)}</td>
                       <td>{r.snapshot === undefined ? '–' : shown(r.snapshot, r.unit)}</td>
@@ -192,20 +193,9 @@ export function ReportPage() {
                 {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.', { ended_at: dateTime(w.rehearsal.report.ended_at), who: w.rehearsal.report.who, site_revision: w.rehearsal.report.site_revision, on: w.rehearsal.report.on })}{String(w.rehearsal.report.site_revision) !== String(store.siteRevision.value) && <> {t('The site has changed since: rehearse again.')}</>}
               </p>
               <Table head={[t('Axis'), t('Cause'), t('Action'), t('Gateway acted'), t('Motor slower'), t('Stood'), t('Way')]}>
-                {w.rehearsal.report.cells.map((c) => {
-                  const r = cellRow(c, store.axis(c.axis)?.peek()?.data.unit ?? '');
-                  return (
-                    <tr key={r.key}>
-                      <th scope="row">{r.axis}</th>
-                      <td>{r.cause}</td>
-                      <td>{r.action}</td>
-                      <td class="num">{r.acted}</td>
-                      <td class="num">{r.slower}</td>
-                      <td class="num">{r.stood}</td>
-                      <td class="num">{r.way}</td>
-                    </tr>
-                  );
-                })}
+                {w.rehearsal.report.cells.map((c) => (
+                  <CellOf key={`${c.axis} ${c.cause}`} cell={c} unit={store.axis(c.axis)?.peek()?.data.unit ?? ''} />
+                ))}
               </Table>
             </>
           ) : (

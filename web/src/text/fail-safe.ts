@@ -1,5 +1,5 @@
 // Fail-safe in words: causes, actions, what an axis has named, and the cells of a rehearsal. In: documents of the gateway. Out: texts. Pure.
-import { midSentence, t } from '../language';
+import { midSentence, t, theirs } from '../language';
 import type { Action, Cell, Choice, FailSafeRow, Matrix } from '../api/fail-safe';
 import { localFigures } from './number';
 
@@ -28,7 +28,7 @@ export const actionChoices = (cause: Matrix['causes'][number]) => [
 
 /** What stands below a cause: when it is, and what its default spares. */
 export function causeHint(cause: Matrix['causes'][number]): string {
-  const when = cause.description.replace('watchdog_ms', 'the time below');
+  const when = theirs(cause.description.replace('watchdog_ms', 'the time below'));
   return cause.default_endless === cause.default_to_a_target ? when : t('{when}. By default a motion to a target goes on.', { when });
 }
 
@@ -45,7 +45,7 @@ export function namedWords(row: FailSafeRow): string {
 const ofDrive = { quick_stop: t('quick stop'), disable: t('switched off'), fault: t('fault') } as const;
 /** What its drive does by itself, in one line. */
 export function watchdogWords({ drive_watchdog: w }: FailSafeRow): string {
-  if (!w.available) return t('The drive has no watchdog of its own. {description}', { description: w.description });
+  if (!w.available) return t('The drive has no watchdog of its own. {description}', { description: theirs(w.description) });
   if (w.state === 'armed' && w.action !== null) return t('The drive\'s own watchdog: {n} after {time_ms} ms without the gateway.', { n: ofDrive[w.action], time_ms: w.time_ms ?? 0 });
   if (w.state === 'off') return t('The drive\'s own watchdog is switched off (watchdog_action).');
   if (w.state === 'refused') return t('The drive does not take a watchdog of its own: without the gateway it goes on.');

@@ -1,7 +1,7 @@
 // The hand of a twin in words: which of its conditions belong to which axis of the drive, and which to the whole drive. In: the items as the gateway
 // describes them, the axes of the drive by channel, the channel one looks from. Out: groups with labels. Pure. Channel k's conditions are named
 // "axisK.NAME"; those of channel 1 stand bare beside them. A bare name that means the same as "axis1.NAME" is left out.
-import { t } from '../language';
+import { t, word } from '../language';
 import type { HandItem } from '../api/types';
 import { formatNumber, decimalsOf } from './number';
 
@@ -27,25 +27,22 @@ const split = (name: string): { channel: number; base: string } => {
   const m = /^axis(\d+)\.(.+)$/.exec(name);
   return m ? { channel: Number(m[1]), base: m[2] as string } : { channel: 0, base: name };
 };
-/** What every family has; what one adds by itself keeps its own name. */
-const common: Readonly<Record<string, string>> = {
-  power: t('Power'),
-  silent: t('Silent'),
-  stall: t('Stall'),
-  inputs: t('Inputs'),
-  limit_positive: t('Limit positive'),
-  limit_negative: t('Limit negative'),
-  home_switch: t('Home switch'),
-  temperature: t('Temperature'),
-  inject_error: t('Inject error'),
-  position: t('Position'),
-  load: t('Load'),
-  following_error: t('Following error'),
+/** Names that say too little by themselves, or mean something else elsewhere on the page. */
+const odd: Readonly<Record<string, string>> = {
+  can_objects: t('CAN objects'),
+  eprom_writes: t('EPROM writes'),
+  gone: t('Gone from the fleet'),
+  input: t('One input'),
+  jog: t('Jogged by its panel'),
+  lag_ms: t('Lag, ms'),
+  nmt0: t('NMT initialisations'),
+  ptc_1: t('PTC 1 hot'),
+  ptc_2: t('PTC 2 hot'),
 };
 export const handLabel = (name: string): string => {
   const { base } = split(name);
   const words = base.replaceAll('_', ' ');
-  return common[base] ?? words.charAt(0).toUpperCase() + words.slice(1);
+  return odd[base] ?? word(words.charAt(0).toUpperCase() + words.slice(1));
 };
 
 /** `own`: the channel of the axis whose page it is; null: the page of the drive. */

@@ -1,7 +1,7 @@
 // Options of a family in words and fields: what each may say, what was typed for them, what an entry gets of it, what an increment is.
 // In: the family's catalogue, text. Out: fields, faults, the members of `options`. Pure. What the family does not know stays until it is taken away;
 // the gateway checks all of it again.
-import { t } from '../language';
+import { t, theirs } from '../language';
 import type { components } from '../api/schema';
 import { formatExact, parseNumber, typedNumber } from './number';
 import type { FieldSpec, Room, Site, Texts } from './site';
@@ -42,7 +42,7 @@ export function optionField(o: OptionSpec, room: Room): FieldSpec {
   const own = o.of.includes(room === 'lines' ? 'line' : 'drive');
   const whole = o.min !== undefined || o.max !== undefined;
   const standard = o.default === null || o.default === undefined ? '' : `${typeof o.default === 'number' ? formatExact(o.default) : o.default}${o.unit ? ` ${o.unit}` : ''}`;
-  const hint = [own ? '' : room === 'lines' ? t('Of all twins of this line') : t('Of its twin'), o.description, rangeOf(o), standard ? t('default {standard}', { standard }) : t('not given: as described')].filter(Boolean).join('. ');
+  const hint = [own ? '' : room === 'lines' ? t('Of all twins of this line') : t('Of its twin'), theirs(o.description), rangeOf(o), standard ? t('default {standard}', { standard }) : t('not given: as described')].filter(Boolean).join('. ');
   const f: FieldSpec = { key: optionPrefix + o.name, label: label(o), kind: o.values ? 'choice' : whole ? 'integer' : 'text', hint: `${hint}.` };
   if (o.min !== undefined) f.min = o.min;
   if (o.max !== undefined) f.max = o.max;

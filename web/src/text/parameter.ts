@@ -1,7 +1,7 @@
 // A parameter in words: its range, its value, and what a person typed for it. In: the parameter as the gateway describes it.
 // Out: text, or a value of the right type, or why it is none, with the range. Never changes a value to make it fit.
 import type { AxisParameter, MaybeValue, Value } from '../api/types';
-import { t } from '../language';
+import { t, theirs } from '../language';
 import { formatExact, formatNumber, parseNumber, typedNumber } from './number';
 
 type Described = Pick<AxisParameter, 'type' | 'min' | 'max' | 'unit' | 'allowed'> & Partial<Pick<AxisParameter, 'fields' | 'meanings'>>;
@@ -164,9 +164,9 @@ export const addressingWords = (axis: string, p: Pick<AxisParameter, 'id' | 'nam
 
 /** What a parameter is, from the catalogue: what the manual says, what its values mean, and what writing it does besides. */
 export function helpText(p: Pick<AxisParameter, 'description' | 'allowed' | 'addressing' | 'live' | 'access'>): string {
-  const meanings = (p.allowed ?? []).filter((a) => a.meaning && a.meaning !== String(a.value)).map((a) => t('{value} is {meaning}', { value: a.value, meaning: a.meaning }));
+  const meanings = (p.allowed ?? []).filter((a) => a.meaning && a.meaning !== String(a.value)).map((a) => t('{value} is {meaning}', { value: a.value, meaning: theirs(a.meaning) }));
   return [
-    p.description.replaceAll('_', ' '),
+    theirs(p.description.replaceAll('_', ' ')),
     meanings.length > 0 ? `${meanings.join('; ')}.` : '',
     p.access === 'R' ? t('It can only be read.') : p.access === 'W' ? t('It can only be written.') : '',
     p.addressing ? t('The drive is reached by it: written, the drive may not be found again before the site says the same.') : '',

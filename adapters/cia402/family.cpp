@@ -6,18 +6,13 @@
 #include "adapters/cia402/decoder.hpp"
 #include "adapters/cia402/parameters.hpp"
 #include "adapters/cia402/twin/twin.hpp"
+#include "gateway/drive/scan_range.hpp"
 
 namespace axisgate {
 namespace cia402_drive {
 
 ScanPlan scan_nodes(const ScanWish& wish) {
-    ScanPlan plan;
-    for (const std::string* end : {&wish.from, &wish.to})
-        if (!end->empty() && plan.fault.empty()) plan.fault = check_address(*end);
-    const int from = wish.from.empty() ? 1 : node_of(wish.from), to = wish.to.empty() ? 127 : node_of(wish.to);
-    if (plan.fault.empty() && from > to) plan.fault = "from is above to";
-    for (int n = from; n <= to && plan.fault.empty(); ++n)
-        plan.addresses.push_back(std::to_string(n));
+    ScanPlan plan = drive::scan_range(wish, 1, 127, check_address);
     plan.at_once = 8;
     return plan;
 }

@@ -149,7 +149,10 @@ bool Feedback::learn_poll(const std::string& data, Turn& t) {
         note(Severity::info, "program", 0,
              fmt::format("{}: a program runs in it already: it is left alone; quick stop ends it, halt stops its motion only", name()), t);
     }
-    drive_.poll.soon(t.now + drive_.pace.period(drive_.bus.timing.poll_period));
+    // Each answer gives the line a pause. Who looks closely counts from the question, as long as the line is quicker than he.
+    const Duration usual = drive_.bus.timing.poll_period, period = drive_.pace.period(usual);
+    const Instant rhythm = read_at_ + period;
+    drive_.poll.soon(period < usual && t.now <= rhythm ? rhythm : t.now + period);
     show(t);
     drive_.program.watch(t);
     drive_.jobs.watch(t);

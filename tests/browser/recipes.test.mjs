@@ -162,7 +162,7 @@ test('a line is searched for drives', async () => {
   assert.match(await page.locator('[data-found="5"]').innerText(), /is the drive feeder/);
   await page.getByLabel('First address').fill('4');
   await page.getByRole('button', { name: 'Look for drives' }).click();
-  await page.getByText('4 is no node ID').waitFor();
+  await page.getByText('4 is not an address').waitFor();
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });

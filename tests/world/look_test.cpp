@@ -6,23 +6,6 @@ namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-/// How often each axis was told, by what is said of its age.
-struct Tellings final : Tape {
-    std::map<AxisId, std::uint64_t> told;
-    std::map<AxisId, Instant> last;
-
-private:
-    void take(const FlightRecord& r) override {
-        Tape::take(r);
-        if (r.kind != FlightKind::picture) return;
-        const auto p = unpack<PictureRecord>(r.payload);
-        const AxisId axis{r.index};
-        if (!p || !p->current || r.at - p->age == last[axis]) return;
-        last[axis] = r.at - p->age;
-        ++told[axis];
-    }
-};
-
 class Looked : public testing::TestWithParam<Subject> {};
 INSTANTIATE_TEST_SUITE_P(Families, Looked, testing::ValuesIn(subjects()), name_of_subject);
 

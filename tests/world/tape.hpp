@@ -2,6 +2,7 @@
 // In: records of a world's engine. Out: bytes, a report. Never loses one: its bounds are for the tests that ask for them.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -35,6 +36,23 @@ protected:
     void take_site(std::shared_ptr<const SiteInput> input, Instant now) override {
         const std::string packed = pack_site(*input);
         take({FlightKind::site, 0xFFFF, now, packed});
+    }
+};
+
+/// How often each axis was told, by what is said of its age.
+struct Tellings final : Tape {
+    std::map<AxisId, std::uint64_t> told;
+    std::map<AxisId, Instant> last;
+
+private:
+    void take(const FlightRecord& r) override {
+        Tape::take(r);
+        if (r.kind != FlightKind::picture) return;
+        const auto p = unpack<PictureRecord>(r.payload);
+        const AxisId axis{r.index};
+        if (!p || !p->current || r.at - p->age == last[axis]) return;
+        last[axis] = r.at - p->age;
+        ++told[axis];
     }
 };
 

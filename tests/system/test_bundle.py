@@ -103,10 +103,11 @@ def test_a_gateway_that_asks_for_a_sign_in_is_asked_nothing(folder):
     with Gateway(folder, harness.DEMO, "--set", "users.local_role=none") as g:
         out = folder / "b.tar"
 
-        def made():  # the site of a first start is stored behind its being ready
+        def made():  # the site of a first start is stored behind its being ready, its events behind that
             run("bundle", str(out), "--data", str(folder / "data"), "--set", "http.bind=" + ":".join(g.http), check=0)
-            return "site.json" in members(out)
-        until(made, 20, "the site is stored")
+            files = members(out)
+            return "site.json" in files and files.get("events.jsonl")
+        until(made, 20, "the site and its first events are stored")
         files = members(out)
     assert "axes.json" not in files and "asks for a sign-in" in files["README.txt"].decode()
     assert "site.json" in files and io.BytesIO(files["events.jsonl"]).readline()

@@ -102,16 +102,18 @@ double write_p99_us(Tape* tape) {
     test::World w(1);
     const auto ids = turning(w, axes, tape);
     std::vector<double> us;
-    for (int i = 0; i < writes; ++i) {
+    int not_taken = 0;
+    for (int i = 0; i < writes && not_taken < 10; ++i) {
         w.run_for(1ms);
-        Command c;
-        c.axis = ids[static_cast<std::size_t>(i) % ids.size()];
-        c.body = turn(100 + i % 100);
+        const AxisId axis = ids[static_cast<std::size_t>(i) % ids.size()];
         const double before = processor_seconds();
-        w.engine.on_command(std::move(c), w.now);
+        const Ticket ticket = w.command(axis, turn(100 + i % 100));
         us.push_back((processor_seconds() - before) * 1e6);
+        const Result* r = w.wait(ticket, 1s);
+        if (!r || !good(*r)) std::printf("    a write was not taken: %s\n", r ? r->text.c_str() : "no result"), ++not_taken;
         if (tape) tape->empty();
     }
+    if (not_taken > 0) return 1e9;  // what is refused costs nothing: that would flatter
     const auto at = us.begin() + static_cast<std::ptrdiff_t>(us.size() * 99 / 100);
     std::ranges::nth_element(us, at);
     return *at;

@@ -1,5 +1,7 @@
 // Conformance: how often a twin that is looked at closely tells of itself.
 // In: a line with one drive. Out: tellings per second; what the wire takes for its frames is the limit.
+#include <algorithm>
+
 #include "tests/conformance/laws.hpp"
 #include "tests/world/tape.hpp"
 
@@ -7,11 +9,14 @@ namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-class LookLaws : public Laws {};
+class LookLaws : public Laws {
+protected:
+    Tellings tape;
+    void TearDown() override { world->engine.set_tap(nullptr); }  // the world is the last to go
+};
 INSTANTIATE_TEST_SUITE_P(Families, LookLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 TEST_P(LookLaws, ATwinTellsAThousandTimesASecondWhereItsWireLetsIt) {
-    Tellings tape;
     ASSERT_NO_FATAL_FAILURE(start());
     world->engine.set_tap(&tape);
     ASSERT_EQ(world->engine.look_closely({a1}, 1ms, world->now + 20s, world->now), "");
@@ -22,7 +27,6 @@ TEST_P(LookLaws, ATwinTellsAThousandTimesASecondWhereItsWireLetsIt) {
     const auto line = world->engine.line_report(site->line_ids[0], world->now);
     const double load = std::max(line.status.load, line.twin_status.load);
     EXPECT_TRUE(rate >= 990 || load > 0.85) << rate << " Hz, load of the line " << load;
-    world->engine.set_tap(nullptr);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Tape: what a recorder keeps of a world: both of its logs, and the replay of them.
+// Tape: what a recorder keeps of a world: both of its logs, and the replay of them; Tellings: how often its axes told of themselves.
 // In: records of a world's engine. Out: bytes, a report. Never loses one: its bounds are for the tests that ask for them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Whole: every part of the page in one language at seven widths, with its folds, forms, dialogs and modes: every text is seen whole and is in the reader's
+// Whole: every part of the page in one language at eight widths, with its folds, forms, dialogs and modes: every text is seen whole and is in the reader's
 // words, the page never scrolls sideways, and the stop of all can be pressed. In: the language; lib/cut.mjs and lib/said.mjs say what is wrong. Out: a test
 // for each kind of screen; pictures. A file for each language, since each goes through the whole page, and loads each part once for all that is judged.
 import assert from 'node:assert/strict';

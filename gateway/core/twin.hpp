@@ -3,6 +3,8 @@
 // Never includes an adapter or its packing code: it is a second reading of the manual. No clock, thread, socket or log.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -50,10 +52,30 @@ struct TwinMechanics {
     bool powered = false;
 };
 
+/// Which frames of a CAN bus a twin listens to at all, as the acceptance filters of a CAN controller: those with (id & mask) == value for
+/// one of the filters. Without a filter every frame. It spares a busy bus of many nodes a call per frame and node.
+struct Acceptance {
+    struct Filter {
+        std::uint32_t mask = 0;
+        std::uint32_t value = 0;
+    };
+    std::array<Filter, 3> filters{};
+    std::size_t size = 0;
+
+    [[nodiscard]] bool takes(std::uint32_t id) const noexcept {
+        for (std::size_t i = 0; i < size; ++i) {
+            if ((id & filters[i].mask) == filters[i].value) return true;
+        }
+        return size == 0;
+    }
+};
+
 /// Evaluates motion in closed form at the asked time: a twin that nobody asks costs nothing.
 struct Twin {
-    /// Frames of its Out alone are used. The twin hears every frame of its bus and ignores what is not for it.
+    /// Frames of its Out alone are used. The twin hears every frame that its acceptance takes, and ignores what is not for it.
     virtual void on_frame(const Frame& frame, Instant now, Out& out) = 0;
+    /// Asked after each call. Never narrower than what the twin answers to.
+    [[nodiscard]] virtual Acceptance acceptance() const noexcept { return {}; }
     virtual void on_deadline(Instant now, Out& out) = 0;
     [[nodiscard]] virtual Instant deadline() const = 0;
 

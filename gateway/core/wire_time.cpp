@@ -1,65 +1,100 @@
 // Wire time: see wire_time.hpp. In: frames. Out: bit counts.
-// Never allocates; one pass over the bits of the frame.
+// Never allocates; eight bits at a time.
 #include "gateway/core/wire_time.hpp"
+
+#include <array>
 
 namespace axisgate {
 namespace {
 
-/// Takes the bits of a frame as they are sent and keeps count, checksum and stuff bits.
+/// Bit stuffing: after five equal bits the sender inserts the opposite one, which begins the next run.
+struct Stuffing {
+    std::uint8_t last = 0, run = 1;  ///< as after the start of frame; a run of five has ended already
+    std::uint8_t count = 1;
+
+    constexpr void put(std::uint32_t bit) noexcept {
+        ++count;
+        run = bit == last ? static_cast<std::uint8_t>(run + 1) : std::uint8_t{1};
+        last = static_cast<std::uint8_t>(bit);
+        if (run < 5) return;
+        ++count;
+        last ^= 1;
+        run = 1;
+    }
+    [[nodiscard]] constexpr std::size_t state() const noexcept { return last * 4u + run - 1u; }
+};
+
+constexpr std::uint32_t crc_of_bit(std::uint32_t crc, std::uint32_t bit) noexcept {
+    return ((crc << 1) & 0x7FFFu) ^ (((crc >> 14) ^ bit) != 0 ? 0x4599u : 0u);
+}
+
+/// What eight bits do, from each state; `count` is what they grow by.
+struct OfBytes {
+    std::array<std::array<Stuffing, 256>, 8> stuffing{};
+    std::array<std::uint16_t, 256> crc{};
+
+    constexpr OfBytes() noexcept {
+        for (std::uint32_t byte = 0; byte < 256; ++byte) {
+            std::uint32_t c = byte << 7;
+            for (int i = 0; i < 8; ++i)
+                c = crc_of_bit(c, 0);
+            crc[byte] = static_cast<std::uint16_t>(c);
+            for (std::uint8_t state = 0; state < 8; ++state) {
+                Stuffing s{static_cast<std::uint8_t>(state / 4), static_cast<std::uint8_t>(state % 4 + 1), 0};
+                for (unsigned i = 8; i-- > 0;)
+                    s.put((byte >> i) & 1u);
+                stuffing[state][byte] = s;
+            }
+        }
+    }
+};
+constexpr OfBytes of_bytes;
+
+/// Takes the bits of a frame as they are sent, from behind the start of frame, and keeps count, checksum and stuff bits.
 class BitStream {
 public:
-    void put(std::uint32_t value, unsigned width) noexcept {
+    /// The low `width` bits, the highest first.
+    void put(std::uint64_t value, unsigned width) noexcept {
+        for (; width >= 8; width -= 8) {
+            const auto byte = static_cast<std::uint8_t>(value >> (width - 8));
+            crc_ = ((crc_ << 8) & 0x7FFFu) ^ of_bytes.crc[(crc_ >> 7) ^ byte];
+            stuff(byte);
+        }
         while (width-- > 0) {
-            const std::uint32_t bit = (value >> width) & 1u;
-            crc_ = ((crc_ << 1) & 0x7FFFu) ^ (((crc_ >> 14) ^ bit) != 0 ? 0x4599u : 0u);
-            stuff(bit);
+            const auto bit = static_cast<std::uint32_t>(value >> width) & 1u;
+            crc_ = crc_of_bit(crc_, bit);
+            stuffing_.put(bit);
         }
     }
     /// The checksum itself is stuffed like the rest but does not go into the checksum.
     void put_crc() noexcept {
-        const std::uint32_t crc = crc_;
-        for (unsigned i = 15; i-- > 0;)
-            stuff((crc >> i) & 1u);
+        stuff(static_cast<std::uint8_t>(crc_ >> 7));
+        for (unsigned i = 7; i-- > 0;)
+            stuffing_.put((crc_ >> i) & 1u);
     }
-    [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+    [[nodiscard]] std::uint32_t count() const noexcept { return stuffing_.count; }
     [[nodiscard]] std::uint16_t crc() const noexcept { return static_cast<std::uint16_t>(crc_); }
 
 private:
-    void stuff(std::uint32_t bit) noexcept {
-        ++count_;
-        run_ = bit == last_ ? run_ + 1 : 1;
-        last_ = bit;
-        if (run_ == 5) {  // the sender inserts the opposite bit, which begins the next run
-            ++count_;
-            last_ = bit ^ 1u;
-            run_ = 1;
-        }
+    void stuff(std::uint8_t byte) noexcept {
+        const Stuffing& then = of_bytes.stuffing[stuffing_.state()][byte];
+        stuffing_ = {then.last, then.run, static_cast<std::uint8_t>(stuffing_.count + then.count)};
     }
-    std::uint32_t crc_ = 0;
-    std::uint32_t count_ = 0;
-    std::uint32_t last_ = 2;  // no bit yet: the bus was idle, and idle bits are not part of the frame
-    unsigned run_ = 0;
+    std::uint32_t crc_ = 0;  // the start of frame, a 0, leaves it as it is
+    Stuffing stuffing_;
 };
 
 BitStream head_and_data(const Frame& f) noexcept {
     BitStream s;
-    const std::uint32_t remote = f.remote ? 1u : 0u;
-    const std::uint32_t length = f.size > 8 ? 8u : f.size;
-    s.put(0, 1);  // start of frame
-    if (f.extended) {
-        s.put((f.id >> 18) & 0x7FFu, 11);
-        s.put(3, 2);  // substitute remote request, identifier extension: both recessive
-        s.put(f.id & 0x3FFFFu, 18);
-        s.put(remote, 1);
-        s.put(0, 2);  // r1, r0
-    } else {
-        s.put(f.id & 0x7FFu, 11);
-        s.put(remote, 1);
-        s.put(0, 2);  // identifier extension dominant, r0
+    const std::uint64_t remote = f.remote ? 1u : 0u;
+    const std::uint64_t length = f.size > 8 ? 8u : f.size;
+    if (f.extended) {  // between the halves of the identifier, both recessive: substitute remote request, identifier extension; r1, r0
+        s.put((f.id >> 18 & 0x7FFull) << 27 | 3ull << 25 | (f.id & 0x3FFFFull) << 7 | remote << 6 | length, 38);
+    } else {  // identifier extension dominant, r0
+        s.put((f.id & 0x7FFull) << 7 | remote << 6 | length, 18);
     }
-    s.put(length, 4);
     if (!f.remote) {
-        for (std::uint32_t i = 0; i < length; ++i)
+        for (std::uint64_t i = 0; i < length; ++i)
             s.put(f.storage[i], 8);
     }
     return s;

@@ -15,6 +15,7 @@ struct TwinBus::Node {
     DriveId key = no_drive;
     std::unique_ptr<Twin> twin;
     SendQueue queue;
+    std::size_t ear = 0;       // in ears_
     std::size_t place = npos;  // in heap_
     static constexpr std::size_t npos = static_cast<std::size_t>(-1);
 };
@@ -35,7 +36,7 @@ TwinBus::Number TwinBus::find(DriveId key) const noexcept {
     return gone;
 }
 
-void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& memory, Instant now, Hearing hearing) {
+void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& memory, Instant now) {
     remove(key);
     processed_ = std::max(processed_, now);
     const auto free = std::ranges::find_if(nodes_, [](const auto& n) { return n == nullptr; });
@@ -44,7 +45,8 @@ void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& me
     nodes_[number] = std::make_unique<Node>();
     nodes_[number]->key = key;
     nodes_[number]->twin = std::move(twin);
-    ears_.push_back({hearing, number});
+    nodes_[number]->ear = ears_.size();
+    ears_.push_back({{}, number});
     nodes_[number]->twin->power_on(memory, processed_, scratch_);
     take(number, processed_);
 }
@@ -54,7 +56,9 @@ void TwinBus::remove(DriveId key) {
     if (number == gone) return;
     place(number, never);
     drop_sender(number);
-    std::erase_if(ears_, [number](const Ear& e) { return e.number == number; });
+    ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(nodes_[number]->ear));
+    for (std::size_t i = nodes_[number]->ear; i < ears_.size(); ++i)
+        nodes_[ears_[i].number]->ear = i;
     for (Transmission& t : wire_) {
         if (t.sender == number) t.sender = gone;
     }
@@ -93,7 +97,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
     take(number, processed_);
 }
 
-/// After every call to a twin: its frames go into its queue, its deadline into the heap.
+/// After every call to a twin: its frames go into its queue, its deadline into the heap, its filters to the ears.
 void TwinBus::take(Number number, Instant t, Duration at_least) {
     Node& node = *nodes_[number];
     const bool said = !scratch_.frames.empty();
@@ -106,6 +110,7 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
     }
     scratch_.clear();
     if (said) note_sender(number);
+    if (options_.kind == LineKind::can) ears_[node.ear].acceptance = node.twin->acceptance();
     const Instant due = node.twin->deadline();
     place(number, due == never ? never : std::max(due, t + at_least));
 }
@@ -399,7 +404,7 @@ void TwinBus::give_run(Transmission& x) {
 void TwinBus::deliver_to_twins(Instant t) {
     for (std::size_t i = 0; i < ears_.size(); ++i) {  // twins cannot reach the bus, so the list stays as it is
         const Ear& ear = ears_[i];
-        if ((done_.frame.id & ear.hearing.mask) != ear.hearing.value || ear.number == done_.sender) continue;
+        if (ear.number == done_.sender || !ear.acceptance.takes(done_.frame.id)) continue;
         nodes_[ear.number]->twin->on_frame(done_.frame, t, scratch_);
         take(ear.number, t);
     }

@@ -30,13 +30,6 @@ struct TwinBusOptions {
     bool converter = false;
 };
 
-/// Which frames of a CAN bus concern a node at all: those with (id & mask) == value. The default is every frame. A hint that spares a
-/// busy bus of many nodes one call per frame and node; it must never be narrower than what the twin answers to.
-struct Hearing {
-    std::uint32_t mask = 0;
-    std::uint32_t value = 0;
-};
-
 struct TwinBusCounters {
     std::uint64_t collisions = 0;    ///< half-duplex: transmissions that were garbled by another one
     std::uint64_t twin_dropped = 0;  ///< frames of twins that found their node's queue (256) full
@@ -61,7 +54,7 @@ public:
     TwinBus& operator=(const TwinBus&) = delete;
 
     /// Puts a twin on the bus and powers it on with `memory` (empty: factory state). A twin of the same key is replaced.
-    void add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& memory, Instant now, Hearing hearing = {});
+    void add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& memory, Instant now);
     /// Takes it off; a frame of it that is on the wire is completed, frames that wait are lost. May be called from an event.
     void remove(DriveId key);
     /// The twin, for looking at it (mechanics, hand, memory); nullptr if there is none. What changes it goes through the calls below,
@@ -105,7 +98,7 @@ private:
         Number number;
     };
     struct Ear {
-        Hearing hearing;
+        Acceptance acceptance;
         Number number;
     };
     /// A node whose queue is not empty, with what is asked of it at every event: when its oldest frame came, and how that one is

@@ -166,6 +166,7 @@ int main() {
     bool kept = axisgate::bench::cost();
     kept &= axisgate::bench::tail();
     kept &= axisgate::bench::speed(4, 200);
+    kept &= axisgate::bench::speed(64, 200);
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");
     return kept ? 0 : 1;
 }

@@ -70,6 +70,7 @@ public:
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override { return next_; }
+    [[nodiscard]] Acceptance acceptance() const noexcept override { return link_.acceptance(); }
     void power_on(const NonVolatile& memory, Instant now, Out& out) override;
     [[nodiscard]] NonVolatile non_volatile() const override;
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return memory_.revision(); }

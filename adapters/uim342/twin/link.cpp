@@ -9,6 +9,12 @@ namespace {
 constexpr std::uint8_t cw_notification = 0x5A;
 }  // namespace
 
+Acceptance Link::acceptance() const noexcept {
+    if (kind != LineKind::can) return {};
+    const auto of = [](std::uint8_t id) { return Acceptance::Filter{can_id(0, 0x7F, 0), can_id(0, id, 0)}; };
+    return {{of(node), of(global_id), of(group)}, 3};
+}
+
 void Link::send(const Telegram& telegram, Instant at, Out& out) const {
     if (silent || !on_the_bus()) return;
     Frame f = kind == LineKind::can ? write_can(telegram) : Frame::run(write_message(telegram, form));

@@ -8,6 +8,7 @@
 #include "adapters/uim342/twin/memory.hpp"
 #include "adapters/uim342/twin/wire.hpp"
 #include "gateway/core/adapter.hpp"
+#include "gateway/core/twin.hpp"
 
 namespace axisgate::uim342::twin {
 
@@ -20,6 +21,8 @@ public:
     void boot(const Protocol& p) noexcept { node = p.node, group = p.group, bit_rate = p.bit_rate; }
     [[nodiscard]] bool on_the_bus() const noexcept { return !bus_rate || *bus_rate == bit_rate; }
     [[nodiscard]] bool is_for_me(std::uint8_t id) const noexcept { return id == node || id == global_id || id == group; }
+    /// The same three on a CAN bus.
+    [[nodiscard]] Acceptance acceptance() const noexcept;
     void send(const Telegram& telegram, Instant at, Out& out) const;
     void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const;
 

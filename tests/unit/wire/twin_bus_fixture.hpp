@@ -33,6 +33,7 @@ public:
     NonVolatile memory;
     std::uint64_t revision = 0;
     int powered_on = 0;
+    Acceptance accepts;
     bool keep = true;  // what was heard
 
     void on_frame(const Frame& f, Instant now, Out& out) override {
@@ -45,6 +46,7 @@ public:
         if (due) due(now, out);
     }
     [[nodiscard]] Instant deadline() const override { return next; }
+    [[nodiscard]] Acceptance acceptance() const noexcept override { return accepts; }
     void power_on(const NonVolatile& m, Instant, Out&) override {
         memory = m;
         ++powered_on;

@@ -24,10 +24,11 @@ struct Bus {
         bus.open(owner, begin);
         bus.on_deadline(begin);
     }
-    ScriptTwin& add(int key, Hearing hearing = {}) {
+    ScriptTwin& add(int key, Acceptance acceptance = {}) {
         auto twin = std::make_unique<ScriptTwin>();
+        twin->accepts = acceptance;
         ScriptTwin& t = *twin;
-        bus.add(static_cast<DriveId>(key), std::move(twin), {}, begin, hearing);
+        bus.add(static_cast<DriveId>(key), std::move(twin), {}, begin);
         return t;
     }
     void send(const Frame& f, Instant at = begin, Priority p = Priority::command) { EXPECT_TRUE(bus.send(f, p, at)); }
@@ -153,17 +154,28 @@ TEST(TwinBusCan, everybodyHearsEverybodyElse) {
     EXPECT_EQ(b.owner.sent.size(), 1u);
 }
 
-TEST(TwinBusCan, aHearingHintSparesCalls) {
+TEST(TwinBusCan, aTwinIsCalledForWhatItsFiltersTake) {
     Bus b(can_bus());
-    ScriptTwin& one = b.add(1, {0xFF, 1});
-    ScriptTwin& two = b.add(2, {0xFF, 2});
+    ScriptTwin& one = b.add(1, {{{{0xFF, 1}}}, 1});
+    ScriptTwin& two = b.add(2, {{{{0xFF, 2}, {0xFF, 3}}}, 2});
     ScriptTwin& all = b.add(3);
+    const auto counts = [&] { return std::array{one.heard.size(), two.heard.size(), all.heard.size()}; };
     b.send(can(0x101));
     b.send(can(0x202));
+    b.send(can(0x203));
     b.run_to(begin + ms(1));
-    EXPECT_EQ(one.heard.size(), 1u);
-    EXPECT_EQ(two.heard.size(), 1u);
-    EXPECT_EQ(all.heard.size(), 2u);
+    EXPECT_EQ(counts(), (std::array<std::size_t, 3>{1, 2, 3}));
+
+    // Who leaves takes its filters along; whose filters change is asked by them from then on.
+    b.bus.remove(DriveId{1});
+    two.accepts = {{{{0xFF, 4}}}, 1};
+    b.send(can(0x101), begin + ms(1));
+    b.send(can(0x202), begin + ms(1));  // by the filters as they were: the twin is not asked before it is called
+    b.send(can(0x202), begin + ms(1));
+    b.send(can(0x204), begin + ms(1));
+    b.run_to(begin + ms(2));
+    EXPECT_EQ(two.heard.size(), 4u);
+    EXPECT_EQ(all.heard.size(), 7u);
 }
 
 /// Two twins and a host that answer one another for a while; everything that happens, with its instants.

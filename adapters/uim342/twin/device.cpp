@@ -38,7 +38,7 @@ void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {
 NonVolatile Device::non_volatile() const {
     NonVolatile all;
     memory_.save(all);
-    if (has_absolute_encoder()) all[encoder_position_name] = Value{std::int64_t{saved_position_}};
+    if (memory_.has_absolute_encoder()) all[encoder_position_name] = Value{std::int64_t{saved_position_}};
     return all;
 }
 
@@ -54,7 +54,7 @@ void Device::boot(Instant now, std::int32_t encoder_position) {
     link_.boot(memory_.flash());
     microsteps_ = memory_.ram().mt[0];
     pulses_per_turn_ = memory_.ram().qe[4];
-    absolute_ = has_absolute_encoder();
+    absolute_ = memory_.has_absolute_encoder();
     axis_.power_up(absolute_ ? encoder_position : 0, now);
     keep_position(now);
     configure_axis(now);
@@ -145,7 +145,7 @@ void Device::settle(Instant now, Out& out) {
 
 /// The absolute encoder's own memory: where the shaft came to rest.
 void Device::keep_position(Instant now) noexcept {
-    if (!has_absolute_encoder() || axis_.moving()) return;
+    if (!memory_.has_absolute_encoder() || axis_.moving()) return;
     const std::int32_t there = axis_.position(now);
     if (there == saved_position_) return;
     saved_position_ = there;

@@ -110,8 +110,6 @@ private:
     void configure_axis(Instant now);
     [[nodiscard]] Axis::Values values_of(std::size_t group) const noexcept;
     [[nodiscard]] bool may_start() const noexcept;
-    /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
-    [[nodiscard]] bool has_absolute_encoder() const noexcept { return memory_.ram().ic[5] == 1; }
     void keep_position(Instant now) noexcept;
 
     // --- instructions (instructions.cpp, sets.cpp) ---

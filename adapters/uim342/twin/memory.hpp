@@ -66,6 +66,8 @@ public:
         : factory_(factory), factory_serial_(serial), flash_(factory), serial_(serial) {}
 
     [[nodiscard]] const Settings& ram() const noexcept { return ram_; }
+    /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
+    [[nodiscard]] bool has_absolute_encoder() const noexcept { return ram().ic[5] == 1; }
     [[nodiscard]] const Protocol& flash() const noexcept { return flash_; }
     [[nodiscard]] std::uint32_t serial() const noexcept { return serial_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }

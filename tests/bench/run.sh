@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # bench: runs every benchmark of a release build, in about a quarter of an hour, of which `tail` takes half. For an idle machine; not a part of the ordinary tests.
-#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, recorder, write, tail, mcode, linmot, cia402, cia402_program, program, modbus, modbus_program, modbus_rtu, enip, dds, http, stream, page, scope
+#   tests/bench/run.sh BUILD_DIR [NAME...]      NAME: round, recorder, write, tail, mcode, linmot, cia402, cia402_program, program, modbus, modbus_program, modbus_rtu, enip, dds, http, stream, page, scope, overview
 # In: BUILD_DIR/bench_* and BUILD_DIR/axisgate; node and Chromium for what a browser shows. Out: per figure the ratio, the limit it is measured against, and both figures; at the end
 # "N passed, N failed", where what is beyond its limit has failed.
 set -euo pipefail
@@ -58,5 +58,6 @@ AXISGATE_BIN=$(realpath "$(find_program axisgate)")
 export AXISGATE_BIN
 bench page 120 node "$here/bench_page.mjs"
 bench scope 150 node "$here/bench_scope.mjs"
+bench overview 120 node "$here/bench_overview.mjs"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ] && [ "$passed" -gt 0 ]

@@ -7,6 +7,9 @@
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::cia402_drive {
+namespace {
+constexpr int rest_cycle = 250;  ///< ms; at rest an axis is looked at as seldom as this, or in its cycle
+}
 
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
     Turn t{now, out};
@@ -24,6 +27,7 @@ void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
             line_.turns.remove(d.slot());
         },
         fault, [&](const DriveSetup& s, std::size_t slot) { return std::make_unique<Drive>(line_, s, slot); }, out);
+    plan_beats(t);
     by_node_.fill(nullptr);
     drives_.each([&](Drive& d) { by_node_[d.node.number] = &d; });
     for (Drive* d : fresh)
@@ -79,18 +83,27 @@ void LineAdapter::on_frame(const Frame& f, Instant now, Out& out) {
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
     if (const auto beat = heartbeat_.on_deadline(now, line_.own_node, canopen::NmtState::operational)) t.out.send(*beat, Priority::command);
-    if (up_ && now >= next_sync_) {
-        drives_.each([&](Drive& d) { d.before_sync(line_.cycle, t); });
-        out.send(canopen::data_frame(canopen::sync_id, {}), Priority::command);
-        last_sync_ = now;
-        next_sync_ = never;
-        drives_.each([&](Drive& d) { d.after_sync(); });
-    }
+    if (now >= targets_at_) send_targets(t);
+    if (up_ && now >= sync_.deadline()) send_sync(t);
     drive::wake(line_.turns, drives_, t);
     end(t);
 }
 
+void LineAdapter::send_targets(Turn& t) {
+    targets_at_ = never;
+    targets_for_ = line_.beat + 1;
+    drives_.each([&](Drive& d) { d.before_sync(t); });
+}
+void LineAdapter::send_sync(Turn& t) {
+    if (targets_for_ != line_.beat + 1) send_targets(t);
+    if (const auto sync = sync_.on_deadline(t.now)) t.out.send(*sync, Priority::command);
+    ++line_.beat;
+    line_.synced_at = t.now;
+    drives_.each([&](Drive& d) { d.after_sync(); });
+}
+
 void LineAdapter::end(Turn& t) {
+    if (line_.targets.none() && wished_ != wished_beat()) plan_beats(t);  // the site's beat has waited for those that were led
     drives_.each([&](Drive& d) { drive::settle(line_.turns, d, t.now); });
     drive::serve(line_.turns, drives_, t);
     plan_sync(t.now);
@@ -120,31 +133,50 @@ void LineAdapter::plan_heartbeat(Instant now) {
     if (std::exchange(heartbeat_period_, period) != period) heartbeat_.set_period(period, now);
 }
 
-Duration LineAdapter::cycle() const {
-    std::int64_t ready = 0;
-    bool quick = false, streams = false;
-    Duration period = line_.timing.poll_period;
+Duration LineAdapter::wished_beat() const {
+    const auto whole = std::chrono::milliseconds(milliseconds_of(line_.timing.poll_period + std::chrono::microseconds(999)));
+    return line_.targets.none() ? std::max<Duration>(whole, std::chrono::milliseconds(1)) : line_.plan.beat;
+}
+void LineAdapter::plan_beats(Turn& t) {
+    wished_ = wished_beat();
+    canopen::TurnsWish wish{wished_, line_.bit_rate, axis_bits, target_bits, line_.targets.fullest(), {}};
+    drives_.each([&](const Drive& d) { wish.nodes.push_back({static_cast<int>(d.axes.size()), d.node.slot}); });
+    line_.plan = canopen::plan_turns(wish);
+    std::size_t i = 0;
+    drives_.each([&](Drive& d) { d.take_slot(line_.plan.slots[i++], t); });
+}
+
+Duration LineAdapter::period() const {
+    using std::chrono::milliseconds;
+    bool wanted = false, quick = false, streams = false;
+    const Duration beat = line_.plan.beat;
+    Duration close = beat;
     drives_.each([&](const Drive& d) {
-        ready += d.listeners();
+        wanted = wanted || d.beats_wanted();
         quick = quick || d.quick() || d.pace().close();
         streams = streams || d.streams();
-        period = std::min(period, d.pace().period(period));
+        close = std::min(close, d.pace().period(beat));
     });
-    if (streams) period = line_.timing.poll_period;  // by which the drive that follows was told to reckon
-    if (ready == 0) return Duration::zero();
-    const Duration least = least_cycle(static_cast<std::uint64_t>(ready), line_.bit_rate);
-    const Duration whole = std::max(period, least) + std::chrono::microseconds(999);
-    const Duration ms = std::max<Duration>(std::chrono::milliseconds(1), std::chrono::milliseconds(milliseconds_of(whole)));
-    return quick ? ms : 4 * ms;
+    if (!wanted) return Duration::zero();
+    if (streams) return beat;  // by which the drives that follow were told to reckon
+    if (!quick) return std::min<Duration>(drive::Pace::rested * beat, std::max<Duration>(beat, milliseconds(rest_cycle / line_.plan.turns)));
+    // Where somebody looks closely, as far as the fullest beat allows it.
+    const auto whole = [](Duration d) { return milliseconds(milliseconds_of(d + std::chrono::microseconds(999))); };
+    const Duration least = 2 * wire_time(line_.plan.bits, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);
+    return std::min<Duration>(beat, std::max<Duration>({whole(close), whole(least), milliseconds(1)}));
 }
 void LineAdapter::plan_sync(Instant now) {
-    const Duration period = up_ ? cycle() : Duration::zero();
-    if (period == Duration::zero()) {
-        next_sync_ = never;
-        return;
-    }
-    line_.cycle = period;
-    next_sync_ = std::max(now, last_sync_ + period);
+    const Duration period = up_ ? this->period() : Duration::zero();
+    sync_.set_period(period, now);
+    targets_at_ = never;
+    if (period == Duration::zero()) return;
+    line_.period = period;
+    const int due = line_.targets.in(line_.beat + 1);
+    if (due == 0 || targets_for_ == line_.beat + 1) return;
+    // Behind a frame that is on its way, one after the other, and this thread may be a little late.
+    const auto bits = canopen::most_bits(8) + static_cast<std::uint64_t>(due) * target_bits;
+    const Duration before = wire_time(bits, line_.bit_rate) + std::chrono::microseconds(200);
+    targets_at_ = sync_.deadline() - std::min<Duration>(before, period / 2);
 }
 
 }  // namespace axisgate::cia402_drive

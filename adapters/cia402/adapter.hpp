@@ -5,6 +5,7 @@
 
 #include "adapters/cia402/drive.hpp"
 #include "gateway/drive/roster.hpp"
+#include "gateway/protocols/canopen/sync.hpp"
 
 namespace axisgate::cia402_drive {
 
@@ -17,14 +18,19 @@ public:
     void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
-    [[nodiscard]] Instant deadline() const override { return std::min({line_.turns.deadline(), next_sync_, heartbeat_.deadline()}); }
+    [[nodiscard]] Instant deadline() const override { return std::min({line_.turns.deadline(), sync_.deadline(), targets_at_, heartbeat_.deadline()}); }
     [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
     void end(Turn& t);
-    /// Often while something moves, seldom at rest, never while nobody listens; never more than half of what the bus carries.
-    [[nodiscard]] Duration cycle() const;
+    /// Which drive tells in which beats, by the drives of the site; an axis that is led keeps the beat that it was told to reckon with.
+    void plan_beats(Turn& t);
+    [[nodiscard]] Duration wished_beat() const;
+    /// Between two SYNCs: the beat of the plan, longer at rest, shorter where somebody looks closely and the bus has room; zero: nobody listens.
+    [[nodiscard]] Duration period() const;
     void plan_sync(Instant now);
+    void send_targets(Turn& t);
+    void send_sync(Turn& t);
     void choose_own_node(const LineSetup& setup);
     /// As long as a drive that watches it answers. One that is alone and does not answer any more is left to its watchdog.
     void plan_heartbeat(Instant now);
@@ -32,7 +38,10 @@ private:
     drive::Roster<Drive> drives_;
     std::array<Drive*, 128> by_node_{};
     bool up_ = false;
-    Instant next_sync_ = never, last_sync_{};
+    Duration wished_{};  ///< the beat that the plan was made for
+    canopen::SyncProducer sync_;
+    Instant targets_at_ = never;     ///< so long before the SYNC that they are there with it
+    std::uint64_t targets_for_ = 0;  ///< the beat whose targets went out last
     canopen::HeartbeatProducer heartbeat_;  ///< the gateway's own
     Duration heartbeat_period_{};
 };

@@ -1,6 +1,8 @@
-// SetPointStream: one target per cycle.
+// SetPointStream: one target per cycle of the axis.
 // In: the newest set-point, what is known of the axis. Out: RPDOs of the connection set, which are the first axis'.
 #include "adapters/cia402/demand.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,9 @@
 #include "adapters/cia402/drive_axis.hpp"
 
 namespace axisgate::cia402_drive {
+namespace {
+constexpr Duration longest_cycle = std::chrono::milliseconds(255);  ///< 60C2h in whole ms
+}
 
 void SetPointStream::follow(const SetPoint& p) {
     if (!drive_.listens() || drive_.place() > 0) return;  // the engine asks nobody who has no cyclic mode
@@ -18,24 +23,54 @@ void SetPointStream::end() noexcept {
     state_ = State::none;
     newest_.reset();
     led_.stand();
+    give_back();
 }
+void SetPointStream::give_back() noexcept {
+    if (!place_) return;
+    Line& line = drive_.node.line;
+    line.targets.give_back(*place_);
+    --line.led;
+    place_.reset();
+}
+Duration SetPointStream::cycle() const noexcept { return place_ ? drive_.node.line.plan.beat * place_->turns : Duration{}; }
 
-Job SetPointStream::begin() {
+std::optional<Job> SetPointStream::begin(Turn& t) {
+    Line& line = drive_.node.line;
+    const int nodes = static_cast<int>(line.plan.slots.size());
+    int longest = canopen::turns_for_all(nodes, line.plan.places);
+    while (longest > 1 && longest * line.plan.beat > longest_cycle)
+        longest /= 2;
+    if (!place_) {
+        place_ = line.targets.take(line.plan.places, nodes - line.led - 1, longest);
+        if (!place_) {
+            t.out.stream_ends.push_back(
+                {drive_.id(), Reason::busy, fmt::format("the beats of this line have no room for one more: {} axes are led", line.led)});
+            end();
+            return std::nullopt;
+        }
+        ++line.led;
+    }
     Job job;
     job.command.axis = drive_.id();
-    plan_stream(drive_.known, newest_->mode, drive_.node.line.cycle, job);
+    plan_stream(drive_.known, newest_->mode, cycle(), job);
     state_ = State::starting;
     return job;
+}
+bool SetPointStream::has_another_time() const noexcept {
+    const auto& has = drive_.known.interpolation;
+    return has.value != 0 && !(has == interpolation_of(cycle()));
 }
 void SetPointStream::begun(std::int64_t here) {
     state_ = newest_ ? static_cast<State>(static_cast<int>(State::position) + static_cast<int>(newest_->mode)) : State::none;
     led_.begin(static_cast<double>(here));
 }
 
-void SetPointStream::before_sync(Duration cycle, Turn& t) {
+void SetPointStream::before_sync(Turn& t) {
     const AxisKnown& known = drive_.known;
     const std::uint32_t node = drive_.node.number;
     if (!drive_.listens() || state_ < State::position || !newest_ || known.fb.power != AxisFeedback::Power::on) return;
+    if (!place_ || !place_->due(drive_.node.line.beat + 1)) return;
+    const double cycle_s = seconds(cycle());
     const SetPoint& p = *newest_;
     const auto rate = [&](const std::optional<std::int64_t>& v, std::size_t own) {
         return static_cast<double>(v.value_or(known.rates[own]));
@@ -44,11 +79,11 @@ void SetPointStream::before_sync(Duration cycle, Turn& t) {
     if (state_ == State::torque)
         return t.out.send(canopen::data_frame(0x400u + node, bytes_of(std::clamp<std::int64_t>(p.value, INT16_MIN, INT16_MAX), 2)));
     if (state_ == State::velocity) {
-        const double v = led_.speed_towards(static_cast<double>(p.value), ramps, seconds(cycle));
+        const double v = led_.speed_towards(static_cast<double>(p.value), ramps, cycle_s);
         return t.out.send(canopen::data_frame(0x300u + node, bytes_of(std::llround(v), 4)));
     }
     const double place =
-        std::clamp(led_.towards(static_cast<double>(p.value), ramps, seconds(cycle)), double{INT32_MIN}, double{INT32_MAX});
+        std::clamp(led_.towards(static_cast<double>(p.value), ramps, cycle_s), double{INT32_MIN}, double{INT32_MAX});
     t.out.send(canopen::data_frame(0x200u + node, bytes_of(std::llround(place), 4)));
 }
 

@@ -1,5 +1,5 @@
-// SetPointStream: the way of a streamed set-point into a drive that follows one target per SYNC.
-// In: the newest set-point, the cycle. Out: the next target, within the speed and the ramps of the set-point; RPDOs.
+// SetPointStream: the way of a streamed set-point into a drive that follows one target in each cycle of its own.
+// In: the newest set-point, beats. Out: the next target, within the speed and the ramps of the set-point; RPDOs.
 // Never gives a drive a step that its ramps do not allow: in a cyclic mode nobody else would plan the way.
 #pragma once
 
@@ -16,14 +16,18 @@ class Axis;
 class SetPointStream : public drive::Part<Axis> {
 public:
     using Part::Part;
+    ~SetPointStream() { give_back(); }
 
     void follow(const SetPoint& set_point);
     void end() noexcept;
-    void before_sync(Duration cycle, Turn& t);
+    /// Its target, if it has its place in the beat that the next SYNC begins.
+    void before_sync(Turn& t);
     /// A set-point is here, and its mode is not begun.
     [[nodiscard]] bool waits() const noexcept { return newest_ && state_ == State::none; }
-    /// The steps into its mode.
-    [[nodiscard]] Job begin();
+    /// The steps into its mode; nothing: the beats have no room for one more, and the stream is over.
+    [[nodiscard]] std::optional<Job> begin(Turn& t);
+    /// The drive has refused the time between two targets. True: it has another one, and would go in jerks.
+    [[nodiscard]] bool has_another_time() const noexcept;
     /// They are done; it stood at `here`.
     void begun(std::int64_t here);
     [[nodiscard]] bool on() const noexcept { return newest_ || state_ != State::none; }
@@ -32,7 +36,11 @@ public:
 
 private:
     enum class State : std::uint8_t { none, starting, position, velocity, torque };
+    void give_back() noexcept;
+    [[nodiscard]] Duration cycle() const noexcept;
+
     State state_ = State::none;
+    std::optional<canopen::TargetTurns::Place> place_{};  ///< in the line's beats; it stays while the axis is led
     std::optional<SetPoint> newest_;
     drive::Lead led_;
 };

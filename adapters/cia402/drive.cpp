@@ -123,9 +123,9 @@ void Drive::submit(const Command& c, Turn& t) {
 void Drive::follow(const SetPoint& p) {
     if (Axis* a = of(p.axis)) a->stream.follow(p);
 }
-void Drive::before_sync(Duration cycle, Turn& t) {
+void Drive::before_sync(Turn& t) {
     for (const auto& a : axes)
-        a->stream.before_sync(cycle, t);
+        a->stream.before_sync(t);
 }
 void Drive::after_sync() noexcept {
     for (const auto& a : axes)
@@ -141,7 +141,7 @@ Want Drive::wants(Instant now) const noexcept {
         if (const Want w = a->wants(now); w != Want::nothing && (most == Want::nothing || w < most)) most = w;
     if (most == Want::urgent) return most;
     if (!presence.online() || presence.is(Phase::restarting)) return presence.probe_due(now) ? Want::probe : Want::nothing;
-    if (presence.is(Phase::starting)) return Want::command;
+    if (presence.is(Phase::starting)) return start.waits(now) ? Want::nothing : Want::command;
     return most == Want::nothing && now >= check_at_ ? Want::poll : most;
 }
 /// Of what wants() looks at, and of nothing that waits behind it.
@@ -206,7 +206,7 @@ void Drive::ended(const canopen::SdoEnd& end, Turn& t) {
             break;
     }
     if (ask.axis >= axes.size()) {
-        check_at_ = t.now + std::max<Duration>(4 * node.line.cycle, std::chrono::milliseconds(100));
+        check_at_ = t.now + std::max<Duration>(4 * node.line.cycle(), std::chrono::milliseconds(100));
         return;
     }
     heed(axes[ask.axis]->answered(ask, end, t), t);

@@ -32,8 +32,13 @@ public:
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
     void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
+    /// Its beats by the line's plan, which is in force.
+    void take_slot(int slot, Turn& t) {
+        node.slot = slot;
+        if (!axes.empty()) node.presence.beats({node.line.plan.beat, node.line.plan.turns}, t.out);
+    }
     void on_frame(const Frame& frame, Turn& t);
-    void before_sync(Duration cycle, Turn& t);  ///< the next targets go out
+    void before_sync(Turn& t);  ///< the next targets go out
     void after_sync() noexcept;
     // asked by drive::settle, serve and wake
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
@@ -45,6 +50,8 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return node.setup; }
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
+    /// Its PDOs are waited for, or the beat in which they begin.
+    [[nodiscard]] bool beats_wanted() const noexcept { return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end()); }
     [[nodiscard]] bool quick() const noexcept;
     [[nodiscard]] bool streams() const noexcept;
     /// It watches the gateway's heartbeat, and answers.

@@ -13,6 +13,7 @@ void Axis::forget() {
     job_.reset();
     stream.end();
     feedback.forget();
+    turns.forget();
 }
 
 bool Axis::submit(const Command& c, Turn& t) {
@@ -38,7 +39,7 @@ bool Axis::submit(const Command& c, Turn& t) {
 Want Axis::wants(Instant now) const noexcept {
     if (const Stop* stop = stops_.first()) return !stop->job || now >= stop->job->wait_until ? Want::urgent : Want::nothing;
     if (!node.presence.is(Phase::ready)) return Want::nothing;
-    if (feedback.needs_error_code()) return Want::quick_poll;
+    if (feedback.needs_error_code() || turns.wants(now)) return Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
@@ -58,9 +59,10 @@ std::optional<Ask> Axis::next(Turn& t) {
         return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, 0};
     }
     if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
+    if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
-    if (!job_ && stream.waits()) job_ = stream.begin();
+    if (!job_ && stream.waits()) job_ = stream.begin(t);
     if (job_ && t.now >= job_->wait_until) {
         const Step& s = job_->steps[job_->at];
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
@@ -93,6 +95,9 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
         case Ask::Why::error:
             feedback.error_code_read(end, t);
             return News::none;
+        case Ask::Why::turns:
+            turns.answered(end.done(), t);
+            return News::none;
         case Ask::Why::step:
             if (job_ && job_->command.ticket == ask.ticket && job_->at < job_->steps.size() &&
                 asked(job_->steps[job_->at]) == ask.step.address)
@@ -109,6 +114,7 @@ Address Axis::asked(const Step& s) const { return s.literal ? s.address : of_axi
 
 void Axis::unanswered(const Ask& ask) {
     if (Stop* stop = stops_.first(); ask.why == Ask::Why::stop && stop) stops_.remove(stop);
+    if (ask.why == Ask::Why::turns) turns.forget();
     if (ask.why == Ask::Why::step && job_) {
         if (job_->stream) stream.end();
         job_.reset();
@@ -125,8 +131,11 @@ void Axis::drop(const Job& job) noexcept {
 
 Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     const Step s = here(job);
-    if (!end.done() && !s.optional) {
-        const std::string text = "the drive refuses: " + canopen::to_text(end);
+    const bool interpolation = s.address == object::cycle || s.address == object::cycle_index;
+    // A drive without 60C2h has no such time; one that does not take it now would follow in jerks.
+    const bool other_time = job.stream && interpolation && end.abort == canopen::Abort::device_state && stream.has_another_time();
+    if (!end.done() && (!s.optional || other_time)) {
+        const std::string text = fmt::format("the drive refuses{}: {}", other_time ? " 60C2h, the time between two targets" : "", canopen::to_text(end));
         if (job.stream) {
             t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
             stream.end();
@@ -136,6 +145,8 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     }
     const auto sent = [&](Address a) { return end.done() && s.kind == Step::Kind::write && s.address == a; };
     if (sent(object::controlword)) known.cw = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
+    if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
+    if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
     if (sent(object::mode)) known.mode = static_cast<int>(signed_of(s.bytes));
     if (s.kind == Step::Kind::read) {
         job.here = signed_of(end.data);
@@ -183,7 +194,7 @@ void Axis::moves_now(const CommandBody& body, Turn& t) {
 
 Axis::News Axis::finish(Job& job, Turn& t) {
     const CommandBody& body = job.command.body;
-    if (known.profile) feedback.look_soon(t.now + std::max<Duration>(3 * node.line.cycle, std::chrono::milliseconds(150)));
+    if (known.profile) feedback.look_soon(t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150)));
     if (job.stream) {
         stream.begun(job.here);
         return News::none;

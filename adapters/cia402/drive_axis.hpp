@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/cia402/demand.hpp"
+#include "adapters/cia402/drive_turns.hpp"
 #include "adapters/cia402/feedback.hpp"
 #include "gateway/drive/command_queue.hpp"
 
@@ -21,7 +22,7 @@ public:
     // start.cpp
     void first_reads(std::vector<Step>& steps) const;
     void first_read(const Step& step, const canopen::SdoEnd& end);
-    void set_up(std::vector<Step>& steps) const;
+    void set_up(std::vector<Step>& steps);
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
     [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< to be read and set up before it is served
@@ -48,6 +49,7 @@ public:
     Node& node;
     AxisKnown known;
     Feedback feedback{*this};
+    PdoTurns turns{*this};
     SetPointStream stream{*this};
 
 private:

@@ -15,6 +15,7 @@
 #include "gateway/drive/tickets.hpp"
 #include "gateway/drive/turn.hpp"
 #include "gateway/drive/turns.hpp"
+#include "gateway/protocols/canopen/sync_turns.hpp"
 
 namespace axisgate::cia402_drive {
 using drive::Presence;
@@ -46,8 +47,21 @@ struct Line {
     drive::Turns turns;
     AdapterCounters counters;
     std::uint32_t bit_rate = 0;
-    Duration cycle = std::chrono::milliseconds(20);  ///< between two SYNCs now
-    std::uint8_t own_node = 127;                     ///< the gateway's, for its heartbeat
+    std::uint8_t own_node = 127;  ///< the gateway's, for its heartbeat
+
+    // --- beats ------------------------------------------------------------------------------------------------------------------
+    canopen::SyncTurns plan;       ///< whose beats are whose; targets go by its beat, which stands while an axis is led
+    canopen::TargetTurns targets;  ///< places of axes that are led
+    int led = 0;                   ///< so many
+    std::uint64_t beat = 0;        ///< SYNCs that were sent
+    Instant synced_at{};           ///< the last one
+    Duration period = std::chrono::milliseconds(20);  ///< between two of them now
+    /// Of an axis, now: between two pictures of it.
+    [[nodiscard]] Duration cycle() const noexcept { return period * plan.turns; }
+    /// What is sent now reaches a node before the next SYNC, in a beat that leaves `slot`.
+    [[nodiscard]] bool in_turn(int slot, Instant now) const noexcept {
+        return plan.turns == 1 || (static_cast<int>(beat % static_cast<unsigned>(plan.turns)) == slot && now < synced_at + period / 2);
+    }
 };
 
 /// What a drive shall do when the gateway's heartbeat stops: 6007h. `none`: it does not watch it.
@@ -74,6 +88,7 @@ struct Node {
     Line& line;
     DriveSetup setup;
     std::uint8_t number;
+    int slot = -1;  ///< its beats by the line's plan
     bool keep_quick_stop = true;
     Watch watch;
     Places places;

@@ -23,6 +23,11 @@ struct AxisKnown {
     std::int64_t homing_method = 0;
     std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
     Order order = Order::none;
+    /// 60C2h: value times ten to the power of the index, in seconds; as the drive has it.
+    struct Interpolation {
+        std::int64_t value = 0, index = -3;
+        bool operator==(const Interpolation&) const = default;
+    } interpolation;
 
     [[nodiscard]] bool offers(int m) const noexcept { return m >= 1 && m <= 32 && (modes >> (m - 1) & 1u); }
     /// The mode that follows set-points of this kind: 8, 9, 10, or the older 7 and 4 of a drive that has not those.
@@ -39,6 +44,8 @@ struct AxisKnown {
 [[nodiscard]] std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, Instant now, Reason& reason);
 /// A stop is planned when its turn has come: what is on then counts.
 void plan_stop(const AxisKnown& known, Job& job);
+/// `cycle`: between two of its targets. Up to 255 ms it is said in ms, above in tens.
+[[nodiscard]] AxisKnown::Interpolation interpolation_of(Duration cycle) noexcept;
 /// The drive's own place is its first target, and only then the mode is another.
 void plan_stream(const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job);
 // native.cpp

@@ -52,7 +52,7 @@ struct Job {
 
 /// One transfer, and who wants its answer.
 struct Ask {
-    enum class Why : std::uint8_t { probe, start, check, error, flush, step, stop } why = Why::probe;
+    enum class Why : std::uint8_t { probe, start, check, error, turns, flush, step, stop } why = Why::probe;
     Step step;
     Ticket ticket = no_ticket;
     int left = 0;          ///< repeats

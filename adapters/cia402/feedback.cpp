@@ -53,7 +53,10 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
         if (!status && !canopen::is_data(f, motion_base + shift)) continue;
         if (!a.listens()) {
             node.presence.heard(t.now);
-        } else if (status) {
+            return true;
+        }
+        a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
+        if (status) {
             a.feedback.on_status(f.data(), t);
         } else {
             a.feedback.on_motion(f.data(), t);
@@ -68,7 +71,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
 void Feedback::begin(Instant now) {
     deaf_ = 0;
     status_new_ = motion_new_ = false;
-    if (drive_.known.profile) check_at_ = now + std::max<Duration>(8 * drive_.node.line.cycle, std::chrono::milliseconds(200));
+    if (drive_.known.profile) check_at_ = now + std::max<Duration>(8 * drive_.node.line.cycle(), std::chrono::milliseconds(200));
 }
 void Feedback::forget() noexcept {
     check_at_ = never;
@@ -111,6 +114,9 @@ void Feedback::on_status_word(std::uint32_t word, Turn& t) {
     judge(t);
 }
 
+void Feedback::after_sync() noexcept {
+    if (!drive_.turns.apart()) status_new_ = motion_new_ = false;
+}
 void Feedback::on_error_code(std::uint16_t code) noexcept {
     std::uint16_t& shown = drive_.known.fb.error_code;
     if (code == 0 || shown == 0) shown = code;
@@ -136,7 +142,7 @@ void Feedback::ordered(Order order, Turn& t) {
 }
 
 bool Feedback::deaf(Instant now) noexcept {
-    check_at_ = now + std::max<Duration>(4 * drive_.node.line.cycle, std::chrono::milliseconds(100));
+    check_at_ = now + std::max<Duration>(4 * drive_.node.line.cycle(), std::chrono::milliseconds(100));
     return ++deaf_ >= 3;
 }
 
@@ -146,7 +152,7 @@ void Feedback::learnt(Turn& t) {
     deaf_ = 0;
     node.presence.answered();
     ++node.line.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
-    check_at_ = t.now + std::max<Duration>(3 * node.line.cycle, std::chrono::milliseconds(150));
+    check_at_ = t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150));
     judge(t);
 }
 

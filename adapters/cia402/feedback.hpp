@@ -23,7 +23,7 @@ public:
     void restarted();
     void on_status(std::span<const std::uint8_t> bytes, Turn& t);
     void on_motion(std::span<const std::uint8_t> bytes, Turn& t);
-    void after_sync() noexcept { status_new_ = motion_new_ = false; }
+    void after_sync() noexcept;
     /// Read by SDO just now: newer than the last PDO.
     void on_status_word(std::uint32_t word, Turn& t);
     /// Of an EMCY; 0: all errors are gone. The first one is the cause, what follows from it does not take its place.

@@ -137,10 +137,16 @@ void plan_stop(const AxisKnown& known, Job& job) {
     }
 }
 
+AxisKnown::Interpolation interpolation_of(Duration cycle) noexcept {
+    const auto ms = milliseconds_of(cycle);
+    return ms <= 255 ? AxisKnown::Interpolation{ms, -3} : AxisKnown::Interpolation{std::min<std::int64_t>(ms / 10, 255), -2};
+}
+
 void plan_stream(const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job) {
     job.stream = true;
-    job.write(object::cycle, milliseconds_of(std::min<Duration>(cycle, std::chrono::milliseconds(255))), 1, true);
-    job.write(object::cycle_index, -3, 1, true);
+    const auto time = interpolation_of(cycle);
+    job.write(object::cycle, time.value, 1, true);
+    job.write(object::cycle_index, time.index, 1, true);
     if (known.cw & start_bit) job.word(static_cast<std::uint16_t>((known.cw & halt_bit) | on_word));
     job.read(object::position);
     const int entered = known.stream_mode(mode);

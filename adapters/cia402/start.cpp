@@ -8,6 +8,8 @@
 
 namespace axisgate::cia402_drive {
 
+bool Start::waits(Instant now) const noexcept { return at_end() && !drive_.node.line.in_turn(drive_.node.slot, now); }
+
 void Start::probe(Turn& t) {
     drive_.node.presence.probe_sent();
     drive_.exchanges.send({Ask::Why::probe, {Step::Kind::read, drive_.node.mark(), {}}, no_ticket, 0, drive_.axes.size()}, t);
@@ -165,7 +167,8 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
 
 void Axis::first_reads(std::vector<Step>& steps) const {
     for (const Address a : {object::statusword, object::modes, object::controlword, object::homing_method, object::profile_velocity,
-                            object::profile_acceleration, object::profile_deceleration, object::error_code, object::quick_stop_option})
+                            object::profile_acceleration, object::profile_deceleration, object::error_code, object::quick_stop_option,
+                            object::cycle, object::cycle_index})
         steps.push_back({Step::Kind::read, a, {}, 0, 0, true});
 }
 
@@ -180,20 +183,26 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     for (const auto& [place, i] :
          {std::pair{object::profile_velocity, 0u}, {object::profile_acceleration, 1u}, {object::profile_deceleration, 2u}})
         if (a == place && raw > 0) known.rates[i] = raw;
+    if (a == object::cycle && end.done()) known.interpolation.value = raw;
+    if (a == object::cycle_index && end.done()) known.interpolation.index = signed_of(end.data);
     if (a == object::error_code && end.done()) known.fb.error_code = node.number_of(static_cast<std::uint16_t>(raw));
     // A quick stop must end in quick stop active, where it can be seen, and not in a drive that is off.
     if (a == object::quick_stop_option) change_quick_stop_ = end.done() && node.keep_quick_stop && raw < 5;
 }
 
-void Axis::set_up(std::vector<Step>& steps) const {
+void Axis::set_up(std::vector<Step>& steps) {
     if (!known.profile) return;
+    const int every = node.line.plan.turns;
+    turns.set_up(every);
     const auto add = [&](Address a, std::vector<std::uint8_t> bytes, bool optional) {
         steps.push_back({Step::Kind::write, a, std::move(bytes), 0, 0, optional});
     };
     if (change_quick_stop_) add(object::quick_stop_option, bytes_of(6, 2), true);
-    for (const auto& p : {status_pdo(node.number, place_), motion_pdo(node.number, place_)})
+    for (auto p : {status_pdo(node.number, place_), motion_pdo(node.number, place_)}) {
+        p.settings.transmission = static_cast<std::uint8_t>(every);
         for (const auto& w : canopen::writes_of(p))
             add(w.address, w.bytes, false);
+    }
     if (place_ > 0) return;  // the receive PDOs of the connection set are the first axis'
     for (const auto kind : {SetPoint::Mode::position, SetPoint::Mode::velocity, SetPoint::Mode::torque}) {
         const int mode = known.stream_mode(kind);

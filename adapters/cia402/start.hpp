@@ -26,6 +26,10 @@ public:
     /// What was being set up may be gone: it is begun again when its turn comes.
     void forget() noexcept { steps_.clear(); }
     void next(Turn& t);
+    /// It is set up, but for NMT start.
+    [[nodiscard]] bool at_end() const noexcept { return at_ < steps_.size() && steps_[at_].step.kind == Step::Kind::nmt; }
+    /// For its own beat: from NMT start on its PDOs count SYNCs.
+    [[nodiscard]] bool waits(Instant now) const noexcept;
     void answered(const canopen::SdoEnd& end, Turn& t);
 
 private:

@@ -12,6 +12,7 @@
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
+#include "gateway/protocols/canopen/sync_turns.hpp"
 
 namespace axisgate::cia402_drive {
 using canopen::Address;
@@ -30,24 +31,15 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
     interpolated_position{0x60C1, 1}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0}, modes{0x6502, 0};
 }  // namespace object
 
-/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at each SYNC. A second axis has TPDO 3 and 4.
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3 and 4.
 /// RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
 [[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis = 0);
 [[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis = 0);
 /// `interpolated`: position by 60C1h, for mode 7.
 [[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated = false);
 inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280, per_axis = 0x200;
-/// Bits that a frame of so many bytes has at most with an identifier of 11 bits: 44 and 8 for each byte, of those up to the checksum one
-/// stuff bit for each four after the first (ISO 11898-1), and 3 between frames.
-[[nodiscard]] constexpr std::uint32_t most_bits(std::uint32_t bytes) noexcept { return 44 + 8 * bytes + (33 + 8 * bytes) / 4 + 3; }
-/// Of one SYNC and what follows it: of each axis status (7 bytes), motion (8) and a target (4).
-[[nodiscard]] constexpr std::uint64_t bits_of_cycle(std::uint64_t axes) noexcept {
-    return most_bits(0) + axes * (most_bits(7) + most_bits(8) + most_bits(4));
-}
-/// So long a cycle is at least, with half of the bus for others.
-[[nodiscard]] constexpr Duration least_cycle(std::uint64_t axes, std::uint32_t bit_rate) noexcept {
-    return 2 * wire_time(bits_of_cycle(axes), bit_rate == 0 ? 1'000'000 : bit_rate);
-}
+/// Of an axis in its turn: status (7 bytes) and motion (8); and of a target (4).
+inline constexpr std::uint32_t axis_bits = canopen::most_bits(7) + canopen::most_bits(8), target_bits = canopen::most_bits(4);
 inline constexpr int most_axes = 2;  ///< four transmit PDOs in the connection set, two for each
 
 /// Bytes of an object from a whole number, low byte first.

@@ -71,6 +71,13 @@ struct AxisFeedback {
     Instant at{};
 };
 
+/// How a drive tells of itself where a line has a SYNC: in each so many beats of it.
+struct DriveBeats {
+    Duration beat{};  ///< between two SYNCs while something moves; at rest they are further apart
+    int turns = 0;    ///< 0: it is asked instead
+    bool operator==(const DriveBeats&) const = default;
+};
+
 /// Whether a drive answers. Sent on every change.
 struct DriveLink {
     DriveId drive = no_drive;
@@ -79,6 +86,7 @@ struct DriveLink {
     Duration retry_pause{};              ///< present pause between attempts while it is silent
     std::string text;                    ///< why, for people
     DriveWatchdog watchdog{};
+    DriveBeats beats{};
 };
 
 enum class Severity : std::uint8_t { info, warning, alarm };

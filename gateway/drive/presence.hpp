@@ -70,6 +70,8 @@ public:
     /// What its own watchdog was programmed to; said with the next report.
     void watched(DriveWatchdog watchdog) { watchdog_ = std::move(watchdog); }
     [[nodiscard]] const DriveWatchdog& watchdog() const noexcept { return watchdog_; }
+    /// The beats in which it tells; said at once if it has been spoken of.
+    void beats(DriveBeats beats, Out& out);
     /// Says whether it is online, and why, unless exactly that was said last.
     void report(std::string text, Out& out);
 
@@ -83,6 +85,7 @@ private:
     Instant next_probe_ = never;
     DriveLink reported_;
     DriveWatchdog watchdog_;
+    DriveBeats beats_;
 };
 
 }  // namespace axisgate::drive

@@ -174,6 +174,11 @@ json::object axis_document(const AxisView& v) {
     return o;
 }
 
+static json::value sync_document(const DriveBeats& b) {
+    if (b.turns == 0) return nullptr;
+    return json::object{{"beat_ms", milliseconds_of(b.beat)}, {"turns", b.turns}, {"cycle_ms", milliseconds_of(b.beat * b.turns)}};
+}
+
 json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status) {
     const DriveSpec& d = site.site.drives[index];
     json::object o = to_json(d);
@@ -189,7 +194,8 @@ json::object drive_document(const SiteState& site, std::size_t index, const Driv
                                {"device_online", status.device_online},
                                {"text", status.text},
                                {"silent_exchanges", status.silent_exchanges},
-                               {"retry_pause_ms", status.retry_pause_ms}};
+                               {"retry_pause_ms", status.retry_pause_ms},
+                               {"sync", sync_document(status.beats)}};
     return o;
 }
 

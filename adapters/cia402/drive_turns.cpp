@@ -1,0 +1,84 @@
+// PdoTurns: out of use, its type, into use again in the beat that brings it to its own.
+// In: beats, answers. Out: steps. A node that cannot be moved in a few tries is told of and left alone.
+#include "adapters/cia402/drive_turns.hpp"
+
+#include <fmt/core.h>
+
+#include "adapters/cia402/drive_axis.hpp"
+
+namespace axisgate::cia402_drive {
+namespace {
+int within(std::int64_t beat, int turns) { return static_cast<int>((beat % turns + turns) % turns); }
+}  // namespace
+
+void PdoTurns::set_up(int turns) noexcept {
+    act_ = Act::rest;
+    for (Told& p : told_) {
+        p = {};
+        p.turns = turns;
+        p.aim = drive_.node.slot;
+    }
+}
+
+void PdoTurns::came(Pdo which, Turn& t) {
+    Told& p = told_[which];
+    const Line& line = drive_.node.line;
+    if (p.turns != line.plan.turns || p.turns == 1 || (act_ != Act::rest && at_ == which)) return;
+    const int error = within(static_cast<std::int64_t>(line.beat) - drive_.node.slot, p.turns);
+    if (error == 0) {
+        p.missed = 0;
+        if (p.tries <= most_tries && ++p.in_place >= settled) p.tries = 0;
+        return;
+    }
+    p.in_place = 0;
+    p.missed = error == p.error ? p.missed + 1 : 1;
+    p.error = error;
+    if (p.missed >= 2 && p.tries == most_tries) give_up(p, "they come beside it however they are set", t);
+}
+bool PdoTurns::misplaced(const Told& p) const noexcept {
+    return p.tries <= most_tries && (p.turns != drive_.node.line.plan.turns || (p.missed >= 2 && p.tries < most_tries));
+}
+void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
+    p.tries = most_tries + 1;
+    act_ = Act::rest;
+    drive_.node.notices.tell(Severity::warning, drive_.id(), "turns", p.error,
+                             fmt::format("{}: its PDOs keep to no turn: {}. The bus carries them in beats of other drives",
+                                         drive_.node.setup.name, why),
+                             t.now, t.out);
+}
+
+bool PdoTurns::wants(Instant now) const noexcept {
+    if (act_ == Act::rest) return misplaced(told_[status]) || misplaced(told_[motion]);
+    return act_ != Act::on || drive_.node.line.in_turn(told_[at_].aim, now);
+}
+
+Step PdoTurns::next() {
+    const Line& line = drive_.node.line;
+    if (act_ == Act::rest) {
+        at_ = misplaced(told_[status]) ? status : motion;
+        Told& p = told_[at_];
+        const bool same = p.turns == line.plan.turns;
+        p.aim = same ? within(p.aim - p.error, p.turns) : drive_.node.slot;
+        p.tries = same ? p.tries + 1 : 0;
+        act_ = Act::off;
+    }
+    const auto pdo = at_ == status ? status_pdo(drive_.node.number, drive_.place()) : motion_pdo(drive_.node.number, drive_.place());
+    auto settings = pdo.settings;
+    settings.valid = act_ == Act::on;
+    const std::uint16_t index = canopen::settings_index(pdo.direction, pdo.number);
+    if (act_ == Act::type) return {Step::Kind::write, {index, 2}, bytes_of(line.plan.turns, 1)};
+    return {Step::Kind::write, {index, 1}, bytes_of(canopen::id_word(settings), 4)};
+}
+
+void PdoTurns::answered(bool done, Turn& t) {
+    if (act_ == Act::rest) return;
+    Told& p = told_[at_];
+    if (!done) return give_up(p, "the drive refuses to have them set", t);
+    if (act_ == Act::type) p.turns = drive_.node.line.plan.turns;
+    if (act_ != Act::on) return void(act_ = act_ == Act::off ? Act::type : Act::on);
+    act_ = Act::rest;
+    p.missed = 0;
+    drive_.feedback.begin(t.now);  // they have not come for a while
+}
+
+}  // namespace axisgate::cia402_drive

@@ -159,7 +159,8 @@ Duration LineAdapter::period() const {
     });
     if (!wanted) return Duration::zero();
     if (streams) return beat;  // by which the drives that follow were told to reckon
-    if (!quick) return std::min<Duration>(drive::Pace::rested * beat, std::max<Duration>(beat, milliseconds(rest_cycle / line_.plan.turns)));
+    if (!quick)
+        return std::min<Duration>(drive::Pace::rested * beat, std::max<Duration>(beat, milliseconds(rest_cycle / line_.plan.turns)));
     // Where somebody looks closely, as far as the fullest beat allows it.
     const auto whole = [](Duration d) { return milliseconds(milliseconds_of(d + std::chrono::microseconds(999))); };
     const Duration least = 2 * wire_time(line_.plan.bits, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);

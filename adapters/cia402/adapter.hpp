@@ -18,7 +18,9 @@ public:
     void on_set_point(const SetPoint& set_point, Instant now, Out& out) override;
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
-    [[nodiscard]] Instant deadline() const override { return std::min({line_.turns.deadline(), sync_.deadline(), targets_at_, heartbeat_.deadline()}); }
+    [[nodiscard]] Instant deadline() const override {
+        return std::min({line_.turns.deadline(), sync_.deadline(), targets_at_, heartbeat_.deadline()});
+    }
     [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
@@ -26,7 +28,8 @@ private:
     /// Which drive tells in which beats, by the drives of the site; an axis that is led keeps the beat that it was told to reckon with.
     void plan_beats(Turn& t);
     [[nodiscard]] Duration wished_beat() const;
-    /// Between two SYNCs: the beat of the plan, longer at rest, shorter where somebody looks closely and the bus has room; zero: nobody listens.
+    /// Between two SYNCs: the beat of the plan, longer at rest, shorter where somebody looks closely and the bus has room; zero: nobody
+    /// listens.
     [[nodiscard]] Duration period() const;
     void plan_sync(Instant now);
     void send_targets(Turn& t);
@@ -40,8 +43,8 @@ private:
     bool up_ = false;
     Duration wished_{};  ///< the beat that the plan was made for
     canopen::SyncProducer sync_;
-    Instant targets_at_ = never;     ///< so long before the SYNC that they are there with it
-    std::uint64_t targets_for_ = 0;  ///< the beat whose targets went out last
+    Instant targets_at_ = never;            ///< so long before the SYNC that they are there with it
+    std::uint64_t targets_for_ = 0;         ///< the beat whose targets went out last
     canopen::HeartbeatProducer heartbeat_;  ///< the gateway's own
     Duration heartbeat_period_{};
 };

@@ -37,7 +37,7 @@ Duration SetPointStream::cycle() const noexcept { return place_ ? drive_.node.li
 std::optional<Job> SetPointStream::begin(Turn& t) {
     Line& line = drive_.node.line;
     const int nodes = static_cast<int>(line.plan.slots.size());
-    int longest = canopen::turns_for_all(nodes, line.plan.places);
+    int longest = canopen::longest_turns(nodes, line.plan.places);
     while (longest > 1 && longest * line.plan.beat > longest_cycle)
         longest /= 2;
     if (!place_) {
@@ -82,8 +82,7 @@ void SetPointStream::before_sync(Turn& t) {
         const double v = led_.speed_towards(static_cast<double>(p.value), ramps, cycle_s);
         return t.out.send(canopen::data_frame(0x300u + node, bytes_of(std::llround(v), 4)));
     }
-    const double place =
-        std::clamp(led_.towards(static_cast<double>(p.value), ramps, cycle_s), double{INT32_MIN}, double{INT32_MAX});
+    const double place = std::clamp(led_.towards(static_cast<double>(p.value), ramps, cycle_s), double{INT32_MIN}, double{INT32_MAX});
     t.out.send(canopen::data_frame(0x200u + node, bytes_of(std::llround(place), 4)));
 }
 

@@ -51,7 +51,9 @@ public:
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
     /// Its PDOs are waited for, or the beat in which they begin.
-    [[nodiscard]] bool beats_wanted() const noexcept { return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end()); }
+    [[nodiscard]] bool beats_wanted() const noexcept {
+        return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end());
+    }
     [[nodiscard]] bool quick() const noexcept;
     [[nodiscard]] bool streams() const noexcept;
     /// It watches the gateway's heartbeat, and answers.

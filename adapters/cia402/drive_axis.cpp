@@ -135,7 +135,8 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     // A drive without 60C2h has no such time; one that does not take it now would follow in jerks.
     const bool other_time = job.stream && interpolation && end.abort == canopen::Abort::device_state && stream.has_another_time();
     if (!end.done() && (!s.optional || other_time)) {
-        const std::string text = fmt::format("the drive refuses{}: {}", other_time ? " 60C2h, the time between two targets" : "", canopen::to_text(end));
+        const std::string text =
+            fmt::format("the drive refuses{}: {}", other_time ? " 60C2h, the time between two targets" : "", canopen::to_text(end));
         if (job.stream) {
             t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
             stream.end();

@@ -50,11 +50,11 @@ struct Line {
     std::uint8_t own_node = 127;  ///< the gateway's, for its heartbeat
 
     // --- beats ------------------------------------------------------------------------------------------------------------------
-    canopen::SyncTurns plan;       ///< whose beats are whose; targets go by its beat, which stands while an axis is led
-    canopen::TargetTurns targets;  ///< places of axes that are led
-    int led = 0;                   ///< so many
-    std::uint64_t beat = 0;        ///< SYNCs that were sent
-    Instant synced_at{};           ///< the last one
+    canopen::SyncTurns plan;                          ///< whose beats are whose; targets go by its beat, which stands while an axis is led
+    canopen::TargetTurns targets;                     ///< places of axes that are led
+    int led = 0;                                      ///< so many
+    std::uint64_t beat = 0;                           ///< SYNCs that were sent
+    Instant synced_at{};                              ///< the last one
     Duration period = std::chrono::milliseconds(20);  ///< between two of them now
     /// Of an axis, now: between two pictures of it.
     [[nodiscard]] Duration cycle() const noexcept { return period * plan.turns; }

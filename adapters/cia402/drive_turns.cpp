@@ -41,10 +41,10 @@ bool PdoTurns::misplaced(const Told& p) const noexcept {
 void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
     p.tries = most_tries + 1;
     act_ = Act::rest;
-    drive_.node.notices.tell(Severity::warning, drive_.id(), "turns", p.error,
-                             fmt::format("{}: its PDOs keep to no turn: {}. The bus carries them in beats of other drives",
-                                         drive_.node.setup.name, why),
-                             t.now, t.out);
+    drive_.node.notices.tell(
+        Severity::warning, drive_.id(), "turns", p.error,
+        fmt::format("{}: its PDOs keep to no turn: {}. The bus carries them in beats of other drives", drive_.node.setup.name, why), t.now,
+        t.out);
 }
 
 bool PdoTurns::wants(Instant now) const noexcept {

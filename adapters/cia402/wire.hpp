@@ -31,8 +31,8 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
     interpolated_position{0x60C1, 1}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0}, modes{0x6502, 0};
 }  // namespace object
 
-/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3 and 4.
-/// RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3
+/// and 4. RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
 [[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis = 0);
 [[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis = 0);
 /// `interpolated`: position by 60C1h, for mode 7.

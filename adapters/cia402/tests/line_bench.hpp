@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -46,7 +47,9 @@ public:
     std::vector<Notice> notices;
     std::vector<Out::StreamEnd> stream_ends;
     DriveLink link;
-    bool deaf = false;  ///< nothing that the gateway sends reaches the bus
+    std::map<DriveId, DriveLink> of_drive;
+    std::function<void(const Frame&)> crossed;  ///< each frame of the bus, when its last bit has crossed
+    bool deaf = false;                          ///< nothing that the gateway sends reaches the bus
     unsigned gateway_node = 127;
     int heartbeats = 0;  ///< that the gateway has sent under that number
 
@@ -154,12 +157,13 @@ private:
         for (const auto& r : out.results)
             results[r.ticket].push_back(r);
         for (const auto& l : out.links)
-            link = l;
+            of_drive[l.drive] = link = l;
         notices.insert(notices.end(), out.notices.begin(), out.notices.end());
         stream_ends.insert(stream_ends.end(), out.stream_ends.begin(), out.stream_ends.end());
     }
     void on_frame(const Frame& f) override {
         now = std::max(now, f.at);
+        if (crossed) crossed(f);
         inject(f);
     }
     void on_line_state(bool up, const std::string&) override {
@@ -167,7 +171,9 @@ private:
         adapter.on_line(up, now, out);
         take(out);
     }
-    void on_sent(const Frame&) override {}
+    void on_sent(const Frame& f) override {
+        if (crossed) crossed(f);
+    }
     Ticket tickets_ = 0;
 };
 

@@ -115,7 +115,10 @@ void Node::boot(Instant now, Out& out) {
     read_pdos(now);
 }
 
-void Node::read_sync() { sync_id_ = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu; }
+void Node::read_sync() {
+    sync_id_ = static_cast<std::uint32_t>(d_.integer({0x1005, 0}).value_or(0x80)) & 0x7FFu;
+    sync_overflow_ = static_cast<int>(d_.integer({0x1019, 0}).value_or(0));
+}
 
 /// 1016h:01: the node in bits 16 to 22, its time in ms below; the watch begins with its first heartbeat (CiA 301).
 void Node::watch_as_written() {
@@ -144,10 +147,11 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
     Abort fault = Abort::none;
     const auto read = canopen::pdo_of(d_, direction, n, fault);
     const bool valid = read && read->settings.valid;
-    if (valid && p.valid && p.pdo == *read) return;
+    if (valid && p.valid && p.pdo == *read) return;  // sub 6 is written while it is out of use
     p = {};
     p.valid = valid;
     if (read) p.pdo = *read;
+    if (direction == PdoDirection::transmit) p.start = static_cast<int>(d_.integer({canopen::settings_index(direction, n), 6}).value_or(0));
     for (const auto& m : p.pdo.mapping)
         p.entries.push_back(d_.find(m.address));
     if (valid && direction == PdoDirection::transmit && p.pdo.settings.event_ms > 0)
@@ -171,6 +175,13 @@ Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
             all.push_back(canopen::mapped_entry(static_cast<std::uint32_t>(d_.integer({a.index, i}).value_or(0))));
         if (canopen::bits_of(all) > canopen::pdo_bits) return Abort::pdo_length;
     }
+    // CiA 301, 7.5.2.17: 1 is no overflow, and it stands while a period is produced; 7.5.2.37: sub 6 stands while the PDO is in use.
+    if (a.index == 0x1019 && v == 1) return Abort::value;
+    if (a.index == 0x1019 && d_.integer({0x1006, 0}).value_or(0) != 0) return Abort::device_state;
+    if (a.index >= 0x1800 && a.index < 0x1800 + pdos && a.sub == 6) {
+        if (v > 240) return Abort::value;
+        if (transmit_[a.index - 0x1800u].valid) return Abort::device_state;
+    }
     const canopen::Entry* e = d_.find(a);
     const bool is_signed = e && canopen::is_signed(e->type);
     const Abort refused = device_->may_write(
@@ -185,7 +196,7 @@ void Node::take_writes(Instant now, Out& out) {
         device_->written(a, now);
         if (a.index == 0x1016) watch_as_written();
         if (a.index == 0x1017) heartbeat_.set_period(std::chrono::milliseconds(d_.integer(a).value_or(0)), now);
-        if (a.index == 0x1005) read_sync();
+        if (a.index == 0x1005 || a.index == 0x1019) read_sync();
         if (a.index == 0x100C || a.index == 0x100D)
             guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                        static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
@@ -212,6 +223,9 @@ void Node::take_writes(Instant now, Out& out) {
 void Node::nmt(NmtCommand command, Instant now, Out& out) {
     switch (command) {
         case NmtCommand::start:
+            if (state_ != NmtState::operational)
+                for (Pdo& p : transmit_)
+                    p.syncs = 0, p.begun = false;
             state_ = NmtState::operational;
             for (Pdo& p : transmit_)
                 if (p.valid && p.pdo.settings.event_ms > 0) p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
@@ -240,7 +254,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     (void)watch_.on_frame(f, now);
     if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
     if (state_ == NmtState::stopped) return;
-    if (canopen::is_data(f, sync_id_)) return on_sync(now, out);
+    if (canopen::is_data(f, sync_id_)) return on_sync(f, now, out);
     std::vector<Frame> answers;
     if (server_.on_frame(f, now, answers)) {
         for (const Frame& a : answers)
@@ -273,17 +287,30 @@ void Node::receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out
     take_writes(now, out);
 }
 
-void Node::on_sync(Instant now, Out& out) {
+/// Whether a PDO of a synchronous type goes with this SYNC: where it has a start value, the SYNC with that counter is the first that it has
+/// received; then each n-th one, counted from there (CiA 301, 7.5.2.37).
+bool Node::due(Pdo& p, int counter) const {
+    if (p.start != 0 && sync_overflow_ != 0 && !p.begun) {
+        if (counter != p.start) return false;
+        p.begun = true;
+    }
+    if (p.pdo.settings.transmission == 0) return true;
+    if (++p.syncs < p.pdo.settings.transmission) return false;
+    p.syncs = 0;
+    return true;
+}
+
+void Node::on_sync(const Frame& sync, Instant now, Out& out) {
+    const auto counter = sync.data();
+    if (counter.size() != (sync_overflow_ != 0 ? 1u : 0u)) {
+        if (!std::exchange(sync_odd_, true)) send(canopen::emergency_frame(node_, {0x8240, 0x11, {}}), now, out);
+        return;
+    }
+    sync_odd_ = false;
     if (state_ != NmtState::operational) return;
     for (Pdo& p : transmit_) {
-        const auto every = p.pdo.settings.transmission;
-        if (!p.valid || every > 240) continue;
-        if (every == 0) {
-            if (packed(p, now) != p.sent) transmit(p, now, out);
-        } else if (++p.syncs >= every) {
-            p.syncs = 0;
-            transmit(p, now, out);
-        }
+        if (!p.valid || p.pdo.settings.transmission > 240 || !due(p, counter.empty() ? 0 : counter[0])) continue;
+        if (p.pdo.settings.transmission != 0 || packed(p, now) != p.sent) transmit(p, now, out);
     }
     for (Pdo& p : receive_) {
         if (p.waiting.empty()) continue;

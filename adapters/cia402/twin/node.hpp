@@ -45,7 +45,9 @@ private:
     struct Pdo {
         canopen::Pdo pdo;
         bool valid = false;
-        int syncs = 0;
+        int syncs = 0;                               ///< since it was sent, or began to count
+        int start = 0;                               ///< sub 6: the counter of the SYNC that is its first; 0: any
+        bool begun = false;                          ///< that one has come
         std::vector<const canopen::Entry*> entries;  ///< of what is mapped, in d_; null: a filler, or not there
         std::vector<std::uint8_t> sent, waiting;
         Instant event = never;
@@ -65,7 +67,8 @@ private:
     void receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out);
     void transmit(Pdo& p, Instant at, Out& out);
     [[nodiscard]] std::vector<std::uint8_t> packed(const Pdo& p, Instant at);
-    void on_sync(Instant now, Out& out);
+    void on_sync(const Frame& sync, Instant now, Out& out);
+    [[nodiscard]] bool due(Pdo& p, int counter) const;
     void watch_as_written();
     void connection_lost(Instant at, Out& out);
     void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
@@ -76,6 +79,8 @@ private:
     canopen::SdoServer server_;
     canopen::NmtState state_ = canopen::NmtState::boot_up;
     std::uint32_t sync_id_ = 0x80;
+    int sync_overflow_ = 0;  ///< 1019h; 0: a SYNC carries no counter
+    bool sync_odd_ = false;  ///< the last one had another length
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
     canopen::HeartbeatWatch watch_{0};  ///< of the node that 1016h:01 names

@@ -53,6 +53,7 @@ constexpr Row rows[] = {
     {0x1018, 2, u32, ro, no, 0x402, "Product code"},
     {0x1018, 3, u32, ro, no, 0x10001, "Revision number"},
     {0x1018, 4, u32, ro, no, 4711, "Serial number"},
+    {0x1019, 0, u8, rw, no, 0, "Synchronous counter overflow value", 0, 240},
     {0x1029, 0, u8, con, no, 1, "Error behaviour"},
     {0x1029, 1, u8, rw, no, 0, "Communication error", 0, 1},
     {0x6007, 0, i16, rw, no, 1, "Abort connection option code", 0, 3},
@@ -185,11 +186,12 @@ canopen::Dictionary factory_dictionary(std::uint8_t node) {
         add(r, 0, u8, con, 2, "RPDO communication");
         add(r, 1, u32, rw, off | (0x200u + n * 0x100u + node), "COB-ID of RPDO");
         add(r, 2, u8, rw, 255, "RPDO transmission type");
-        add(t, 0, u8, con, 5, "TPDO communication");
+        add(t, 0, u8, con, 6, "TPDO communication");
         add(t, 1, u32, rw, off | (0x180u + n * 0x100u + node), "COB-ID of TPDO");
         add(t, 2, u8, rw, 255, "TPDO transmission type");
         add(t, 3, u16, rw, 0, "TPDO inhibit time");
         add(t, 5, u16, rw, 0, "TPDO event timer");
+        add(t, 6, u8, rw, 0, "TPDO SYNC start value");
         for (const std::uint16_t m : {static_cast<std::uint16_t>(r + 0x200), static_cast<std::uint16_t>(t + 0x200)}) {
             add(m, 0, u8, rw, 1, "PDO mapping");
             for (std::uint8_t i = 1; i <= 8; ++i)

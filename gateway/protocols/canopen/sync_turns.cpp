@@ -97,9 +97,9 @@ void TargetTurns::give_back(const Place& place) noexcept {
 }
 int TargetTurns::fullest() const noexcept { return *std::ranges::max_element(used_); }
 
-int turns_for_all(int axes, int places) noexcept {
-    int turns = 1;
-    while (turns < TargetTurns::most && turns * places < axes)
+int longest_turns(int axes, int places) noexcept {
+    int turns = 2;
+    while (turns < TargetTurns::most && turns * places < 2 * axes)
         turns *= 2;
     return turns;
 }

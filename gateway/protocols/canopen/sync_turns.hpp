@@ -23,11 +23,11 @@ struct TurnsWish {
         int axes = 1;   ///< all of them tell in one beat; 0: it tells nothing
         int slot = -1;  ///< where it is in the plan in force: it stays there if the turns stay as many
     };
-    Duration beat{};                 ///< between two SYNCs, whole milliseconds
-    std::uint32_t bit_rate = 0;      ///< 0: not known, 1 Mbit/s
-    std::uint32_t axis_bits = 0;     ///< of the PDOs in which an axis tells
-    std::uint32_t target_bits = 0;   ///< of one that leads it
-    int places = 0;                  ///< of targets that are in use and must not be lost
+    Duration beat{};                ///< between two SYNCs, whole milliseconds
+    std::uint32_t bit_rate = 0;     ///< 0: not known, 1 Mbit/s
+    std::uint32_t axis_bits = 0;    ///< of the PDOs in which an axis tells
+    std::uint32_t target_bits = 0;  ///< of one that leads it
+    int places = 0;                 ///< of targets that are in use and must not be lost
     std::vector<Node> nodes{};
 };
 
@@ -69,7 +69,8 @@ public:
 private:
     std::array<int, most> used_{};
 };
-/// So many beats, a power of 2, give each of `axes` a place.
-[[nodiscard]] int turns_for_all(int axes, int places) noexcept;
+/// The longest that an axis waits between two targets, in beats, a power of 2: twice as long as if all of them shared the places evenly. So
+/// one half of the room is everybody's, and the other half makes those quicker who are led first.
+[[nodiscard]] int longest_turns(int axes, int places) noexcept;
 
 }  // namespace axisgate::canopen

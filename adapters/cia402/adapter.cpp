@@ -143,7 +143,7 @@ void LineAdapter::plan_beats(Turn& t) {
     drives_.each([&](const Drive& d) { wish.nodes.push_back({static_cast<int>(d.axes.size()), d.node.slot}); });
     line_.plan = canopen::plan_turns(wish);
     std::size_t i = 0;
-    drives_.each([&](Drive& d) { d.take_slot(line_.plan.slots[i++], t); });
+    drives_.each([&](Drive& d) { d.node.take_slot(line_.plan.slots[i++], t); });
 }
 
 Duration LineAdapter::period() const {

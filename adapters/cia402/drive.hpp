@@ -32,11 +32,6 @@ public:
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
     void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
-    /// Its beats by the line's plan, which is in force.
-    void take_slot(int slot, Turn& t) {
-        node.slot = slot;
-        if (!axes.empty()) node.presence.beats({node.line.plan.beat, node.line.plan.turns}, t.out);
-    }
     void on_frame(const Frame& frame, Turn& t);
     void before_sync(Turn& t);  ///< the next targets go out
     void after_sync() noexcept;

@@ -80,6 +80,11 @@ struct Node {
         const auto moved = places.find(line.dialect.mark.index);
         return {moved == places.end() ? line.dialect.mark.index : moved->second, line.dialect.mark.sub};
     }
+    /// Its beats by the line's plan, which is in force.
+    void take_slot(int of_plan, Turn& t) {
+        slot = of_plan;
+        if (!setup.axes.empty()) presence.beats({line.plan.beat, line.plan.turns}, t.out);
+    }
     /// The number that a catalogue has for an error code.
     [[nodiscard]] std::uint16_t number_of(std::uint16_t code) const noexcept {
         return line.dialect.errors_in_low_byte && code >= 0xFF00 ? static_cast<std::uint16_t>(code & 0xFFu) : code;

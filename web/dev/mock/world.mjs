@@ -76,6 +76,7 @@ export class MockDrive {
         text: this.text,
         silent_exchanges: this.presence === 'offline' ? 41 : 0,
         retry_pause_ms: this.presence === 'offline' ? 5000 : 0,
+        sync: null,
       },
     };
   }

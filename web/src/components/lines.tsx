@@ -115,6 +115,7 @@ function DriveCard({ name }: { name: string }) {
             <AxisName name={a} />
           </>
         ))}
+        {s.sync && <> · {t('its axes tell of themselves each {cycle_ms} ms: {turns} × {beat_ms} ms', { cycle_ms: s.sync.cycle_ms, turns: s.sync.turns, beat_ms: s.sync.beat_ms })}</>}
         {s.silent_exchanges > 0 && <> · {t('silent {silent_exchanges} times, next try within {retry_pause_ms} ms', { silent_exchanges: s.silent_exchanges, retry_pause_ms: s.retry_pause_ms })}</>}
       </p>
     </li>

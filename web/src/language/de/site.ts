@@ -156,6 +156,7 @@ export const site: Table = {
   'It has faults, so it cannot be applied.': 'Es enthält Fehler und ist daher nicht anwendbar.',
   'It is rolled back by itself in {rest} s.': 'In {rest} s wird sie von selbst zurückgenommen.',
   'It is the site that is in force.': 'Es ist die Anlage, die gilt.',
+  'its axes tell of themselves each {cycle_ms} ms: {turns} × {beat_ms} ms': 'seine Achsen melden sich alle {cycle_ms} ms: {turns} × {beat_ms} ms',
   'Its time is over.': 'Ihre Zeit ist um.',
   'Keep': 'Behalten',
   'Keep mine': 'Eigene behalten',

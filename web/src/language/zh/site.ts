@@ -156,6 +156,7 @@ export const site: Table = {
   'It has faults, so it cannot be applied.': '其中有错误，因此无法应用。',
   'It is rolled back by itself in {rest} s.': '将在 {rest} s 后自动回退。',
   'It is the site that is in force.': '与当前生效的现场配置相同。',
+  'its axes tell of themselves each {cycle_ms} ms: {turns} × {beat_ms} ms': '各轴每 {cycle_ms} ms 上报一次：{turns} × {beat_ms} ms',
   'Its time is over.': '时限已到。',
   'Keep': '保留',
   'Keep mine': '保留我的更改',

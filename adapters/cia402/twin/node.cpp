@@ -125,7 +125,15 @@ void Node::watch_as_written() {
     const auto entry = static_cast<std::uint32_t>(d_.integer({0x1016, 1}).value_or(0));
     const auto node = (entry >> 16) & 0xFFu;
     const bool valid = node >= 1 && node <= 127;
-    watch_ = canopen::HeartbeatWatch(static_cast<std::uint8_t>(valid ? node : 0), std::chrono::milliseconds(valid ? entry & 0xFFFFu : 0u));
+    watched_ = static_cast<std::uint8_t>(valid ? node : 0);
+    watch_ = canopen::HeartbeatWatch(watched_, std::chrono::milliseconds(valid ? entry & 0xFFFFu : 0u));
+}
+
+Acceptance Node::acceptance() const noexcept {
+    // The connection set has the node's number in the low seven bits. PDOs with other identifiers, or a SYNC elsewhere: it hears all.
+    const auto own = [this](const Pdo& p) { return !p.valid || (p.pdo.settings.id & 0x7Fu) == node_; };
+    if (sync_id_ != canopen::sync_id || !std::ranges::all_of(receive_, own) || !std::ranges::all_of(transmit_, own)) return {};
+    return {{{{0x7F, node_}, {0x7F, 0}, {0x7F, watched_}}}, 3};
 }
 
 /// Nobody asks, or the watched heartbeat has stopped. 1029h:01 = 0: out of the operational state (CiA 301, the default).

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "adapters/cia402/twin/device.hpp"
+#include "gateway/core/twin.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
 #include "gateway/protocols/canopen/sdo_server.hpp"
@@ -28,6 +29,8 @@ public:
     /// Everything that happens by itself until then, in order, each with its own instant.
     void advance(Instant now, Out& out);
     [[nodiscard]] Instant deadline() const;
+    /// Of the pre-defined connection set: its own identifiers, NMT and SYNC, and those of the node whose heartbeat it watches.
+    [[nodiscard]] Acceptance acceptance() const noexcept;
 
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -84,6 +87,7 @@ private:
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
     canopen::HeartbeatWatch watch_{0};  ///< of the node that 1016h:01 names
+    std::uint8_t watched_ = 0;
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};

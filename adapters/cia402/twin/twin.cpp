@@ -39,6 +39,7 @@ public:
         if (node_.powered()) node_.advance(now, out);
     }
     [[nodiscard]] Instant deadline() const override { return node_.deadline(); }
+    [[nodiscard]] Acceptance acceptance() const noexcept override { return node_.acceptance(); }
     void power_on(const NonVolatile& memory, Instant now, Out& out) override { node_.power_on(memory, now, out); }
     [[nodiscard]] NonVolatile non_volatile() const override { return node_.stored(); }
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }

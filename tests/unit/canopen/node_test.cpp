@@ -228,6 +228,32 @@ TEST(Sync, ComesByThePlanAndNotByTheLastOne) {
     EXPECT_FALSE(sync.on_deadline(t0 + 9ms)) << "never two to make up for it";
     EXPECT_EQ(sync.deadline(), t0 + 10ms);
 }
+TEST(Sync, AnotherPeriodCountsFromTheLastOne) {
+    SyncProducer sync;
+    const Instant t0 = time_zero + 1s;
+    sync.set_period(8ms, t0);
+    EXPECT_EQ(sync.deadline(), t0) << "one that was off begins at once";
+    EXPECT_TRUE(sync.on_deadline(t0 + 100us));
+    EXPECT_EQ(sync.deadline(), t0 + 8ms);
+    sync.set_period(2ms, t0 + 1ms);
+    EXPECT_EQ(sync.deadline(), t0 + 2ms);
+    sync.set_period(2ms, t0 + 1500us);
+    EXPECT_EQ(sync.deadline(), t0 + 2ms) << "the same one changes nothing";
+    sync.set_period(1ms, t0 + 1500us);
+    EXPECT_EQ(sync.deadline(), t0 + 1500us) << "it is over: now";
+    sync.set_period(0ms, t0 + 1500us);
+    EXPECT_EQ(sync.deadline(), never);
+}
+TEST(Sync, OneThatIsLateByMostOfItsCycleStandsForTheNextToo) {
+    SyncProducer sync;
+    const Instant t0 = time_zero + 1s;
+    sync.set(2ms, 0, t0);
+    EXPECT_TRUE(sync.on_deadline(t0 + 2900us));
+    EXPECT_EQ(sync.deadline(), t0 + 4ms);
+    EXPECT_TRUE(sync.on_deadline(t0 + 5200us));
+    EXPECT_EQ(sync.deadline(), t0 + 8ms) << "not 800 us behind it";
+    EXPECT_EQ(sync.missed(), 1u);
+}
 TEST(Sync, CountsFromOneToItsOverflow) {
     SyncProducer sync(0x81);
     Instant t = time_zero;

@@ -141,7 +141,12 @@ void LineAdapter::plan_beats(Turn& t) {
     wished_ = wished_beat();
     canopen::TurnsWish wish{wished_, line_.bit_rate, axis_bits, target_bits, line_.targets.fullest(), {}};
     drives_.each([&](const Drive& d) { wish.nodes.push_back({static_cast<int>(d.axes.size()), d.node.slot}); });
-    line_.plan = canopen::plan_turns(wish);
+    auto plan = canopen::plan_turns(wish);
+    if (!line_.targets.none() && plan.beat != line_.plan.beat) {  // whoever is led reckons with the beat: others begin when it may change
+        wished_ = {};
+        return;
+    }
+    line_.plan = std::move(plan);
     std::size_t i = 0;
     drives_.each([&](Drive& d) { d.node.take_slot(line_.plan.slots[i++], t); });
 }

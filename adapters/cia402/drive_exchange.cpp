@@ -46,7 +46,8 @@ void Exchanges::transfer(Turn& t) {
     } else {
         (void)sdo_.read(s.address, t.now, frames);
     }
-    emit(frames, ask_.why == Ask::Why::stop ? Priority::urgent : ask_.why == Ask::Why::step ? Priority::command : Priority::poll, t);
+    const bool soon = ask_.why == Ask::Why::step || ask_.why == Ask::Why::turns;
+    emit(frames, ask_.why == Ask::Why::stop ? Priority::urgent : soon ? Priority::command : Priority::poll, t);
 }
 
 std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {

@@ -58,8 +58,9 @@ struct Line {
     Duration period = std::chrono::milliseconds(20);  ///< between two of them now
     /// Of an axis, now: between two pictures of it.
     [[nodiscard]] Duration cycle() const noexcept { return period * plan.turns; }
-    /// What is sent now reaches a node before the next SYNC, in a beat that leaves `slot`.
+    /// What is sent now reaches a node before the next SYNC, in a beat that leaves `slot`; a node that has none waits for the plan.
     [[nodiscard]] bool in_turn(int slot, Instant now) const noexcept {
+        if (slot < 0) return false;
         return plan.turns == 1 || (static_cast<int>(beat % static_cast<unsigned>(plan.turns)) == slot && now < synced_at + period / 2);
     }
 };

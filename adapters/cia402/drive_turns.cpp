@@ -16,7 +16,6 @@ void PdoTurns::set_up(int turns) noexcept {
     for (Told& p : told_) {
         p = {};
         p.turns = turns;
-        p.aim = drive_.node.slot;
     }
 }
 
@@ -48,6 +47,7 @@ void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
 }
 
 bool PdoTurns::wants(Instant now) const noexcept {
+    if (!drive_.known.profile) return false;
     if (act_ == Act::rest) return misplaced(told_[status]) || misplaced(told_[motion]);
     return act_ != Act::on || drive_.node.line.in_turn(told_[at_].aim, now);
 }
@@ -58,7 +58,8 @@ Step PdoTurns::next() {
         at_ = misplaced(told_[status]) ? status : motion;
         Told& p = told_[at_];
         const bool same = p.turns == line.plan.turns;
-        p.aim = same ? within(p.aim - p.error, p.turns) : drive_.node.slot;
+        const int slot = drive_.node.slot, aimed = p.aim < 0 ? slot : p.aim;
+        p.aim = same ? within(aimed - p.error, p.turns) : slot;
         p.tries = same ? p.tries + 1 : 0;
         act_ = Act::off;
     }

@@ -35,7 +35,7 @@ private:
     enum class Act : std::uint8_t { rest, off, type, on };
     struct Told {
         int turns = 1;                ///< its transmission type
-        int aim = 0;                  ///< it is taken into use in a beat that leaves this
+        int aim = -1;                 ///< it is taken into use in a beat that leaves this; below 0: with NMT start, in its own
         int error = 0, missed = 0;    ///< so many beats beside its own, so often in a row
         int tries = 0, in_place = 0;  ///< moves that did not help; times in a row in its beat
     };

@@ -13,6 +13,7 @@ void Orders::reset(int mode) {
     forget();
 }
 void Orders::forget() {
+    step_.reset();
     reading_.reset();
     target_.reset();
     buffered_.reset();
@@ -72,7 +73,12 @@ void Orders::sync(unsigned cw, Instant now) {
     double to = mode_ == 8 ? u_.place_of(0x607A) : u_.place_of(0x60C1, 1);
     limited_ = low < high && (to < low || to > high);
     if (low < high) to = std::clamp(to, low, high);
-    m_.step_to(to, static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2))), now);
+    // 60C2h is the time between two targets: SYNCs may come more often, and one without a new target goes on with the way of the last one.
+    const double time = static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2)));
+    const bool on_its_way = step_ && step_->to == to && seconds(now - step_->at) < time - std::min(time / 4, 0.0005);
+    if (on_its_way) return;
+    step_ = Step{to, now};
+    m_.step_to(to, time, now);
 }
 
 void Orders::set_point(bool relative, bool at_once, Instant now) {
@@ -98,6 +104,7 @@ void Orders::go(Instant now) {
 
 void Orders::halt(bool on, Instant now) {
     halted_ = on;
+    step_.reset();
     if (on) {
         if (m_.moves(now)) m_.stop(u_.braking(o_.get(0x605D)), now);
         return;

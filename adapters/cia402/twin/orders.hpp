@@ -66,7 +66,12 @@ private:
     bool halted_ = false, reached_ = false, acknowledged_ = false, limited_ = false;
     std::optional<double> target_;    ///< of the positioning under way, mechanical
     std::optional<double> buffered_;  ///< the next one, mechanical
-    std::optional<double> reading_;   ///< the first of two
+    struct Step {
+        double to;
+        Instant at;
+    };
+    std::optional<Step> step_;       ///< of a cyclic mode, the last one
+    std::optional<double> reading_;  ///< the first of two
     Instant reading_at_{};
 };
 

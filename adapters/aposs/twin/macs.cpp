@@ -61,7 +61,7 @@ bool Macs::powered() const {
     return std::ranges::any_of(axes_, [](const MacsAxis& a) { return a.servo().powered(); });
 }
 
-canopen::Abort Macs::may_write(Address a, std::int64_t v) const {
+canopen::Abort Macs::may_write(Address a, std::int64_t v, Instant now) const {
     if (const Row* row = objects_.at(a)) {
         if (row->storage == "computed") return canopen::Abort::read_only;
         if (row->id == "HOME_FORCE" && v > 1) return canopen::Abort::too_high;  // 255 is shown, never written (E-10)
@@ -70,7 +70,7 @@ canopen::Abort Macs::may_write(Address a, std::int64_t v) const {
         return canopen::Abort::none;
     }
     for (int k = 0; k < axes; ++k)
-        if (a.index >= 0x6000 + per_axis * k && a.index < 0x6000 + per_axis * (k + 1)) return axis(k + 1).servo().may_write(a, v);
+        if (a.index >= 0x6000 + per_axis * k && a.index < 0x6000 + per_axis * (k + 1)) return axis(k + 1).servo().may_write(a, v, now);
     return canopen::Abort::none;
 }
 

@@ -22,7 +22,7 @@ public:
     void power_on(Instant now) override;
     void power_off(Instant now) override;
     [[nodiscard]] bool powered() const override;
-    [[nodiscard]] canopen::Abort may_write(Address address, std::int64_t value) const override;
+    [[nodiscard]] canopen::Abort may_write(Address address, std::int64_t value, Instant now) const override;
     void written(Address address, Instant now) override;
     void on_sync(Instant now) override;
     void refresh(Instant now) override;

@@ -188,6 +188,7 @@ TEST(Cia402Turns, WhoIsLedLaterComesRoundMoreSeldomAndKnowsIt) {
         ASSERT_TRUE(good(b.ask(Enable{}, 10s, a)));
         axes.push_back(a);
     }
+    b.beats.clear();
     const auto led = lead(b, axes, 2s);
     ASSERT_TRUE(b.stream_ends.empty()) << b.stream_ends[0].text;
     std::map<std::string, int> times;

@@ -24,7 +24,7 @@ public:
     virtual void power_off(Instant now) = 0;
     [[nodiscard]] virtual bool powered() const = 0;  ///< a stage of it is on
     /// Asked before a write takes effect; what it does is done by `written`.
-    [[nodiscard]] virtual canopen::Abort may_write(canopen::Address address, std::int64_t value) const = 0;
+    [[nodiscard]] virtual canopen::Abort may_write(canopen::Address address, std::int64_t value, Instant now) const = 0;
     virtual void written(canopen::Address address, Instant now) = 0;
     /// The targets of cyclic modes that came by PDO are taken over.
     virtual void on_sync(Instant now) = 0;

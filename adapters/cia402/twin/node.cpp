@@ -193,7 +193,7 @@ Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
     const canopen::Entry* e = d_.find(a);
     const bool is_signed = e && canopen::is_signed(e->type);
     const Abort refused = device_->may_write(
-        a, is_signed ? canopen::as_signed(static_cast<std::uint64_t>(v), static_cast<std::uint8_t>(8 * bytes.size())) : v);
+        a, is_signed ? canopen::as_signed(static_cast<std::uint64_t>(v), static_cast<std::uint8_t>(8 * bytes.size())) : v, now_);
     if (refused == Abort::none) writes_.push_back(a);
     return refused;
 }

@@ -47,7 +47,7 @@ void Servo::power_off(Instant now) {
 }
 
 bool Servo::keeps(canopen::Address address, const canopen::Entry& entry) const { return is_stored(address, entry); }
-canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v) const {
+canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v, Instant now) const {
     a.index = static_cast<std::uint16_t>(a.index - o_.shift());
     if (a.index == 0x6060) {
         const auto modes = static_cast<std::uint32_t>(o_.get(0x6502));
@@ -64,7 +64,7 @@ canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v) const {
     // Another measure of all places and speeds while it is led by them would be a jump.
     const bool unit = a.index == 0x607E || a.index == 0x608F || a.index == 0x6091 || a.index == 0x6092 || a.index == 0x6096;
     if (unit && powered()) return canopen::Abort::device_state;
-    if (a.index == 0x60C2 && m_.moves(checked_) && powered()) return canopen::Abort::device_state;
+    if (a.index == 0x60C2 && m_.moves(now) && powered()) return canopen::Abort::device_state;
     return canopen::Abort::none;
 }
 

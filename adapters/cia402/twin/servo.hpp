@@ -30,7 +30,7 @@ public:
     void power_on(Instant now) override;
     void power_off(Instant now) override;
     [[nodiscard]] bool powered() const override { return state_ >= State::enabled && state_ <= State::fault_reaction; }
-    [[nodiscard]] canopen::Abort may_write(canopen::Address address, std::int64_t value) const override;
+    [[nodiscard]] canopen::Abort may_write(canopen::Address address, std::int64_t value, Instant now) const override;
     void written(canopen::Address address, Instant now) override;
     void on_sync(Instant now) override;
     void refresh(Instant now) override;

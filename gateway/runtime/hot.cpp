@@ -28,10 +28,10 @@ constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 Hot::Hot(Families families, HotSettings settings)
     : settings_(settings),
       engine_(std::move(families), *this, image_, settings.trace_frames),
-      commands_(command_ring, io_.get_executor(), [this](Command&& c) { engine_.on_command(std::move(c), now()); }),
-      set_points_(io_.get_executor(), [this](const SetPoint& p) { engine_.on_set_point(p, now()); }),
-      jobs_(job_ring, io_.get_executor(), [this](Job&& j) { j(engine_, now()); }),
-      stored_(stored_ring, io_.get_executor(), [this](Stored&& s) { engine_.on_stored(s.order, s.fault, now()); }) {}
+      commands_(command_ring, bell_, [this](Command&& c) { engine_.on_command(std::move(c), now()); }),
+      set_points_(bell_, [this](const SetPoint& p) { engine_.on_set_point(p, now()); }),
+      jobs_(job_ring, bell_, [this](Job&& j) { j(engine_, now()); }),
+      stored_(stored_ring, bell_, [this](Stored&& s) { engine_.on_stored(s.order, s.fault, now()); }) {}
 
 Hot::~Hot() { stop(); }
 

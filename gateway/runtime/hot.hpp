@@ -117,6 +117,7 @@ private:
     HotSettings settings_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    Doorbell bell_{io_};
     HotTurns turns_{io_, settings_.clock};
     Image image_;
     Engine engine_;

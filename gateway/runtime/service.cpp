@@ -61,6 +61,7 @@ struct Service {
     std::unique_ptr<Hot> hot;
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmPorts> ports;
+    std::optional<Doorbell::Call> picture_changed;  // for the door that has asked to be told
     std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<ModbusDoors> modbus;
     std::unique_ptr<enip::Server> enip;
@@ -165,11 +166,10 @@ int Service::open_store() {
     ports->recorder.begin(recorder_settings(options.config));
     ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();
-    outlets.changed = [this] {
-        boost::asio::post(warm, [this] {
-            if (dds) dds->on_change();
-        });
-    };
+    picture_changed.emplace(ports->bell(), [this] {
+        if (dds) dds->on_change();
+    });
+    outlets.changed = [this] { picture_changed->ring(); };
     hot->connect(std::move(outlets));
     return exit_good;
 }

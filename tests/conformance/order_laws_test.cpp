@@ -149,6 +149,25 @@ TEST_P(OrderLaws, AtRestNothingMovesAndNobodyWaits) {
     EXPECT_FALSE(moving(a1));
 }
 
+TEST_P(OrderLaws, WhatSimulatedLinesDoByThemselvesMayBeSeenLaterUntilSomebodyWaits) {
+    const auto later = [&] { return world->engine.wake_at(1ms) - world->engine.deadline(); };
+    ASSERT_NO_FATAL_FAILURE(start());
+    ASSERT_NO_FATAL_FAILURE(order(a1, Enable{}));
+    ASSERT_NO_FATAL_FAILURE(turn(a1));
+    Duration most{};
+    for (int i = 0; i < 200; ++i) {
+        world->run_for(1ms);
+        most = std::max(most, later());
+        ASSERT_GE(later(), Duration::zero());
+    }
+    EXPECT_EQ(most, 1ms);
+    (void)world->command(a1, Halt{}, true);
+    for (int i = 0; i < 200 && moving(a1); ++i) {
+        ASSERT_EQ(later(), Duration::zero()) << "the answer is waited for";
+        world->run_for(1ms);
+    }
+}
+
 TEST_P(OrderLaws, EveryActionIsAnsweredOnce) {
     for (const auto& action : e.catalogue->commands()) {
         for (const char* argument : {"", "1", "x y z"}) {

@@ -8,6 +8,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <future>
 
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/threads.hpp"
@@ -41,17 +42,22 @@ Instant Hot::now() const { return settings_.clock(); }
 
 void Hot::start() {
     turns_.live(now());
-    thread_ = std::thread([this] {
+    std::promise<bool> first;
+    auto ranked = first.get_future();
+    thread_ = std::thread([this, &first] {
         enter_thread("axisgate-hot", hot_stands_back);
-        if (settings_.spin_us > 0 || !go_first()) take_short_turns();
+        const bool goes_first = settings_.spin_us == 0 && go_first();
+        if (!goes_first) take_short_turns(hot_turn_ns);
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);
             CPU_SET(static_cast<unsigned>(settings_.cpu), &set);
             (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // a wish: without the processor it runs anywhere
         }
+        first.set_value(goes_first);
         run();
     });
+    goes_first_ = ranked.get();
 }
 
 void Hot::stop() {

@@ -20,7 +20,7 @@ class Mailbox {
 public:
     /// `handler` runs on the receiver's thread. The owner stops that before it ends the mailbox.
     Mailbox(std::size_t capacity, Doorbell& receiver, std::function<void(T&&)> handler)
-        : ring_(capacity), handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
+        : ring_(capacity), spare_(capacity), handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
 
     /// Sender's thread. False: full; the item is left as it was.
     [[nodiscard]] bool push(T&& item) {
@@ -29,7 +29,13 @@ public:
             full_.fetch_add(1, std::memory_order_relaxed);
             return false;
         }
-        ring_.push(std::make_unique<T>(std::move(item)).release());
+        T* place = nullptr;
+        if (spare_.pop(place)) {
+            *place = std::move(item);
+        } else {
+            place = std::make_unique<T>(std::move(item)).release();
+        }
+        ring_.push(place);
         unannounced_ = true;
         return true;
     }
@@ -45,8 +51,10 @@ public:
         T* item = nullptr;
         // Bounded: what arrives meanwhile is announced anew.
         for (std::size_t n = ring_.read_available(); n > 0 && ring_.pop(item); --n) {
-            const std::unique_ptr<T> owned(item);
-            handler_(std::move(*owned));
+            std::unique_ptr<T> place(item);
+            T owned(std::move(*place));
+            if (spare_.push(place.get())) (void)place.release();
+            handler_(std::move(owned));
         }
         if (ring_.read_available() > 0) call_.ring();
     }
@@ -56,7 +64,7 @@ public:
 
     ~Mailbox() {
         T* item = nullptr;
-        while (ring_.pop(item))
+        while (ring_.pop(item) || spare_.pop(item))
             delete item;
     }
     Mailbox(const Mailbox&) = delete;
@@ -64,6 +72,7 @@ public:
 
 private:
     boost::lockfree::spsc_queue<T*> ring_;
+    boost::lockfree::spsc_queue<T*> spare_;  ///< the other way: places that were emptied, so that no thread waits for another one's memory
     std::function<void(T&&)> handler_;
     std::atomic<std::uint64_t> full_{0};
     bool unannounced_ = false;

@@ -490,7 +490,10 @@ int command_serve(const ServeOptions& options) {
     s.cold->start();
     s.hot->start();
     s.watch();
-    enter_thread("axisgate-warm", warm_stands_back);  // after the others have been started: a new thread begins with its maker's rank
+    // After the others have been started: a new thread begins with its maker's rank. Nobody need stand back for a hot thread that goes
+    // first.
+    enter_thread("axisgate-warm", s.hot->goes_first() ? 0 : warm_stands_back);
+    take_short_turns(warm_turn_ns);
     s.warm.run();
     s.warm.restart();
     s.take_down();

@@ -4,6 +4,7 @@
 #include "adapters/uim342/wire.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace axisgate::uim342 {
 
@@ -14,6 +15,23 @@ Message message(std::uint8_t id, std::uint8_t cw, std::span<const std::uint8_t> 
     m.dl = static_cast<std::uint8_t>(std::min<std::size_t>(data.size(), m.d.size()));
     std::copy_n(data.begin(), m.dl, m.d.begin());
     return m;
+}
+
+/// All eight bytes at once, then those that DL does not cover are none: byte by byte, the processor waits for its own stores.
+static std::array<std::uint8_t, 8> data_of(const Frame& f) noexcept {
+    static constexpr auto covered = [] {
+        std::array<std::array<std::uint8_t, 8>, 9> by_length{};
+        for (std::size_t n = 0; n <= 8; ++n)
+            std::fill_n(by_length[n].begin(), n, std::uint8_t{0xFF});
+        return by_length;
+    }();
+    std::uint64_t bytes = 0, mask = 0;
+    std::memcpy(&bytes, f.storage.data(), sizeof bytes);
+    std::memcpy(&mask, covered[f.size].data(), sizeof mask);
+    bytes &= mask;
+    std::array<std::uint8_t, 8> d;
+    std::memcpy(d.data(), &bytes, sizeof bytes);
+    return d;
 }
 
 std::uint64_t get_uint(const std::uint8_t* p, unsigned width) noexcept {
@@ -39,7 +57,10 @@ std::optional<CanMessage> from_can(const Frame& f) noexcept {
     CanMessage m;
     m.producer = producer_of(f.id);
     m.consumer = consumer_of(f.id);
-    m.message = message(m.producer, static_cast<std::uint8_t>(f.id), f.data());
+    m.message.id = m.producer;
+    m.message.cw = static_cast<std::uint8_t>(f.id);
+    m.message.dl = static_cast<std::uint8_t>(f.size);
+    m.message.d = data_of(f);
     return m;
 }
 

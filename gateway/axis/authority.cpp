@@ -39,6 +39,7 @@ std::string AuthorityClient::text() const { return std::string(axisgate::name_of
 
 void AxisAuthority::give(const AuthorityClient& who, Duration lease, Instant now) {
     if (holder_ != who || !held(now)) since_ = now;
+    if (holder_ != who) ++revision_;
     holder_ = who;
     until_ = now + lease;
     for_any_of_user_ = false;
@@ -47,6 +48,7 @@ void AxisAuthority::give(const AuthorityClient& who, Duration lease, Instant now
 void AxisAuthority::end_lease() {
     if (commander_ == holder_) given_up_ = true;
     holder_ = {};
+    ++revision_;
     until_ = {};
 }
 
@@ -61,6 +63,7 @@ bool AxisAuthority::bind(const AuthorityClient& who) noexcept {
     for_any_of_user_ = false;
     if (holder_ == who) return false;
     holder_ = who;
+    ++revision_;
     return true;
 }
 
@@ -95,6 +98,7 @@ Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, D
                                                : fmt::format("commanded by {} (before: {})", who.text(), commander_.text())};
         }
         commander_ = who;
+        ++revision_;
     }
     return v;
 }

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] bool held(Instant now) const noexcept { return holder_.door != Door::none && now < until_; }
     [[nodiscard]] const AuthorityClient& holder() const noexcept { return holder_; }  ///< door none: nobody
     [[nodiscard]] const AuthorityClient& commander() const noexcept { return commander_; }
+    /// Grows whenever holder or commander is another.
+    [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
     [[nodiscard]] Instant since() const noexcept { return since_; }
     [[nodiscard]] Instant until() const noexcept { return until_; }
     /// For register 17: the holder's door; while nobody holds it the one that commanded last, unless that was a holder whose lease has
@@ -67,6 +69,7 @@ private:
     [[nodiscard]] Verdict refusal(Instant now) const;
 
     AuthorityClient holder_, commander_;
+    std::uint64_t revision_ = 1;
     Instant since_{}, until_{};
     bool for_any_of_user_ = false;  ///< handed over, and not used yet
     bool given_up_ = false;         ///< who commanded last held it then, and does not any more

@@ -87,14 +87,16 @@ inline constexpr std::uint16_t flag_online = 1u << 0, flag_simulated = 1u << 1, 
 class AxisCell {
 public:
     void write(const AxisPicture& p) noexcept {
-        std::uint64_t words[word_count] = {};
-        std::memcpy(words, &p, sizeof p);
+        const auto* bytes = reinterpret_cast<const unsigned char*>(&p);
         // Without fences, which ThreadSanitizer does not know: whoever sees a new word sees that the sequence is odd, because each word is
         // released after it; and no word is read after the sequence is looked at again, because each is acquired.
         const auto s = sequence_.load(std::memory_order_relaxed);
         sequence_.store(s + 1, std::memory_order_relaxed);
-        for (std::size_t i = 0; i < word_count; ++i)
-            words_[i].store(words[i], std::memory_order_release);
+        for (std::size_t i = 0; i < word_count; ++i) {
+            std::uint64_t word;
+            std::memcpy(&word, bytes + 8 * i, 8);
+            words_[i].store(word, std::memory_order_release);
+        }
         sequence_.store(s + 2, std::memory_order_release);
     }
     [[nodiscard]] AxisPicture read() const noexcept {
@@ -113,7 +115,8 @@ public:
     [[nodiscard]] std::uint64_t revision() const noexcept { return sequence_.load(std::memory_order_acquire) / 2; }
 
 private:
-    static constexpr std::size_t word_count = (sizeof(AxisPicture) + 7) / 8;
+    static constexpr std::size_t word_count = sizeof(AxisPicture) / 8;
+    static_assert(sizeof(AxisPicture) % 8 == 0);
     std::atomic<std::uint64_t> sequence_{0};
     std::atomic<std::uint64_t> words_[word_count]{};
 };

@@ -44,7 +44,12 @@ struct Frame {
         sender = o.sender;
         size = o.size;
         id = o.id;
-        std::memmove(storage.data(), o.storage.data(), o.size);
+        // A CAN frame's bytes in one go, whatever their number is: no call.
+        if (o.size <= 8) {
+            std::memcpy(storage.data(), o.storage.data(), 8);
+        } else {
+            std::memmove(storage.data(), o.storage.data(), o.size);
+        }
         return *this;
     }
 

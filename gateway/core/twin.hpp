@@ -58,6 +58,7 @@ struct Acceptance {
     struct Filter {
         std::uint32_t mask = 0;
         std::uint32_t value = 0;
+        bool operator==(const Filter&) const = default;
     };
     std::array<Filter, 3> filters{};
     std::size_t size = 0;
@@ -68,6 +69,7 @@ struct Acceptance {
         }
         return size == 0;
     }
+    bool operator==(const Acceptance&) const = default;
 };
 
 /// Evaluates motion in closed form at the asked time: a twin that nobody asks costs nothing.

@@ -1,5 +1,5 @@
 // Wire time: see wire_time.hpp. In: frames. Out: bit counts.
-// Never allocates; eight bits at a time.
+// Never allocates; two to eight bits at a time.
 #include "gateway/core/wire_time.hpp"
 
 #include <array>
@@ -28,56 +28,57 @@ constexpr std::uint32_t crc_of_bit(std::uint32_t crc, std::uint32_t bit) noexcep
     return ((crc << 1) & 0x7FFFu) ^ (((crc >> 14) ^ bit) != 0 ? 0x4599u : 0u);
 }
 
-/// What eight bits do, from each state; `count` is what they grow by.
-struct OfBytes {
-    std::array<std::array<Stuffing, 256>, 8> stuffing{};
-    std::array<std::uint16_t, 256> crc{};
+/// What so many bits do, from each state; `count` is what they grow by.
+template <unsigned width>
+struct OfBits {
+    std::array<std::array<Stuffing, 1u << width>, 8> stuffing{};
+    std::array<std::uint16_t, 1u << width> crc{};
 
-    constexpr OfBytes() noexcept {
-        for (std::uint32_t byte = 0; byte < 256; ++byte) {
-            std::uint32_t c = byte << 7;
-            for (int i = 0; i < 8; ++i)
+    constexpr OfBits() noexcept {
+        for (std::uint32_t bits = 0; bits < 1u << width; ++bits) {
+            std::uint32_t c = bits << (15 - width);
+            for (unsigned i = 0; i < width; ++i)
                 c = crc_of_bit(c, 0);
-            crc[byte] = static_cast<std::uint16_t>(c);
+            crc[bits] = static_cast<std::uint16_t>(c);
             for (std::uint8_t state = 0; state < 8; ++state) {
                 Stuffing s{static_cast<std::uint8_t>(state / 4), static_cast<std::uint8_t>(state % 4 + 1), 0};
-                for (unsigned i = 8; i-- > 0;)
-                    s.put((byte >> i) & 1u);
-                stuffing[state][byte] = s;
+                for (unsigned i = width; i-- > 0;)
+                    s.put((bits >> i) & 1u);
+                stuffing[state][bits] = s;
             }
         }
     }
 };
-constexpr OfBytes of_bytes;
+template <unsigned width>
+constexpr OfBits<width> of_bits{};
 
 /// Takes the bits of a frame as they are sent, from behind the start of frame, and keeps count, checksum and stuff bits.
 class BitStream {
 public:
-    /// The low `width` bits, the highest first.
+    /// The low `width` bits (an even number), the highest first.
     void put(std::uint64_t value, unsigned width) noexcept {
-        for (; width >= 8; width -= 8) {
-            const auto byte = static_cast<std::uint8_t>(value >> (width - 8));
-            crc_ = ((crc_ << 8) & 0x7FFFu) ^ of_bytes.crc[(crc_ >> 7) ^ byte];
-            stuff(byte);
-        }
-        while (width-- > 0) {
-            const auto bit = static_cast<std::uint32_t>(value >> width) & 1u;
-            crc_ = crc_of_bit(crc_, bit);
-            stuffing_.put(bit);
-        }
+        for (; width >= 8; width -= 8)
+            take<8>(static_cast<std::uint32_t>(value >> (width - 8)) & 0xFFu);
+        for (; width >= 2; width -= 2)
+            take<2>(static_cast<std::uint32_t>(value >> (width - 2)) & 0x3u);
     }
     /// The checksum itself is stuffed like the rest but does not go into the checksum.
     void put_crc() noexcept {
-        stuff(static_cast<std::uint8_t>(crc_ >> 7));
-        for (unsigned i = 7; i-- > 0;)
-            stuffing_.put((crc_ >> i) & 1u);
+        stuff<8>(crc_ >> 7);
+        stuff<7>(crc_ & 0x7Fu);
     }
     [[nodiscard]] std::uint32_t count() const noexcept { return stuffing_.count; }
     [[nodiscard]] std::uint16_t crc() const noexcept { return static_cast<std::uint16_t>(crc_); }
 
 private:
-    void stuff(std::uint8_t byte) noexcept {
-        const Stuffing& then = of_bytes.stuffing[stuffing_.state()][byte];
+    template <unsigned width>
+    void take(std::uint32_t bits) noexcept {
+        crc_ = ((crc_ << width) & 0x7FFFu) ^ of_bits<width>.crc[(crc_ >> (15 - width)) ^ bits];
+        stuff<width>(bits);
+    }
+    template <unsigned width>
+    void stuff(std::uint32_t bits) noexcept {
+        const Stuffing& then = of_bits<width>.stuffing[stuffing_.state()][bits];
         stuffing_ = {then.last, then.run, static_cast<std::uint8_t>(stuffing_.count + then.count)};
     }
     std::uint32_t crc_ = 0;  // the start of frame, a 0, leaves it as it is

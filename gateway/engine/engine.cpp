@@ -60,11 +60,15 @@ bool Engine::at_rest(Instant now) const noexcept {
 }
 
 Instant Engine::deadline() const {
-    const Machine& machine = parts_->machine;
-    Instant t = machine.lines.empty() ? never : next_housekeeping_;
-    for (Side* s : machine.sides)
-        t = std::min(t, s->deadline());
-    return t;
+    Machine& machine = parts_->machine;
+    return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest());
+}
+
+Instant Engine::wake_at(Duration twins_wait) const {
+    const auto& pending = parts_->pending;
+    if (!pending.clients.empty() || !pending.orders.empty() || parts_->site_change.waits()) twins_wait /= 2;
+    Machine& machine = parts_->machine;
+    return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest(twins_wait));
 }
 
 void Engine::on_deadline(Instant now) {
@@ -74,9 +78,10 @@ void Engine::on_deadline(Instant now) {
     Machine& machine = p.machine;
     machine.now = std::max(machine.now, now);
     // Bounded: a side that is due again at once gets its next turn with the next call.
-    for (std::size_t i = 0; i < machine.sides.size(); ++i) {
-        Side& s = *machine.sides[i];
-        if (s.deadline() > now) continue;
+    std::size_t at = 0;
+    for (Side* next = machine.sides.due(at, now); next; next = machine.sides.due(at, now)) {
+        Side& s = *next;
+        at = s.place + 1;
         s.touched();
         if (s.line->deadline() <= now) s.line->on_deadline(now);
         for (std::size_t k = 0; k < s.speakers.size(); ++k) {

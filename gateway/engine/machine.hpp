@@ -81,20 +81,16 @@ struct Side final : LineEvents {
     std::unique_ptr<Line> line;
     std::uint64_t unclaimed = 0;  ///< CAN frames that none of them hears
     TwinBus* bus = nullptr;       ///< `line` seen as what it is, on the twin's side
-    /// The earlier deadline of adapter and line, kept so that a turn of the engine need not ask all lines. Whoever calls one of the two
-    /// says touched(); drain() does it for most.
-    Instant due = never;
-    bool asked = false;
-    void touched() noexcept { asked = false; }
-    [[nodiscard]] Instant deadline() {
-        if (!asked) {
-            asked = true;
-            due = line->deadline();
-            for (const auto& s : speakers)
-                due = std::min(due, s->adapter->deadline());
-        }
+    /// Whoever calls its line or an adapter of it says so: its deadline is asked for anew. drain() does it for most.
+    void touched() noexcept;
+    [[nodiscard]] Instant deadline() const {
+        Instant due = line->deadline();
+        for (const auto& s : speakers)
+            due = std::min(due, s->adapter->deadline());
         return due;
     }
+    class Sides* among = nullptr;  ///< where its deadline is kept, and at which place
+    std::size_t place = 0;
     [[nodiscard]] Speaker* speaker_of(const FamilyEntry& family) const noexcept {
         const auto it = std::ranges::find_if(speakers, [&](const auto& s) { return s->family.family == family.family; });
         return it == speakers.end() ? nullptr : it->get();
@@ -112,6 +108,105 @@ struct Side final : LineEvents {
         Frame frame;
     } followed;
 };
+
+/// All sides that exist, in the order in which they came, and a heap of their deadlines: a turn of the engine visits those alone that are
+/// due, and asks those alone that were touched.
+class Sides {
+public:
+    void add(Side& side) {
+        side.among = this;
+        all_.push_back(&side);
+        begin_anew();
+    }
+    void remove(Side& side) {
+        side.among = nullptr;
+        std::erase(all_, &side);
+        begin_anew();
+    }
+    [[nodiscard]] auto begin() const noexcept { return all_.begin(); }
+    [[nodiscard]] auto end() const noexcept { return all_.end(); }
+
+    void touched(std::size_t place) noexcept {
+        if (std::exchange(to_ask_[place], char{1}) != 0) return;
+        asked_for_.push_back(place);  // room for all is kept
+    }
+    [[nodiscard]] Instant earliest() {
+        ask();
+        return heap_.empty() ? never : due_[heap_.front()];
+    }
+    /// The same where what happens on simulated lines may be seen to so much later.
+    [[nodiscard]] Instant earliest(Duration twins_wait) {
+        ask();
+        Instant t = never;
+        for (std::size_t i = 0; i < due_.size(); ++i)
+            t = std::min(t, all_[i]->twin && due_[i] != never ? due_[i] + twins_wait : due_[i]);
+        return t;
+    }
+    /// The first one at this place or behind it whose deadline has come; nullptr: none.
+    [[nodiscard]] Side* due(std::size_t from, Instant now) {
+        ask();
+        std::size_t first = all_.size();
+        look(0, from, now, first);
+        return first < all_.size() ? all_[first] : nullptr;
+    }
+
+private:
+    void begin_anew() {
+        const std::size_t n = all_.size();
+        due_.assign(n, never);
+        heap_.resize(n);
+        in_heap_.resize(n);
+        to_ask_.assign(n, 0);
+        asked_for_.clear();
+        asked_for_.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            all_[i]->place = heap_[i] = in_heap_[i] = i;
+            touched(i);
+        }
+    }
+    void ask() {
+        for (const std::size_t place : asked_for_) {
+            to_ask_[place] = 0;
+            const Instant before = std::exchange(due_[place], all_[place]->deadline());
+            due_[place] < before ? up(in_heap_[place]) : down(in_heap_[place]);
+        }
+        asked_for_.clear();
+    }
+    void look(std::size_t at, std::size_t from, Instant now, std::size_t& first) const {
+        if (at >= heap_.size() || due_[heap_[at]] > now) return;
+        if (heap_[at] >= from) first = std::min(first, heap_[at]);
+        look(2 * at + 1, from, now, first);
+        look(2 * at + 2, from, now, first);
+    }
+    void put(std::size_t at, std::size_t place) noexcept {
+        heap_[at] = place;
+        in_heap_[place] = at;
+    }
+    void up(std::size_t at) noexcept {
+        const std::size_t place = heap_[at];
+        for (; at > 0 && due_[place] < due_[heap_[(at - 1) / 2]]; at = (at - 1) / 2)
+            put(at, heap_[(at - 1) / 2]);
+        put(at, place);
+    }
+    void down(std::size_t at) noexcept {
+        const std::size_t place = heap_[at];
+        for (std::size_t child; (child = 2 * at + 1) < heap_.size(); at = child) {
+            if (child + 1 < heap_.size() && due_[heap_[child + 1]] < due_[heap_[child]]) ++child;
+            if (due_[place] <= due_[heap_[child]]) break;
+            put(at, heap_[child]);
+        }
+        put(at, place);
+    }
+
+    std::vector<Side*> all_;
+    std::vector<Instant> due_;                 ///< by place, as these
+    std::vector<std::size_t> heap_, in_heap_;  ///< places, the earliest first; where each stands
+    std::vector<char> to_ask_;
+    std::vector<std::size_t> asked_for_;
+};
+inline void Side::touched() noexcept {
+    if (among) among->touched(place);
+}
 
 /// One search for drives on a line; kept for its report until the next. Its families are searched for side by side.
 struct Scan {
@@ -241,6 +336,7 @@ struct Axis {
     std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
     std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
     std::map<Point, Value> said;         ///< what who speaks for it said last; bounded by the catalogue
+    std::uint64_t authority_shown = 0;   ///< AxisAuthority::revision whose names stand in its picture
     std::uint32_t source = 0;            ///< AxisPicture::source
 };
 
@@ -287,7 +383,7 @@ struct Machine {
     std::vector<std::unique_ptr<LineUnit>> lines;  ///< by LineId; null: removed
     std::vector<std::unique_ptr<Drive>> drives;    ///< by DriveId
     std::vector<std::unique_ptr<Axis>> axes;       ///< by AxisId
-    std::vector<Side*> sides;                      ///< all that exist, for the deadline scan
+    Sides sides;
     Instant now{};
     Instant last_stir{};  ///< when something moved, was commanded, found or lost
     Duration lease = std::chrono::seconds(30);

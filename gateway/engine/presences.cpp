@@ -166,7 +166,7 @@ void Presences::serve(Drive& d, Presence by, std::string why, Instant now) {
             auto bus = std::make_unique<TwinBus>(bus_options);
             unit.twins->bus = bus.get();
             unit.twins->line = std::move(bus);
-            machine_.sides.push_back(unit.twins.get());
+            machine_.sides.add(*unit.twins);
             speakers_.fit(*unit.twins, now);
             unit.twins->line->open(*unit.twins, now);
         }

@@ -17,12 +17,15 @@ void Publisher::publish(Axis& a, Instant now) {
     p.authority = a.authority.door();
     p.authority_since = a.authority.since();
     p.authority_until = a.authority.until();
-    const auto write = [](std::array<char, 64>& into, std::string_view text) {
-        into.fill(0);
-        std::copy_n(text.begin(), std::min(text.size(), into.size() - 1), into.begin());
-    };
-    write(p.authority_holder, a.authority.holder().name);
-    write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
+    if (a.authority_shown != a.authority.revision()) {
+        a.authority_shown = a.authority.revision();
+        const auto write = [](std::array<char, 64>& into, std::string_view text) {
+            into.fill(0);
+            std::copy_n(text.begin(), std::min(text.size(), into.size() - 1), into.begin());
+        };
+        write(p.authority_holder, a.authority.holder().name);
+        write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
+    }
     // An axis is online when it can be commanded: its drive answers, and has said where it is.
     const bool answers = a.drive->answers();
     const bool online = answers && p.current;

@@ -105,18 +105,6 @@ void Routing::drain(Speaker& by, Out& out, Instant now) {
         streams_.refused(side, end, now);
 }
 
-Out Routing::take_out() {
-    if (spare_.empty()) return {};
-    Out out = std::move(spare_.back());
-    spare_.pop_back();
-    return out;
-}
-
-void Routing::give_back(Out&& out) {
-    out.clear();
-    if (spare_.size() < 16) spare_.push_back(std::move(out));
-}
-
 void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant now) {
     Axis* a = machine_.axis(id);
     if (!a || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;

@@ -4,6 +4,8 @@
 // Never blocks and never loops over more than what one call brought.
 #pragma once
 
+#include <deque>
+
 #include "gateway/engine/machine.hpp"
 
 namespace axisgate::engine {
@@ -23,10 +25,9 @@ public:
     /// One call of an adapter, and what it gave back handed on.
     template <class F>
     void ask(Speaker& by, Instant now, F&& call) {
-        Out out = take_out();
-        call(out);
-        drain(by, out, now);
-        give_back(std::move(out));
+        const Spare spare(*this);
+        call(spare.out);
+        drain(by, spare.out, now);
     }
     // What a line tells its side.
     void received(Side& side, const Frame& frame);
@@ -38,8 +39,18 @@ public:
 private:
     void drain(Speaker& by, Out& out, Instant now);
     void feedback(Side& side, AxisId axis, const AxisFeedback& value, Instant now);
-    [[nodiscard]] Out take_out();
-    void give_back(Out&& out);
+    /// An Out for one call. Calls come from inside others, so there is one for each depth; kept for their room.
+    struct Spare {
+        explicit Spare(Routing& r) : depth(r.depth_), out(depth < r.outs_.size() ? r.outs_[depth] : r.outs_.emplace_back()) { ++depth; }
+        ~Spare() {
+            out.clear();
+            --depth;
+        }
+        Spare(const Spare&) = delete;
+        Spare& operator=(const Spare&) = delete;
+        std::size_t& depth;
+        Out& out;
+    };
 
     Machine& machine_;
     Publisher& publisher_;
@@ -49,7 +60,8 @@ private:
     VelocityMoves& velocity_moves_;
     LossOfCommand& loss_;
     Streams& streams_;
-    std::vector<Out> spare_;
+    std::deque<Out> outs_;
+    std::size_t depth_ = 0;
     Histogram write_to_frame_;
 };
 

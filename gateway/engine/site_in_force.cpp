@@ -72,7 +72,7 @@ std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, 
         for (Side* s : {slot->real.get(), slot->twins.get()}) {
             if (!s) continue;
             s->line->close();
-            std::erase(machine_.sides, s);
+            machine_.sides.remove(*s);
         }
         slot.reset();
     }

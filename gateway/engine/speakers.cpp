@@ -114,11 +114,11 @@ void Speakers::build_line(LineUnit& unit, Instant now) {
     const auto uri = parse_line_uri(unit.spec.uri);
     unit.kind = kind_of(unit.spec, machine_.families);
     unit.stale_after = stale_limit(unit.spec, unit.kind);
-    unit.log = std::make_shared<FrameLog>(trace_frames_);
+    unit.log = std::make_shared<FrameLog>(trace_frames_, unit.kind == LineKind::can ? 8 : Frame::capacity);
     if (uri.good() && uri.uri.kind == LineUri::Kind::twin) return;
     unit.real = std::make_unique<Side>(routing_, unit, false);
     unit.real->line = host_.make_line(unit.spec, setup_for(unit));
-    machine_.sides.push_back(unit.real.get());
+    machine_.sides.add(*unit.real);
     fit(*unit.real, now);
     unit.real->line->open(*unit.real, now);
     unit.real->touched();

@@ -17,8 +17,8 @@ constexpr std::size_t gathered_at_most = 1024;
 Cold::Cold(Store& store, Answers answers)
     : store_(store),
       answers_(std::move(answers)),
-      from_hot_(hot_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }),
-      from_service_(service_ring, io_.get_executor(), [this](ColdJob&& job) { take(std::move(job)); }) {
+      from_hot_(hot_ring, bell_, [this](ColdJob&& job) { take(std::move(job)); }),
+      from_service_(service_ring, bell_, [this](ColdJob&& job) { take(std::move(job)); }) {
     if (const auto last = store_.last_event_id()) next_event_id_ = *last + 1;
 }
 
@@ -35,6 +35,8 @@ void Cold::stop() {
     if (!thread_.joinable()) return;
     boost::asio::post(io_, [this] {  // what is gathered is not waited for any longer
         stopping_ = true;
+        bell_.answer();
+        bell_.end();
         if (write_at_ != never) write_at(monotonic_now());
     });
     work_.reset();  // what is posted already is still done

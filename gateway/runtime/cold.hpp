@@ -77,6 +77,7 @@ private:
     Answers answers_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    Doorbell bell_{io_};
     Mailbox<ColdJob> from_hot_, from_service_;
     std::vector<StoreOrder> orders_;
     std::vector<EventAt> events_;

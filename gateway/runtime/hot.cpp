@@ -8,6 +8,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <future>
 
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/threads.hpp"
@@ -22,16 +23,18 @@ constexpr int turns_unannounced_limit = 8;
 constexpr Duration reports_period = std::chrono::milliseconds(100);
 /// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
 constexpr Duration rest_gathers = std::chrono::milliseconds(5);
+/// What happens on simulated lines by itself is done together with what follows, for the same reason.
+constexpr Duration twins_gather = std::chrono::milliseconds(1);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
 
 Hot::Hot(Families families, HotSettings settings)
     : settings_(settings),
       engine_(std::move(families), *this, image_, settings.trace_frames),
-      commands_(command_ring, io_.get_executor(), [this](Command&& c) { engine_.on_command(std::move(c), now()); }),
-      set_points_(io_.get_executor(), [this](const SetPoint& p) { engine_.on_set_point(p, now()); }),
-      jobs_(job_ring, io_.get_executor(), [this](Job&& j) { j(engine_, now()); }),
-      stored_(stored_ring, io_.get_executor(), [this](Stored&& s) { engine_.on_stored(s.order, s.fault, now()); }) {}
+      commands_(command_ring, bell_, [this](Command&& c) { engine_.on_command(std::move(c), now()); }),
+      set_points_(bell_, [this](const SetPoint& p) { engine_.on_set_point(p, now()); }),
+      jobs_(job_ring, bell_, [this](Job&& j) { j(engine_, now()); }),
+      stored_(stored_ring, bell_, [this](Stored&& s) { engine_.on_stored(s.order, s.fault, now()); }) {}
 
 Hot::~Hot() { stop(); }
 
@@ -39,17 +42,22 @@ Instant Hot::now() const { return settings_.clock(); }
 
 void Hot::start() {
     turns_.live(now());
-    thread_ = std::thread([this] {
+    std::promise<bool> first;
+    auto ranked = first.get_future();
+    thread_ = std::thread([this, &first] {
         enter_thread("axisgate-hot", hot_stands_back);
-        if (settings_.spin_us > 0 || !go_first()) take_short_turns();
+        const bool goes_first = settings_.spin_us == 0 && go_first();
+        if (!goes_first) take_short_turns(hot_turn_ns);
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);
             CPU_SET(static_cast<unsigned>(settings_.cpu), &set);
             (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // a wish: without the processor it runs anywhere
         }
+        first.set_value(goes_first);
         run();
     });
+    goes_first_ = ranked.get();
 }
 
 void Hot::stop() {
@@ -138,7 +146,7 @@ void Hot::end_turn() {
     }
     if (t >= next_reports_) publish_reports(t);
     turns_.count(t);
-    Instant next = std::min(engine_.deadline(), next_reports_);
+    Instant next = std::min(engine_.wake_at(twins_gather), next_reports_);
     if (engine_.at_rest(t)) next = std::max(next, t + rest_gathers);
     turns_.arm(submitted_.empty() && results_.empty() ? next : t);
 }

@@ -80,6 +80,8 @@ public:
     [[nodiscard]] std::vector<HotDoor*> doors() const;
 
     void start();
+    /// It has a rank before all threads of the normal policy; after start().
+    [[nodiscard]] bool goes_first() const noexcept { return goes_first_; }
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
     void stop();
     /// How its turns go. Any thread reads it.
@@ -117,6 +119,7 @@ private:
     HotSettings settings_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
+    Doorbell bell_{io_};
     HotTurns turns_{io_, settings_.clock};
     Image image_;
     Engine engine_;
@@ -134,7 +137,7 @@ private:
     std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
     Instant next_reports_{};
     std::atomic<bool> stopping_{false};
-    bool finished_ = false;
+    bool finished_ = false, goes_first_ = false;
     bool settled_ = false;
     int turns_unannounced_ = 0;
     std::atomic<bool> change_wanted_{false};

@@ -1,11 +1,9 @@
-// Mailbox: a bounded ring from one thread to another, emptied by the receiver's io_context in batches.
-// In: items, pushed by one thread and announced once per turn. Out: one call of the receiver's handler with each, on its executor.
+// Mailbox: a bounded ring from one thread to another, emptied by the receiver in batches when its doorbell rings.
+// In: items, pushed by one thread and announced once per turn. Out: one call of the receiver's handler with each, on its thread.
 // Never blocks and never grows: a full ring says so to the sender, who decides what that means.
 #pragma once
 
 #include <atomic>
-#include <boost/asio/any_io_executor.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -13,14 +11,16 @@
 #include <memory>
 #include <utility>
 
+#include "gateway/runtime/doorbell.hpp"
+
 namespace axisgate {
 
 template <class T>
 class Mailbox {
 public:
-    /// `handler` runs on `receiver`. The mailbox outlives every handler that it posts (the owner stops the receiver first).
-    Mailbox(std::size_t capacity, boost::asio::any_io_executor receiver, std::function<void(T&&)> handler)
-        : ring_(capacity), receiver_(std::move(receiver)), handler_(std::move(handler)) {}
+    /// `handler` runs on the receiver's thread. The owner stops that before it ends the mailbox.
+    Mailbox(std::size_t capacity, Doorbell& receiver, std::function<void(T&&)> handler)
+        : ring_(capacity), spare_(capacity), handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
 
     /// Sender's thread. False: full; the item is left as it was.
     [[nodiscard]] bool push(T&& item) {
@@ -29,7 +29,13 @@ public:
             full_.fetch_add(1, std::memory_order_relaxed);
             return false;
         }
-        ring_.push(std::make_unique<T>(std::move(item)).release());
+        T* place = nullptr;
+        if (spare_.pop(place)) {
+            *place = std::move(item);
+        } else {
+            place = std::make_unique<T>(std::move(item)).release();
+        }
+        ring_.push(place);
         unannounced_ = true;
         return true;
     }
@@ -37,22 +43,20 @@ public:
     void announce() {
         if (!unannounced_) return;
         unannounced_ = false;
-        if (!on_its_way_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(receiver_, [this] { empty(); });
+        call_.ring();
     }
     /// Receiver's thread: the handler is called with each item that is there now. Done by itself after an announcement; called by the owner
     /// where what was pushed must be seen although its announcement is still on its way.
     void empty() {
-        // An exchange, not a store: a sender that found it true has pushed before, and its item is seen below.
-        (void)on_its_way_.exchange(false, std::memory_order_acq_rel);
         T* item = nullptr;
         // Bounded: what arrives meanwhile is announced anew.
         for (std::size_t n = ring_.read_available(); n > 0 && ring_.pop(item); --n) {
-            const std::unique_ptr<T> owned(item);
-            handler_(std::move(*owned));
+            std::unique_ptr<T> place(item);
+            T owned(std::move(*place));
+            if (spare_.push(place.get())) (void)place.release();
+            handler_(std::move(owned));
         }
-        if (ring_.read_available() > 0 && !on_its_way_.exchange(true, std::memory_order_acq_rel)) {
-            boost::asio::post(receiver_, [this] { empty(); });
-        }
+        if (ring_.read_available() > 0) call_.ring();
     }
 
     /// Items that found the ring full, since the start.
@@ -60,7 +64,7 @@ public:
 
     ~Mailbox() {
         T* item = nullptr;
-        while (ring_.pop(item))
+        while (ring_.pop(item) || spare_.pop(item))
             delete item;
     }
     Mailbox(const Mailbox&) = delete;
@@ -68,11 +72,11 @@ public:
 
 private:
     boost::lockfree::spsc_queue<T*> ring_;
-    boost::asio::any_io_executor receiver_;
+    boost::lockfree::spsc_queue<T*> spare_;  ///< the other way: places that were emptied, so that no thread waits for another one's memory
     std::function<void(T&&)> handler_;
-    std::atomic<bool> on_its_way_{false};
     std::atomic<std::uint64_t> full_{0};
     bool unannounced_ = false;
+    Doorbell::Call call_;
 };
 
 }  // namespace axisgate

@@ -61,6 +61,7 @@ struct Service {
     std::unique_ptr<Hot> hot;
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmPorts> ports;
+    std::optional<Doorbell::Call> picture_changed;  // for the door that has asked to be told
     std::unique_ptr<registers::RegisterImage> image;
     std::unique_ptr<ModbusDoors> modbus;
     std::unique_ptr<enip::Server> enip;
@@ -165,11 +166,10 @@ int Service::open_store() {
     ports->recorder.begin(recorder_settings(options.config));
     ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();
-    outlets.changed = [this] {
-        boost::asio::post(warm, [this] {
-            if (dds) dds->on_change();
-        });
-    };
+    picture_changed.emplace(ports->bell(), [this] {
+        if (dds) dds->on_change();
+    });
+    outlets.changed = [this] { picture_changed->ring(); };
     hot->connect(std::move(outlets));
     return exit_good;
 }
@@ -490,7 +490,10 @@ int command_serve(const ServeOptions& options) {
     s.cold->start();
     s.hot->start();
     s.watch();
-    enter_thread("axisgate-warm", warm_stands_back);  // after the others have been started: a new thread begins with its maker's rank
+    // After the others have been started: a new thread begins with its maker's rank. Nobody need stand back for a hot thread that goes
+    // first.
+    enter_thread("axisgate-warm", s.hot->goes_first() ? 0 : warm_stands_back);
+    take_short_turns(warm_turn_ns);
     s.warm.run();
     s.warm.restart();
     s.take_down();

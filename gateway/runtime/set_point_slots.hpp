@@ -1,27 +1,26 @@
 // SetPointSlots: streamed set-points on their way from other threads to the hot one: a place per axis, in which the newest counts.
-// In: set-points, from any thread. Out: one call of the handler per axis that has a new one, on the receiver's executor.
+// In: set-points, from any thread. Out: one call of the handler per axis that has a new one, on the receiver's thread.
 // Never blocks, never grows, never queues: what was not taken when the next one comes is forgotten.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <bit>
-#include <boost/asio/any_io_executor.hpp>
-#include <boost/asio/post.hpp>
 #include <functional>
 #include <memory>
 #include <utility>
 
 #include "gateway/axis/image.hpp"
 #include "gateway/core/command.hpp"
+#include "gateway/runtime/doorbell.hpp"
 
 namespace axisgate {
 
 class SetPointSlots {
 public:
-    /// The slots outlive every handler that they post (the owner stops the receiver first).
-    SetPointSlots(boost::asio::any_io_executor receiver, std::function<void(const SetPoint&)> handler)
-        : receiver_(std::move(receiver)), handler_(std::move(handler)) {}
+    /// The owner stops the receiver before it ends the slots.
+    SetPointSlots(Doorbell& receiver, std::function<void(const SetPoint&)> handler)
+        : handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
     ~SetPointSlots() {
         for (auto& slot : slots_)
             delete slot.load();
@@ -35,13 +34,11 @@ public:
         if (i >= Image::max_ids) return;
         delete slots_[i].exchange(std::make_unique<SetPoint>(std::move(p)).release(), std::memory_order_acq_rel);
         filled_[i / 64].fetch_or(std::uint64_t{1} << (i % 64), std::memory_order_release);
-        if (!on_its_way_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(receiver_, [this] { empty(); });
+        call_.ring();
     }
 
 private:
     void empty() {
-        // An exchange, not a store: a sender that found it true has filled its slot before, and is seen below.
-        (void)on_its_way_.exchange(false, std::memory_order_acq_rel);
         for (std::size_t w = 0; w < filled_.size(); ++w) {
             if (filled_[w].load(std::memory_order_relaxed) == 0) continue;
             for (std::uint64_t bits = filled_[w].exchange(0, std::memory_order_acq_rel); bits != 0; bits &= bits - 1) {
@@ -54,9 +51,8 @@ private:
 
     std::array<std::atomic<SetPoint*>, Image::max_ids> slots_{};
     std::array<std::atomic<std::uint64_t>, Image::max_ids / 64> filled_{};
-    boost::asio::any_io_executor receiver_;
     std::function<void(const SetPoint&)> handler_;
-    std::atomic<bool> on_its_way_{false};
+    Doorbell::Call call_;
 };
 
 }  // namespace axisgate

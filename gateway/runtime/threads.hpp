@@ -31,20 +31,22 @@ inline bool go_first() noexcept {
 /// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one;
 /// without it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it
 /// needs no privilege (sched_setattr(2): sched_runtime of a thread of the normal policy, 0.1 to 100 ms).
-inline void take_short_turns() noexcept {
+inline constexpr std::uint64_t hot_turn_ns = 100'000, warm_turn_ns = 300'000;
+inline void take_short_turns(std::uint64_t turn_ns) noexcept {
     struct Attributes {  // struct sched_attr, first published form: the C library has no name for it
         std::uint32_t size = 48, policy = SCHED_OTHER;
         std::uint64_t flags = 0;
         std::int32_t nice = 0;
         std::uint32_t priority = 0;
-        std::uint64_t runtime_ns = 100'000, deadline_ns = 0, period_ns = 0;
+        std::uint64_t runtime_ns = 0, deadline_ns = 0, period_ns = 0;
     } a;
     static_assert(sizeof(Attributes) == 48);
+    a.runtime_ns = turn_ns;
     a.nice = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
     if (sched_getscheduler(0) == SCHED_OTHER) (void)syscall(SYS_sched_setattr, 0, &a, 0U);  // a real-time policy given from outside stays
 }
 inline constexpr int hot_stands_back = 0;
-inline constexpr int warm_stands_back = 5;
+inline constexpr int warm_stands_back = 5;  ///< where the hot thread has no rank of its own
 inline constexpr int cold_stands_back = 10;
 
 }  // namespace axisgate

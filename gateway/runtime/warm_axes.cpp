@@ -10,7 +10,7 @@ constexpr std::size_t max_waiting = 1024;  // commands without an answer, all cl
 }  // namespace
 
 WarmAxes::WarmAxes(const WarmThreads& threads)
-    : threads_(threads), results_(2 * max_waiting, threads.warm.get_executor(), [this](Result&& r) { answer(std::move(r)); }) {}
+    : threads_(threads), results_(2 * max_waiting, threads.bell, [this](Result&& r) { answer(std::move(r)); }) {}
 
 AxisPicture WarmAxes::picture(AxisId axis) const {
     const Image& image = threads_.hot.image_for_readers();

@@ -15,7 +15,7 @@ AxisId axis_of(std::uint64_t live_key) noexcept { return AxisId{static_cast<std:
 }  // namespace
 
 WarmParameters::WarmParameters(const WarmThreads& threads, const AxisPort& axes)
-    : threads_(threads), axes_(axes), samples_(sample_ring, threads.warm.get_executor(), [this](Sample&& s) { take(std::move(s)); }) {}
+    : threads_(threads), axes_(axes), samples_(sample_ring, threads.bell, [this](Sample&& s) { take(std::move(s)); }) {}
 
 void WarmParameters::on_site(const std::shared_ptr<const SiteState>&) {
     std::erase_if(live_, [this](const auto& entry) { return axes_.picture(axis_of(entry.first)).source != entry.second.source; });

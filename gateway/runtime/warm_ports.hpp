@@ -34,11 +34,12 @@ public:
 
 class WarmPorts {
     std::unique_ptr<StoreReader> reader_;
+    Doorbell bell_;
     WarmThreads threads_;
 
 public:
     WarmPorts(boost::asio::io_context& warm, Hot& hot, Cold& cold, Families families, std::unique_ptr<StoreReader> reader)
-        : reader_(std::move(reader)), threads_{warm, hot, cold, *reader_}, site(threads_, events, std::move(families)) {
+        : reader_(std::move(reader)), bell_(warm), threads_{warm, bell_, hot, cold, *reader_}, site(threads_, events, std::move(families)) {
         site.listen(&parameters);
     }
     WarmPorts(const WarmPorts&) = delete;
@@ -48,6 +49,8 @@ public:
         return {axes,   backup,     captures, clock,     descriptions, documents, drives,    events, fleet, lines,
                 modbus, parameters, recorder, registers, rehearsal,    site,      snapshots, stage,  status};
     }
+    /// By which other threads wake this one.
+    [[nodiscard]] Doorbell& bell() noexcept { return bell_; }
     /// Where the hot thread puts what is for this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
 

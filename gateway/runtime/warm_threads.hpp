@@ -19,6 +19,7 @@ inline constexpr const char* too_much_asked = "too much is asked at once; come a
 
 struct WarmThreads {
     boost::asio::io_context& warm;
+    Doorbell& bell;  ///< of the service thread
     Hot& hot;
     Cold& cold;
     StoreReader& reader;  ///< the service thread's own connection to the database

@@ -30,7 +30,8 @@ void put_hex(std::string& s, std::span<const std::uint8_t> data) {
 
 class Blocks {
 public:
-    std::string bytes;
+    explicit Blocks(std::string& into) : bytes(into) {}
+    std::string& bytes;
 
     void u16(std::uint16_t v) { put(v, 2); }
     void u32(std::uint32_t v) { put(v, 4); }
@@ -141,8 +142,8 @@ std::string trace_text(std::span<const TraceEntry> entries, std::string_view lin
     return s;
 }
 
-std::string pcapng(std::span<const TraceEntry> entries, std::string_view line) {
-    Blocks b;
+Pcapng::Pcapng(std::string_view line) : line_(line) {
+    Blocks b(bytes_);
     b.block(section_header, [&] {
         b.u32(0x1A2B3C4D);
         b.u16(1);
@@ -152,20 +153,19 @@ std::string pcapng(std::span<const TraceEntry> entries, std::string_view line) {
         b.option(option_user_application, "axisgate");
         b.end_of_options();
     });
-    // An interface per link type and side, described before its first packet.
-    constexpr std::uint32_t unused = 0xFFFFFFFF;
-    std::array<std::uint32_t, 4> interfaces{unused, unused, unused, unused};
-    std::uint32_t count = 0;
+}
+
+void Pcapng::add(std::span<const TraceEntry> entries) {
+    Blocks b(bytes_);
     for (const TraceEntry& e : entries) {
         const bool can = e.frame.kind != Frame::Kind::bytes;
-        std::uint32_t& interface = interfaces[(can ? 2u : 0u) + (e.simulated ? 1u : 0u)];
+        std::uint32_t& interface = interfaces_[(can ? 2u : 0u) + (e.simulated ? 1u : 0u)];
         if (interface == unused) {
-            interface = count++;
-            put_interface(b, can ? linktype_can_socketcan : linktype_user0, std::string(line) + (e.simulated ? " (twin)" : ""));
+            interface = count_++;
+            put_interface(b, can ? linktype_can_socketcan : linktype_user0, line_ + (e.simulated ? " (twin)" : ""));
         }
         put_packet(b, e, interface);
     }
-    return std::move(b.bytes);
 }
 
 }  // namespace axisgate

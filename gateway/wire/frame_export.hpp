@@ -3,10 +3,12 @@
 // Never interprets what a frame means: that is `axisgate decode`.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "gateway/core/frame.hpp"
 
@@ -24,6 +26,24 @@ inline constexpr std::uint16_t linktype_user0 = 147;  ///< runs of bytes as they
 
 /// A pcapng section, little endian, times in nanoseconds, direction in epb_flags (inbound: from the drive). What crossed the cable and what
 /// crossed the twin bus are two interfaces, "LINE" and "LINE (twin)".
-[[nodiscard]] std::string pcapng(std::span<const TraceEntry> entries, std::string_view line);
+class Pcapng {
+public:
+    explicit Pcapng(std::string_view line);
+    void add(std::span<const TraceEntry> entries);
+    /// Of all that was added. Nothing may be added behind it.
+    [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+private:
+    static constexpr std::uint32_t unused = 0xFFFFFFFF;
+    std::string line_, bytes_;
+    std::array<std::uint32_t, 4> interfaces_{unused, unused, unused,
+                                             unused};  ///< one per link type and side, described before its first packet
+    std::uint32_t count_ = 0;
+};
+[[nodiscard]] inline std::string pcapng(std::span<const TraceEntry> entries, std::string_view line) {
+    Pcapng capture(line);
+    capture.add(entries);
+    return capture.take();
+}
 
 }  // namespace axisgate

@@ -64,7 +64,10 @@ private:
 
     [[nodiscard]] static std::size_t sender_of(const Frame& frame) noexcept;
     /// The list of a priority from which to take at this turn of the senders.
-    [[nodiscard]] std::size_t in_turn(std::size_t priority, std::size_t k) const noexcept { return (turn_[priority] + k) % senders_; }
+    [[nodiscard]] std::size_t in_turn(std::size_t priority, std::size_t k) const noexcept {
+        const std::size_t place = turn_[priority] + k;  // both below the number of senders
+        return place < senders_ ? place : place - senders_;
+    }
     [[nodiscard]] Index best(Instant t) const noexcept;
     void unlink(Index i) noexcept;
     [[nodiscard]] bool make_room(Priority priority, std::size_t sender) noexcept;

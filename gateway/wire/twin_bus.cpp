@@ -47,16 +47,19 @@ void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& me
     nodes_[number]->twin = std::move(twin);
     nodes_[number]->ear = ears_.size();
     ears_.push_back({{}, number});
+    ++filters_;
     nodes_[number]->twin->power_on(memory, processed_, scratch_);
     take(number, processed_);
 }
 
 void TwinBus::remove(DriveId key) {
+    due_known_ = false;
     const Number number = find(key);
     if (number == gone) return;
     place(number, never);
     drop_sender(number);
     ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(nodes_[number]->ear));
+    ++filters_;
     for (std::size_t i = nodes_[number]->ear; i < ears_.size(); ++i)
         nodes_[ears_[i].number]->ear = i;
     for (Transmission& t : wire_) {
@@ -79,6 +82,7 @@ const Twin* TwinBus::twin(DriveId key) const noexcept {
 std::size_t TwinBus::size() const noexcept { return ears_.size(); }
 
 std::string TwinBus::set_hand(DriveId key, const std::string& name, const Value& value, Instant now) {
+    due_known_ = false;
     const Number number = find(key);
     if (number == gone) return "there is no twin of this drive on the bus: it is served by the device, or not at all";
     processed_ = std::max(processed_, now);
@@ -88,6 +92,7 @@ std::string TwinBus::set_hand(DriveId key, const std::string& name, const Value&
 }
 
 void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
+    due_known_ = false;
     const Number number = find(key);
     if (number == gone) return;
     processed_ = std::max(processed_, now);
@@ -99,6 +104,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
 
 /// After every call to a twin: its frames go into its queue, its deadline into the heap, its filters to the ears.
 void TwinBus::take(Number number, Instant t, Duration at_least) {
+    due_known_ = false;
     Node& node = *nodes_[number];
     const bool said = !scratch_.frames.empty();
     for (const auto& tx : scratch_.frames) {
@@ -110,7 +116,12 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
     }
     scratch_.clear();
     if (said) note_sender(number);
-    if (options_.kind == LineKind::can) ears_[node.ear].acceptance = node.twin->acceptance();
+    if (options_.kind == LineKind::can) {
+        if (const Acceptance now = node.twin->acceptance(); now != ears_[node.ear].acceptance) {
+            ears_[node.ear].acceptance = now;
+            ++filters_;
+        }
+    }
     const Instant due = node.twin->deadline();
     place(number, due == never ? never : std::max(due, t + at_least));
 }
@@ -193,6 +204,7 @@ void TwinBus::sift_down(std::size_t i) noexcept {
 // --- the line -------------------------------------------------------------------------------------------------------
 
 void TwinBus::open(LineEvents& events, Instant now) {
+    due_known_ = false;
     events_ = &events;
     processed_ = std::max(processed_, now);
     status_.state = LineStatus::State::opening;
@@ -200,6 +212,7 @@ void TwinBus::open(LineEvents& events, Instant now) {
 }
 
 void TwinBus::close() {
+    due_known_ = false;
     events_ = nullptr;
     tell_up_ = false;
     status_.state = LineStatus::State::closed;
@@ -211,6 +224,7 @@ void TwinBus::close() {
 }
 
 bool TwinBus::send(const Frame& frame, Priority priority, Instant now) {
+    due_known_ = false;
     const bool fits = frame.kind == (options_.kind == LineKind::can ? Frame::Kind::can : Frame::Kind::bytes);
     if (!fits) ++counters_.foreign;
     const std::uint64_t displaced = host_queue_.displaced();
@@ -256,7 +270,7 @@ Instant TwinBus::next_start() const noexcept {
     return std::max({t, processed_, can ? bus_free_ : Instant{}});
 }
 
-Instant TwinBus::deadline() const {
+Instant TwinBus::next_event() const noexcept {
     if (events_ == nullptr) return never;
     if (tell_up_) return processed_;
     const Instant twin = heap_.empty() ? never : heap_.front().at;
@@ -266,15 +280,18 @@ Instant TwinBus::deadline() const {
 void TwinBus::on_deadline(Instant now) {
     if (events_ == nullptr || running_) return;
     running_ = true;
+    due_known_ = false;
     if (tell_up_) {
         tell_up_ = false;
         status_.state = LineStatus::State::up;
         events_->on_line_state(true, text());
     }
     for (std::size_t i = 0; i < max_events_per_call && events_ != nullptr; ++i) {
-        const Instant t = deadline();
+        const Instant t = next_event();
         if (t > now) {
             processed_ = std::max(processed_, now);
+            due_ = t;
+            due_known_ = true;
             break;
         }
         step(std::max(t, processed_));
@@ -401,12 +418,28 @@ void TwinBus::give_run(Transmission& x) {
     events_->on_frame(run);
 }
 
+/// A change of a twin's own filters while a frame is delivered concerns later frames.
+std::span<const TwinBus::Number> TwinBus::who_hears(std::uint32_t id) {
+    Hearers& h = hearers_[(id * 2654435761u) >> 24];
+    if (h.filters == filters_ && h.id == id) return std::span(h.numbers).first(h.count);
+    hearing_.clear();
+    for (const Ear& e : ears_) {
+        if (e.acceptance.takes(id)) hearing_.push_back(e.number);
+    }
+    if (hearing_.size() <= h.numbers.size()) {
+        h.filters = filters_;
+        h.id = id;
+        h.count = static_cast<std::uint32_t>(hearing_.size());
+        std::ranges::copy(hearing_, h.numbers.begin());
+    }
+    return hearing_;
+}
+
 void TwinBus::deliver_to_twins(Instant t) {
-    for (std::size_t i = 0; i < ears_.size(); ++i) {  // twins cannot reach the bus, so the list stays as it is
-        const Ear& ear = ears_[i];
-        if (ear.number == done_.sender || !ear.acceptance.takes(done_.frame.id)) continue;
-        nodes_[ear.number]->twin->on_frame(done_.frame, t, scratch_);
-        take(ear.number, t);
+    for (const Number number : who_hears(done_.frame.id)) {  // twins cannot reach the bus, so the list stays as it is
+        if (number == done_.sender) continue;
+        nodes_[number]->twin->on_frame(done_.frame, t, scratch_);
+        take(number, t);
     }
 }
 

@@ -3,9 +3,11 @@
 // Never has a clock: on_deadline may come late and still gives every twin and the host each event with its own instant.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,7 +75,7 @@ public:
     void open(LineEvents& events, Instant now) override;
     void close() override;
     bool send(const Frame& frame, Priority priority, Instant now) override;
-    [[nodiscard]] Instant deadline() const override;
+    [[nodiscard]] Instant deadline() const override { return due_known_ ? due_ : next_event(); }
     void on_deadline(Instant now) override;
     [[nodiscard]] LineStatus status(Instant now) const override;
 
@@ -113,6 +115,7 @@ private:
     [[nodiscard]] bool sending(Number sender) const noexcept;
     [[nodiscard]] bool may_start(Number twin) const noexcept;
     [[nodiscard]] Instant next_start() const noexcept;
+    [[nodiscard]] Instant next_event() const noexcept;
     [[nodiscard]] Instant first_end() const noexcept;
     [[nodiscard]] std::uint16_t run_end(const Transmission& x) const noexcept;
     void give_run(Transmission& x);
@@ -125,6 +128,7 @@ private:
     void garble_overlap(Transmission& a, Transmission& b) noexcept;
     void finish_one();
     void deliver_to_twins(Instant t);
+    [[nodiscard]] std::span<const Number> who_hears(std::uint32_t id);
     void take(Number number, Instant t, Duration at_least = Duration::zero());
     void place(Number number, Instant due);
     void sift_up(std::size_t i) noexcept;
@@ -136,11 +140,23 @@ private:
     bool tell_up_ = false;
     bool running_ = false;
     Instant processed_{};  // events up to here are done; nothing happens before it any more
+    Instant due_ = never;  // when the next event is, if that is known
+    bool due_known_ = false;
 
     std::vector<std::unique_ptr<Node>> nodes_;  // by number; null: free
-    std::vector<Ear> ears_;                     // what is scanned for each frame, kept apart from the nodes so that it is dense
-    std::vector<Due> heap_;                     // twins by deadline, earliest first; nodes know their place in it
-    std::vector<Sender> senders_;               // dense, for the same reason
+    std::vector<Ear> ears_;                     // what is scanned for a frame, kept apart from the nodes so that it is dense
+    /// Who hears an identifier, as long as all filters are what they were when the ears were scanned for it.
+    struct Hearers {
+        std::uint64_t filters = 0;  ///< filters_ at that time
+        std::uint32_t id = 0;
+        std::uint32_t count = 0;
+        std::array<Number, 2> numbers{};  ///< in the order of the ears
+    };
+    std::array<Hearers, 256> hearers_;  // by a hash of the identifier
+    std::vector<Number> hearing_;       // more than such a place holds
+    std::uint64_t filters_ = 1;         // grows with each change of ears_
+    std::vector<Due> heap_;             // twins by deadline, earliest first; nodes know their place in it
+    std::vector<Sender> senders_;       // dense, for the same reason
     SendQueue host_queue_;
     std::vector<Transmission> wire_;  // CAN: at most one; bytes: at most one per sender
     Transmission done_;               // the one that is being delivered

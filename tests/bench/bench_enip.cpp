@@ -53,7 +53,7 @@ public:
 private:
     void serve() {
         keep_on(0);
-        if (!go_first()) take_short_turns();
+        if (!go_first()) take_short_turns(hot_turn_ns);
         const int poller = ::epoll_create1(0), on = 1;
         const auto watch = [&](int fd) {
             epoll_event e{};

@@ -17,9 +17,9 @@
 
 namespace axisgate::bench {
 namespace {
-constexpr double most_processor = 0.5;  // of one core
-constexpr double least_told = 0.9;      // of the states that were due: an axis that moves is told once per period, if it was heard in it
-constexpr double longest_gap_s = 1.0;   // of one client, between two reads
+constexpr double most_processor = 0.15;  // of one core
+constexpr double least_told = 0.9;       // of the states that were due: an axis that moves is told once per period, if it was heard in it
+constexpr double longest_gap_s = 1.0;    // of one client, between two reads
 
 /// User and system time of a process, s.
 double used_s(int pid) {

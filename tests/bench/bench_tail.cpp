@@ -195,7 +195,7 @@ int run(const std::string& path, int count) {
     cpu_set_t all;
     ::sched_getaffinity(0, sizeof all, &all);
     Program program(path, folder, site(drive.port()), all, {"http.bind=127.0.0.1:0", "modbus.bind=127.0.0.1:0"});
-    if (!go_first()) take_short_turns();  // it stands for a client and a drive that are machines of their own
+    if (!go_first()) take_short_turns(hot_turn_ns);  // it stands for a client and a drive that are machines of their own
     std::bitset<128> polls;
     polls.set();
     std::int64_t frame_at = 0;

@@ -149,6 +149,27 @@ TEST_P(OrderLaws, AtRestNothingMovesAndNobodyWaits) {
     EXPECT_FALSE(moving(a1));
 }
 
+TEST_P(OrderLaws, WhatSimulatedLinesDoMayBeSeenALittleLater) {
+    const auto later = [&] { return world->engine.wake_at(1ms) - world->engine.deadline(); };
+    const auto latest = [&](Duration most) {
+        Duration seen{};
+        for (int i = 0; i < 200 && moving(a1); ++i) {
+            seen = std::max(seen, later());
+            EXPECT_GE(later(), Duration::zero());
+            EXPECT_LE(later(), most);
+            world->run_for(1ms);
+        }
+        return seen;
+    };
+    ASSERT_NO_FATAL_FAILURE(start());
+    ASSERT_NO_FATAL_FAILURE(order(a1, Enable{}));
+    ASSERT_NO_FATAL_FAILURE(turn(a1));
+    world->run_for(100ms);
+    EXPECT_EQ(latest(1ms), 1ms);
+    (void)world->command(a1, Halt{}, true);
+    EXPECT_EQ(latest(500us), 500us) << "its answer is waited for";
+}
+
 TEST_P(OrderLaws, EveryActionIsAnsweredOnce) {
     for (const auto& action : e.catalogue->commands()) {
         for (const char* argument : {"", "1", "x y z"}) {

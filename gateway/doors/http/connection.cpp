@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <boost/asio/write.hpp>
+#include <boost/beast/core/buffers_prefix.hpp>
 #include <boost/beast/http/read.hpp>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
 constexpr std::size_t small_bytes = 64 * 1024;           // of a body or an answer that is not counted: so much a connection may always have
 constexpr std::size_t usual_head_bytes = 768;            // of an answer
+constexpr std::size_t written_at_once = 64 * 1024;       // of an answer, then others have their turn
 constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
 
 /// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT". Made once per second and thread.
@@ -323,7 +325,7 @@ void Connection::on_body(ErrorCode ec) {
     phase_ = Phase::answering;
     since_ = std::chrono::steady_clock::now();
     at_limit_.reset();
-    if (request_.method != Method::get && request_.method != Method::head) return answer_request();
+    if (host_->router.moves(request_)) return answer_request();
     host_->later->put([self = weak_from_this(), serial = ++serial_] {
         if (const auto me = self.lock(); me && me->phase_ == Phase::answering && me->serial_ == serial) me->answer_request();
     });
@@ -443,7 +445,8 @@ void Connection::write(Response response, bool keep) {
 void Connection::write_on(bool keep, bool upgraded) {
     // The limit is for each step, so that a long answer may take its time on a slow link; a reader that only trickles is cut all the same.
     set_timer(std::min<std::chrono::nanoseconds>(host_->settings.write_limit, write_end_ - std::chrono::steady_clock::now()));
-    socket_.async_write_some(*unsent_, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
+    const auto part = beast::buffers_prefix(written_at_once, *unsent_);
+    socket_.async_write_some(part, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
         self->host_->counters.bytes_out += bytes;
         if (self->phase_ != Phase::writing) return;
         if (ec) return self->close();

@@ -54,6 +54,8 @@ struct Context {
     std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();    ///< whose the staged site is
     std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< to whom an axis can be handed over
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
+    /// An answer that takes long is made in pieces by it, each in its turn with what others ask. Here: at once.
+    std::function<void(std::function<void()>)> later = [](const std::function<void()>& piece) { piece(); };
 };
 
 /// One request on its way. Lives only as long as the handler's call.

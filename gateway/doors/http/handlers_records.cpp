@@ -48,6 +48,82 @@ Response file(std::string_view media, std::string name, std::string body) {
     return r;
 }
 
+/// One answer to a question for frames, made in pieces: thousands of frames take longer than a command should wait. A piece is read as the
+/// oldest that are left; what the line overwrites meanwhile is counted as missed.
+class TraceWork {
+public:
+    /// `since` < 0: the newest `limit` frames.
+    TraceWork(const Call& c, const LinePort& lines, LineId line, Format format, std::int64_t since, std::uint64_t limit,
+              const SitePort& sites)
+        : lines_(lines),
+          line_(line),
+          name_(c.names[0]),
+          format_(format),
+          newest_(since < 0),
+          later_(c.context.later),
+          respond_(c.respond),
+          until_(lines.trace(line, INT64_MAX, 0).next),
+          at_(newest_ ? until_ - std::min(limit, until_) : static_cast<std::uint64_t>(since)),
+          left_(limit) {
+        if (format == Format::json) decoder_.emplace(sites.families(), sites.site()->site, name_);
+    }
+    static void go_on(std::shared_ptr<TraceWork> work) {
+        const auto later = work->later_;
+        later([work = std::move(work)]() mutable {
+            if (work->read_some()) return go_on(std::move(work));
+            work->respond_(work->answer());
+        });
+    }
+
+private:
+    static constexpr std::uint64_t piece = 64, json_piece = 16;
+
+    /// False: that was the last.
+    bool read_some() {
+        const std::uint64_t most = std::min({decoder_ ? json_piece : piece, left_, until_ - std::min(at_, until_)});
+        Trace t = lines_.trace(line_, at_, static_cast<std::size_t>(most));
+        if (!newest_) missed_ += t.missed;
+        left_ -= t.entries.size();
+        const bool more = t.next > at_ && t.next < until_ && left_ > 0;
+        at_ = t.next;
+        put(t.entries);
+        return more;
+    }
+    void put(const std::vector<TraceEntry>& entries) {
+        if (entries.empty()) return;
+        // A run of bytes has no candump form; the text form is what comes nearest. A line carries the one or the other.
+        if (format_ == Format::candump && entries.front().frame.kind == Frame::Kind::bytes) as_text_ = true;
+        if (decoder_) {
+            for (const auto& e : entries)
+                frames_.push_back(frame_document(e, decoder_->read(e)));
+        } else if (format_ == Format::pcapng) {
+            capture_.add(entries);
+        } else {
+            text_ += format_ == Format::text || as_text_ ? trace_text(entries, name_) : candump_text(entries, name_);
+        }
+    }
+    Response answer() {
+        if (decoder_)
+            return json_response(json::object{{"line", name_}, {"missed", missed_}, {"next", at_}, {"frames", std::move(frames_)}});
+        if (format_ == Format::pcapng) return file("application/x-pcapng", name_ + ".pcapng", capture_.take());
+        return file("text/plain; charset=utf-8", name_ + (format_ == Format::candump ? ".log" : ".txt"), std::move(text_));
+    }
+
+    const LinePort& lines_;
+    LineId line_;
+    std::string name_;
+    Format format_;
+    bool newest_, as_text_ = false;
+    std::function<void(std::function<void()>)> later_;
+    Respond respond_;
+    std::uint64_t until_;  ///< what comes after it is the next question's
+    std::uint64_t at_, left_, missed_ = 0;
+    std::optional<FrameDecoder> decoder_;  ///< of JSON
+    json::array frames_;
+    Pcapng capture_{name_};
+    std::string text_;
+};
+
 enum class EventForm : std::uint8_t { json, csv, text };
 std::optional<EventForm> event_form(const Call& c, std::optional<Response>& fault) {
     if (fault) return std::nullopt;
@@ -137,34 +213,9 @@ Handled get_trace(Call& c, const LinePort& lines, const SitePort& sites) {
     const std::int64_t limit = query_whole(c, "limit", 1, most_frames, *format == Format::json ? json_frames : most_frames, fault);
     if (fault) return *fault;
 
-    // Without `since` the newest ones are wanted; the gateway counts from the oldest.
-    Trace trace = lines.trace(site->line_ids[*index], static_cast<std::uint64_t>(std::max<std::int64_t>(0, since)),
-                              static_cast<std::size_t>(since < 0 ? most_frames : limit));
-    if (since < 0) {
-        trace.missed = 0;
-        if (trace.entries.size() > static_cast<std::size_t>(limit)) {
-            trace.entries.erase(trace.entries.begin(), trace.entries.end() - static_cast<std::ptrdiff_t>(limit));
-        }
-    }
-    switch (*format) {
-        case Format::json:
-            break;
-        case Format::candump: {
-            // A run of bytes has no candump form; the text form is what comes nearest.
-            const bool bytes = std::ranges::any_of(trace.entries, [](const TraceEntry& e) { return e.frame.kind == Frame::Kind::bytes; });
-            return file("text/plain; charset=utf-8", c.names[0] + ".log",
-                        bytes ? trace_text(trace.entries, c.names[0]) : candump_text(trace.entries, c.names[0]));
-        }
-        case Format::pcapng:
-            return file("application/x-pcapng", c.names[0] + ".pcapng", pcapng(trace.entries, c.names[0]));
-        case Format::text:
-            return file("text/plain; charset=utf-8", c.names[0] + ".txt", trace_text(trace.entries, c.names[0]));
-    }
-    json::array frames;
-    FrameDecoder decoder(sites.families(), site->site, c.names[0]);
-    for (const auto& e : trace.entries)
-        frames.push_back(frame_document(e, decoder.read(e)));
-    return json_response(json::object{{"line", c.names[0]}, {"missed", trace.missed}, {"next", trace.next}, {"frames", std::move(frames)}});
+    auto work = std::make_shared<TraceWork>(c, lines, site->line_ids[*index], *format, since, static_cast<std::uint64_t>(limit), sites);
+    TraceWork::go_on(std::move(work));
+    return {gateway_limit, problem(504, "time_out", "the frames were not read in time: ask for fewer, with `limit`")};
 }
 
 Handled list_events(Call& c, EventPort& events) {

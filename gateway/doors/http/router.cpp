@@ -480,6 +480,14 @@ Handled Router::handle(const Request& request, Respond respond) const {
     return handled;
 }
 
+bool Router::moves(const Request& request) const {
+    if (request.method == Method::get || request.method == Method::head) return false;
+    const auto target = parse_target(request.target);
+    const Shape* shape = target ? shape_of(target->segments) : nullptr;
+    const Route* route = shape ? route_for(*shape, request.method) : nullptr;
+    return route && route->commands;
+}
+
 std::string_view Router::why_not_watched_on(const Request& request) const {
     const Identity now = http::identify(context_.access.get(), request, context_.ports.get<ClockPort>().now_unix_ns(), false);
     if (now.role >= Role::viewer) return {};

@@ -75,6 +75,8 @@ public:
     /// Everything that is decided without the body: host, route, role, CSRF, origin, announced length, query, media type. A refusal here is
     /// the one that handle() would give. Changes nothing: no session is renewed by it.
     [[nodiscard]] Admission admit(const Request& head) const;
+    /// Whether it may set something in motion, or stop it: such a request is taken up before all others.
+    [[nodiscard]] bool moves(const Request& request) const;
     /// Why a live feed that was opened by this request may not go on, for its close frame; empty: its session or token still holds.
     [[nodiscard]] std::string_view why_not_watched_on(const Request& request) const;
     /// Who commands over a live feed that was opened by this request; nothing: it has no role that may.

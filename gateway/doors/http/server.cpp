@@ -34,7 +34,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Router own_router;
     tcp::acceptor acceptor;
     asio::steady_timer hub_timer, pause_timer, stop_timer;
-    StreamHub own_hub;  // after the timers: it may ask for them at once
+    StreamHub own_hub;     // after the timers: it may ask for them at once
+    bool telling = false;  // a piece of the live feed's work waits for its turn
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
 
@@ -45,7 +46,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
           services(all),
           own_router(Context{ports, own_settings, std::move(asset), [this] { return own_counters.text(); }, all.site_changes, all.recipes,
                              all.jobs, all.access, all.alarms, all.rehearsals, std::make_shared<AxisTexts>(), all.stages,
-                             std::make_shared<ClientsSeen>(), all.writes}),
+                             std::make_shared<ClientsSeen>(), all.writes,
+                             [this](std::function<void()> piece) { later->put(std::move(piece)); }}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
@@ -137,6 +139,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     // --- the live feed's time --------------------------------------------------------------------------------------------
     void rearm() {
         const Instant due = own_hub.deadline();
+        if (due == time_zero) return tell_later();
         if (due == never) {
             hub_timer.cancel();
             return;
@@ -144,14 +147,19 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         hub_timer.expires_at(
             std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
         hub_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            if (const auto me = self.lock(); !ec && me) me->tell_later();
+        });
+    }
+    /// A piece of it, in turn with all else that moves nothing.
+    void tell_later() {
+        if (std::exchange(telling, true)) return;
+        later->put([self = weak_from_this()] {
             const auto me = self.lock();
-            if (ec || !me) return;
-            me->later->put([self] {
-                const auto then = self.lock();
-                if (!then || !then->own_hub.attached()) return;
-                then->own_hub.on_deadline(steady_instant());
-                then->rearm();
-            });
+            if (!me) return;
+            me->telling = false;
+            if (!me->own_hub.attached()) return;
+            me->own_hub.on_deadline(steady_instant());
+            me->rearm();
         });
     }
 

@@ -53,7 +53,7 @@ struct SessionHost {
     std::shared_ptr<TlsIdentity> tls;  ///< nothing: plain HTTP
     bool stopping = false;
     ByteBudget budget;
-    std::shared_ptr<Later> later;  ///< for what only reads
+    std::shared_ptr<Later> later;  ///< for what moves nothing
 
     virtual void add(std::shared_ptr<Session> session) = 0;
     virtual void remove(const Session* session) = 0;

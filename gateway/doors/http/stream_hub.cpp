@@ -1,6 +1,6 @@
 // Stream hub: asks each source for its version once per period and hands the same frame to all who subscribed to it.
-// In: requests, events, time. Out: frames in queues, a few clients at a time. A period that was missed is not made up for. Never waits for
-// a slow client.
+// In: requests, events, time. Out: frames in queues, one client at a time. A period that was missed is not made up for. Never waits for a
+// slow client.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <fmt/core.h>
@@ -216,7 +216,7 @@ void StreamHub::resolve(StreamClient& c, Instant now, const std::vector<std::str
         const auto before = sent.find(source->number);
         const bool snapshot = before == sent.end() || wildcard_now[wildcard] || (by_name && asked_now(topic));
         if (snapshot) {
-            sources_.look(*source, now, true);
+            (void)sources_.look(*source, now, true);
             watch.sent_version = source->version;
             if (source->frame) put_state(c, source->number, source->frame);
         } else {
@@ -261,14 +261,27 @@ void StreamHub::on_deadline(Instant now) {
         for (const auto& c : clients_) {
             const bool watches = c->watches_.contains(period_ms) ||
                                  std::ranges::find(c->frames_, period_ms, &StreamClient::FrameWatch::period_ms) != c->frames_.end();
-            if (watches && !c->closing_) due_.push_back({c, period_ms, now});
+            if (watches && !c->closing_) due_.push_back({c, period_ms, now, 0});
         }
     }
-    for (int n = 0; n < clients_per_slice && !due_.empty(); ++n) {
-        const Due d = std::move(due_.front());
-        due_.pop_front();
-        if (const auto c = d.client.lock(); c && !c->closing_) send(*c, d.period_ms, d.at);
+    tell_next();
+}
+
+/// Some looks at what the next client watches, or the client itself when all is looked at: whoever comes after it finds them made.
+void StreamHub::tell_next() {
+    if (due_.empty()) return;
+    Due& d = due_.front();
+    const auto c = d.client.lock();
+    if (c && !c->closing_) {
+        const auto list = c->watches_.find(d.period_ms);
+        const std::size_t all = list == c->watches_.end() ? 0 : list->second.size();
+        for (int made = 0; d.looked < all; ++d.looked) {
+            if (made >= looks_per_slice) return;
+            made += sources_.look(*list->second[d.looked].source, d.at) ? 1 : 0;
+        }
+        send(*c, d.period_ms, d.at);
     }
+    due_.pop_front();
 }
 
 void StreamHub::send(StreamClient& c, std::int64_t period_ms, Instant at) {
@@ -283,7 +296,7 @@ void StreamHub::send_states(StreamClient& c, std::vector<StreamClient::Watch>& l
     const bool together = c.takes_at_once && c.queue.empty() && list.size() <= most_joined;
     changed_.clear();
     for (auto& w : list) {
-        sources_.look(*w.source, at);
+        (void)sources_.look(*w.source, at);
         if (w.sent_version == w.source->version) continue;
         w.sent_version = w.source->version;
         if (together) {

@@ -91,8 +91,8 @@ public:
 
     /// One text message of a client.
     void on_text(StreamClient& client, std::string_view text, Instant now);
-    /// When on_deadline wants to be called, time_zero: at once; `never` if nobody watches anything. One call tells a few clients and leaves
-    /// the others to the next.
+    /// When on_deadline wants to be called, time_zero: at once; `never` if nobody watches anything. One call does a few looks or tells one
+    /// client, and leaves the rest to the next.
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
 
@@ -114,8 +114,9 @@ private:
     static constexpr std::size_t first_frames = 200;  ///< of a line, told at once
     static constexpr std::size_t most_frames = 4096;  ///< in one message
     static constexpr int wrong_requests = 3;          ///< in a row, then the client is closed
-    /// Told in one call: sending to a hundred clients takes milliseconds, in which nobody else would be answered.
-    static constexpr int clients_per_slice = 4;
+    /// States that are made anew in one call, some 10 us each: a hundred of them, or a hundred clients, take a millisecond and more, in
+    /// which nobody else would be answered.
+    static constexpr int looks_per_slice = 3;
     static constexpr std::size_t most_joined = 128;  ///< states in one write, some 64 KiB
     /// Every subscription tells the whole state anew: a client may ask for so much at once, and for so much more a second. A request costs
     /// 1, with 1 more for each 50 topics, a set-point alone 1/50 (1000 a second), and 4 for each line's frames. Beyond, the client is
@@ -136,6 +137,7 @@ private:
     void put_event(StreamClient& c, SharedFrame frame);
     void put_state(StreamClient& c, std::uint32_t number, SharedFrame frame);
     void wake(StreamClient& c);
+    void tell_next();
     void send(StreamClient& c, std::int64_t period_ms, Instant at);
     void send_states(StreamClient& c, std::vector<StreamClient::Watch>& list, Instant at);
     [[nodiscard]] SharedFrame joined();
@@ -159,7 +161,8 @@ private:
     struct Due {
         std::weak_ptr<StreamClient> client;
         std::int64_t period_ms;
-        Instant at;  ///< of the period: all its clients are told the same states
+        Instant at;          ///< of the period: all its clients are told the same states
+        std::size_t looked;  ///< of what it watches in that period
     };
     std::deque<Due> due_;                        ///< who is still to be told of periods that have begun; each client once per period
     std::shared_ptr<const SiteState> new_site_;  ///< told, but not taken yet

@@ -72,22 +72,18 @@ std::shared_ptr<Source> StreamSources::find(std::string_view topic) const {
     return it == by_topic_.end() ? nullptr : it->second;
 }
 
-void StreamSources::look(Source& s, Instant now, bool force) {
-    if (s.looked == now && s.frame && !s.fresh && !force) return;
+bool StreamSources::look(Source& s, Instant now, bool force) {
+    if (s.looked == now && s.frame && !s.fresh && !force) return false;
     s.looked = now;
-    if (s.kind == Source::Kind::axis) {
-        look_axis(s, now, force);
-    } else {
-        look_slow(s, now, force);
-    }
+    return s.kind == Source::Kind::axis ? look_axis(s, now, force) : look_slow(s, now, force);
 }
 
-void StreamSources::look_axis(Source& s, Instant now, bool force) {
+bool StreamSources::look_axis(Source& s, Instant now, bool force) {
     const AxisId id = s.index < site_->axis_ids.size() ? site_->axis_ids[s.index] : no_axis;
-    if (id == no_axis) return;
+    if (id == no_axis) return false;
     const std::uint64_t revision = axes_.picture_revision(id);
     const bool first = !s.frame || s.fresh;
-    if (!first && !force && revision == s.picture_revision) return;
+    if (!first && !force && revision == s.picture_revision) return false;
     const AxisPicture picture = axes_.picture(id);
     const bool changed = first || !same_but_time(picture, s.picture);
     const bool moved_on = picture.at != s.picture.at && now - s.built >= time_only_period;
@@ -96,7 +92,7 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
         // The revision is noted, but not the instant: it is compared with the one that was sent. So that it is told later without
         // another change, the picture must be looked at again.
         if (picture.at != s.picture.at) s.picture_revision = revision - 1;
-        return;
+        return false;
     }
     const AxisPlace place = axis_at(sites_, site_, s.index);
     std::string data =
@@ -104,7 +100,7 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
     const bool differs = changed ? data != s.text : moved_on;
     s.picture = picture;
     s.fresh = false;
-    if (!differs && !force) return;
+    if (!differs && !force) return true;
     // The age belongs to the message, not to what is compared: alone it is no news.
     const std::int64_t at = clock_.now_unix_ns();
     std::string shown = data;
@@ -114,10 +110,11 @@ void StreamSources::look_axis(Source& s, Instant now, bool force) {
     s.text = std::move(data);
     s.built = now;
     if (differs) ++s.version;
+    return true;
 }
 
-void StreamSources::look_slow(Source& s, Instant now, bool force) {
-    if (s.frame && !s.fresh && !force && now - s.built < slow_period) return;
+bool StreamSources::look_slow(Source& s, Instant now, bool force) {
+    if (s.frame && !s.fresh && !force && now - s.built < slow_period) return false;
     std::string data;
     if (s.kind == Source::Kind::drive) {
         data = json_text(drive_document(
@@ -129,10 +126,11 @@ void StreamSources::look_slow(Source& s, Instant now, bool force) {
     s.built = now;
     s.fresh = false;
     const bool differs = data != s.text;
-    if (!differs && s.frame && !force) return;
+    if (!differs && s.frame && !force) return true;
     s.frame = message_of(s.topic, clock_.now_unix_ns(), data);
     s.text = std::move(data);
     if (differs) ++s.version;
+    return true;
 }
 
 }  // namespace axisgate::http

@@ -67,12 +67,12 @@ public:
     [[nodiscard]] std::uint32_t next_number() noexcept { return ++last_number_; }
 
     /// Looks at the source and makes a new frame if it changed. `force`: makes one in any case (a snapshot; the version does not grow
-    /// for that alone).
-    void look(Source& source, Instant now, bool force = false);
+    /// for that alone). Returns whether that was any work.
+    bool look(Source& source, Instant now, bool force = false);
 
 private:
-    void look_axis(Source& source, Instant now, bool force);
-    void look_slow(Source& source, Instant now, bool force);
+    bool look_axis(Source& source, Instant now, bool force);
+    bool look_slow(Source& source, Instant now, bool force);
 
     const AxisPort& axes_;
     const ClockPort& clock_;

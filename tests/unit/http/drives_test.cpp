@@ -1,4 +1,5 @@
 // Handlers with a made-up Gateway: drives and lines, native exchanges, the tester's hand, recorded frames, events.
+#include "gateway/wire/frame_export.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -169,6 +170,58 @@ TEST_F(HttpTest, Trace) {
     EXPECT_EQ(call("GET", "/api/v1/lines/none/trace").status, 404u);
     for (const auto* bad : {"?limit=0", "?limit=65537", "?limit=x", "?since=-1", "?since=x", "?format=xml"})
         EXPECT_EQ(call("GET", "/api/v1/lines/can0/trace" + std::string(bad)).status, 400u) << bad;
+}
+
+TEST_F(HttpTest, ATraceIsReadInPiecesThatOthersGetBetween) {
+    std::vector<std::function<void()>> pieces;
+    const Router in_pieces(Context{.ports = gateway,
+                                   .settings = settings,
+                                   .asset = [](std::string_view) { return std::string_view(); },
+                                   .own_metrics = {},
+                                   .recipes = recipes,
+                                   .alarms = alarms,
+                                   .rehearsals = rehearsals,
+                                   .later = [&](std::function<void()> piece) { pieces.push_back(std::move(piece)); }});
+    auto& trace = gateway.traces[gateway.line("can0")];
+    for (std::uint64_t i = 1; i <= 200; ++i)
+        trace.push_back(can_entry(i));
+    const auto all = trace;
+    const auto ask = [&](const std::string& query, auto between) {
+        std::vector<Response> came;
+        const auto handled =
+            in_pieces.handle(request("GET", "/api/v1/lines/can0/trace" + query), [&](Response r) { came.push_back(std::move(r)); });
+        EXPECT_FALSE(handled.now);
+        std::size_t done = 0;
+        for (; !pieces.empty(); ++done) {
+            EXPECT_EQ(pieces.size(), 1u);
+            EXPECT_TRUE(came.empty());
+            const auto next = std::move(pieces.front());
+            pieces.clear();
+            next();
+            between();
+        }
+        EXPECT_GE(done, 4u);
+        EXPECT_EQ(came.size(), 1u);
+        return came.empty() ? Answer{} : answer_from(std::move(came.front()));
+    };
+    std::uint64_t more = 200;
+    const auto goes_on = [&] { trace.push_back(can_entry(++more)); };
+    EXPECT_EQ(ask("?format=pcapng", goes_on).text, pcapng(all, "can0")) << "what comes meanwhile is the next question's";
+    trace = all;
+    EXPECT_EQ(ask("?format=candump", goes_on).text, candump_text(all, "can0"));
+    trace = all;
+    const auto listed = ask("?since=50&limit=100", goes_on);
+    EXPECT_EQ(listed.at("next"), "150");
+    ASSERT_EQ(listed.json.at("frames").get_array().size(), 100u);
+    for (std::size_t i = 0; i < 100; ++i)
+        EXPECT_EQ(listed.json.at("frames").get_array()[i].at("sequence").to_number<std::size_t>(), 50 + i);
+    trace = all;
+    const auto overtaken = ask("?since=1&limit=200", [&] {
+        if (trace.size() > 40) trace.erase(trace.begin(), trace.begin() + 20);
+    });
+    EXPECT_EQ(overtaken.json.at("frames").get_array().size() + overtaken.json.at("missed").to_number<std::size_t>(), 200u)
+        << "what the line overwrites meanwhile is counted";
+    EXPECT_GT(overtaken.json.at("missed").to_number<int>(), 0);
 }
 
 TEST_F(HttpTest, TraceFormats) {

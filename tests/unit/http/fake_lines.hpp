@@ -28,10 +28,11 @@ public:
     }
     Trace trace(LineId id, std::uint64_t since, std::size_t limit) const override {
         Trace t;
-        t.next = std::max<std::uint64_t>(since, 1);
+        t.next = 1;
         const auto it = traces.find(id);
         if (it == traces.end() || it->second.empty()) return t;
         const std::uint64_t oldest = it->second.front().sequence;
+        t.next = std::clamp<std::uint64_t>(since, 1, it->second.back().sequence + 1);
         if (since < oldest) t.missed = oldest - std::max<std::uint64_t>(since, 1);
         for (const auto& e : it->second) {
             if (e.sequence < since || t.entries.size() >= limit) continue;

@@ -382,6 +382,19 @@ TEST_F(HttpTest, RoutesForCounters) {
     EXPECT_EQ(router.route_of(request("GET", "%")), "none");
 }
 
+TEST_F(HttpTest, WhatMayMoveSomethingIsKnownBeforeItIsHandled) {
+    const auto moves = [this](std::string_view method, std::string target) { return router.moves(request(method, std::move(target))); };
+    EXPECT_TRUE(moves("POST", "/api/v1/axes/feeder/commands?wait=5"));
+    EXPECT_TRUE(moves("POST", "/api/v1/moves/start"));
+    EXPECT_TRUE(moves("POST", "/api/v1/axes/none/actions")) << "that there is no such axis is the handler's to say";
+    EXPECT_FALSE(moves("PUT", "/api/v1/axes/feeder/parameters/AC"));
+    EXPECT_FALSE(moves("GET", "/api/v1/axes/feeder"));
+    EXPECT_FALSE(moves("GET", "/api/v1/axes/feeder/commands"));
+    EXPECT_FALSE(moves("POST", "/api/v1/none"));
+    EXPECT_FALSE(moves("POST", "%"));
+    EXPECT_EQ(std::ranges::count_if(all_routes(), [](const Route& r) { return r.commands; }), 5) << "a new one is looked at here";
+}
+
 TEST(HttpHosts, SameHost) {
     EXPECT_TRUE(same_host("http://[::1]:8080", "[::1]:8080"));
     EXPECT_TRUE(same_host("http://[::1]", "[::1]"));

@@ -103,8 +103,9 @@ Event numbered(std::int32_t code, Severity severity = Severity::info) {
 
 TEST(FullRings, EventsThatFindNoPlaceAreCountedAndToldOnce) {
     boost::asio::io_context disk;
+    Doorbell bell(disk);
     std::vector<Event> taken;
-    Mailbox<ColdJob> ring(3, disk.get_executor(), [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
+    Mailbox<ColdJob> ring(3, bell, [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
     Hot hot(Families{}, with_test_clock());
     hot.connect({nullptr, nullptr, &ring});
     for (int i = 1; i <= 3; ++i)
@@ -128,8 +129,9 @@ TEST(FullRings, EventsThatFindNoPlaceAreCountedAndToldOnce) {
 
 TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
     boost::asio::io_context disk;
+    Doorbell bell(disk);
     std::vector<Event> taken;
-    Mailbox<ColdJob> ring(1, disk.get_executor(), [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
+    Mailbox<ColdJob> ring(1, bell, [&](ColdJob&& job) { taken.push_back(std::get<EventAt>(std::move(job)).event); });
     Hot hot(Families{}, with_test_clock());
     hot.connect({nullptr, nullptr, &ring});
     for (int i = 1; i <= 3; ++i)
@@ -164,7 +166,8 @@ TEST(AuditEvents, OfSitesAndLocksGoStraightToTheStorageAndNotByTheHotThread) {
     RingBench b;
     std::vector<std::string> by_hot;
     boost::asio::io_context other;
-    Mailbox<ColdJob> ring(64, other.get_executor(), [&](ColdJob&& job) {
+    Doorbell bell(other);
+    Mailbox<ColdJob> ring(64, bell, [&](ColdJob&& job) {
         if (const auto* e = std::get_if<EventAt>(&job)) by_hot.push_back(e->event.kind);
     });
     auto outlets = b.ports->outlets();

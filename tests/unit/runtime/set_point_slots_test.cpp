@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <thread>
 #include <vector>
@@ -22,8 +21,9 @@ SetPoint point(std::uint16_t axis, std::int64_t value) {
 
 TEST(SetPointSlots, TheNewestOfEachAxisCounts) {
     boost::asio::io_context io;
+    Doorbell bell(io);
     std::vector<std::pair<int, std::int64_t>> heard;
-    SetPointSlots slots(io.get_executor(), [&](const SetPoint& p) { heard.emplace_back(index_of(p.axis), p.value); });
+    SetPointSlots slots(bell, [&](const SetPoint& p) { heard.emplace_back(index_of(p.axis), p.value); });
     for (int i = 0; i < 100; ++i)
         slots.put(point(70, i));
     slots.put(point(3, 7));
@@ -39,17 +39,17 @@ TEST(SetPointSlots, TheNewestOfEachAxisCounts) {
 
 TEST(SetPointSlots, TheLastOfEachThreadArrives) {
     boost::asio::io_context io;
-    auto work = boost::asio::make_work_guard(io);
+    Doorbell bell(io);
     constexpr int senders = 3;
     constexpr std::int64_t last = 20'000;
     std::array<std::int64_t, senders> newest{};
     bool backwards = false;
     int done = 0;
-    SetPointSlots slots(io.get_executor(), [&](const SetPoint& p) {
+    SetPointSlots slots(bell, [&](const SetPoint& p) {
         auto& n = newest[index_of(p.axis)];
         backwards = backwards || p.value <= n;
         n = p.value;
-        if (p.value == last && ++done == senders) work.reset();
+        if (p.value == last && ++done == senders) bell.end();
     });
     std::vector<std::thread> threads;
     for (int s = 0; s < senders; ++s) {

@@ -52,8 +52,9 @@ std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const 
 }
 
 std::unique_ptr<Line> make_real_line(std::string_view uri, const LineSetup& setup, boost::asio::io_context& io,
-                                     std::string_view default_format, const PtyPlaces& ptys, Duration stale_after, const PairEnd& fleet) {
-    const LineBase base{io, machine_clock(), {}, stale_after};
+                                     std::string_view default_format, const PtyPlaces& ptys, Duration stale_after, const PairEnd& fleet,
+                                     const Clock& clock) {
+    const LineBase base{io, clock, {}, stale_after};
     const LineUriResult parsed = parse_line_uri(uri, setup.bit_rate == 0 ? 9600 : setup.bit_rate, default_format);
     if (!parsed.good()) return std::make_unique<NoLine>(base, parsed.fault);
     CanLineOptions can;

@@ -19,11 +19,12 @@ namespace axisgate {
 [[nodiscard]] std::unique_ptr<Line> make_line(const LineUri& uri, const LineBase& base, const CanLineOptions& can = {},
                                               const PtyPlaces& ptys = {}, const PairEnd& fleet = {});
 
-/// The line of a URI's text, on this machine's clock. A bit rate that the setup knows holds for a serial line whose URI does not say, and
+/// The line of a URI's text. A bit rate that the setup knows holds for a serial line whose URI does not say, and
 /// for the load of a CAN interface that does not tell its own; `default_format` is the family's (Family::default_format). `stale_after` as
-/// in LineBase; `fleet` takes the other end of a mirror line ("dds").
+/// in LineBase; `fleet` takes the other end of a mirror line ("dds"); `clock` outlives the line.
 [[nodiscard]] std::unique_ptr<Line> make_real_line(std::string_view uri, const LineSetup& setup, boost::asio::io_context& io,
                                                    std::string_view default_format = "8N1", const PtyPlaces& ptys = {},
-                                                   Duration stale_after = stale_send_limit, const PairEnd& fleet = {});
+                                                   Duration stale_after = stale_send_limit, const PairEnd& fleet = {},
+                                                   const Clock& clock = machine_clock());
 
 }  // namespace axisgate

@@ -26,10 +26,10 @@ struct Poller::State : std::enable_shared_from_this<State> {
         }
     };
     bool serve() {
-        // While several sockets are ready more become so meanwhile: asking again here is cheaper than a turn of the io_context.
+        // Who was answered asks again meanwhile: to look here once more is cheaper than a turn of the io_context.
         epoll_event events[events_per_turn];
         bool any = false;
-        for (int room = events_per_turn, n = 2; room > 0 && n > 1 && !ended; room -= n) {
+        for (int room = events_per_turn, n = 1; room > 0 && n > 0 && !ended; room -= n) {
             n = ::epoll_wait(fd, events, room, 0);
             if (n > 0) on_ready({events, static_cast<std::size_t>(n)});
             any = any || n > 0;

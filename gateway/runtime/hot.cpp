@@ -38,7 +38,7 @@ Hot::Hot(Families families, HotSettings settings)
 
 Hot::~Hot() { stop(); }
 
-Instant Hot::now() const { return settings_.clock(); }
+Instant Hot::now() const { return turns_.now(); }
 
 void Hot::start() {
     turns_.live(now());
@@ -70,12 +70,13 @@ void Hot::stop() {
 void Hot::run() {
     const auto spin = std::chrono::microseconds(settings_.spin_us);
     Instant stop_by = never;
-    bool stopping = false;
+    bool stopping = false, all_done = false;
     turns_.begin(now());
     while (!finished_) {
         end_turn();
         turns_.end(now());
-        std::size_t ran = io_.poll_one();
+        // Nothing was ready before the end of this turn, and nobody waits to be told: what has come since, the sleep finds as well.
+        std::size_t ran = all_done && !out_.unannounced() ? 0 : io_.poll_one();
         // The other threads hear of it when this one has nothing more to send: to wake them first would put a system call, and on a busy
         // processor their work, between a command and its frame.
         if (ran == 0 || ++turns_unannounced_ >= turns_unannounced_limit) announce();
@@ -90,8 +91,9 @@ void Hot::run() {
             }
         }
         if (ran == 0) turns_.sleep();
-        for (int n = 0; n < handlers_per_turn && io_.poll_one() > 0; ++n) {
-        }
+        all_done = false;
+        for (int n = 0; n < handlers_per_turn && !all_done; ++n)
+            all_done = io_.poll_one() == 0;
         if (stopping_.load(std::memory_order_relaxed)) {
             if (!stopping) {
                 stopping = true;
@@ -220,7 +222,8 @@ void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
     const Family* family = find_family(spec.family);  // none: a CAN line of several
-    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys, stale_send_limit, settings_.fleet);
+    return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys, stale_send_limit, settings_.fleet,
+                          line_clock_);
 }
 
 void Hot::publish_reports(Instant now) {

@@ -15,6 +15,7 @@
 #include "gateway/core/histogram.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/engine/engine.hpp"
+#include "gateway/lines/clock.hpp"
 #include "gateway/lines/pair_line.hpp"
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/runtime/clock.hpp"
@@ -53,6 +54,10 @@ public:
         Mailbox<Sample>* samples = nullptr;  ///< to the warm thread
         Mailbox<ColdJob>* cold = nullptr;
         std::function<void()> changed{};  ///< hot thread: an axis' picture has changed since it was wanted to know (want_change)
+        /// Another thread has something to hear of. Hot thread.
+        [[nodiscard]] bool unannounced() const noexcept {
+            return (results && results->unannounced()) || (samples && samples->unannounced()) || (cold && cold->unannounced());
+        }
     };
 
     Hot(Families families, HotSettings settings);
@@ -116,11 +121,20 @@ private:
     void announce();
     void publish_reports(Instant now);
 
+    /// Lines read the loop's time, so that a frame that wakes it begins a turn.
+    struct LineClock final : Clock {
+        explicit LineClock(const Hot& of) : hot(of) {}
+        [[nodiscard]] Instant now() const override { return hot.now(); }
+        [[nodiscard]] std::int64_t unix_ns() const override { return machine_clock().unix_ns(); }
+        const Hot& hot;
+    };
+
     HotSettings settings_;
     boost::asio::io_context io_{1};
     boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_.get_executor()};
     Doorbell bell_{io_};
     HotTurns turns_{io_, settings_.clock};
+    LineClock line_clock_{*this};
     Image image_;
     Engine engine_;
     Outlets out_;

@@ -18,6 +18,15 @@ public:
     HotTurns(boost::asio::io_context& io, Instant (*clock)() noexcept) : io_(io), clock_(clock) {}
 
     // --- the loop's thread ---
+    /// The time. The first look at it after a sleep is where the turn begins: all that a handler does begins with one.
+    [[nodiscard]] Instant now() const noexcept {
+        const Instant t = clock_();
+        if (asleep_) {
+            asleep_ = false;
+            began_ = t;
+        }
+        return t;
+    }
     /// Work begins, or went on until now without a sleep.
     void begin(Instant now) noexcept { began_ = now; }
     /// The work since then is a turn; the next one begins at once, unless the loop sleeps first.
@@ -46,7 +55,8 @@ private:
     Instant (*clock_)() noexcept;
     boost::asio::steady_timer timer_{io_};
     Instant armed_ = never;
-    Instant began_{};
+    mutable Instant began_{};
+    mutable bool asleep_ = false;
     std::atomic<std::int64_t> last_ns_{0};
     std::atomic<std::uint64_t> count_{0};
     Histogram times_, wake_delays_;

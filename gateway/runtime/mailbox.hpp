@@ -39,6 +39,8 @@ public:
         unannounced_ = true;
         return true;
     }
+    /// Sender's thread: something was pushed since the last announcement.
+    [[nodiscard]] bool unannounced() const noexcept { return unannounced_; }
     /// Sender's thread, once per turn: wakes the receiver if something new is there and no wake-up is on its way.
     void announce() {
         if (!unannounced_) return;

@@ -239,6 +239,11 @@ def test_every_frame_is_what_a_dissector_knows(folder):
     seen = subprocess.run(["tshark", "-r", str(folder / f"enip-{port}.pcapng"), "-d", f"tcp.port=={port},enip", "-d", f"udp.port=={io_port},cipio", "-V"],
                           capture_output=True, text=True, check=True).stdout
     assert "EtherNet/IP" in seen and "Forward Open" in seen, seen[-2000:]
+    marks = subprocess.run(["tshark", "-r", str(folder / f"enip-{port}.pcapng"), "-T", "fields", "-e", "tcp.srcport", "-e", "udp.srcport", "-e", "ip.dsfield.dscp"],
+                           capture_output=True, text=True, check=True).stdout
+    marks = {tuple(line.split("\t")) for line in marks.splitlines()}
+    assert (str(port), "", "27") in marks, f"answers have the mark of explicit messages: {marks}"
+    assert ("", str(io_port), "47") in marks, f"inputs have that of scheduled data: {marks}"
 
 
 def test_a_frame_that_is_none_is_found_by_the_dissector_too(folder):

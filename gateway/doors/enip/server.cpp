@@ -102,13 +102,14 @@ public:
 
     // --- cip::Output
     void implicit(cip::Endpoint to, cip::View bytes, std::uint8_t dscp) override {
-        if (std::exchange(dscp_, dscp) != dscp) {
-            const int tos = dscp << 2;
-            (void)::setsockopt(implicit_.native_handle(), IPPROTO_IP, IP_TOS, &tos, sizeof tos);
-        }
+        if (std::exchange(dscp_, dscp) != dscp) mark(implicit_.native_handle(), dscp);
         send(implicit_, to, bytes);
     }
-    void datagram(cip::Endpoint to, cip::View bytes) override { send(explicit_, to, bytes); }
+    void datagram(cip::Endpoint to, cip::View bytes) override {
+        const std::uint8_t dscp = adapter_.marks().explicit_mark();
+        if (std::exchange(explicit_dscp_, dscp) != dscp) mark(explicit_.native_handle(), dscp);
+        send(explicit_, to, bytes);
+    }
     void stream(cip::SessionKey key, cip::View bytes) override {
         if (const auto it = sessions_.find(key); it != sessions_.end()) it->second->send(bytes);
     }
@@ -122,6 +123,10 @@ public:
     [[nodiscard]] const HostFacts& facts() const noexcept { return facts_; }
 
 private:
+    static void mark(int fd, std::uint8_t dscp) {
+        const int tos = dscp << 2;
+        (void)::setsockopt(fd, IPPROTO_IP, IP_TOS, &tos, sizeof tos);
+    }
     static void send(UdpSocket& socket, cip::Endpoint to, cip::View bytes) {
         const sockaddr_in a = sockaddr_of(to);
         // A full queue drops it: the next one is newer.
@@ -153,7 +158,7 @@ private:
     cip::SessionKey newest_ = 0;
     HostFacts facts_;
     std::uint32_t bound_ = 0;
-    std::uint8_t dscp_ = 0;
+    std::uint8_t dscp_ = 0, explicit_dscp_ = 0;
     bool open_ = false;
     bool paused_ = false;  // out of descriptors: tried again at the next sweep
     Counter accepts_postponed_;
@@ -263,6 +268,7 @@ bool Server::Impl::admit() {
     const int on = 1;
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     (void)::setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+    mark(fd, adapter_.marks().explicit_mark());
     const cip::SessionKey key = ++newest_;
     const bool watched = poller_.add(fd, key, TcpSession::watched);
     if (!watched || !adapter_.on_connected(key, endpoint_of(peer), port_.now())) {

@@ -23,7 +23,7 @@ Duration spread(std::uint16_t asked_ms, std::uint32_t own) {
 Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
     : values_(values),
       output_(output),
-      manager_(values, output, incarnation),
+      manager_(values, output, qos_, incarnation),
       identity_(values, manager_),
       assembly_(values, manager_),
       parameter_(values),

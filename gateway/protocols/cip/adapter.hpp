@@ -51,6 +51,7 @@ public:
     /// Every connection is closed: what they were opened for is no more.
     void close_all(Instant now) { manager_.close_all(End::by_gateway, now); }
     [[nodiscard]] const ConnectionManager& connections() const noexcept { return manager_; }
+    [[nodiscard]] const QosObject& marks() const noexcept { return qos_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.size(); }
 
@@ -95,6 +96,7 @@ private:
 
     Values& values_;
     Output& output_;
+    QosObject qos_;
     ConnectionManager manager_;
     IdentityObject identity_;
     AssemblyObject assembly_;
@@ -102,7 +104,6 @@ private:
     OwnObject own_;
     TcpIpObject tcp_ip_;
     EthernetLinkObject ethernet_link_;
-    QosObject qos_;
     ConnectionConfigurationObject configuration_;
     Router router_;
     std::unordered_map<SessionKey, Session> sessions_;

@@ -16,8 +16,8 @@ Endpoint group_address(const Device& d, std::uint16_t number) {
 }
 }  // namespace
 
-ConnectionManager::ConnectionManager(Values& values, Carrier& carrier, std::uint16_t incarnation)
-    : values_(values), carrier_(carrier), generation_(incarnation) {}
+ConnectionManager::ConnectionManager(Values& values, Carrier& carrier, const QosObject& marks, std::uint16_t incarnation)
+    : values_(values), carrier_(carrier), marks_(marks), generation_(incarnation) {}
 
 std::span<const std::uint16_t> ConnectionManager::all(std::uint32_t) const {
     static constexpr std::uint16_t list[] = {1, 2, 3, 4, 5, 6, 7, 8};

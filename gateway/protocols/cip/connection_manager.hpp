@@ -61,8 +61,8 @@ public:
         Counter received, sent, from_wrong_address, stale, wrong_size, unknown_connection;
     };
 
-    /// `incarnation`: another number after each start, so that ids of before mean nothing.
-    ConnectionManager(Values& values, Carrier& carrier, std::uint16_t incarnation);
+    /// `marks`: of the datagrams. `incarnation`: another number after each start, so that ids of before mean nothing.
+    ConnectionManager(Values& values, Carrier& carrier, const QosObject& marks, std::uint16_t incarnation);
 
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_manager; }
     [[nodiscard]] std::uint16_t last_attribute() const override { return 8; }
@@ -114,6 +114,7 @@ private:
 
     Values& values_;
     Carrier& carrier_;
+    const QosObject& marks_;
     std::uint16_t generation_;
     std::array<std::unique_ptr<Connection>, most_connections> places_;
     std::size_t used_ = 0;  // places from here on have never been taken

@@ -6,13 +6,6 @@
 #include "gateway/protocols/cip/connection_manager.hpp"
 
 namespace axisgate::cip {
-namespace {
-std::uint8_t mark_of(std::uint8_t priority) noexcept {
-    static constexpr std::uint8_t marks[] = {QosObject::dscp_low, QosObject::dscp_high, QosObject::dscp_scheduled, QosObject::dscp_urgent};
-    return marks[priority & 3];
-}
-}  // namespace
-
 void ConnectionManager::on_implicit(View datagram, Endpoint from, Instant now) {
     const auto implicit = read_implicit(datagram);
     const std::size_t number = implicit ? implicit->connection & 0xFFFF : 0;
@@ -63,7 +56,7 @@ void ConnectionManager::produce(Connection& c, Instant now) {
     write_implicit(datagram_, c.to_id, ++c.sent, counts ? std::optional(c.sent_count) : std::nullopt, data_);
     if (c.look > Duration::zero()) c.sent_revision = values_.revision(c.plan.produced);
     counters_.sent.add();
-    carrier_.implicit(c.produce_to, datagram_, mark_of(c.request.to.priority));
+    carrier_.implicit(c.produce_to, datagram_, marks_.implicit_mark(c.request.to.priority));
 }
 
 /// Change of state: sent at once (at most every `look`), and at the interval where nothing changes.

@@ -1,5 +1,7 @@
 // TCP/IP Interface, Ethernet Link and QoS: what a tool shows of the device's port.
 // In: the device. Out: attributes. Never changes how the host is reached: that is its operating system's.
+#include <algorithm>
+
 #include "gateway/protocols/cip/objects.hpp"
 
 namespace axisgate::cip {
@@ -99,11 +101,39 @@ General ConnectionConfigurationObject::get_of_class(std::uint32_t attribute, con
     return General::success;
 }
 
+namespace {
+constexpr std::uint32_t first_mark = 4, last_mark = 8;
+constexpr std::uint8_t most_mark = 63;
+}  // namespace
+
+std::span<const std::uint16_t> QosObject::all(std::uint32_t) const {
+    static constexpr std::uint16_t list[] = {4, 5, 6, 7, 8};
+    return list;
+}
+
 General QosObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
-    static constexpr std::uint8_t values[] = {0, 59, 47, dscp_urgent, dscp_scheduled, dscp_high, dscp_low, dscp_explicit};
-    if (attribute < 1 || attribute > 8) return General::attribute_not_supported;
-    put8(to, values[attribute - 1]);
+    static constexpr std::uint8_t of_time_synchronization[] = {0, 59, 47};  // no frames of 802.1Q, and no clock that others go by
+    if (attribute < 1 || attribute > last_mark) return General::attribute_not_supported;
+    put8(to, attribute < first_mark ? of_time_synchronization[attribute - 1] : marks_[attribute - first_mark]);
     return General::success;
+}
+
+General QosObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
+    if (attribute < first_mark || attribute > last_mark) return Object::set(instance, attribute, context, data);
+    if (data.left() < 1) return General::not_enough_data;
+    const std::uint8_t wanted = data.u8();
+    if (wanted > most_mark) return General::invalid_attribute_value;
+    marks_[attribute - first_mark] = wanted;
+    return General::success;
+}
+
+Response QosObject::other(std::uint8_t service, std::uint32_t instance, View data, Context&) {
+    if (service != service::set_all || instance == 0) return Response::of(General::service_not_supported);
+    if (data.size() != marks_.size()) return Response::of(data.size() < marks_.size() ? General::not_enough_data : General::too_much_data);
+    if (std::ranges::any_of(data, [](std::uint8_t mark) { return mark > most_mark; }))
+        return Response::of(General::invalid_attribute_value);
+    std::ranges::copy(data, marks_.begin());
+    return {};
 }
 
 }  // namespace axisgate::cip

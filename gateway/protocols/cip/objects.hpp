@@ -3,6 +3,8 @@
 // Never holds a value of its own.
 #pragma once
 
+#include <array>
+
 #include "gateway/protocols/cip/object.hpp"
 
 namespace axisgate::cip {
@@ -127,13 +129,24 @@ private:
     const Values& values_;
 };
 
-/// What a connection's datagrams are marked with, by the priority that its originator asked for.
+/// What packets are marked with (DSCP): implicit data by the priority that their originator asked for, sessions from their begin on.
+/// Another mark holds until the gateway ends.
 class QosObject final : public Object {
 public:
     static constexpr std::uint8_t dscp_urgent = 55, dscp_scheduled = 47, dscp_high = 43, dscp_low = 31, dscp_explicit = 27;
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::qos; }
     [[nodiscard]] std::uint16_t last_attribute() const override { return 8; }
+    [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
     [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
+    [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
+    /// Set_Attributes_All: all five marks or none.
+    [[nodiscard]] Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context) override;
+    /// `priority`: 0 low, 1 high, 2 scheduled, 3 urgent.
+    [[nodiscard]] std::uint8_t implicit_mark(std::uint8_t priority) const noexcept { return marks_[3 - (priority & 3)]; }
+    [[nodiscard]] std::uint8_t explicit_mark() const noexcept { return marks_[4]; }
+
+private:
+    std::array<std::uint8_t, 5> marks_{dscp_urgent, dscp_scheduled, dscp_high, dscp_low, dscp_explicit};  // attributes 4 to 8
 };
 
 /// The list of connections that a device originates: an adapter has none. A tool that looks at the list, whether it has changed and in

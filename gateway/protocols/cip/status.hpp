@@ -99,9 +99,10 @@ enum class Extended : std::uint16_t {
 };
 
 namespace service {
-inline constexpr std::uint8_t get_all = 0x01, get_list = 0x03, set_list = 0x04, reset = 0x05, multiple = 0x0A, get_single = 0x0E,
-                              set_single = 0x10, get_enum_string = 0x4B, forward_close = 0x4E, unconnected_send = 0x52, forward_open = 0x54,
-                              get_connection_data = 0x56, search_connection_data = 0x57, large_forward_open = 0x5B, reply_bit = 0x80;
+inline constexpr std::uint8_t get_all = 0x01, set_all = 0x02, get_list = 0x03, set_list = 0x04, reset = 0x05, multiple = 0x0A,
+                              get_single = 0x0E, set_single = 0x10, get_enum_string = 0x4B, forward_close = 0x4E, unconnected_send = 0x52,
+                              forward_open = 0x54, get_connection_data = 0x56, search_connection_data = 0x57, large_forward_open = 0x5B,
+                              reply_bit = 0x80;
 }
 namespace class_id {
 inline constexpr std::uint32_t identity = 0x01, message_router = 0x02, assembly = 0x04, connection_manager = 0x06, parameter = 0x0F,

@@ -53,6 +53,37 @@ TEST(CipObjects, TheNetworkAsToolsBrowseIt) {
     EXPECT_EQ(list.data, hex("0900 0100 0200 0400 0600 0F00 4800 F300 F500 F600"));
 }
 
+TEST(CipObjects, MarksAreSetAloneInAListAndAllTogetherAndTheDataHaveThem) {
+    Bench b;
+    (void)b.opened({});
+    EXPECT_EQ(b.ask(get(0x48, 1, 0, service::get_all)).data, hex("37 2F 2B 1F 1B"));
+    const auto set = [&](std::uint32_t attribute, const char* value, std::uint8_t by = service::set_single) {
+        return status_of(b, get(0x48, 1, attribute, by, hex(value)));
+    };
+    EXPECT_EQ(set(5, "40"), General::invalid_attribute_value) << "six bits";
+    EXPECT_EQ(set(5, ""), General::not_enough_data);
+    EXPECT_EQ(set(5, "2E00"), General::too_much_data);
+    EXPECT_EQ(set(2, "01"), General::attribute_not_settable);
+    EXPECT_EQ(set(9, "01"), General::attribute_not_supported);
+    b.pass(std::chrono::milliseconds(1));
+    EXPECT_EQ(b.output.implicits.back().dscp, 47);
+    EXPECT_EQ(set(5, "2E"), General::success);
+    b.pass(std::chrono::milliseconds(10));
+    EXPECT_EQ(b.output.implicits.back().dscp, 46);
+    EXPECT_EQ(b.ask(get(0x48, 1, 0, service::set_list, hex("0200 0400 30 0800 0A"))).data, hex("0200 0400 0000 0800 0000"));
+    EXPECT_EQ(b.adapter.marks().explicit_mark(), 10);
+    EXPECT_EQ(set(0, "01 02 03 04 40", service::set_all), General::invalid_attribute_value);
+    EXPECT_EQ(b.ask(get(0x48, 1, 0, service::get_all)).data, hex("30 2E 2B 1F 0A")) << "all or nothing";
+    EXPECT_EQ(set(0, "01 02 03 04", service::set_all), General::not_enough_data);
+    EXPECT_EQ(set(0, "01 02 03 04 05 06", service::set_all), General::too_much_data);
+    EXPECT_EQ(set(0, "01 02 03 04 05", service::set_all), General::success);
+    EXPECT_EQ(b.ask(get(0x48, 1, 0, service::get_all)).data, hex("01 02 03 04 05"));
+    EXPECT_EQ(status_of(b, get(0x48, 0, 0, service::set_all, hex("0102030405"))), General::service_not_supported);
+    EXPECT_EQ(status_of(b, get(1, 1, 0, service::set_all, hex("00"))), General::service_not_supported) << "an identity is given";
+    for (std::uint16_t priority = 0; priority < 4; ++priority)
+        EXPECT_EQ(b.adapter.marks().implicit_mark(static_cast<std::uint8_t>(priority)), 4 - priority);
+}
+
 TEST(CipObjects, TheListOfOriginatedConnectionsIsEmptyAndSaysSo) {
     Bench b;
     EXPECT_EQ(b.ask(get(0xF3, 0, 1)).data, hex("0300"));

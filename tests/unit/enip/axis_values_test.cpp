@@ -174,6 +174,26 @@ TEST(EnipAxisValues, ParametersAreTheDrives) {
     EXPECT_EQ(d.told[2].general, General::connection_lost) << "no answer in time";
 }
 
+TEST(EnipAxisValues, EachReasonOfADriveHasItsGeneralStatus) {
+    const std::pair<Reason, std::uint8_t> list[] = {
+        {Reason::out_of_range, 0x09},  {Reason::unknown_point, 0x14}, {Reason::not_writable, 0x0E}, {Reason::wrong_state, 0x10},
+        {Reason::not_supported, 0x14}, {Reason::drive_refused, 0x1F}, {Reason::busy, 0x02},         {Reason::line_down, 0x07},
+        {Reason::no_answer, 0x07},     {Reason::interrupted, 0x10},   {Reason::authority, 0x0F},    {Reason::not_stored, 0x19},
+        {Reason::internal, 0x1F},
+    };
+    Desk d;
+    cip::Token token = 100;
+    for (const auto& [reason, status] : list) {
+        EXPECT_EQ(d.values.set(3, Bytes{1, 0, 0, 0}, ++token, d.plc, d.port.now()), General::success);
+        d.port.refuse(reason);
+        EXPECT_EQ(static_cast<std::uint8_t>(d.told.back().general), status) << name_of(reason);
+        EXPECT_EQ(d.told.size(), token - 100);
+    }
+    EXPECT_EQ(d.values.ask(3, ++token, d.plc, d.port.now()), General::success);
+    d.port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{1} << 40});
+    EXPECT_EQ(d.told.back().general, General::no_stored_data) << "what the drive told is no number of the parameter's type";
+}
+
 TEST(EnipAxisValues, AnotherLayoutIsAnotherRevision) {
     const Layout a({}, 1, {}), b({}, 2, {});
     EXPECT_NE(std::pair(a.device().major, a.device().minor), std::pair(b.device().major, b.device().minor));

@@ -172,6 +172,7 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
             ASSERT_TRUE(good(*r)) << told(r);
         }
     }
+    EXPECT_EQ(able, fact("prepared_moves"));
     w.run_for(2s);
     rest(before, {});
     StartTogether go;

@@ -39,14 +39,18 @@ const Family& family_without_velocity() {
 
 }  // namespace
 
-void Laws::lacks_velocity(const Result& r) const {
-    EXPECT_FALSE(r.text.empty()) << "where a drive cannot follow, it says so";
-    if (!e.variant.empty()) return;
+bool Laws::fact(const std::string& name) const {
     const std::string path = std::string(AXISGATE_SOURCE_DIR "/adapters/") + std::string(e.family->name) + "/tests/facts.json";
     std::ifstream file(path);
     const auto facts = boost::json::parse(std::string(std::istreambuf_iterator<char>(file), {})).get_object();
-    const auto* velocity = facts.if_contains("velocity_mode");
-    EXPECT_TRUE(velocity && !velocity->get_bool()) << "by its manual the drive has a velocity mode (" << path << "), and: " << told(&r);
+    const auto* said = facts.if_contains(name);
+    EXPECT_TRUE(said && said->is_bool()) << name << " is missing in " << path;
+    return said && said->is_bool() && said->get_bool();
+}
+
+void Laws::lacks_velocity(const Result& r) const {
+    EXPECT_FALSE(r.text.empty()) << "where a drive cannot follow, it says so";
+    if (e.variant.empty()) EXPECT_FALSE(fact("velocity_mode")) << "by its manual the drive has a velocity mode, and: " << told(&r);
 }
 
 const std::vector<Subject>& law_subjects() {

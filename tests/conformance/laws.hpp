@@ -107,6 +107,8 @@ protected:
     bool has_velocity = true;  ///< as turn() found it
     /// A velocity move was answered as not supported: in words, and only where the drive's manual knows none.
     void lacks_velocity(const Result& r) const;
+    /// What its manual says of a question that the suites ask of every family: adapters/<family>/tests/facts.json.
+    [[nodiscard]] bool fact(const std::string& name) const;
 
     [[nodiscard]] int channel_of(AxisId axis) const {
         for (std::size_t i = 0; i < site->axis_ids.size(); ++i) {

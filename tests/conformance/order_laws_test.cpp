@@ -119,6 +119,7 @@ TEST_P(OrderLaws, ASetPositionRenamesThePlaceAndMovesNothing) {
             w.run_for(10ms);
             EXPECT_EQ(speed(a1), 0) << "a name was changed, and the shaft moves";
         }
+        EXPECT_EQ(good(*r), name == 0 || fact("set_position")) << "each drive can call its place 0, most by any name: " << told(r);
         if (!good(*r)) {
             EXPECT_FALSE(r->text.empty()) << "why, in words";
             EXPECT_EQ(now().position, was) << "refused: nothing has changed";

@@ -81,7 +81,7 @@ def test_a_full_disk_refuses_in_words_and_loses_nothing(folder):
         except AssertionError as e:
             assert "full" in str(e) or "No space left" in str(e), e
         code, _, err = run("restore", str(folder / "copy.tar"), "--data", str(data))
-        assert code == 1 and "nothing was replaced" in err or "No space left" in err, err
+        assert code == 1 and ("nothing was replaced" in err or "No space left" in err), (code, err)
         (data / "ballast").unlink()
         with Gateway(folder, None) as g:
             assert g.get("/axes/feeder/parameters/AC")["stored"] == 30001

@@ -48,7 +48,7 @@ def facts():
     reached_by: the parameters that a drive is reached by; acts_at_once: those that act instead of configuring (what can only be written is in no
     snapshot); acts_when_disabled: of those, what a snapshot taken while enabled would write to a disabled drive; a_move_changes_no_setting: nor
     does the order for one; homed_first: it moves by positions only after homing; move: a motion that a new drive takes; line: what its line
-    needs beside the URI "twin".
+    needs beside the URI "twin". velocity_mode, prepared_moves, set_position: what the conformance laws may not hear refused.
     """
     _, out, _ = harness.run("families", "--format", "json", check=0)
     names = [f["name"] for f in json.loads(out)]

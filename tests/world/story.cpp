@@ -15,6 +15,8 @@ using namespace std::chrono_literals;
 constexpr Duration lease = 2s;
 /// From the fastest speed of a story down the flattest ramp, and the widest wait for a drive's own reaction.
 constexpr Duration stop_limit = 2500ms;
+/// What is shown is old after 3 s on a line of bytes, after 1 s on CAN; that is looked at now and then.
+constexpr Duration longest_fresh = 3500ms;
 
 class Story {
 public:
@@ -36,7 +38,7 @@ public:
         }
     }
 
-    std::uint64_t run(int turns) {
+    StoryEnd run(int turns) {
         EXPECT_TRUE(world_->run_until_true([&] { return all_back(); }, 30s)) << "not all come up";
         for (turn_ = 0; turn_ < turns && !testing::Test::HasFailure(); ++turn_) {
             faults();
@@ -45,7 +47,7 @@ public:
             pass(std::chrono::milliseconds(random_() % 250));
         }
         heal();
-        return mix_in(fingerprint_, *world_);
+        return {mix_in(fingerprint_, *world_), std::move(went_wrong_)};
     }
 
 private:
@@ -71,7 +73,7 @@ private:
         std::size_t machine = 0;
         int client = 0;
         Instant at{};
-        bool stop = false, off = false, motion = false, moves_nothing = false;
+        bool stop = false, off = false, motion = false, write = false;
         std::uint64_t motions = 0, powers = 0;
         Machine::Lease lease;   ///< as it was known when it was given
         Instant other_asked{};  ///< and when the other client wanted something last
@@ -138,6 +140,7 @@ private:
         if (plan_.bad_store) {
             world_->store_delay = std::chrono::milliseconds(pick(3) * 200);
             world_->store_fault = pick(4) == 0 ? "the disk is full" : "";
+            went_wrong_["store late"] += world_->store_delay > Duration::zero();
         }
         if (plan_.site_changes && pick(8) == 0) change_site();
     }
@@ -153,6 +156,9 @@ private:
             if (can) from.duplicate = rate(0.1), from.reorder = rate(0.2);
             if (pick(4) == 0) from.drift = 20ms, from.drift_max = std::chrono::milliseconds(pick(120));
             if (pick(4) == 0) (pick(2) ? to : from).loss = 1;  // one direction is cut: the line is up, and half of it is deaf
+            went_wrong_["slow drift"] += from.drift_max > Duration::zero();
+            went_wrong_["not heard by the drives"] += to.loss == 1;
+            went_wrong_["drives not heard"] += from.loss == 1;
             if (plan_.garbling) {
                 to.flip = from.flip = rate(0.05);
                 from.truncate = rate(0.05);
@@ -161,19 +167,27 @@ private:
             cable().set_rates(to, from);
         }
         if (turn_ % 10 == 9) cable().set_rates({}, {});
-        if (pick(20) == 0) cable().cut(world_->now);
-        if (can && pick(20) == 0) cable().bus_off(world_->now, std::chrono::milliseconds(20 + pick(500)));
+        if (pick(20) == 0) cable().cut(world_->now), ++went_wrong_["cable cut"];
+        if (can && pick(20) == 0) {
+            cable().bus_off(world_->now, std::chrono::milliseconds(20 + pick(500)));
+            ++went_wrong_["bus-off"];
+        }
         if (pick(5) == 0 && cable().is_cut()) cable().heal(world_->now);
         if (pick(15) == 0) drive_fault(machines_[pick(machines_.size())]);
     }
     void drive_fault(const Machine& m) {
         if (m.line != 0) return;
-        if (pick(2)) return (void)world_->buses.at("bad")->set_hand(m.key, "silent", Value{pick(2) == 0}, world_->now);
+        if (pick(2)) {
+            const bool silent = pick(2) == 0;
+            went_wrong_["drive silent"] += silent;
+            return (void)world_->buses.at("bad")->set_hand(m.key, "silent", Value{silent}, world_->now);
+        }
         power(m.key, pick(2) == 0);
     }
     void power(DriveId key, bool on) {
         (void)world_->buses.at("bad")->set_hand(key, "power", Value{on}, world_->now);
         if (on ? without_power_.erase(key) == 0 : !without_power_.insert(key).second) return;  // as it was: no order has ended by that
+        if (!on) ++went_wrong_["drive without power"];
         for (const Machine& m : machines_) {
             if (m.line != 0 || m.key != key) continue;
             witness_.power_cycled(m.shaft);
@@ -184,6 +198,7 @@ private:
         }
     }
     void change_site() {
+        ++went_wrong_["site changed"];
         std::size_t first = machines_.size();  // of those that are taken away or made anew, up to the last
         std::size_t behind = machines_.size();
         switch (pick(3)) {
@@ -214,6 +229,7 @@ private:
     }
     void restart() {
         Instant then = world_->now;
+        ++went_wrong_["restart"];
         mix_in(fingerprint_, *world_);
         given_.clear();  // nobody is left to answer
         auto plant = world_->plant;
@@ -236,6 +252,7 @@ private:
         CommandBody body = any_body(s, g);
         if (!m.present) return;
         g.at = world_->now;
+        g.write = std::holds_alternative<WriteParameter>(body);
         g.lease = m.lease;
         g.other_asked = m.asked[1 - g.client];
         m.asked[g.client] = g.at;
@@ -324,6 +341,8 @@ private:
         for (const Machine& m : machines_) {
             if (!m.present) continue;
             const auto p = world_->picture(m.axis);
+            if (world_->now - p.at > longest_fresh)
+                EXPECT_NE(p.flags & flag_stale, 0) << m.name << " is shown as fresh, and has said nothing";
             if (!(p.flags & flag_online)) EXPECT_NE(p.flags & flag_stale, 0) << m.name << " is shown as fresh, and nobody answers";
             if (m.line > 0 && good_line_was_up_ && !(p.flags & flag_online)) ADD_FAILURE() << m.name << " has no fault, and is offline";
         }
@@ -332,6 +351,9 @@ private:
     void judge(const Given& g, const Result& r) {
         Machine& m = machines_[g.machine];
         if (!good(r)) EXPECT_FALSE(r.text.empty()) << m.name << ": " << name_of(r.reason);
+        if (g.write && good(r)) EXPECT_TRUE(world_->on_disk.contains(g.ticket)) << m.name << ": a write is answered before it is stored";
+        went_wrong_["store full"] += r.reason == Reason::not_stored;
+        went_wrong_["refused for a lease"] += r.reason == Reason::authority;
         if (g.stop) {
             EXPECT_NE(r.reason, Reason::authority) << "a stop is open to everybody: " << r.text;
             if (good(r)) witness_.stopped(m.shaft, g.motions, world_->now + stop_limit);
@@ -347,6 +369,12 @@ private:
     }
 
     void heal() {
+        const FaultCounters& c = cable().counters();
+        const std::pair<const char*, std::uint64_t> by_wire[] = {
+            {"lost", c.lost},        {"doubled", c.duplicated}, {"bit turned over", c.flipped}, {"cut short", c.truncated},
+            {"foreign", c.inserted}, {"late", c.delayed},       {"reordered", c.reordered},     {"swallowed", c.swallowed}};
+        for (const auto& [name, n] : by_wire)
+            went_wrong_[name] += n;
         world_->store_delay = {};
         world_->store_fault.clear();
         cable().set_rates({}, {});
@@ -418,6 +446,7 @@ private:
     std::unique_ptr<World> world_;
     Witness witness_;
     std::vector<Given> given_;
+    std::map<std::string, std::uint64_t> went_wrong_;
     int turn_ = 0;
     bool good_line_was_up_ = false;
     std::uint64_t fingerprint_ = 1469598103934665603ull;
@@ -435,6 +464,6 @@ StoryPlan::StoryPlan(std::uint64_t seed)
       site_changes(seed % 5 == 2),
       bad_store(seed % 2 == 1) {}
 
-std::uint64_t run_story(const Subject& subject, std::uint64_t seed, int turns) { return Story(subject, seed).run(turns); }
+StoryEnd run_story(const Subject& subject, std::uint64_t seed, int turns) { return Story(subject, seed).run(turns); }
 
 }  // namespace axisgate::test

@@ -1,8 +1,11 @@
 // Story: one seeded day of a gateway: which wires and clients it has, what goes wrong and when, and the laws that hold all the time.
-// In: a subject and a seed. Out: failed laws, and a fingerprint that is equal for equal runs. Never depends on real time.
+// In: a subject and a seed. Out: failed laws, a fingerprint that is equal for equal runs, what went wrong how often. Never depends on real
+// time.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 
 #include "tests/world/world.hpp"
 
@@ -22,7 +25,11 @@ struct StoryPlan {
     bool bad_store;     ///< late, and full from time to time
 };
 
-/// `turns`: commands given. Returns the fingerprint.
-std::uint64_t run_story(const Subject& subject, std::uint64_t seed, int turns);
+struct StoryEnd {
+    std::uint64_t fingerprint = 0;
+    std::map<std::string, std::uint64_t> faults;  ///< what went wrong how often, by name
+};
+/// `turns`: commands given.
+StoryEnd run_story(const Subject& subject, std::uint64_t seed, int turns);
 
 }  // namespace axisgate::test

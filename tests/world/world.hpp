@@ -10,6 +10,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -136,6 +137,7 @@ public:
     Engine engine;
     Instant now = at_ns(1'000'000'000);
     std::map<Ticket, std::vector<Result>> results;
+    std::set<Ticket> on_disk;  ///< of those, what was answered because the store had it
     std::vector<Event> events;
     std::vector<Sample> samples;
     std::map<std::string, NonVolatile> twin_memories;
@@ -161,7 +163,10 @@ public:
         cables[spec.name] = line.get();
         return line;
     }
-    void on_result(const Result& result) override { results[result.ticket].push_back(result); }
+    void on_result(const Result& result) override {
+        results[result.ticket].push_back(result);
+        if (stored_well_) on_disk.insert(result.ticket);
+    }
     void on_event(Event event, Instant) override { events.push_back(std::move(event)); }
     void on_sample(const Sample& sample) override { samples.push_back(sample); }
     std::optional<Instant> heard(const AuthorityClient&) const override { return heard_at; }
@@ -290,11 +295,14 @@ private:
         while (!to_store.empty() && to_store.front().first <= now) {
             const Ticket ticket = to_store.front().second;
             to_store.pop_front();
+            stored_well_ = store_fault.empty();
             engine.on_stored(ticket, store_fault, now);
+            stored_well_ = false;
         }
     }
     std::deque<std::pair<Instant, Ticket>> to_store;  // one writer: what is given later is stored later
     std::uint64_t revision = 0;
+    bool stored_well_ = false;  // the store has just told that it has something
 };
 
 }  // namespace axisgate::test

@@ -19,6 +19,9 @@ const closePeriod_ms = 50;
 const listRetry_ms = 2_000;
 /** Less than a period of the stream, so that what comes at 20 Hz is never held back. */
 const leastPause_ms = 40;
+/** With more axes than this each picture is much work: as many as the feed brings, and none between. */
+const fewAxes = 32;
+const longPause_ms = overviewPeriod_ms - 10;
 
 export class Gateway {
   readonly client: Client;
@@ -29,13 +32,15 @@ export class Gateway {
   readonly session: Session;
   readonly stream: Stream;
   readonly tab: Tab;
+  /** How many axes are followed closely. */
+  private watched = 0;
   private readonly jogs = new Map<string, Jog>();
   private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
 
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
     this.tab = new Tab(persisted('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
-    this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
+    this.store = parts.store ?? new Store({ schedule: (flush) => beforeNextPicture(flush, pauseOf(this.store.axisNames.peek().length, this.watched)) });
     const blocked = () => (this.store.connected.peek() ? this.session.mayNot('operator') : t('The page is not connected to the gateway.'));
     this.commander = new Commander(
       this.client,
@@ -121,7 +126,11 @@ export class Gateway {
   watchClosely(axis: string): () => void {
     const topic = `axes/${axis}`;
     this.stream.subscribe({ [topic]: closePeriod_ms });
-    return () => this.stream.unsubscribe(topic);
+    this.watched += 1;
+    return () => {
+      this.watched -= 1;
+      this.stream.unsubscribe(topic);
+    };
   }
 
   /** Another topic of the stream, such as the frames of a line. Gives back the function that ends it. */
@@ -163,13 +172,16 @@ export function streamUrl(at: { protocol: string; host: string }): string {
   return `${at.protocol === 'https:' ? 'wss' : 'ws'}://${at.host}/api/v1/stream`;
 }
 
+/** Between two pictures: of `axes` axes, `watched` of them closely. */
+export const pauseOf = (axes: number, watched: number): number => (watched === 0 && axes > fewAxes ? longPause_ms : leastPause_ms);
+
 let flushedAt_ms = -Infinity;
 /**
  * Before the next picture of the screen, but not before all of them: nobody reads figures that change more than 20 times a second, and a
  * feed of a thousand samples a second must leave the pictures their time. A hidden page draws none; its states are taken in all the same,
  * less often.
  */
-export function beforeNextPicture(flush: () => void): void {
+export function beforeNextPicture(flush: () => void, pause_ms = leastPause_ms): void {
   let done = false;
   const once = () => {
     if (done) return;
@@ -177,7 +189,7 @@ export function beforeNextPicture(flush: () => void): void {
     flushedAt_ms = performance.now();
     flush();
   };
-  const wait_ms = flushedAt_ms + leastPause_ms - performance.now();
+  const wait_ms = flushedAt_ms + pause_ms - performance.now();
   if (wait_ms > 0) setTimeout(() => requestAnimationFrame(once), wait_ms);
   else requestAnimationFrame(once);
   setTimeout(once, 250);

@@ -107,14 +107,16 @@ function Row({ name, of }: { name: string; of: ReadonlySignal<AxisEntry> }) {
       <td class={`num row-position${old}`} role="cell" data-field="position" data-value={value} data-live={live}>
         <span class="visually-hidden">{live ? t('Position') : t('Last known position, not live')}: </span>
         <span class="reading">
-          <span class="figure">{position}</span>{' '}
-          <span class="unit">{unit}</span>
+          <span>
+            <span class="figure">{position}</span> <span class="unit">{unit}</span>
+          </span>
         </span>
       </td>
       <td class={`num row-velocity${old}`} role="cell" data-field="velocity">
         <span class="reading">
-          <span class="figure">{velocity}</span>{' '}
-          <span class="unit">{unit}/s</span>
+          <span>
+            <span class="figure">{velocity}</span> <span class="unit">{unit}/s</span>
+          </span>
         </span>
       </td>
       <td class="row-state" role="cell">

@@ -203,6 +203,12 @@ test('the commissioning report holds site, parameters, registers, curves and roo
   await report.waitFor();
   const text = await report.innerText();
   for (const part of ['Press 7', 'Site and wiring', 'can0', 'values known', 'Hash of the mapping', 'kept', 'Not rehearsed', 'Taken over by']) assert.ok(text.includes(part), `${part} is not in ${text.slice(0, 1500)}`);
+  // What nobody has read yet is read when it is asked for, with progress.
+  await page.locator('[data-field=report-read]', { hasText: /\d+ are not read yet/ }).waitFor();
+  await page.getByRole('button', { name: 'Read what is missing' }).click();
+  await page.locator('[data-field=report-read]', { hasText: /^Reading feeder: \d+ of \d+/ }).waitFor();
+  await page.getByRole('button', { name: 'End reading' }).waitFor();
+  await until('all is known', async () => /values known, all of them read/.test(await report.innerText()) || page.locator('[data-field=report-read]').innerText(), 30_000);
   await page.emulateMedia({ media: 'print' });
   await becomes('the form is not printed', () => page.locator('.report-form').isVisible(), false);
   await shot(page, 'recorder-report', { fullPage: true });

@@ -118,6 +118,7 @@ test('the list at four widths: nothing is cut, nothing scrolls sideways, nothing
     await p.locator('[data-axis=lift] [data-live=true]').waitFor();
     await p.getByRole('button', { name: 'List', exact: true }).click();
     await p.locator('.axis-row').first().waitFor();
+    assert.equal(await p.locator('.axis-row [data-field=mark]:visible').count(), 4, `${width} px: each row says whether it is simulated`);
     wrong.push(...(await look(p, 'shape-list')));
     await p.context().close();
   }

@@ -14,14 +14,14 @@ import { persisted } from './state/persisted';
 import { Store } from './state/store';
 import { Tab, tabChannel } from './state/tab';
 
-const overviewPeriod_ms = 100;
 const closePeriod_ms = 50;
 const listRetry_ms = 2_000;
 /** Less than a period of the stream, so that what comes at 20 Hz is never held back. */
 const leastPause_ms = 40;
-/** With more axes than this each picture is much work: as many as the feed brings, and none between. */
+/** With more axes than this nobody reads each of them ten times a second, and a browser without a graphics card has much to draw. */
 const fewAxes = 32;
-const longPause_ms = overviewPeriod_ms - 10;
+/** How often all axes are told, by how many there are. */
+export const overviewPeriod = (axes: number): number => (axes > fewAxes ? 200 : 100);
 
 export class Gateway {
   readonly client: Client;
@@ -81,10 +81,17 @@ export class Gateway {
         for (const reader of this.extra.get(m.topic) ?? []) reader(m);
       },
     });
-    this.stream.subscribe({ 'axes/*': overviewPeriod_ms, 'drives/*': 500, 'lines/*': 500, events: 1000, alarms: 1000 });
+    this.stream.subscribe({ 'axes/*': overviewPeriod(0), 'drives/*': 500, 'lines/*': 500, events: 1000, alarms: 1000 });
   }
 
   start(): void {
+    let period_ms = overviewPeriod(0);
+    effect(() => {
+      const wanted_ms = overviewPeriod(this.store.axisNames.value.length);
+      if (wanted_ms === period_ms) return;
+      period_ms = wanted_ms;
+      this.stream.subscribe({ 'axes/*': period_ms });
+    });
     let listedFor = '';
     effect(() => {
       const { phase, epoch } = this.store.connection.value;
@@ -172,8 +179,8 @@ export function streamUrl(at: { protocol: string; host: string }): string {
   return `${at.protocol === 'https:' ? 'wss' : 'ws'}://${at.host}/api/v1/stream`;
 }
 
-/** Between two pictures: of `axes` axes, `watched` of them closely. */
-export const pauseOf = (axes: number, watched: number): number => (watched === 0 && axes > fewAxes ? longPause_ms : leastPause_ms);
+/** Between two pictures, `watched` of the axes being followed closely. Of many axes there are as many pictures as the feed brings, and none between. */
+export const pauseOf = (axes: number, watched: number): number => (watched === 0 && axes > fewAxes ? overviewPeriod(axes) - 10 : leastPause_ms);
 
 let flushedAt_ms = -Infinity;
 /**

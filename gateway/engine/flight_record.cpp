@@ -212,7 +212,7 @@ std::string to_text(const FlightRecord& r) {
         case FlightKind::handed:
             if (const auto f = unpack<FrameRecord>(r.payload))
                 text += fmt::format(" {} {}{}", f->to_drive ? '>' : '<', to_text(f->frame),
-                                    f->cause ? fmt::format(" command {}", f->cause & 0xFFFFFFFFFFFFFFull) : "");
+                                    f->cause ? fmt::format(" command {}", ticket_number(f->cause)) : "");
             break;
         case FlightKind::picture:
             if (const auto p = unpack<PictureRecord>(r.payload))
@@ -221,8 +221,7 @@ std::string to_text(const FlightRecord& r) {
             break;
         case FlightKind::result:
             if (const auto x = unpack<Result>(r.payload))
-                text +=
-                    fmt::format(" command {} {} {} {}", x->ticket & 0xFFFFFFFFFFFFFFull, name_of(x->outcome), name_of(x->reason), x->text);
+                text += fmt::format(" command {} {} {} {}", ticket_number(x->ticket), name_of(x->outcome), name_of(x->reason), x->text);
             break;
         case FlightKind::event:
             if (const auto e = unpack<Event>(r.payload))
@@ -233,7 +232,7 @@ std::string to_text(const FlightRecord& r) {
             break;
         case FlightKind::command:
             if (const auto c = unpack<CommandRecord>(r.payload))
-                text += fmt::format(" command {} {} by {}", c->command.ticket & 0xFFFFFFFFFFFFFFull, name_of(c->command.body),
+                text += fmt::format(" command {} {} by {}", ticket_number(c->command.ticket), name_of(c->command.body),
                                     c->command.origin.text());
             break;
         default:

@@ -90,6 +90,9 @@ struct FrameRecord {
     Frame frame;
 };
 
+/// How a command is called in texts: without the place in which its ticket was given out.
+[[nodiscard]] constexpr std::uint64_t ticket_number(Ticket ticket) noexcept { return ticket & 0xFFFFFFFFFFFFFFull; }
+
 struct CommandRecord {
     Command command;
 };

@@ -1,7 +1,6 @@
-// File shelf: a folder of named files of one kind, with what is known of each: looked through at the start, written, handed out, renamed,
-// deleted on the disk's own thread.
-// In: wishes of the service thread. Out: answers there, later. Never writes over a file that is there, and never leaves half of one.
-// Bounded: `most` files; how many bytes they may take is for who writes.
+// File shelf: a folder of named files of one kind, with what is known of each: looked through at the start, checked, written, handed out,
+// renamed, deleted on the disk's own thread. In: wishes of the service thread. Out: answers there, later. Never writes over a file that is
+// there, and never leaves half of one. Bounded: `most` files; how many bytes they may take is for who writes.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,6 +18,7 @@
 
 #include "gateway/runtime/warm_threads.hpp"
 #include "gateway/services/ports/recorder.hpp"
+#include "gateway/services/recorder/axr.hpp"
 
 namespace axisgate {
 
@@ -32,7 +32,7 @@ void delete_from_disk(const std::string& path);
 /// Names of the files with this suffix, without it; writings that were cut off are deleted.
 [[nodiscard]] std::vector<std::string> names_in(const std::string& directory, std::string_view suffix, std::size_t most);
 
-/// `Info` has `name`, `bytes` and `at_unix_ns`.
+/// `Info` has `name`, `bytes`, `at_unix_ns` and `fault`.
 template <class Info>
 class FileShelf {
 public:
@@ -43,12 +43,15 @@ public:
     FileShelf(const WarmThreads& threads, boost::asio::thread_pool& disk, std::string kind, std::string suffix)
         : threads_(threads), disk_(disk), kind_(std::move(kind)), suffix_(std::move(suffix)) {}
 
+    /// What is known at once is of the beginning of each file. Then each is read whole, one after the other: one that is damaged behind it
+    /// says so.
     void open(std::string directory, const std::function<Info(const std::string& path, std::string name)>& look) {
         directory_ = std::move(directory);
         for (auto& name : names_in(directory_, suffix_, most)) {
             Info info = look(path_of(name), name);
             kept_[name] = std::move(info);
         }
+        check_after({});
     }
     [[nodiscard]] const std::map<std::string, Info>& kept() const noexcept { return kept_; }
     [[nodiscard]] std::vector<Info> newest_first() const {
@@ -129,6 +132,22 @@ public:
     }
 
 private:
+    void check_after(const std::string& last) {
+        auto next = last.empty() ? kept_.begin() : kept_.upper_bound(last);
+        while (next != kept_.end() && !next->second.fault.empty())
+            ++next;
+        if (next == kept_.end()) return;
+        read<std::string>(
+            next->first, [](const std::string& bytes) { return read_axr(bytes).fault; },
+            [this, name = next->first](const std::optional<std::string>& fault) {
+                const auto it = kept_.find(name);
+                if (const std::string text = fault.value_or("the file cannot be read"); it != kept_.end() && !text.empty()) {
+                    const Info whole = std::exchange(it->second, Info());
+                    it->second.name = name, it->second.bytes = whole.bytes, it->second.fault = text;
+                }
+                check_after(name);
+            });
+    }
     [[nodiscard]] std::string path_of(const std::string& name) const { return directory_ + "/" + name + suffix_; }
     void move(const std::string& name, const std::string& to) {
         auto node = kept_.extract(name);

@@ -1,7 +1,8 @@
 // The recorder's page: trends of two axes that a reload does not empty, zoomed and read by a real mouse; two captures laid over each other; a
 // recording played back by its slider; the report. In: the program. Out: pictures under build/browser.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { isMock, Program } from './lib/program.mjs';
@@ -163,6 +164,37 @@ test('recordings: made, played back by the slider, downloaded, deleted', { skip 
   await page.context().close();
 });
 
+test('a recording that is cut off, altered or of another version is named so and cannot be played', { skip }, async () => {
+  await program.call('POST', '/recorder/recordings', { name: 'whole' });
+  const file = (name) => join(program.data, 'recordings', `${name}.axr`);
+  const bytes = readFileSync(file('whole'));
+  const altered = Buffer.from(bytes);
+  altered[altered.length - 500] ^= 1;
+  const newer = Buffer.from(bytes);
+  newer[8] = 2;
+  const wrong = { short: [bytes.subarray(0, -100), /cut off/], changed: [altered, /was altered/], newer: [newer, /version 2/] };
+  for (const [name, [data]] of Object.entries(wrong)) writeFileSync(file(name), data);
+  const page = await open(browser, `${program.url}/recorder/recordings/`);
+  page.expectLoss(true);
+  await program.stop();
+  await program.run();
+  await becomes('they are known', async () => (await program.call('GET', '/recorder/recordings')).body.recordings.filter((r) => r.fault).map((r) => r.name).sort(), Object.keys(wrong).sort());
+  await page.reload();
+  for (const [name, [, words]] of Object.entries(wrong)) {
+    const row = page.locator(`[data-recording="${name}"]`);
+    await row.waitFor();
+    assert.match(await row.innerText(), /Damaged/);
+    assert.match(await row.innerText(), words);
+    assert.equal(await row.getByRole('button', { name: /^Play back/ }).count(), 0);
+    await row.getByRole('button', { name: `Delete ${name}` }).click();
+    await row.waitFor({ state: 'detached' });
+  }
+  await page.locator('[data-recording="whole"]').getByRole('button', { name: /^Play back/ }).waitFor();
+  await page.getByRole('button', { name: 'Delete whole' }).click();
+  await page.locator('[data-recording="whole"]').waitFor({ state: 'detached' });
+  await page.context().close();
+});
+
 test('the commissioning report holds site, parameters, registers, curves and room to sign', { skip }, async () => {
   const page = await open(browser, `${program.url}/gateway`);
   await page.getByRole('link', { name: 'Commissioning report' }).click();
@@ -171,6 +203,12 @@ test('the commissioning report holds site, parameters, registers, curves and roo
   await report.waitFor();
   const text = await report.innerText();
   for (const part of ['Press 7', 'Site and wiring', 'can0', 'values known', 'Hash of the mapping', 'kept', 'Not rehearsed', 'Taken over by']) assert.ok(text.includes(part), `${part} is not in ${text.slice(0, 1500)}`);
+  // What nobody has read yet is read when it is asked for, with progress.
+  await page.locator('[data-field=report-read]', { hasText: /\d+ are not read yet/ }).waitFor();
+  await page.getByRole('button', { name: 'Read what is missing' }).click();
+  await page.locator('[data-field=report-read]', { hasText: /^Reading feeder: \d+ of \d+/ }).waitFor();
+  await page.getByRole('button', { name: 'End reading' }).waitFor();
+  await until('all is known', async () => /values known, all of them read/.test(await report.innerText()) || page.locator('[data-field=report-read]').innerText(), 30_000);
   await page.emulateMedia({ media: 'print' });
   await becomes('the form is not printed', () => page.locator('.report-form').isVisible(), false);
   await shot(page, 'recorder-report', { fullPage: true });

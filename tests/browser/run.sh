@@ -1,7 +1,7 @@
 #!/bin/sh
 # Browser tests: the page of the real program in Debian's Chromium.
 # In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium), AXISGATE_BROWSER_PROCESSES (default 3).
-# Out: counts, pictures under build/browser.
+# AXISGATE_PICTURES=1: each part in each language at three widths, light and dark. Out: counts, pictures under build/browser.
 # Arguments are test files; without any, all of them run.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { readFileSync } from 'node:fs';
 import { becomes, launch, look, open, shot, tileOf, until } from './lib/browser.mjs';
+import { manyMappings } from './lib/many.mjs';
 import { furnish, parts } from './lib/parts.mjs';
 import { isMock, Program } from './lib/program.mjs';
 
@@ -117,10 +118,50 @@ test('the list at four widths: nothing is cut, nothing scrolls sideways, nothing
     await p.locator('[data-axis=lift] [data-live=true]').waitFor();
     await p.getByRole('button', { name: 'List', exact: true }).click();
     await p.locator('.axis-row').first().waitFor();
+    assert.equal(await p.locator('.axis-row [data-field=mark]:visible').count(), 4, `${width} px: each row says whether it is simulated`);
     wrong.push(...(await look(p, 'shape-list')));
     await p.context().close();
   }
   assert.deepEqual(wrong, []);
+});
+
+test('of many axes those in sight are written with every reading, the others once a second, until they come into sight', async () => {
+  const many = await Program.start({ site: { ...manyMappings(), mappings: [] } });
+  try {
+    for (const axis of ['axis1', 'axis64']) {
+      await many.command(axis, { command: 'enable' });
+      await many.command(axis, { command: 'move_velocity', velocity: 5, acceleration: 50 });
+    }
+    const p = await open(browser, many.url);
+    await p.locator('[data-axis=axis64] [data-live=true]').waitFor();
+    /** How often its position is written within 3 s. */
+    const written = (axis) =>
+      p.locator(`[data-axis=${axis}] [data-field=position]`).evaluate(
+        (cell) =>
+          new Promise((resolve) => {
+            let n = 0;
+            const eye = new MutationObserver((all) => (n += all.length));
+            eye.observe(cell, { attributeFilter: ['data-value'] });
+            setTimeout(() => resolve((eye.disconnect(), n)), 3000); // a rate is measured
+          }),
+      );
+    const seen = async () => Promise.all(['axis1', 'axis64'].map(written));
+    const near = (n) => n > 6 && n <= 17; // five times a second
+    const far = (n) => n >= 1 && n <= 4;
+    const [first, last] = await seen();
+    assert.ok(near(first) && far(last), `above ${first}, below ${last}`);
+    await p.locator('[data-axis=axis64]').scrollIntoViewIfNeeded();
+    const [above, here] = await seen();
+    assert.ok(far(above) && near(here), `above ${above}, here ${here}`);
+    // Its state is that of now when it is come back to.
+    await many.command('axis1', { command: 'halt' });
+    await p.locator('[data-axis=axis1]').scrollIntoViewIfNeeded();
+    await until('it stands', async () => /At rest|In position/.test(await p.locator('[data-axis=axis1] [data-field=motion]').innerText()));
+    assert.deepEqual(p.faults(), []);
+    await p.context().close();
+  } finally {
+    await many.end();
+  }
 });
 
 test('the site is a tree: line, drives on it, axes of them, each with its state; a line folds', async () => {

@@ -88,9 +88,24 @@ def test_recordings_outlive_the_gateway_and_say_when_they_cannot_be_replayed(fol
         until(lambda: g.get("/recorder/recordings")["not_replayable"], 10, "the end of the inputs' memory")
         made = g.send("POST", "/recorder/recordings", {"name": "late"}, 201)
         assert not made["replayable"] and "inputs_mb" in made["not_replayable"], made
+    file = folder / "data" / "recordings" / "late.axr"
+    whole = file.read_bytes()
+    wrong = {"cut off": whole[:-100], "was altered": whole[:-500] + bytes([whole[-500] ^ 1]) + whole[-499:], "version 2": whole[:8] + b"\x02" + whole[9:]}
+    for i, data in enumerate(wrong.values()):
+        file.with_name(f"wrong{i}.axr").write_bytes(data)
     with harness.Gateway(folder, None) as g:
-        assert [r["name"] for r in g.get("/recorder/recordings")["recordings"]] == ["late"]
-        code, told = replay(folder / "data" / "recordings" / "late.axr")
+        def listed():
+            return {r["name"]: r for r in g.get("/recorder/recordings")["recordings"]}
+        assert sorted(listed()) == ["late", "wrong0", "wrong1", "wrong2"]
+        # Behind its beginning a file is read after the start.
+        until(lambda: all(listed()[f"wrong{i}"]["fault"] for i in range(3)), 10, "what is damaged to be said")
+        for i, words in enumerate(wrong):
+            damaged = listed()[f"wrong{i}"]
+            assert words in damaged["fault"] and not damaged["replayable"], damaged
+            status, said, _ = g.request("GET", f"/api/v1/recorder/recordings/wrong{i}/playback")
+            assert status == 409 and words in said["detail"], said
+        assert listed()["late"]["fault"] is None and g.get("/recorder/recordings/late/playback")["axes"]
+        code, told = replay(file)
         assert code != 0 and "not replayed" in told, told
 
 

@@ -1,6 +1,8 @@
 // Recordings played back: what a recorded world shows of an instant: axes, registers, frames in words, what had happened, curves.
 // In: a world with a tape. Out: the same as its picture then; nothing of a file that is cut off. Never sleeps.
 #include <boost/json/serialize.hpp>
+#include <map>
+#include <set>
 
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/playback.hpp"
@@ -71,6 +73,25 @@ TEST_P(PlayedBack, AnInstantIsShownAsItWas) {
     EXPECT_TRUE(read);
     EXPECT_TRUE(commanded);
     EXPECT_FALSE(end.at("curves").as_array().empty());
+    // A command, its result and the frames that were sent for it at once have one number.
+    const auto whole = play_back(file, own(), {std::nullopt, 2000, 0}, fault);
+    std::map<std::int64_t, std::set<std::string>> of_command;
+    for (const auto& h : whole.at("happened").as_array())
+        if (const auto& n = h.at("command"); !n.is_null())
+            of_command[n.to_number<std::int64_t>()].insert(std::string(h.at("kind").as_string()));
+    std::size_t sent = 0;
+    for (const auto& f : whole.at("frames").as_array()) {
+        const auto& n = f.at("command");
+        if (n.is_null()) continue;
+        ++sent;
+        EXPECT_TRUE(f.at("to_drive").as_bool());
+        EXPECT_TRUE(of_command.contains(n.to_number<std::int64_t>())) << json::serialize(f);
+    }
+    // On a serial line a drive waits for its turn: nothing needs to be sent at once.
+    if (GetParam().wire != Wire::serial) EXPECT_GE(sent, 1u);
+    ASSERT_GE(of_command.size(), 2u);
+    for (const auto& [n, kinds] : of_command)
+        EXPECT_EQ(kinds, (std::set<std::string>{"command", "result"})) << n;
     const auto before = play_back(file, own(), {ns_of(early) + offset_ns, 0, 0}, fault);
     EXPECT_EQ(position(before), then);
     EXPECT_TRUE(before.at("frames").as_array().empty());

@@ -46,10 +46,10 @@ export function App() {
       <a class="skip" href="#content">
         {t('To the content')}
       </a>
-      <div class="top">
+      <header class="top">
         <Head />
         <Strip />
-      </div>
+      </header>
       <div id="content" class="content">
         <Signed />
       </div>

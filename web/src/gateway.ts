@@ -14,11 +14,14 @@ import { persisted } from './state/persisted';
 import { Store } from './state/store';
 import { Tab, tabChannel } from './state/tab';
 
-const overviewPeriod_ms = 100;
 const closePeriod_ms = 50;
 const listRetry_ms = 2_000;
 /** Less than a period of the stream, so that what comes at 20 Hz is never held back. */
 const leastPause_ms = 40;
+/** With more axes than this nobody reads each of them ten times a second, and a browser without a graphics card has much to draw. */
+const fewAxes = 32;
+/** How often all axes are told, by how many there are. */
+export const overviewPeriod = (axes: number): number => (axes > fewAxes ? 200 : 100);
 
 export class Gateway {
   readonly client: Client;
@@ -29,13 +32,15 @@ export class Gateway {
   readonly session: Session;
   readonly stream: Stream;
   readonly tab: Tab;
+  /** How many axes are followed closely. */
+  private watched = 0;
   private readonly jogs = new Map<string, Jog>();
   private readonly extra = new Map<string, Set<(m: StreamMessage) => void>>();
 
   constructor(parts: { client?: Client; store?: Store; url?: string } = {}) {
     this.tab = new Tab(persisted('client'), parts.client ? null : tabChannel());
     this.client = parts.client ?? new Client('/api/v1', undefined, () => this.tab.name.peek());
-    this.store = parts.store ?? new Store({ schedule: beforeNextPicture });
+    this.store = parts.store ?? new Store({ schedule: (flush) => beforeNextPicture(flush, pauseOf(this.store.axisNames.peek().length, this.watched)) });
     const blocked = () => (this.store.connected.peek() ? this.session.mayNot('operator') : t('The page is not connected to the gateway.'));
     this.commander = new Commander(
       this.client,
@@ -76,10 +81,17 @@ export class Gateway {
         for (const reader of this.extra.get(m.topic) ?? []) reader(m);
       },
     });
-    this.stream.subscribe({ 'axes/*': overviewPeriod_ms, 'drives/*': 500, 'lines/*': 500, events: 1000, alarms: 1000 });
+    this.stream.subscribe({ 'axes/*': overviewPeriod(0), 'drives/*': 500, 'lines/*': 500, events: 1000, alarms: 1000 });
   }
 
   start(): void {
+    let period_ms = overviewPeriod(0);
+    effect(() => {
+      const wanted_ms = overviewPeriod(this.store.axisNames.value.length);
+      if (wanted_ms === period_ms) return;
+      period_ms = wanted_ms;
+      this.stream.subscribe({ 'axes/*': period_ms });
+    });
     let listedFor = '';
     effect(() => {
       const { phase, epoch } = this.store.connection.value;
@@ -121,7 +133,11 @@ export class Gateway {
   watchClosely(axis: string): () => void {
     const topic = `axes/${axis}`;
     this.stream.subscribe({ [topic]: closePeriod_ms });
-    return () => this.stream.unsubscribe(topic);
+    this.watched += 1;
+    return () => {
+      this.watched -= 1;
+      this.stream.unsubscribe(topic);
+    };
   }
 
   /** Another topic of the stream, such as the frames of a line. Gives back the function that ends it. */
@@ -163,13 +179,16 @@ export function streamUrl(at: { protocol: string; host: string }): string {
   return `${at.protocol === 'https:' ? 'wss' : 'ws'}://${at.host}/api/v1/stream`;
 }
 
+/** Between two pictures, `watched` of the axes being followed closely. Of many axes there are as many pictures as the feed brings, and none between. */
+export const pauseOf = (axes: number, watched: number): number => (watched === 0 && axes > fewAxes ? overviewPeriod(axes) - 10 : leastPause_ms);
+
 let flushedAt_ms = -Infinity;
 /**
  * Before the next picture of the screen, but not before all of them: nobody reads figures that change more than 20 times a second, and a
  * feed of a thousand samples a second must leave the pictures their time. A hidden page draws none; its states are taken in all the same,
  * less often.
  */
-export function beforeNextPicture(flush: () => void): void {
+export function beforeNextPicture(flush: () => void, pause_ms = leastPause_ms): void {
   let done = false;
   const once = () => {
     if (done) return;
@@ -177,7 +196,7 @@ export function beforeNextPicture(flush: () => void): void {
     flushedAt_ms = performance.now();
     flush();
   };
-  const wait_ms = flushedAt_ms + leastPause_ms - performance.now();
+  const wait_ms = flushedAt_ms + pause_ms - performance.now();
   if (wait_ms > 0) setTimeout(() => requestAnimationFrame(once), wait_ms);
   else requestAnimationFrame(once);
   setTimeout(once, 250);

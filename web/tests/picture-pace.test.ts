@@ -1,7 +1,7 @@
 // @vitest-environment happy-dom
 // How often what was heard is put on the screen: at once when nothing was put lately, never faster than the pause, never lost, once each.
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { beforeNextPicture } from '../src/gateway';
+import { beforeNextPicture, overviewPeriod, pauseOf } from '../src/gateway';
 
 describe('beforeNextPicture', () => {
   let pictures = 0;
@@ -25,6 +25,27 @@ describe('beforeNextPicture', () => {
       expect(pictures).toBe(i + 1);
       vi.advanceTimersByTime(33);
     }
+  });
+
+  it('puts many axes on the screen as often as they are told, and no oftener; an axis that is looked at closely is not held back', () => {
+    expect([pauseOf(32, 0), pauseOf(33, 0), pauseOf(64, 1)]).toEqual([40, 190, 40]);
+    expect([overviewPeriod(32), overviewPeriod(33)]).toEqual([100, 200]);
+    vi.advanceTimersByTime(10_000);
+    // Told five times a second, they are put with the very next picture each time.
+    for (let i = 0; i < 20; i += 1) {
+      beforeNextPicture(put, pauseOf(64, 0));
+      vi.advanceTimersByTime(17);
+      expect(pictures).toBe(i + 1);
+      vi.advanceTimersByTime(183);
+    }
+    // What is told between two of these waits for the next one.
+    beforeNextPicture(put, pauseOf(64, 0));
+    vi.advanceTimersByTime(100);
+    beforeNextPicture(put, pauseOf(64, 0));
+    vi.advanceTimersByTime(83);
+    expect(pictures).toBe(21);
+    vi.advanceTimersByTime(34);
+    expect(pictures).toBe(22);
   });
 
   it('puts what comes faster at most 25 times a second, and the last of it too', () => {

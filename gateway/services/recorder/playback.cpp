@@ -152,7 +152,7 @@ private:
                     e.to_drive = f->to_drive;
                     e.simulated = r.kind == FlightKind::twin_frame;
                     e.frame = f->frame;
-                    frames_.emplace_back(static_cast<std::uint16_t>(r.index & ~flight_within), e);
+                    frames_.push_back({static_cast<std::uint16_t>(r.index & ~flight_within), f->cause, e});
                     if (frames_.size() > wish_.frames) frames_.pop_front();
                 }
                 return;
@@ -162,12 +162,25 @@ private:
             case FlightKind::client_lost:
             case FlightKind::hand:
             case FlightKind::line_state:
-                happened_.push_back({r.at, r.kind, r.index, to_text(r)});
+                happened_.push_back({r.at, r.kind, r.index, command_of(r), to_text(r)});
                 if (happened_.size() > PlaybackWish::happenings) happened_.pop_front();
                 return;
             default:
                 return;
         }
+    }
+    static Ticket command_of(const FlightRecord& r) {
+        if (r.kind == FlightKind::command) {
+            const auto c = unpack<CommandRecord>(r.payload);
+            return c ? c->command.ticket : no_ticket;
+        }
+        if (r.kind != FlightKind::result) return no_ticket;
+        const auto x = unpack<Result>(r.payload);
+        return x ? x->ticket : no_ticket;
+    }
+    /// As the text of a record has it; null: none.
+    static json::value number(Ticket command) {
+        return command == no_ticket ? json::value(nullptr) : json::value(static_cast<std::int64_t>(ticket_number(command)));
     }
     [[nodiscard]] const AxisSpec* spec_of(std::uint16_t id) const {
         const auto it = head_.axes.find(id);
@@ -206,12 +219,13 @@ private:
     [[nodiscard]] json::array frames(const Families& families) const {
         std::map<std::uint16_t, FrameDecoder> decoders;
         json::array out;
-        for (const auto& [line, entry] : frames_) {
+        for (const auto& [line, cause, entry] : frames_) {
             const auto known = head_.lines.find(line);
             const std::string name = known == head_.lines.end() ? fmt::format("line {}", line) : known->second;
             const auto d = decoders.try_emplace(line, families, head_.site, name).first;
             json::object o = frame_document(entry, d->second.read(entry));
             o["line"] = name;
+            o["command"] = number(cause);
             out.push_back(std::move(o));
         }
         return out;
@@ -226,6 +240,7 @@ private:
             out.push_back(json::object{{"at", time(h.at)},
                                        {"kind", name_of(h.kind)},
                                        {"axis", of_axis ? json::value(axis->second) : json::value(nullptr)},
+                                       {"command", number(h.command)},
                                        {"text", words == std::string::npos ? h.text : h.text.substr(words)}});
         }
         return out;
@@ -248,7 +263,13 @@ private:
         Instant at;
         FlightKind kind;
         std::uint16_t index;
+        Ticket command;
         std::string text;
+    };
+    struct Crossed {
+        std::uint16_t line;
+        Ticket command;  ///< for which it was sent at once
+        TraceEntry entry;
     };
     const RecordingHead& head_;
     const PlaybackWish& wish_;
@@ -257,7 +278,7 @@ private:
     Instant last_{};
     std::uint64_t frame_count_ = 0;
     std::map<std::uint16_t, std::pair<PictureRecord, Instant>> pictures_;
-    std::deque<std::pair<std::uint16_t, TraceEntry>> frames_;
+    std::deque<Crossed> frames_;
     std::deque<Happening> happened_;
 };
 }  // namespace

@@ -101,12 +101,12 @@ const standards = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best
 /** The rules that look at colours; to all others light and dark are the same page. */
 const aboutColours = { type: 'rule', values: ['color-contrast', 'link-in-text-block'] };
 
-/** What axe-core finds serious or critical on a page that was opened with `bypassCSP`: the policy of the page forbids foreign code. */
+/** What axe-core finds moderate, serious or critical on a page that was opened with `bypassCSP`: the policy of the page forbids foreign code. */
 export async function examine(page, runOnly = standards) {
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.addScriptTag({ content: axe });
   return page.evaluate(async (only) => {
     const r = await globalThis.axe.run(document, { runOnly: only, resultTypes: ['violations'] });
-    const bad = r.violations.filter((v) => v.impact === 'serious' || v.impact === 'critical');
+    const bad = r.violations.filter((v) => v.impact !== 'minor');
     return bad.map((v) => ({ id: v.id, where: v.nodes.slice(0, 4).map((n) => n.target.join(' ')), why: v.nodes[0].failureSummary }));
   }, runOnly);
 }

@@ -25,6 +25,8 @@ const more = [
 ];
 const looks = [...parts, ...more].map((p) => ({ ...p, open: steps[p.name] ?? [] }));
 
+/** AXISGATE_PICTURES=1: each part at three widths in both themes, for people to look at; otherwise one picture of each part. */
+const gallery = process.env.AXISGATE_PICTURES === '1';
 const stopWords = { en: 'Stop all', de: 'Alle stoppen', zh: '全部停止' };
 
 /** The stop of all and the navigation, at both ends of the page: whole, on top, where a hand looks for it. What is wrong, in words. */
@@ -81,7 +83,13 @@ export function whole(language) {
           await drawn(p);
           const wide = await tooWide(p);
           note([...(wide > 0 ? [`${part.path} is ${wide} px too wide`] : []), ...(await stops(p, stopWords[language]))], `${part.name} at ${width} px`);
-          if (width === (language === 'en' ? 320 : 1280)) await shot(p, `${language}-${width}-${part.name}`, { fullPage: true });
+          if (gallery && [1440, 768, 390].includes(width)) {
+            for (const colorScheme of ['dark', 'light']) {
+              await p.emulateMedia({ colorScheme });
+              await drawn(p);
+              await shot(p, `${language}-${width}-${colorScheme}-${part.name}`, { fullPage: true });
+            }
+          } else if (width === (language === 'en' ? 320 : 1280)) await shot(p, `${language}-${width}-${part.name}`, { fullPage: true });
         }
         await look(part.name);
         await p.emulateMedia({ colorScheme: 'dark' });

@@ -3656,14 +3656,20 @@ export interface components {
                 address: number;
                 words: number[];
             }[];
-            frames: {
+            frames: ({
+                line: string;
+                /** @description number of the command for which it was sent at once */
+                command: number | null;
+            } & {
                 [key: string]: unknown;
-            }[];
+            })[];
             /** @description commands, results, events; oldest first */
             happened: {
                 at: string;
                 kind: string;
                 axis: string | null;
+                /** @description number of a command and of its result; its frames carry the same */
+                command: number | null;
                 text: string;
             }[];
             curves: components["schemas"]["Trend"][];

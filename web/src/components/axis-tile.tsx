@@ -1,7 +1,7 @@
 // Axis tile: one axis, live: what it is, where it is, what it does, what is wrong, and what can be told to it.
 // In: the axis' name. Out: the tile. The readings are drawn apart from the controls, so that typing is never disturbed by them.
-import type { ReadonlySignal } from '@preact/signals';
-import type { ComponentChildren } from 'preact';
+import { useComputed, type ReadonlySignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { axisPath } from '../router';
@@ -13,6 +13,7 @@ import { offlineReason } from '../text/errors';
 import { ResultLine, resultId, TileControls } from './axis-controls';
 import { SelectBox } from './axis-selection';
 import { HolderLine } from './authority';
+import { useInSight, useWord } from './calm';
 import { Icon } from './icon';
 import { memo } from './memo';
 import { Mark, Pill } from './pill';
@@ -30,10 +31,12 @@ export function lastKnownWords(store: ReturnType<typeof useGateway>['store']): s
 
 export function Notice({ entry }: { entry: EntrySignal }) {
   const { store } = useGateway();
-  const axis = entry.value.data;
-  const trust = store.trustOf(entry.value);
-  const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
-  const word = noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || t('some time') : '');
+  const word = useWord(() => {
+    const axis = entry.value.data;
+    const trust = store.trustOf(entry.value);
+    const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
+    return noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || t('some time') : '');
+  });
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
       <Icon name={word.icon} size={14} />
@@ -45,27 +48,30 @@ export function Notice({ entry }: { entry: EntrySignal }) {
 /** Position, velocity and target. Greyed and said to be old as soon as they are not live. */
 export function Readout({ entry, large = false }: { entry: EntrySignal; large?: boolean }) {
   const { store } = useGateway();
-  const axis = entry.value.data;
-  const trust = store.trustOf(entry.value);
-  const unit = unitOf(axis);
+  const trust = useComputed(() => store.trustOf(entry.value)).value;
+  const unit = useComputed(() => unitOf(entry.value.data)).value;
+  const value = useComputed(() => entry.value.data.position ?? '');
+  const position = useComputed(() => positionText(entry.value.data));
+  const velocity = useComputed(() => velocityText(entry.value.data));
+  const target = useComputed(() => targetText(entry.value.data));
   return (
     <div class={`readout${large ? ' readout-large' : ''}${trust === 'live' ? '' : ' is-old'}`} data-trust={trust}>
-      <p class="position" data-field="position" data-value={axis.position ?? ''} data-live={trust === 'live'}>
+      <p class="position" data-field="position" data-value={value} data-live={trust === 'live'}>
         <span class="visually-hidden">{trust === 'live' ? t('Position') : t('Last known position, not live')}: </span>
-        <span class="figure">{positionText(axis)}</span>
+        <span class="figure">{position}</span>
         <span class="unit">{unit}</span>
       </p>
       <dl class="minor">
         <div>
           <dt>{t('Velocity')}</dt>
           <dd data-field="velocity">
-            {velocityText(axis)} <span class="unit">{unit}/s</span>
+            {velocity} <span class="unit">{unit}/s</span>
           </dd>
         </div>
         <div>
           <dt>{t('Target')}</dt>
           <dd data-field="target">
-            {targetText(axis)} <span class="unit">{unit}</span>
+            {target} <span class="unit">{unit}</span>
           </dd>
         </div>
       </dl>
@@ -75,39 +81,50 @@ export function Readout({ entry, large = false }: { entry: EntrySignal; large?: 
 
 export function StatePills({ entry }: { entry: EntrySignal }) {
   const { store } = useGateway();
-  const trust = store.trustOf(entry.value);
+  const state = useWord(() => stateWord(entry.value.data, store.trustOf(entry.value)));
+  const motion = useWord(() => motionWord(entry.value.data, store.trustOf(entry.value)));
   return (
     <p class="pills">
-      <Pill label={t('State')} id="state" word={stateWord(entry.value.data, trust)} />
-      <Pill label={t('Motion')} id="motion" word={motionWord(entry.value.data, trust)} />
+      <Pill label={t('State')} id="state" word={state} />
+      <Pill label={t('Motion')} id="motion" word={motion} />
     </p>
   );
 }
 
-function TileHead({ entry, selectable }: { entry: EntrySignal; selectable: boolean }) {
-  const axis = entry.value.data;
+function TileHead({ entry, name, selectable }: { entry: EntrySignal; name: string; selectable: boolean }) {
+  const presence = useComputed(() => entry.value.data.presence).value;
+  const moving = useComputed(() => entry.value.data.moving).value;
   return (
     <header class="tile-head">
       <h3>
-        {selectable && <SelectBox names={[axis.name]} label={t('Select {axis}', { axis: axis.name })} />}
-        <a href={axisPath(axis.name)}>{axis.name}</a>
+        {selectable && <SelectBox names={[name]} label={t('Select {axis}', { axis: name })} />}
+        <a href={axisPath(name)}>{name}</a>
       </h3>
       <p class="where">
-        <Mark mark={markOf(axis)} />
+        <Mark mark={markOf({ presence })} />
       </p>
-      <StopButton axis={axis.name} urgent={axis.moving} />
+      <StopButton axis={name} urgent={moving} />
     </header>
   );
 }
 
 /** `selectable`: it stands among others, and a command can be meant for several. */
 export function AxisTile({ name, bare, selectable = false }: { name: string; bare: boolean; selectable?: boolean }) {
+  const entry = useGateway().store.axis(name);
+  return entry ? <Tile name={name} of={entry} bare={bare} selectable={selectable} /> : null;
+}
+
+function Tile({ name, of, bare, selectable }: { name: string; of: EntrySignal; bare: boolean; selectable: boolean }) {
   const { store } = useGateway();
-  const entry = store.axis(name);
-  if (!entry) return null;
+  const tile = useRef<HTMLElement>(null);
+  const entry = useInSight(of, tile);
+  // The frame tells the condition too.
+  const trust = useComputed(() => store.trustOf(entry.value)).value;
+  const fault = useComputed(() => entry.value.data.fault).value;
+  const presence = useComputed(() => entry.value.data.presence).value;
   return (
-    <TileFrame entry={entry}>
-      <TileHead entry={entry} selectable={selectable} />
+    <article ref={tile} class="tile card" data-axis={name} data-condition={fault && trust === 'live' ? 'fault' : trust} data-presence={presence} aria-label={t('Axis {name}', { name })}>
+      <TileHead entry={entry} name={name} selectable={selectable} />
       <div class="tile-live">
         <Readout entry={entry} />
         <Sparkline axis={name} />
@@ -120,7 +137,7 @@ export function AxisTile({ name, bare, selectable = false }: { name: string; bar
         <ResultLine axis={name} id={resultId(name)} />
         <TileWhere entry={entry} />
       </footer>
-    </TileFrame>
+    </article>
   );
 }
 
@@ -135,18 +152,6 @@ function TileWhere({ entry }: { entry: EntrySignal }) {
     <p class="tile-where" title={t('Axis number {number}, family {family}, line {line}, drive {drive}', { number: axis.number, family: axis.family, line: axis.line, drive: axis.drive })}>
       {t('no. {number} · {family} · {line}', { number: axis.number, family: axis.family, line: axis.line })}
     </p>
-  );
-}
-
-/** The frame tells the condition too; it is drawn anew only when the condition changes. */
-function TileFrame({ entry, children }: { entry: EntrySignal; children: ComponentChildren }) {
-  const { store } = useGateway();
-  const axis = entry.value.data;
-  const condition = axis.fault && store.trustOf(entry.value) === 'live' ? 'fault' : store.trustOf(entry.value);
-  return (
-    <article class="tile card" data-axis={axis.name} data-condition={condition} data-presence={axis.presence} aria-label={t('Axis {name}', { name: axis.name })}>
-      {children}
-    </article>
   );
 }
 

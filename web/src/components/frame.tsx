@@ -92,7 +92,7 @@ function HelpLink() {
 
 export function Head() {
   return (
-    <header class="head">
+    <div class="head">
       <a class="brand" href="/" aria-label={t('axisgate, overview')}>
         <svg viewBox="0 0 24 24" width="22" height="22" aria-hidden="true">
           <path d="M4 20V4h3v13h13v3z" fill="currentColor" />
@@ -106,7 +106,7 @@ export function Head() {
       <LanguageChoice />
       <ThemeButton />
       <StopAll />
-    </header>
+    </div>
   );
 }
 

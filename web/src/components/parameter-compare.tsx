@@ -8,6 +8,7 @@ import type { AxisParameter } from '../api/types';
 import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { readMissing } from '../state/read-missing';
 import { steppedText, unitWords, valueText } from '../text/parameter';
 import { axisChoice, differentFamilies, snapshotChoice } from '../text/snapshot';
 import { comparedWords, compareWith, type Compared } from '../text/transfer';
@@ -42,21 +43,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   const reading = useRef<AbortController | null>(null);
   useEffect(() => () => reading.current?.abort(), []);
   const busy = useSignal(false);
-  /** All values of an axis; those that it has not told yet, or no longer tells, are read. */
-  const valuesOf = async (of: string, end: AbortSignal): Promise<AxisParameter[]> => {
-    const list = await client.parameters(of);
-    const wanted = list.filter((p) => p.quality !== 'good' && p.access !== 'W' && !p.count);
-    for (const [i, p] of wanted.entries()) {
-      if (end.aborted) break;
-      told.value = { tone: 'busy', text: t('Reading {of}: {done} of {n} …', { of, done: i + 1, n: wanted.length }) };
-      try {
-        list[list.indexOf(p)] = await client.parameter(of, p.id, {}, end);
-      } catch {
-        // What the drive refuses, and what was ended, is not known: counted below.
-      }
-    }
-    return list;
-  };
+  const valuesOf = (of: string, end: AbortSignal) => readMissing(client, of, end, (done, n) => (told.value = { tone: 'busy', text: t('Reading {of}: {done} of {n} …', { of, done, n }) }));
   const comparable = (list: readonly AxisParameter[]) => list.filter((p) => p.access !== 'W' && !p.count).length;
 
   const compare = async () => {

@@ -254,7 +254,7 @@ export function Parameters({ axis }: { axis: string }) {
       ) : matching.length === 0 ? (
         <Empty text={rows.value.length === 0 ? t('This family has no parameters.') : t('No parameter matches.')} />
       ) : (
-        <div class="card table-scroll" tabIndex={0} role="region" aria-label={t('Parameters')}>
+        <div class="card table-scroll" tabIndex={0} role="region" aria-label={t('Parameters of {name}', { name: axis })}>
           <table class="table">
             <thead>
               <tr>

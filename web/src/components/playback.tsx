@@ -29,6 +29,7 @@ interface FrameRow {
   text?: string;
   data: string;
   decoded: string[];
+  command: number | null;
 }
 interface AxisRow {
   name: string;
@@ -190,7 +191,10 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                     <span class={f.to_drive ? 'to' : 'from'}>{f.to_drive ? t('→ drive') : t('← drive')}</span>
                     <span>{f.line}</span>
                     <span class="bytes">{f.text || f.data}</span>
-                    <span class="reading">{f.decoded.join(' · ')}</span>
+                    <span class="reading">
+                      {f.decoded.join(' · ')}
+                      {f.command !== null && <b> {t('for command {n}', { n: f.command })}</b>}
+                    </span>
                   </li>
                 ))}
               </ol>

@@ -36,7 +36,9 @@ const placesOf = (document: RecipeDocument, list: Path): string[] =>
   });
 
 export function StepEditor(editing: Editing) {
-  const folded: Folded = useSignal<ReadonlySet<string>>(new Set());
+  // On a phone one begins with the whole recipe in sight, a line for each step.
+  const narrow = globalThis.matchMedia?.('(width < 720px)').matches ?? false;
+  const folded: Folded = useSignal<ReadonlySet<string>>(new Set(narrow ? placesOf(editing.document, ['steps']) : []));
   return (
     <Context.Provider value={{ ...editing, folded }}>
       {editing.document.steps.length > 1 && (

@@ -127,7 +127,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
       )}
       {tab === 'events' && (
         <Section title={t('Events of this axis')}>
-          <div class="card scroll" tabIndex={0} role="region" aria-label={t('Events of this axis')}>
+          <div class="card scroll" tabIndex={0} role="region" aria-label={t('Events of {name}', { name })}>
             <AxisEvents name={name} />
           </div>
         </Section>

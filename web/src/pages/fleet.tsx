@@ -66,7 +66,7 @@ export function FleetPage() {
           <p class="where">{t('A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.')}</p>
           <Why need="operator" what={t('Every command but a stop')} />
           {known.gateways.map((g) => (
-            <GatewayCard key={g.instance} gateway={g} connected={fresh} many={many} />
+            <GatewayCard key={g.instance} gateway={g} title={known.gateways.some((o) => o !== g && o.gateway === g.gateway) ? `${g.gateway} · ${String(g.instance).slice(0, 8)}` : g.gateway} connected={fresh} many={many} />
           ))}
         </>
       )}
@@ -74,11 +74,12 @@ export function FleetPage() {
   );
 }
 
-function GatewayCard({ gateway: g, connected, many }: { gateway: FleetGateway; connected: boolean; many: boolean }) {
+/** `title`: its name, and what tells it from another one of the same name. */
+function GatewayCard({ gateway: g, title, connected, many }: { gateway: FleetGateway; title: string; connected: boolean; many: boolean }) {
   const open = useSignal(!many);
   const clock = clockWords(g.clock_ahead_ms);
   return (
-    <Section title={g.gateway} class="fleet-gateway" beside={<Pill label={t('Gateway')} word={gatewayWord(g, connected)} id="gateway-state" />}>
+    <Section title={title} class="fleet-gateway" beside={<Pill label={t('Gateway')} word={gatewayWord(g, connected)} id="gateway-state" />}>
       <div class="card" data-gateway={g.gateway} data-instance={g.instance} data-alive={g.alive}>
         <p class="where fleet-about">
           <span data-field="heard">{heardWords(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}

@@ -1,10 +1,10 @@
 // Commissioning report: one document to print and sign: the site and its wiring, parameters beside snapshot and default, the register list with its
 // hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
-// opened and again by the button. Out: a page that the browser prints or saves as PDF. Nothing is read from a drive for it.
+// opened and again by the button. Out: a page that the browser prints or saves as PDF. A drive is read for it only when a button says so.
 import { gatewayWords, t } from '../language';
 import { marked } from '../components/marked';
 import { useSignal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 import { FailSafeDoor, type Rehearsal } from '../api/fail-safe';
 import { MappingDoor, type MappingList } from '../api/mappings';
 import { RecorderDoor } from '../api/recorder';
@@ -17,6 +17,7 @@ import { Mark } from '../components/pill';
 import { Overlay } from '../components/recorder-captures';
 import { useGateway } from '../gateway';
 import { persisted } from '../state/persisted';
+import { readMissing } from '../state/read-missing';
 import { markOf, unitOf } from '../text/axis';
 import type { MappingPoint } from '../text/mapping';
 import { formatExact } from '../text/number';
@@ -63,7 +64,21 @@ export function ReportPage() {
     const drawn = await Promise.all(done.map((c) => doors.recorder.capture(c.name)));
     whole.value = { at: new Date().toISOString(), lines, drives, mappings, points, rehearsal, captures, drawn, axes };
   }, [doors, times.value, names.join()]);
+  /** How far it is; empty: nothing is being read. */
+  const reading = useSignal('');
+  const end = useRef<AbortController | null>(null);
+  useEffect(() => () => end.current?.abort(), []);
+  const readAll = async () => {
+    const { signal } = (end.current = new AbortController());
+    for (const of of names) {
+      await readMissing(client, of, signal, (done, n) => (reading.value = t('Reading {of}: {done} of {n} …', { of, done, n }))).catch(() => undefined);
+      if (signal.aborted) break;
+    }
+    reading.value = '';
+    times.value += 1;
+  };
   const w = whole.value;
+  const missing = w?.axes.reduce((sum, a) => sum + a.report.unknown, 0) ?? 0;
   const about = store.about.value;
   return (
     <main class="page report-page">
@@ -80,7 +95,18 @@ export function ReportPage() {
           <button type="button" class="button" onClick={() => (times.value += 1)}>
             {t('Read it again')}
           </button>
-          <span class="where">{t('Values are those that the gateway knows; read what is missing on the page of the axis’ parameters first.')}</span>
+          {reading.value ? (
+            <button type="button" class="button" onClick={() => end.current?.abort()}>
+              {t('End reading')}
+            </button>
+          ) : (
+            <button type="button" class="button" disabled={missing === 0} onClick={() => void readAll()}>
+              {t('Read what is missing')}
+            </button>
+          )}
+          <span class="where" role="status" data-field="report-read">
+            {reading.value || (missing === 0 ? t('Values are those that the gateway knows.') : t('Values are those that the gateway knows; {n} are not read yet.', { n: missing }))}
+          </span>
         </div>
       </div>
       {!w && <p class="where" role="status">{marked(why)}</p>}

@@ -73,6 +73,7 @@ export const recorder: Table = {
   'Following error': 'Schleppfehler',
   'Frames': 'Telegramme',
   'Frames before it': 'Telegramme davor',
+  'for command {n}': 'für Befehl {n}',
   'Frames before that instant, newest first': 'Telegramme vor diesem Zeitpunkt, neueste zuerst',
   'Frames, newest first': 'Telegramme, neueste zuerst',
   'Freeze the last minutes': 'Die letzten Minuten festhalten',

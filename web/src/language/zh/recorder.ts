@@ -73,6 +73,7 @@ export const recorder: Table = {
   'Following error': '跟随误差',
   'Frames': '报文',
   'Frames before it': '此前的报文',
+  'for command {n}': '用于命令 {n}',
   'Frames before that instant, newest first': '该时刻之前的报文，最新在前',
   'Frames, newest first': '报文，最新在前',
   'Freeze the last minutes': '冻结最近几分钟',

@@ -66,7 +66,7 @@ Instant Engine::deadline() const {
 
 Instant Engine::wake_at(Duration twins_wait) const {
     const auto& pending = parts_->pending;
-    if (!pending.clients.empty() || !pending.orders.empty() || parts_->site_change.waits()) twins_wait /= 2;
+    if (!pending.clients.empty() || !pending.orders.empty() || parts_->site_change.waits()) return deadline();
     Machine& machine = parts_->machine;
     return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest(twins_wait));
 }

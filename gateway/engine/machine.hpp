@@ -83,8 +83,9 @@ struct Side final : LineEvents {
     TwinBus* bus = nullptr;       ///< `line` seen as what it is, on the twin's side
     /// Whoever calls its line or an adapter of it says so: its deadline is asked for anew. drain() does it for most.
     void touched() noexcept;
-    [[nodiscard]] Instant deadline() const {
-        Instant due = line->deadline();
+    [[nodiscard]] Instant deadline() const { return std::min(line->deadline(), adapters_deadline()); }
+    [[nodiscard]] Instant adapters_deadline() const {
+        Instant due = never;
         for (const auto& s : speakers)
             due = std::min(due, s->adapter->deadline());
         return due;
@@ -134,12 +135,12 @@ public:
         ask();
         return heap_.empty() ? never : due_[heap_.front()];
     }
-    /// The same where what happens on simulated lines may be seen to so much later.
+    /// The same where what simulated drives say may be seen to so much later; what adapters do is due when it is.
     [[nodiscard]] Instant earliest(Duration twins_wait) {
         ask();
         Instant t = never;
         for (std::size_t i = 0; i < due_.size(); ++i)
-            t = std::min(t, all_[i]->twin && due_[i] != never ? due_[i] + twins_wait : due_[i]);
+            t = std::min(t, all_[i]->twin && due_[i] != never ? std::min(due_[i] + twins_wait, adapters_due_[i]) : due_[i]);
         return t;
     }
     /// The first one at this place or behind it whose deadline has come; nullptr: none.
@@ -154,6 +155,7 @@ private:
     void begin_anew() {
         const std::size_t n = all_.size();
         due_.assign(n, never);
+        adapters_due_.assign(n, never);
         heap_.resize(n);
         in_heap_.resize(n);
         to_ask_.assign(n, 0);
@@ -167,7 +169,8 @@ private:
     void ask() {
         for (const std::size_t place : asked_for_) {
             to_ask_[place] = 0;
-            const Instant before = std::exchange(due_[place], all_[place]->deadline());
+            adapters_due_[place] = all_[place]->adapters_deadline();
+            const Instant before = std::exchange(due_[place], std::min(all_[place]->line->deadline(), adapters_due_[place]));
             due_[place] < before ? up(in_heap_[place]) : down(in_heap_[place]);
         }
         asked_for_.clear();
@@ -199,7 +202,7 @@ private:
     }
 
     std::vector<Side*> all_;
-    std::vector<Instant> due_;                 ///< by place, as these
+    std::vector<Instant> due_, adapters_due_;  ///< by place, as these
     std::vector<std::size_t> heap_, in_heap_;  ///< places, the earliest first; where each stands
     std::vector<char> to_ask_;
     std::vector<std::size_t> asked_for_;

@@ -24,7 +24,7 @@ constexpr Duration reports_period = std::chrono::milliseconds(100);
 /// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
 constexpr Duration rest_gathers = std::chrono::milliseconds(5);
 /// What happens on simulated lines by itself is done together with what follows, for the same reason.
-constexpr Duration twins_gather = std::chrono::milliseconds(1);
+constexpr Duration twins_gather = std::chrono::microseconds(250);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
 

@@ -11,9 +11,7 @@ namespace axisgate {
 const Family& family_aposs() {
     static const Family family{
         "aposs",
-        [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> {
-            return std::make_unique<cia402_drive::LineAdapter>(c, aposs::dialect);
-        },
+        [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<cia402_drive::LineAdapter>(c); },
         [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> { return aposs::make_twin(c, setup); },
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<cia402_drive::CanDecoder>(c); },
         cia402_drive::check_address,
@@ -27,6 +25,8 @@ const Family& family_aposs() {
         nullptr,
         cia402_drive::identifiers,
         false,
+        false,
+        family_cia402,
     };
     return family;
 }

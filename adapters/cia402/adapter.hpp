@@ -11,7 +11,8 @@ namespace axisgate::cia402_drive {
 
 class LineAdapter final : public Adapter {
 public:
-    explicit LineAdapter(const Catalogue& catalogue, const Dialect& dialect = {}) : line_(catalogue, dialect) {}
+    /// `catalogue` is the family's page, for drives whose setup names none.
+    explicit LineAdapter(const Catalogue& catalogue) : line_(catalogue) {}
     void configure(const LineSetup& setup, Instant now, Out& out) override;
     void on_line(bool up, Instant now, Out& out) override;
     void on_command(const Command& command, Instant now, Out& out) override;

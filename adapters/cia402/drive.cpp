@@ -19,10 +19,25 @@ void Line::take(const LineSetup& setup) {
         {.window = 32, .probe_window = 8, .pause = timing.pause, .overtaken_limit = 64, .overtaken_grace = 20 * wire_time(140, bit_rate)});
 }
 
+Dialect dialect_of(const Catalogue& catalogue) {
+    Dialect d;
+    d.channels = std::min(catalogue.most_channels(), most_axes);
+    const auto* has = catalogue.document().if_contains("dialect");
+    if (!has) return d;
+    const auto& o = has->as_object();
+    d.noun = std::string(o.at("noun").as_string());
+    d.profile_optional = o.at("profile_optional").as_bool();
+    d.mark = {o.at("mark_index").to_number<std::uint16_t>(), o.at("mark_sub").to_number<std::uint8_t>()};
+    d.errors_in_low_byte = o.at("errors_in_low_byte").as_bool();
+    d.between_stores = std::chrono::seconds(o.at("between_stores_s").to_number<int>());
+    d.places_move = o.at("places_move").as_bool();
+    return d;
+}
+
 std::string Node::stored(Turn& t) {
     ++stores;
     stored_at = t.now;
-    if (line.dialect.between_stores == Duration::zero()) return {};
+    if (dialect.between_stores == Duration::zero()) return {};
     std::string text = fmt::format("write {} to its EPROM since this gateway knows it; it lasts for about 10000", stores);
     notices.tell(Severity::info, no_axis, "eprom", static_cast<std::int32_t>(stores), fmt::format("{}: {}", setup.name, text), t.now,
                  t.out);
@@ -43,13 +58,13 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     watch.on = watch.action != "none";
     watch.option = watch.action == "fault" ? 1 : watch.action == "disable" ? 2 : 3;
     watch.time = options.milliseconds("watchdog_ms", 100, 60'000, watch.time);
-    if (line.dialect.places_move) node.places = moved_places(node.setup.options);
+    if (node.dialect.places_move) node.places = moved_places(node.setup.options);
     fit_axes();
 }
 
 void Drive::fit_axes() {
     for (const AxisSetup& a : node.setup.axes)
-        if (a.channel >= 1 && a.channel <= node.line.dialect.channels && !of(a.id)) axes.push_back(std::make_unique<Axis>(node, a));
+        if (a.channel >= 1 && a.channel <= node.dialect.channels && !of(a.id)) axes.push_back(std::make_unique<Axis>(node, a));
 }
 void Drive::set_axes(const DriveSetup& setup, Turn& t) {
     node.setup = setup;

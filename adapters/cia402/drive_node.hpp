@@ -21,10 +21,10 @@ namespace axisgate::cia402_drive {
 using drive::Presence;
 using drive::Turn;
 
-/// What a family that stands on this one has otherwise.
+/// What a drive's family has otherwise than this one, if it is served here: the member "dialect" of its page.
 struct Dialect {
-    std::string_view noun = "CiA 402 drive";
-    int channels = 1;
+    std::string noun = "CiA 402 drive";
+    int channels = 1;  ///< the page's own
     /// A node without the profile's objects is served, too: its parameters alone.
     bool profile_optional = false;
     /// What only its nodes have, and a search knows them by; device_type: the profile's number in it.
@@ -36,13 +36,13 @@ struct Dialect {
     /// Options of the drive "object_2300" and so on may say where a row of the catalogue stands on this drive.
     bool places_move = false;
 };
+[[nodiscard]] Dialect dialect_of(const Catalogue& catalogue);
 
 /// What the drives of one line share.
 struct Line {
-    Line(const Catalogue& of_family, const Dialect& of_dialect) : catalogue(of_family), dialect(of_dialect) {}
+    explicit Line(const Catalogue& of_family) : catalogue(of_family) {}
     void take(const LineSetup& setup);
     const Catalogue& catalogue;
-    Dialect dialect;
     drive::Timing timing;
     drive::Turns turns;
     AdapterCounters counters;
@@ -75,11 +75,16 @@ struct Watch {
 
 struct Node {
     Node(Line& of_line, const DriveSetup& of_drive, std::uint8_t own_number)
-        : line(of_line), setup(of_drive), number(own_number), presence(of_drive.id, of_line.timing), notices(of_drive.id) {}
+        : line(of_line),
+          setup(of_drive),
+          dialect(dialect_of(catalogue())),
+          number(own_number),
+          presence(of_drive.id, of_line.timing),
+          notices(of_drive.id) {}
     [[nodiscard]] const Catalogue& catalogue() const noexcept { return setup.catalogue ? *setup.catalogue : line.catalogue; }
     [[nodiscard]] Address mark() const {
-        const auto moved = places.find(line.dialect.mark.index);
-        return {moved == places.end() ? line.dialect.mark.index : moved->second, line.dialect.mark.sub};
+        const auto moved = places.find(dialect.mark.index);
+        return {moved == places.end() ? dialect.mark.index : moved->second, dialect.mark.sub};
     }
     /// Its beats by the line's plan, which is in force.
     void take_slot(int of_plan, Turn& t) {
@@ -88,11 +93,12 @@ struct Node {
     }
     /// The number that a catalogue has for an error code.
     [[nodiscard]] std::uint16_t number_of(std::uint16_t code) const noexcept {
-        return line.dialect.errors_in_low_byte && code >= 0xFF00 ? static_cast<std::uint16_t>(code & 0xFFu) : code;
+        return dialect.errors_in_low_byte && code >= 0xFF00 ? static_cast<std::uint16_t>(code & 0xFFu) : code;
     }
 
     Line& line;
     DriveSetup setup;
+    const Dialect dialect;
     std::uint8_t number;
     int slot = -1;  ///< its beats by the line's plan
     bool keep_quick_stop = true;

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "gateway/core/can_identifiers.hpp"
-#include "gateway/core/scan.hpp"
+#include "gateway/core/family.hpp"
 
+namespace axisgate {
+const Family& family_cia402();
+}
 namespace axisgate::cia402_drive {
 
 [[nodiscard]] ScanPlan scan_nodes(const ScanWish& wish);

@@ -97,7 +97,7 @@ std::string plan_move(std::string_view noun, const AxisKnown& known, Job& job, c
 
 std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, Instant now, Reason& reason) {
     const CommandBody& body = job.command.body;
-    const std::string_view noun = node.line.dialect.noun;
+    const std::string_view noun = node.dialect.noun;
     if (std::holds_alternative<ReadParameter>(body) || std::holds_alternative<WriteParameter>(body))
         return plan_parameter(node, axis, job, reason);
     if (const auto* native = std::get_if<Native>(&body)) return plan_native(node, job, *native, reason);

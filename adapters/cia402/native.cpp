@@ -72,11 +72,11 @@ std::string plan_action(const Node& node, const AxisKnown& known, Job& job, cons
         {"nmt_reset_node", canopen::NmtCommand::reset_node},
         {"nmt_reset_communication", canopen::NmtCommand::reset_communication}};
     const bool is_known = node.catalogue().command(action.name) != nullptr;
-    if (!is_known) return fmt::format("a {} has no {}", node.line.dialect.noun, action.name);
+    if (!is_known) return fmt::format("a {} has no {}", node.dialect.noun, action.name);
     reason = Reason::out_of_range;
     if (!action.argument.empty()) return action.name + " takes no argument";
     if (action.name == "store_parameters") {
-        const Duration between = node.line.dialect.between_stores;
+        const Duration between = node.dialect.between_stores;
         reason = Reason::busy;
         if (node.stored_at && now < *node.stored_at + between)
             return fmt::format("its EPROM wears out: stored {} s ago, wait until {} s have passed between two",

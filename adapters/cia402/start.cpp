@@ -16,7 +16,7 @@ void Start::probe(Turn& t) {
 }
 
 void Start::probed(const canopen::SdoEnd& end, Turn& t) {
-    const Dialect& dialect = drive_.node.line.dialect;
+    const Dialect& dialect = drive_.node.dialect;
     const bool ours = end.done() && (dialect.mark != object::device_type || (canopen::low_first(end.data) & 0xFFFFu) == 402);
     if (!ours) {
         drive_.node.presence.lose(t.now, drive_.node.line.timing.pause_max);
@@ -123,7 +123,7 @@ void Start::done(Turn& t) {
     Node& node = drive_.node;
     steps_.clear();
     node.presence.made_ready();
-    node.presence.report(fmt::format("{}, {}", node.line.dialect.noun, identity_), t.out);
+    node.presence.report(fmt::format("{}, {}", node.dialect.noun, identity_), t.out);
     // It is served all the same: what is safe with another model of the same maker, the plant knows and the gateway does not.
     if (const std::string fault = differs(expected_, told_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
@@ -176,7 +176,7 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     if (step.kind != Step::Kind::read) return;
     const Address a = step.address;
     const auto raw = static_cast<std::int64_t>(end.done() ? canopen::low_first(end.data) : 0);
-    if (a == object::statusword) known.profile = end.done() || !node.line.dialect.profile_optional;
+    if (a == object::statusword) known.profile = end.done() || !node.dialect.profile_optional;
     if (a == object::modes) known.modes = static_cast<std::uint32_t>(raw);
     if (a == object::controlword) known.cw = static_cast<std::uint16_t>(raw);
     if (a == object::homing_method) known.homing_method = signed_of(end.data);

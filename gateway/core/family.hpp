@@ -79,7 +79,12 @@ struct Family {
     bool takes_description = false;
     /// Its drives are axes of other gateways: it stands on a line `dds` (or on `twin`) and on no other, and no other family stands there.
     bool uses_dds = false;
+    /// Whose adapter serves drives of this family, together with those of that family where both stand on a line: what a line has once (the
+    /// SYNC, the gateway's own node) is then one thing for all of them. It tells them apart by the catalogues in their DriveSetup.
+    /// nullptr: its own.
+    const Family& (*served_by)() = nullptr;
 };
+[[nodiscard]] inline const Family& serving_family(const Family& f) noexcept { return f.served_by ? f.served_by() : f; }
 
 /// Every family that was found at configure time, in order of name. (Generated.)
 [[nodiscard]] std::span<const Family* const> all_families();

@@ -40,8 +40,10 @@ LineReport Engine::line_report(LineId id, Instant now) const {
             const AdapterCounters counted = Speaker::difference(all, scanned);
             r.scanned += scanned;
             r.counters += counted;
-            const auto of = std::ranges::find(r.families, s->family.family->name, &LineReport::OfFamily::family);
-            if (of != r.families.end()) of->counters += counted;
+            // What families share is the first one's.
+            const auto of =
+                std::ranges::find_if(u->families, [&](const FamilyEntry& f) { return &serving_family(*f.family) == s->family.family; });
+            if (of != u->families.end()) r.families[static_cast<std::size_t>(of - u->families.begin())].counters += counted;
         }
     }
     return r;

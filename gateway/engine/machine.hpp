@@ -41,7 +41,8 @@ class VelocityMoves;
 struct LineUnit;
 struct Side;
 
-/// One family's adapter on a side: several share a CAN line, each with the frames that its identifiers hold.
+/// One family's adapter on a side, for its drives and those of families that it serves: several share a CAN line, each with the frames that
+/// its identifiers hold.
 struct Speaker {
     Speaker(Side& s, FamilyEntry f, std::uint8_t n) : side(s), family(f), number(n) {}
     Side& side;
@@ -68,6 +69,11 @@ struct Speaker {
     [[nodiscard]] bool hears(const Frame& f) const noexcept { return hears_all || f.kind != Frame::Kind::can || any_holds(identifiers, f); }
 };
 
+/// Whether drives of one of these families are this adapter's.
+[[nodiscard]] inline bool serves_any(const Speaker& s, std::span<const FamilyEntry> families) {
+    return std::ranges::any_of(families, [&](const FamilyEntry& f) { return &serving_family(*f.family) == s.family.family; });
+}
+
 /// The adapters of one line with what they talk on: the real line, or the twin bus beside it.
 struct Side final : LineEvents {
     Side(Routing& r, LineUnit& u, bool is_twin) : routing(r), unit(u), twin(is_twin) {}
@@ -93,7 +99,8 @@ struct Side final : LineEvents {
     class Sides* among = nullptr;  ///< where its deadline is kept, and at which place
     std::size_t place = 0;
     [[nodiscard]] Speaker* speaker_of(const FamilyEntry& family) const noexcept {
-        const auto it = std::ranges::find_if(speakers, [&](const auto& s) { return s->family.family == family.family; });
+        const Family& serves = serving_family(*family.family);
+        const auto it = std::ranges::find_if(speakers, [&](const auto& s) { return s->family.family == &serves; });
         return it == speakers.end() ? nullptr : it->get();
     }
 

@@ -47,7 +47,7 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
         wish.known.clear();
         for (const DriveId d : unit->drives) {
             const Drive& drive = *machine_.drives[index_of(d)];
-            if (drive.family.family == family.family) wish.known.push_back(drive.spec.address);
+            if (&serving_family(*drive.family.family) == &serving_family(*family.family)) wish.known.push_back(drive.spec.address);
         }
         ScanPlan plan = family.family->scan(wish);
         if (!plan.fault.empty()) {
@@ -122,8 +122,7 @@ void Scans::end(LineUnit& unit, ScanReport::State state, std::string why, Instan
         s->probes.clear();
         s->scanned = s->scanned_now(s->adapter->counters());
         s->before_scan.reset();
-        if (std::ranges::find(unit.families, s->family.family, &FamilyEntry::family) == unit.families.end())
-            unit.scanned_gone += s->scanned;
+        if (!serves_any(*s, unit.families)) unit.scanned_gone += s->scanned;
     }
     speakers_.fit(*side, now);
 }
@@ -149,6 +148,11 @@ void Scans::turn(LineUnit& unit, Instant now) {
     if (now >= scan.ends_at && !scan.over())
         return end(unit, ScanReport::State::failed, "its limit_s was over before every address was asked", now);
     for (auto& part : scan.parts) {
+        // Who has the same adapter, and with it the same addresses, is searched for when this one is over.
+        const auto before = std::ranges::find_if(scan.parts, [&](const Scan::Part& p) {
+            return &serving_family(*p.family.family) == &serving_family(*part.family.family) && !p.over();
+        });
+        if (before != scan.parts.end() && &*before != &part) continue;
         if (part.asking.size() < part.at_once && !part.waiting.empty() && std::ranges::find(changed, &part) == changed.end())
             changed.push_back(&part);
         while (part.asking.size() < part.at_once && !part.waiting.empty()) {
@@ -167,7 +171,8 @@ void Scans::turn(LineUnit& unit, Instant now) {
         speaker.probes.clear();
         if (!speaker.before_scan) speaker.before_scan = speaker.adapter->counters();
         for (const auto& a : part->asking)
-            speaker.probes.push_back({a.id, "scan " + a.address, a.address, {}, {}});
+            speaker.probes.push_back(
+                {a.id, "scan " + a.address, a.address, {}, {}, {std::shared_ptr<const Catalogue>(), part->family.catalogue}});
         speakers_.configure(speaker, now);
     }
     if (scan.over()) end(unit, ScanReport::State::done, "", now);

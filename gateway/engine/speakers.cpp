@@ -43,14 +43,14 @@ LineSetup Speakers::setup_for(const LineUnit& unit) const {
     return s;
 }
 
-/// The line with the drives of one family that this side serves.
+/// The line with the drives of this side that the adapter serves.
 LineSetup Speakers::setup_for(const Speaker& speaker) const {
     const Side& side = speaker.side;
     LineSetup s = setup_for(side.unit);
     for (const DriveId id : side.unit.drives) {
         const Drive& d = *machine_.drives[index_of(id)];
         const bool here = side.twin ? d.serving == Presence::twin : d.spec.presence != PresenceRule::twin;
-        if (!here || d.family.family != speaker.family.family) continue;
+        if (!here || &serving_family(*d.family.family) != speaker.family.family) continue;
         DriveSetup ds;
         ds.id = id;
         ds.name = d.spec.name;
@@ -87,11 +87,12 @@ void Speakers::configure_side(Side& side, Instant now) {
 /// The adapter of a family on this side, made where there is none.
 Speaker& Speakers::bring_in(Side& side, const FamilyEntry& family, Instant now) {
     if (Speaker* known = side.speaker_of(family)) return *known;
+    const FamilyEntry serves = machine_.families.find(serving_family(*family.family).name);
     std::uint8_t number = 0;
     while (std::ranges::any_of(side.speakers, [&](const auto& s) { return s->number == number; }))
         ++number;
-    Speaker& fresh = *side.speakers.emplace_back(std::make_unique<Speaker>(side, family, number));
-    fresh.adapter = family.family->make_adapter(*family.catalogue, side.unit.kind);
+    Speaker& fresh = *side.speakers.emplace_back(std::make_unique<Speaker>(side, serves, number));
+    fresh.adapter = serves.family->make_adapter(*serves.catalogue, side.unit.kind);
     configure(fresh, now);
     if (side.up) routing_.ask(fresh, now, [&](Out& out) { fresh.adapter->on_line(true, now, out); });
     return fresh;
@@ -101,9 +102,7 @@ Speaker& Speakers::bring_in(Side& side, const FamilyEntry& family, Instant now) 
 void Speakers::fit(Side& side, Instant now) {
     const auto& families = side.unit.families;
     configure_side(side, now);
-    std::erase_if(side.speakers, [&](const auto& s) {
-        return s->probes.empty() && std::ranges::find(families, s->family.family, &FamilyEntry::family) == families.end();
-    });
+    std::erase_if(side.speakers, [&](const auto& s) { return s->probes.empty() && !serves_any(*s, families); });
     for (const FamilyEntry& f : families)
         (void)bring_in(side, f, now);
     side.touched();

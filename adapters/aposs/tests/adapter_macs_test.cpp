@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 struct Line : cia402_drive::test::LineBench {
     explicit Line(std::unique_ptr<Twin> twin = macs(), std::map<std::string, std::string> options = {})
-        : LineBench(page(), dialect, 2, std::move(options)) {
+        : LineBench(page(), 2, std::move(options)) {
         bus->add(DriveId{0}, std::move(twin), {}, now);
         open();
         run(2s);

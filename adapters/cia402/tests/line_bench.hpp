@@ -54,7 +54,7 @@ public:
     int heartbeats = 0;  ///< that the gateway has sent under that number
 
     /// One node; `twins` of the same number stand on the bus.
-    explicit LineBench(int twins = 1) : LineBench(page(), {}, 1) {
+    explicit LineBench(int twins = 1) : LineBench(page(), 1) {
         TwinSetup t;
         t.address = "5";
         t.kind = LineKind::can;
@@ -63,8 +63,7 @@ public:
         open();
     }
     /// A family that stands on this one: its node 5 with so many axes; its twin is put on the bus before `open`.
-    LineBench(const Catalogue& catalogue, const Dialect& dialect, int axes, std::map<std::string, std::string> options = {})
-        : adapter(catalogue, dialect) {
+    LineBench(const Catalogue& catalogue, int axes, std::map<std::string, std::string> options = {}) : adapter(catalogue) {
         TwinBusOptions o;
         o.kind = LineKind::can;
         o.bit_rate = 1'000'000;

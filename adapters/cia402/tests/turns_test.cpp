@@ -198,6 +198,7 @@ TEST(Cia402Turns, WhoIsLedLaterComesRoundMoreSeldomAndKnowsIt) {
         ++times[b.ask(Native{{'6', '0', 'C', '2', ':', '0', '1', '?'}, true}, 10s, a).text];
     }
     EXPECT_EQ(times, (std::map<std::string, int>{{"2", 2}, {"16", 2}, {"32", 28}}));
+    b.beats.erase(b.beats.begin(), b.beats.begin() + 300);  // until all have begun
     EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));
 }
 
@@ -274,8 +275,8 @@ TEST(Cia402Turns, DrivesThatComeToTheSiteChangeNothingForWhoIsLed) {
         b.configure();
     })[0];
     EXPECT_TRUE(b.stream_ends.empty());
-    EXPECT_NEAR(l.slowest, 20'000, 1'000);
-    EXPECT_NEAR(l.fastest, 20'000, 1'000);
+    EXPECT_NEAR(l.slowest, 20'000, 1'400) << "a SYNC may wait for a frame that is on its way: 135 us of 2 ms";
+    EXPECT_NEAR(l.fastest, 20'000, 1'400);
     EXPECT_EQ(b.of_drive[DriveId{0}].beats, (DriveBeats{2ms, 16})) << "the beat stands while an axis is led";
     b.watch(500ms);
     EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));

@@ -82,7 +82,8 @@ void LineAdapter::on_frame(const Frame& f, Instant now, Out& out) {
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    if (const auto beat = heartbeat_.on_deadline(now, line_.own_node, canopen::NmtState::operational)) t.out.send(*beat, Priority::command);
+    // Behind all else that waits here: its identifier is one of the last, and a SYNC behind it would be late.
+    if (const auto beat = heartbeat_.on_deadline(now, line_.own_node, canopen::NmtState::operational)) t.out.send(*beat, Priority::poll);
     if (now >= targets_at_) send_targets(t);
     if (up_ && now >= sync_.deadline()) send_sync(t);
     drive::wake(line_.turns, drives_, t);

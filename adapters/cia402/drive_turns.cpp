@@ -32,10 +32,10 @@ void PdoTurns::came(Pdo which, Turn& t) {
     p.in_place = 0;
     p.missed = error == p.error ? p.missed + 1 : 1;
     p.error = error;
-    if (p.missed >= 2 && p.tries == most_tries) give_up(p, "they come beside it however they are set", t);
+    if (p.missed >= sure && p.tries == most_tries) give_up(p, "they come beside it however they are set", t);
 }
 bool PdoTurns::misplaced(const Told& p) const noexcept {
-    return p.tries <= most_tries && (p.turns != drive_.node.line.plan.turns || (p.missed >= 2 && p.tries < most_tries));
+    return p.tries <= most_tries && (p.turns != drive_.node.line.plan.turns || (p.missed >= sure && p.tries < most_tries));
 }
 void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
     p.tries = most_tries + 1;

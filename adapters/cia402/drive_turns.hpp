@@ -31,7 +31,7 @@ public:
     [[nodiscard]] bool apart() const noexcept { return told_[status].tries > most_tries || told_[motion].tries > most_tries; }
 
 private:
-    static constexpr int most_tries = 4, settled = 64;
+    static constexpr int sure = 4, most_tries = 4, settled = 64;  ///< now and then a PDO is held up behind another frame of its node
     enum class Act : std::uint8_t { rest, off, type, on };
     struct Told {
         int turns = 1;                ///< its transmission type

@@ -198,66 +198,82 @@ TEST(Cia402Turns, WhoIsLedLaterComesRoundMoreSeldomAndKnowsIt) {
         ++times[b.ask(Native{{'6', '0', 'C', '2', ':', '0', '1', '?'}, true}, 10s, a).text];
     }
     EXPECT_EQ(times, (std::map<std::string, int>{{"2", 2}, {"16", 2}, {"32", 28}}));
+    b.beats.erase(b.beats.begin(), b.beats.begin() + 300);  // until all have begun
     EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));
 }
 
-TEST(Cia402Turns, ANodeThatCountsOtherwiseIsMovedToItsBeats) {
-    /// It does not count the first SYNCs after its start.
-    class Late : public Twin {
-    public:
-        Late(std::unique_ptr<Twin> twin, std::uint8_t node, int syncs) : twin_(std::move(twin)), node_(node), late_(syncs) {}
-        void on_frame(const Frame& f, Instant now, Out& out) override {
-            if (canopen::nmt_for(f, node_) == canopen::NmtCommand::start) left_ = late_;
-            if (canopen::is_data(f, 0x80) && left_ > 0 && left_-- > 0) return;
-            twin_->on_frame(f, now, out);
-        }
-        void on_deadline(Instant now, Out& out) override { twin_->on_deadline(now, out); }
-        [[nodiscard]] Instant deadline() const override { return twin_->deadline(); }
-        void power_on(const NonVolatile& memory, Instant now, Out& out) override { twin_->power_on(memory, now, out); }
-        [[nodiscard]] NonVolatile non_volatile() const override { return twin_->non_volatile(); }
-        [[nodiscard]] std::uint64_t non_volatile_revision() const override { return twin_->non_volatile_revision(); }
-        [[nodiscard]] std::vector<HandItem> hand() const override { return twin_->hand(); }
-        [[nodiscard]] std::string set_hand(const std::string& n, const Value& v, Instant now, Out& out) override {
-            return twin_->set_hand(n, v, now, out);
-        }
-        [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override { return twin_->mechanics(channel, now); }
+/// A node that misses SYNCs: the first ones after its start, or when a test says so.
+class Hard : public Twin {
+public:
+    Hard(std::unique_ptr<Twin> twin, std::uint8_t node, int late) : twin_(std::move(twin)), node_(node), late_(late) {}
+    int misses = 0;
+    void on_frame(const Frame& f, Instant now, Out& out) override {
+        if (canopen::nmt_for(f, node_) == canopen::NmtCommand::start) misses = late_;
+        if (canopen::is_data(f, 0x80) && misses > 0 && misses-- > 0) return;
+        twin_->on_frame(f, now, out);
+    }
+    void on_deadline(Instant now, Out& out) override { twin_->on_deadline(now, out); }
+    [[nodiscard]] Instant deadline() const override { return twin_->deadline(); }
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override { twin_->power_on(memory, now, out); }
+    [[nodiscard]] NonVolatile non_volatile() const override { return twin_->non_volatile(); }
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return twin_->non_volatile_revision(); }
+    [[nodiscard]] std::vector<HandItem> hand() const override { return twin_->hand(); }
+    [[nodiscard]] std::string set_hand(const std::string& n, const Value& v, Instant now, Out& out) override {
+        return twin_->set_hand(n, v, now, out);
+    }
+    [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override { return twin_->mechanics(channel, now); }
 
-    private:
-        std::unique_ptr<Twin> twin_;
-        std::uint8_t node_;
-        int late_, left_ = 0;
-    };
-    TurnsBench b(0);
-    std::uint8_t made = 0;
-    b.made = [&](std::unique_ptr<Twin> twin) {
-        ++made;
-        return std::make_unique<Late>(std::move(twin), made, made % 4);
-    };
-    b.add(16);
-    b.open();
-    b.run(8s);
-    b.run_all(10'000);
-    b.watch(1s);
-    EXPECT_EQ(b.told("turns"), 0);
-    EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));
-    for (std::uint32_t node = 1; node <= 16; ++node)
-        EXPECT_EQ(b.turns(node), 8u) << "node " << node;
+private:
+    std::unique_ptr<Twin> twin_;
+    std::uint8_t node_;
+    int late_;
+};
+/// 16 nodes, two in each beat by the plan; `late`: SYNCs that a node misses after its start.
+struct HardBench : TurnsBench {
+    std::vector<Hard*> nodes;
+    explicit HardBench(const std::function<int(int)>& late) : TurnsBench(0) {
+        made = [this, late](std::unique_ptr<Twin> twin) {
+            const auto node = static_cast<std::uint8_t>(nodes.size() + 1);
+            auto hard = std::make_unique<Hard>(std::move(twin), node, late(node));
+            nodes.push_back(hard.get());
+            return hard;
+        };
+        add(16);
+        open();
+        run(8s);
+        run_all(10'000);
+    }
+    void each_in_its_beats() {
+        watch(1s);
+        EXPECT_EQ(told("turns"), 0);
+        for (std::size_t i = 0; i < beats.size(); ++i) {
+            int pictures = 0;
+            for (std::uint32_t node = 1; node <= 16; ++node)
+                pictures += beats[i].frames.contains(0x180 + node) && beats[i].frames.contains(0x280 + node) ? 1 : 0;
+            ASSERT_EQ(pictures, 2) << "beat " << i;
+        }
+        for (std::uint32_t node = 1; node <= 16; ++node)
+            EXPECT_EQ(turns(node), 8u) << "node " << node;
+    }
+};
+
+TEST(Cia402Turns, ANodeThatCountsOtherwiseIsMovedToItsBeats) {
+    HardBench b([](int node) { return node % 4; });
+    b.each_in_its_beats();
 }
 
 TEST(Cia402Turns, MissedSyncsAreMadeUpFor) {
-    TurnsBench b(16);
-    b.open();
-    b.run(4s);
-    b.run_all(10'000);
-    b.deaf = true;
-    b.run(7ms);
+    HardBench b([](int) { return 0; });
+    b.each_in_its_beats();
+    for (std::size_t i = 0; i < 5; ++i)
+        b.nodes[i]->misses = 1 + static_cast<int>(i);
+    b.run(2s);
+    b.each_in_its_beats();
+    b.deaf = true;  // and all of them three
+    b.run(6ms);
     b.deaf = false;
     b.run(2s);
-    b.watch(1s);
-    EXPECT_EQ(b.told("turns"), 0);
-    EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));
-    for (const DriveSetup& d : b.setup.drives)
-        EXPECT_LE(b.now - b.of_axis[d.axes[0].id].at, 16ms) << d.name;
+    b.each_in_its_beats();
 }
 
 TEST(Cia402Turns, DrivesThatComeToTheSiteChangeNothingForWhoIsLed) {
@@ -274,8 +290,8 @@ TEST(Cia402Turns, DrivesThatComeToTheSiteChangeNothingForWhoIsLed) {
         b.configure();
     })[0];
     EXPECT_TRUE(b.stream_ends.empty());
-    EXPECT_NEAR(l.slowest, 20'000, 1'000);
-    EXPECT_NEAR(l.fastest, 20'000, 1'000);
+    EXPECT_NEAR(l.slowest, 20'000, 1'400) << "a SYNC may wait for a frame that is on its way: 135 us of 2 ms";
+    EXPECT_NEAR(l.fastest, 20'000, 1'400);
     EXPECT_EQ(b.of_drive[DriveId{0}].beats, (DriveBeats{2ms, 16})) << "the beat stands while an axis is led";
     b.watch(500ms);
     EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));

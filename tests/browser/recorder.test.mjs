@@ -212,6 +212,10 @@ test('the commissioning report holds site, parameters, registers, curves and roo
   await page.emulateMedia({ media: 'print' });
   await becomes('the form is not printed', () => page.locator('.report-form').isVisible(), false);
   await shot(page, 'recorder-report', { fullPage: true });
+  // On a sheet of A4 each column stands under its heading.
+  await page.setViewportSize({ width: 718, height: 1000 });
+  const columns = await report.locator('.report-table').evaluateAll((all) => all.flatMap((t) => [...t.tHead.rows[0].cells].map((h, i) => Math.abs(h.getBoundingClientRect().x - t.tBodies[0].rows[0].cells[i].getBoundingClientRect().x))));
+  assert.ok(columns.length > 15 && columns.every((off) => off < 1), JSON.stringify(columns));
   await page.emulateMedia({ media: 'screen' });
   assert.deepEqual(page.faults(), []);
   await page.context().close();

@@ -171,12 +171,12 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                   {(now.axes as unknown as AxisRow[]).map((a) => (
                     <tr key={a.name} data-axis={a.name}>
                       <th scope="row">{a.name}</th>
-                      <td>{a.presence === 'twin' ? t('{state} (simulated)', { state: plainWord(a.state) }) : a.presence === 'offline' ? t('{state} (offline)', { state: plainWord(a.state) }) : plainWord(a.state)}</td>
-                      <td class="num">{formatNumber(a.position, 3)} {a.unit}</td>
-                      <td class="num">{formatNumber(a.velocity, 3)}</td>
-                      <td class="num">{formatNumber(a.following_error, 3)}</td>
-                      <td class="num" title={a.error.text || undefined}>{a.error.code || '–'}</td>
-                      <td class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
+                      <td data-label={t('State')}>{a.presence === 'twin' ? t('{state} (simulated)', { state: plainWord(a.state) }) : a.presence === 'offline' ? t('{state} (offline)', { state: plainWord(a.state) }) : plainWord(a.state)}</td>
+                      <td data-label={t('Position')} class="num">{formatNumber(a.position, 3)} {a.unit}</td>
+                      <td data-label={t('Velocity')} class="num">{formatNumber(a.velocity, 3)}</td>
+                      <td data-label={t('Following error')} class="num">{formatNumber(a.following_error, 3)}</td>
+                      <td data-label={t('Error')} class="num" title={a.error.text || undefined}>{a.error.code || '–'}</td>
+                      <td data-label={t('Registers')} class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
                     </tr>
                   ))}
                 </tbody>

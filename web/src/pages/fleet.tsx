@@ -66,7 +66,7 @@ export function FleetPage() {
           <p class="where">{t('A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.')}</p>
           <Why need="operator" what={t('Every command but a stop')} />
           {known.gateways.map((g) => (
-            <GatewayCard key={g.instance} gateway={g} title={known.gateways.some((o) => o !== g && o.gateway === g.gateway) ? `${g.gateway} · ${String(g.instance).slice(0, 8)}` : g.gateway} connected={fresh} many={many} />
+            <GatewayCard key={g.instance} gateway={g} title={known.gateways.some((o) => o !== g && o.gateway === g.gateway) ? `${g.gateway} · ${g.instance}` : g.gateway} connected={fresh} many={many} />
           ))}
         </>
       )}

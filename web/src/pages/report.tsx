@@ -260,7 +260,7 @@ function Fact({ name, value }: { name: string; value: string }) {
 function Table({ head, children }: { head: readonly string[]; children: preact.ComponentChildren }) {
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={head[0]}>
-      <table class="table report-table">
+      <table class="report-table">
         <thead>
           <tr>
             {head.map((h) => (

@@ -40,7 +40,7 @@ Hot::~Hot() { stop(); }
 
 Instant Hot::now() const { return turns_.now(); }
 
-void Hot::start() {
+bool Hot::start() {
     turns_.live(now());
     std::promise<bool> first;
     auto ranked = first.get_future();
@@ -57,7 +57,7 @@ void Hot::start() {
         first.set_value(goes_first);
         run();
     });
-    goes_first_ = ranked.get();
+    return ranked.get();
 }
 
 void Hot::stop() {

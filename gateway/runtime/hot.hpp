@@ -84,9 +84,8 @@ public:
     /// The doors of this thread that are attached; before start(), or when no door comes or goes.
     [[nodiscard]] std::vector<HotDoor*> doors() const;
 
-    void start();
-    /// It has a rank before all threads of the normal policy; after start().
-    [[nodiscard]] bool goes_first() const noexcept { return goes_first_; }
+    /// Returns whether its thread has a rank before all those of the normal policy.
+    bool start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
     void stop();
     /// How its turns go. Any thread reads it.
@@ -151,7 +150,7 @@ private:
     std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
     Instant next_reports_{};
     std::atomic<bool> stopping_{false};
-    bool finished_ = false, goes_first_ = false;
+    bool finished_ = false;
     bool settled_ = false;
     int turns_unannounced_ = 0;
     std::atomic<bool> change_wanted_{false};

@@ -488,11 +488,11 @@ int command_serve(const ServeOptions& options) {
         if (!ec) s.warm.stop();
     });
     s.cold->start();
-    s.hot->start();
+    const bool hot_goes_first = s.hot->start();
     s.watch();
     // After the others have been started: a new thread begins with its maker's rank. Nobody need stand back for a hot thread that goes
     // first.
-    enter_thread("axisgate-warm", s.hot->goes_first() ? 0 : warm_stands_back);
+    enter_thread("axisgate-warm", hot_goes_first ? 0 : warm_stands_back);
     take_short_turns(warm_turn_ns);
     s.warm.run();
     s.warm.restart();

@@ -204,8 +204,10 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
     } else {
         lacks_velocity(*r);
     }
+    EXPECT_LE(farthest, limit + 300) << "the shaft has been beyond";
+    farthest = 0;
     pass(5s);
-    EXPECT_EQ(farthest > limit - 1500, holds) << "it has been on its way to the limit, at most at " << farthest;
+    EXPECT_EQ(farthest > limit / 2, holds) << "it has been on its way to the limit, at most at " << farthest;
     EXPECT_EQ(speed(a1), 0);
     EXPECT_LE(farthest, limit + 300) << "the shaft has been beyond";
 }

@@ -75,12 +75,15 @@ TEST(DataTypes, WhatDoesNotFitIsRefused) {
     EXPECT_FALSE(bits_of(DataType::domain));
 }
 TEST(DataTypes, EveryNumberHasItsNameAndItsEnds) {
+    std::size_t types = 0, whole = 0;
     for (std::uint64_t n = 0; n < 0x40; ++n) {
         const auto type = data_type_of(n);
         if (!type) continue;
+        ++types;
         EXPECT_NE(name_of(*type), "unknown type") << n;
         const auto range = range_of(*type);
         if (!range) continue;
+        ++whole;
         for (const auto v : {range->min, range->max}) {
             const auto bytes = encode(*type, Value{v});
             ASSERT_TRUE(bytes) << name_of(*type);
@@ -88,6 +91,8 @@ TEST(DataTypes, EveryNumberHasItsNameAndItsEnds) {
         }
         if (range->max < INT64_MAX) EXPECT_FALSE(encode(*type, Value{range->max + 1})) << name_of(*type);
     }
+    EXPECT_GE(types, 12u);
+    EXPECT_GE(whole, 8u) << "integers of each width, with and without a sign";
 }
 
 TEST(Nmt, CommandsReachOneNodeOrAll) {

@@ -161,7 +161,9 @@ TEST(EnipWindow, TheImageOfALanguageIsWhatItsPageHas) {
         p.output_assembly = 401;
         d.state.site.profiles = {p};
         d.put_site();
-        for (const auto& w : windows_of(d.state)) {
+        const auto windows = windows_of(d.state);
+        ASSERT_EQ(windows.size(), 2u) << name_of(p.language);
+        for (const auto& w : windows) {
             const bool out = w.spec.direction == output;
             const auto in_image = d.image.unit(50)->values(w.spec.table, w.spec.address, w.spec.registers, out);
             ASSERT_FALSE(in_image.empty());

@@ -2,7 +2,7 @@
 // In: frames. Out: lines such as "node 5: read 6064h:00 position_actual_value = 1500". Never shows a control character.
 #include "adapters/cia402/decoder.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "gateway/protocols/canopen/emergency.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
@@ -10,12 +10,7 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-std::string hex_of(std::span<const std::uint8_t> bytes) {
-    std::string s;
-    for (const std::uint8_t b : bytes)
-        s += fmt::format("{}{:02X}", s.empty() ? "" : " ", b);
-    return s;
-}
+std::string hex_of(std::span<const std::uint8_t> bytes) { return fmt::format("{:02X}", fmt::join(bytes, " ")); }
 }  // namespace
 
 /// The entry for an object, which may be a further axis' (then `axis` counts from 2): 6864h is 6064h of the second one.

@@ -2,7 +2,7 @@
 // In: commands, answers. Out: the next transfer, the one result of each command. Never has two steps of a command on the way.
 #include "adapters/cia402/drive_axis.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace axisgate::cia402_drive {
 using drive::Want;
@@ -252,10 +252,7 @@ std::string Axis::native_text(const Job& job) const {
     const Parameter* p = parameter_at(node.catalogue(), last.address);
     const auto type = p ? type_of(p->type) : std::nullopt;
     if (const auto decoded = type ? canopen::decode(*type, job.data) : std::nullopt) return to_text(*decoded);
-    std::string text;
-    for (const std::uint8_t b : job.data)
-        text += fmt::format("{}{:02X}", text.empty() ? "" : " ", b);
-    return text;
+    return fmt::format("{:02X}", fmt::join(job.data, " "));
 }
 
 }  // namespace axisgate::cia402_drive

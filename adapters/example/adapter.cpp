@@ -28,9 +28,8 @@ std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t slot, 
     return std::make_unique<Drive>(bus_, s, slot, address_of(s.address));
 }
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up() || frame.kind != Frame::Kind::bytes) return;
-    Turn t{now, out};
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
+    if (!bus_.is_run(frame)) return;
     lines_.push(drive::text_of(frame), [&](std::string_view line) {
         bool request = false;
         const auto telegram = telegram_of(line, request);
@@ -39,7 +38,6 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
         d->on_message(*telegram, t);
         settle(*d, t);
     });
-    end(t);
 }
 
 }  // namespace axisgate::example

@@ -13,10 +13,10 @@ namespace axisgate::example {
 class LineAdapter final : public drive::TurnsAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& catalogue) : TurnsAdapter(bus_), bus_(catalogue) {}
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
 

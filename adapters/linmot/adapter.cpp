@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 
-#include "adapters/linmot/family.hpp"
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::linmot {
@@ -20,6 +20,18 @@ constexpr drive::Timing defaults{.reply_timeout = std::chrono::milliseconds(60),
                                  .pause_max = std::chrono::seconds(5)};
 std::uint8_t id_of(const DriveSetup& s) { return static_cast<std::uint8_t>(std::stoul(s.address)); }
 }  // namespace
+
+std::string check_address(std::string_view address) {
+    unsigned id = 0;
+    const auto [end, ec] = std::from_chars(address.data(), address.data() + address.size(), id);
+    const bool plain = address.size() == 1 || (!address.empty() && address[0] != '0');
+    if (ec == std::errc{} && end == address.data() + address.size() && id <= 255 && plain) return {};
+    const bool printable = std::ranges::all_of(address, [](char c) { return c >= 0x20 && c < 0x7F; });
+    return fmt::format("{} is not the ID of a LinMot drive: write a number 0..255, as its switches or parameters have it",
+                       address.empty() ? "nothing"
+                       : printable     ? address
+                                       : "this");
+}
 
 void LineAdapter::take(const LineSetup& setup, Turn& t) {
     bus_.take(setup, defaults);
@@ -49,7 +61,7 @@ std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
 
 std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t slot, Turn& t) {
     auto made = std::make_unique<Drive>(bus_, s, id_of(s), slot);
-    made->begin(t);
+    made->tell_setup(made->options.faults, t);
     return made;
 }
 
@@ -63,17 +75,11 @@ void LineAdapter::line_changed(Turn& t) {
     free_line();
 }
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up()) return;
-    Turn t{now, out};
-    if (frame.kind != Frame::Kind::bytes) {
-        ++bus_.counters.garbled;
-        return;
-    }
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
+    if (!bus_.is_run(frame)) return;
     framer_.push(
         frame.data(), [&](const Telegram& telegram, std::span<const std::uint8_t>) { heard(telegram, t); },
         [&](std::span<const std::uint8_t>, std::string_view) { ++bus_.counters.garbled; });
-    end(t);
 }
 
 void LineAdapter::heard(const Telegram& telegram, Turn& t) {

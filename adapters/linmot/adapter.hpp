@@ -12,15 +12,18 @@
 
 namespace axisgate::linmot {
 
+/// Empty if `address` is the ID of a drive, 0..255, else what would be right.
+[[nodiscard]] std::string check_address(std::string_view address);
+
 class LineAdapter final : public drive::TurnsAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& of_family) : TurnsAdapter(bus_), bus_(of_family) {}
 
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
     void leaving(Drive& drive, Turn& t) override;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <utility>
 
 #include "adapters/linmot/wire_inferred.hpp"
@@ -14,12 +13,7 @@ namespace axisgate::linmot {
 namespace {
 constexpr std::size_t longest_telegram = 63 + 4;  // the length byte, what it does not count
 
-std::string hex(std::span<const std::uint8_t> data) {
-    std::string s;
-    for (const auto b : data)
-        fmt::format_to(std::back_inserter(s), "{}{:02X}", s.empty() ? "" : " ", b);
-    return s;
-}
+std::string hex(std::span<const std::uint8_t> data) { return fmt::format("{:02X}", fmt::join(data, " ")); }
 std::string bits(const boost::json::object& document, const char* list, std::uint16_t word) {
     std::string s;
     const auto* names = document.if_contains(list);

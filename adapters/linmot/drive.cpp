@@ -27,31 +27,11 @@ DriveOptions drive_options(const DriveSetup& setup, const Bus& bus) {
 }
 
 Drive::Drive(Bus& of_line, const DriveSetup& setup, std::uint8_t id, std::size_t slot)
-    : bus(of_line),
-      options(drive_options(setup, of_line)),
-      presence(setup.id, of_line.timing),
-      setup_(setup),
-      id_(id),
-      slot_(slot),
-      notices_(setup.id) {
-    for (const AxisSetup& a : setup.axes) {
-        if (a.channel == 1) axis_ = a.id;
-    }
-}
+    : DriveBase(setup, of_line.timing, slot), bus(of_line), options(drive_options(setup, of_line)), id_(id) {}
 
 std::string Drive::title() const { return fmt::format("{} (ID {})", setup_.name, id_); }
 
-void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
-    notices_.tell(severity, axis_, kind, code, std::move(text), t.now, t.out);
-}
-
 // --- the line ----------------------------------------------------------------------------------------------------------------
-
-void Drive::begin(Turn& t) {
-    for (auto& fault : options.faults)
-        notice(Severity::warning, "setup", 0, std::move(fault), t);
-    options.faults.clear();
-}
 
 void Drive::line_up(Turn& t) {
     presence.begin(t.now);
@@ -88,7 +68,7 @@ void Drive::lost(Turn& t, std::string why) {
 }
 
 void Drive::follow(const SetPoint& p) {
-    if (p.axis == axis_ && presence.online() && !stream.take(p)) jobs.set_points.put(p);
+    if (p.axis == axis() && presence.online() && !stream.take(p)) jobs.set_points.put(p);
 }
 
 void Drive::submit(const Command& command, Turn& t) {

@@ -13,24 +13,19 @@
 #include "adapters/linmot/motion_stream.hpp"
 #include "adapters/linmot/start.hpp"
 #include "adapters/linmot/stop.hpp"
-#include "gateway/drive/notices.hpp"
+#include "gateway/drive/drive_base.hpp"
 #include "gateway/drive/polls.hpp"
-#include "gateway/drive/presence.hpp"
-#include "gateway/drive/tickets.hpp"
 #include "gateway/drive/turns.hpp"
 
 namespace axisgate::linmot {
 
-class Drive {
+class Drive : public drive::DriveBase {
 public:
     static constexpr int channels = 1;
 
     Drive(Bus& bus, const DriveSetup& setup, std::uint8_t id, std::size_t slot);
-    Drive(const Drive&) = delete;
-    Drive& operator=(const Drive&) = delete;
 
     // --- from the adapter -----------------------------------------------------------------------------------------------
-    void begin(Turn& t);  ///< says what was wrong in its options
     void line_up(Turn& t);
     void line_down(std::string_view why, Turn& t);
     void remove(std::string_view why, Turn& t);
@@ -51,21 +46,12 @@ public:
     // --- for its parts --------------------------------------------------------------------------------------------------
     /// Forgets what only a drive that answers can know. With a reason: everything that waits ends by it.
     void lost(Turn& t, std::string why);
-    void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
-
-    // --- plain facts ----------------------------------------------------------------------------------------------------
     [[nodiscard]] std::uint8_t id() const noexcept { return id_; }
-    [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
-    [[nodiscard]] AxisId axis() const noexcept { return axis_; }
-    [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
     [[nodiscard]] std::string title() const;
-    [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
 
     Bus& bus;
     DriveOptions options;
     Limits limits;
-    drive::Presence presence;
-    drive::Tickets tickets;
     drive::PollTimer poll;
     drive::Pace pace;
     Exchanges exchanges{*this};
@@ -93,11 +79,7 @@ private:
     }
     void silence(Turn& t);
 
-    DriveSetup setup_;
     std::uint8_t id_;
-    std::size_t slot_;
-    AxisId axis_ = no_axis;
-    drive::Notices notices_;
 };
 
 }  // namespace axisgate::linmot

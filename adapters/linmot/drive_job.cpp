@@ -8,12 +8,13 @@
 
 namespace axisgate::linmot {
 
-Job& Verb::job() noexcept { return drive_.jobs.job(); }
-void Verb::refuse(Reason reason, std::string text, Turn& t, std::int32_t code) {
-    drive_.jobs.over(Outcome::refused, reason, std::move(text), t, code);
+void Verb::without_success(drive::Failure& how, Turn& t) {
+    if (how.dropped) drive_.exchanges.no_repeats();
+    if (how.outcome == Outcome::refused && how.reason == Reason::drive_refused) ++drive_.bus.counters.refused;
+    const Command& c = job().command;
+    if (c.ticket == no_ticket && std::holds_alternative<Move>(c.body) && how.reason != Reason::interrupted)
+        t.out.stream_ends.push_back({drive_.axis(), how.reason, how.text});
 }
-void Verb::fail(Reason reason, std::string text, Turn& t) { drive_.jobs.over(Outcome::failed, reason, std::move(text), t); }
-void Verb::accept(std::string text, Turn& t) { drive_.jobs.over(Outcome::accepted, Reason::none, std::move(text), t); }
 std::string Verb::refusal(std::uint8_t code) const { return fmt::format("drive {} refused: {}", drive_.title(), communication_text(code)); }
 
 Verb* Jobs::verb_of(const CommandBody& b) const noexcept {
@@ -28,15 +29,12 @@ Verb* Jobs::verb_of(const CommandBody& b) const noexcept {
 }
 
 void Jobs::begin_next(Turn& t) {
-    job_ = {};
-    job_.command = queue.pop();
-    const CommandBody& body = job_.command.body;
-    job_.verb = verb_of(body);
-    if (job_.verb) return job_.verb->begin(t);
-    over(Outcome::refused, Reason::not_supported,
-         std::holds_alternative<StartTogether>(body) ? std::string("LinMot drives cannot be started together")
-                                                     : fmt::format("a LinMot drive has no {}", name_of(body)),
-         t);
+    Command next = queue.pop();
+    if (Verb* verb = verb_of(next.body)) return begin(*verb, std::move(next)).verb->begin(t);
+    drive_.tickets.refused(next.ticket, Reason::not_supported,
+                           std::holds_alternative<StartTogether>(next.body) ? std::string("LinMot drives cannot be started together")
+                                                                            : fmt::format("a LinMot drive has no {}", name_of(next.body)),
+                           t.out);
 }
 
 bool Jobs::wants(Instant now) const noexcept { return idle() ? !queue.empty() || !set_points.empty() : now >= job_.not_before; }
@@ -81,19 +79,7 @@ void Jobs::silent(Turn& t) {
     if (idle() || drive_.transfers.again()) return;
     drive_.motion.no_target();
     drive_.demand.forget();
-    over(Outcome::failed, Reason::no_answer, fmt::format("drive {} does not answer", drive_.title()), t);
-}
-
-void Jobs::over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
-    const Ticket ticket = job_.command.ticket;
-    std::vector<std::uint8_t> bytes =
-        std::holds_alternative<Native>(job_.command.body) ? std::move(job_.bytes) : std::vector<std::uint8_t>();
-    if (outcome == Outcome::refused && reason == Reason::drive_refused) ++drive_.bus.counters.refused;
-    const bool streamed = ticket == no_ticket && std::holds_alternative<Move>(job_.command.body);
-    job_ = {};
-    if (streamed && outcome != Outcome::accepted && reason != Reason::interrupted)
-        t.out.stream_ends.push_back({drive_.axis(), reason, text});
-    drive_.tickets.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
+    fail(Reason::no_answer, fmt::format("drive {} does not answer", drive_.title()), t);
 }
 
 void Jobs::forget() {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "adapters/linmot/drive_part.hpp"
-#include "gateway/drive/command_queue.hpp"
+#include "gateway/drive/jobs.hpp"
 #include "gateway/drive/set_points.hpp"
 
 namespace axisgate::linmot {
@@ -26,24 +26,21 @@ struct Transfer {
 };
 
 class Verb;
-struct Job {
-    Verb* verb = nullptr;  ///< nobody: nothing is being done
-    Command command;
+struct Job : drive::JobBase<Verb> {
     int step = 0;
     Instant not_before{};  ///< of the next exchange
     Instant limit = never;
     std::uint8_t count = 0;  ///< of a motion command that was sent
     std::uint8_t state_before = 0;
     std::int64_t number = 0;
-    std::string text;
-    std::vector<std::uint8_t> bytes;
+    std::vector<std::uint8_t> motion;  ///< the command that is sent, all but its count
     Transfer transfer;
 };
 
 /// What one kind of command is in the drive's telegrams.
-class Verb : public Part {
+class Verb : public drive::VerbBase<Part, Job> {
 public:
-    using Part::Part;
+    using VerbBase::VerbBase;
 
     /// The job's turn has come: it may end here, before anything is sent.
     virtual void begin(Turn&) {}
@@ -51,13 +48,10 @@ public:
     [[nodiscard]] virtual std::optional<Telegram> request(Turn& t) = 0;
     /// The default response has been learnt from already.
     virtual void answered(const Telegram&, Turn&) {}
+    void without_success(drive::Failure& how, Turn& t) override;
 
 protected:
     ~Verb() = default;
-    [[nodiscard]] Job& job() noexcept;
-    void refuse(Reason reason, std::string text, Turn& t, std::int32_t code = 0);
-    void fail(Reason reason, std::string text, Turn& t);
-    void accept(std::string text, Turn& t);
     /// By a code of the drive's.
     [[nodiscard]] std::string refusal(std::uint8_t code) const;
     /// The same as the end of a request.
@@ -67,11 +61,10 @@ protected:
     }
 };
 
-class Jobs : public Part {
+class Jobs : public drive::JobsBase<Part, Job> {
 public:
-    using Part::Part;
+    using JobsBase::JobsBase;
 
-    drive::CommandQueue queue;
     drive::SetPoints set_points;  ///< those that are sent as moves
 
     /// A command or a set-point waits, or the next exchange of a job.
@@ -83,20 +76,13 @@ public:
     void silent(Turn& t);
     /// It takes its time to answer, and that is no silence.
     void look_later(Turn& t) noexcept;
-    void over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code = 0, Value value = {});
     void forget();
-
-    [[nodiscard]] Job& job() noexcept { return job_; }
-    [[nodiscard]] bool idle() const noexcept { return !job_.verb; }
-    [[nodiscard]] bool is(const Verb& verb) const noexcept { return job_.verb == &verb; }
     /// It goes on as another verb's.
     void hand_to(Verb& verb) noexcept { job_.verb = &verb; }
 
 private:
     void begin_next(Turn& t);
     [[nodiscard]] Verb* verb_of(const CommandBody& body) const noexcept;
-
-    Job job_;
 };
 
 }  // namespace axisgate::linmot

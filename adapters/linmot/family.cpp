@@ -1,37 +1,14 @@
-// Family linmot: the table of its makers, its addresses and the search for drives.
-// In: addresses as text. Out: makers, faults, the list of IDs to ask.
+// Family linmot: the table of its makers, and its scan.
+// In: nothing. Out: functions, and what lines of the family are like unless the site says otherwise.
 // Never decides anything about a drive.
-#include "adapters/linmot/family.hpp"
-
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <charconv>
-
 #include "adapters/linmot/adapter.hpp"
 #include "adapters/linmot/decoder.hpp"
 #include "adapters/linmot/twin/twin.hpp"
 #include "gateway/drive/scan_range.hpp"
 
 namespace axisgate {
-namespace linmot {
 
-std::string check_address(std::string_view address) {
-    unsigned id = 0;
-    const auto [end, ec] = std::from_chars(address.data(), address.data() + address.size(), id);
-    const bool plain = address.size() == 1 || (!address.empty() && address[0] != '0');
-    if (ec == std::errc{} && end == address.data() + address.size() && id <= 255 && plain) return {};
-    const bool printable = std::ranges::all_of(address, [](char c) { return c >= 0x20 && c < 0x7F; });
-    return fmt::format("{} is not the ID of a LinMot drive: write a number 0..255, as its switches or parameters have it",
-                       address.empty() ? "nothing"
-                       : printable     ? address
-                                       : "this");
-}
-
-ScanPlan scan(const ScanWish& wish) { return drive::scan_range(wish, 0, 255, check_address); }
-
-}  // namespace linmot
-
+/// LinMot E1100 and B1100 on RS-232, RS-422 or RS-485 (LinRS).
 const Family& family_linmot() {
     static const Family family{
         "linmot",
@@ -45,7 +22,7 @@ const Family& family_linmot() {
         false,
         true,
         0,
-        linmot::scan,
+        [](const ScanWish& wish) { return drive::scan_range(wish, 0, 255, linmot::check_address); },
     };
     return family;
 }

@@ -71,7 +71,7 @@ void Moves::begin_move(const Move& move, Turn& t) {
 }
 
 void MotionOrders::begin_motion(const Motion& motion, std::vector<Value> values) {
-    job().bytes = Motions::pack(motion, 0, values);
+    job().motion = Motions::pack(motion, 0, values);
     job().text = motion.command->name;
     job().step = 0;
     job().state_before = drive_.feedback.status().state();
@@ -95,7 +95,7 @@ std::optional<Telegram> MotionOrders::request(Turn&) {
     if (job().step > 0) return linmot::request(drive_.id(), Main::response, 1);
     job().step = 1;
     job().count = next_count();
-    std::vector<std::uint8_t> bytes = job().bytes;
+    std::vector<std::uint8_t> bytes = job().motion;
     bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | job().count);
     Telegram telegram = linmot::request(drive_.id(), Main::motion, 0);
     for (const auto b : bytes)

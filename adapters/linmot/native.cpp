@@ -3,28 +3,15 @@
 // Never sends to another ID. A motion command whose count did not change is sent, and the answer says that it was not executed.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <iterator>
-
 #include "adapters/linmot/drive.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::linmot {
 namespace {
 std::optional<std::vector<std::uint8_t>> hex_bytes(std::span<const std::uint8_t> text) {
-    std::vector<std::uint8_t> bytes;
-    std::string digits;
-    for (const auto c : text) {
-        if (c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\n') continue;
-        digits += static_cast<char>(c);
-    }
-    if (digits.size() % 2 != 0) return std::nullopt;
-    for (std::size_t i = 0; i < digits.size(); i += 2) {
-        unsigned b = 0;
-        const auto [end, ec] = std::from_chars(digits.data() + i, digits.data() + i + 2, b, 16);
-        if (ec != std::errc{} || end != digits.data() + i + 2) return std::nullopt;
-        bytes.push_back(static_cast<std::uint8_t>(b));
-    }
-    return bytes;
+    std::string digits(text.begin(), text.end());
+    std::erase_if(digits, [](char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\n'; });
+    return from_hex(digits);
 }
 }  // namespace
 
@@ -67,7 +54,7 @@ void NativeTelegram::answered(const Telegram& telegram, Turn& t) {
     std::string text;
     for (const auto b : job().bytes)
         fmt::format_to(std::back_inserter(text), "{}{:02X}", text.empty() ? "" : " ", b);
-    drive_.jobs.over(Outcome::done, Reason::none, text + job().text, t);
+    succeed(text + job().text, t);
 }
 
 }  // namespace axisgate::linmot

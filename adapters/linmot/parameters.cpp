@@ -50,7 +50,7 @@ Point Parameters::point() {
 
 void Parameters::done(Value v, Turn& t) {
     t.out.samples.push_back({drive_.axis(), point(), v, Quality::good, t.now, 0});
-    drive_.jobs.over(Outcome::done, Reason::none, {}, t, 0, std::move(v));
+    succeed({}, t, std::move(v));
 }
 
 /// A text of the command table or of a curve: what is to be written is checked as a whole, before the drive is asked anything.

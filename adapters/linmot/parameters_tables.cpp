@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "gateway/core/command_arguments.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::linmot {
 namespace {
@@ -29,20 +30,9 @@ void put(Bytes& b, std::size_t i, std::uint32_t v, std::size_t n) {
     for (std::size_t k = 0; k < n; ++k)
         b[i + k] = static_cast<std::uint8_t>(v >> 8 * k);
 }
-std::string hex(std::span<const std::uint8_t> b) {
-    std::string s;
-    for (const auto x : b)
-        s += fmt::format("{:02X}", x);
-    return s;
-}
 std::optional<Bytes> unhex(std::string_view s, std::size_t bytes) {
-    Bytes b(bytes);
-    if (s.size() != 2 * bytes) return std::nullopt;
-    for (std::size_t i = 0; i < bytes; ++i) {
-        const auto [end, ec] = std::from_chars(s.data() + 2 * i, s.data() + 2 * i + 2, b[i], 16);
-        if (ec != std::errc{} || end != s.data() + 2 * i + 2) return std::nullopt;
-    }
-    return b;
+    auto b = from_hex(s);
+    return s.size() == 2 * bytes && b && b->size() == bytes ? b : std::nullopt;
 }
 std::string_view trimmed(std::string_view s) {
     const auto begin = s.find_first_not_of(" \t\r\n");
@@ -149,7 +139,7 @@ std::string entry_text(const Motions& motions, std::span<const std::uint8_t> ent
     }
     // Counts in the header, links of 0 and reserved bytes are lost in words: then the bytes speak.
     const auto back = entry_of(motions, text);
-    return std::ranges::equal(back.bytes, entry) ? text : "hex=" + hex(entry);
+    return std::ranges::equal(back.bytes, entry) ? text : "hex=" + to_hex(entry);
 }
 
 CurveBytes curve_of(std::uint16_t id, std::string_view text) {
@@ -214,7 +204,7 @@ std::string curve_text(std::uint16_t id, std::span<const std::uint8_t> info, std
     text += fmt::format("x={}; length={:.12g}; points=", by_encoder ? "encoder" : "time", by_encoder ? length : length * seconds_per_tick);
     for (std::size_t i = 0; i + 4 <= data.size(); i += 4)
         text += fmt::format("{}{:.12g}", i == 0 ? "" : " ", static_cast<std::int32_t>(at(data, i, 4)) * mm_per_count);
-    if (const auto back = curve_of(id, text); !std::ranges::equal(back.info, info)) text += "; info=" + hex(info);
+    if (const auto back = curve_of(id, text); !std::ranges::equal(back.info, info)) text += "; info=" + to_hex(info);
     return text;
 }
 

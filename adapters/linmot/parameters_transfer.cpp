@@ -54,7 +54,7 @@ bool Transfers::answered(const Telegram& telegram, Turn& t) {
     const auto a = config_of(telegram);
     const auto fail = [&](Outcome outcome, std::string why, std::int32_t code = 0) {
         const std::string what = fmt::format("{} {} of drive {}", x.curve ? "curve" : "command table entry", x.id, drive_.title());
-        drive_.jobs.over(outcome, Reason::drive_refused, fmt::format("{}: {}", what, why), t, code);
+        drive_.jobs.over({outcome, Reason::drive_refused, fmt::format("{}: {}", what, why), code}, t);
         return false;
     };
     if (!a) return fail(Outcome::failed, "the answer has another form");

@@ -9,17 +9,11 @@
 namespace axisgate::linmot {
 
 void Stops::add(const Command& command, Turn& t) {
-    const std::string_view by = name_of(command.body);
     const bool off = !std::holds_alternative<Halt>(command.body);
     const auto ends = [&](const Command& c) {
         return drive::is_motion(c.body) || std::holds_alternative<Action>(c.body) || (off && std::holds_alternative<Enable>(c.body));
     };
-    Jobs& jobs = drive_.jobs;
-    (void)jobs.queue.interrupt(ends, by, drive_.tickets, t);
-    if (!jobs.idle() && ends(jobs.job().command)) {
-        drive_.exchanges.no_repeats();
-        jobs.over(Outcome::failed, Reason::interrupted, drive::CommandQueue::interrupted_by(by), t);
-    }
+    drive_.jobs.interrupt(ends, name_of(command.body), t);
     drive_.motion.no_target();
     if (!lane_.add({command}))
         drive_.tickets.refused(command.ticket, Reason::busy, fmt::format("{} stops of {} are on their way already", limit, drive_.title()),

@@ -1,5 +1,5 @@
-// Actions: which verb an action is; and what it waits for that is no job: the end of a program.
-// In: names of actions; polls, lines that the drive took, errors, the loss of the drive. Out: a verb; the one result of a start.
+// ProgramEnd: what a started program waits for, which is no job: its end.
+// In: polls, lines that the drive took, errors, the loss of the drive. Out: the one result of a start.
 // Never calls a program done that somebody has ended, nor one that nobody has seen end.
 #include "adapters/mcode/actions.hpp"
 
@@ -10,13 +10,6 @@
 #include "adapters/mcode/drive.hpp"
 
 namespace axisgate::mcode {
-
-Verb& Actions::verb_of(std::string_view name) const noexcept {
-    if (name == "program.upload" || name == "program.download" || name == "program.edit") return drive_.programs;
-    if (name == "line.setup") return drive_.line_setup;
-    if (name == "reset" || name == "factory_defaults") return drive_.restart;
-    return drive_.plain_actions;
-}
 
 void ProgramEnd::await(Command command, Turn& t) {
     lost(Reason::interrupted, "another program was started", t);
@@ -38,8 +31,8 @@ void ProgramEnd::told_first(int error) noexcept {
 void ProgramEnd::lost(Reason reason, const std::string& why, Turn& t) {
     const auto p = std::exchange(started_, std::nullopt);
     if (!p) return;
-    drive_.jobs.tickets.failed(p->command.ticket, reason,
-                               fmt::format("{}: {}; whether its program has come to its end is not known", name(), why), t.out);
+    drive_.tickets.failed(p->command.ticket, reason,
+                          fmt::format("{}: {}; whether its program has come to its end is not known", name(), why), t.out);
 }
 
 /// The poll that confirms EX may be older than BY: the first one after it is the first look.
@@ -49,7 +42,7 @@ void ProgramEnd::watch(Turn& t) {
     const auto p = std::exchange(started_, std::nullopt);
     if (!p) return;
     const auto answer = [&](Outcome o, Reason r, std::string text) {
-        drive_.jobs.tickets.answer(p->command.ticket, o, r, std::move(text), t.out, p->ended_by.empty() ? p->error : 0);
+        drive_.tickets.answer(p->command.ticket, o, r, std::move(text), t.out, p->ended_by.empty() ? p->error : 0);
     };
     const std::string error = p->error == 0 ? std::string() : drive_.errors.text_of(p->error);
     if (!p->ended_by.empty())

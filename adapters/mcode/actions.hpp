@@ -24,8 +24,7 @@ public:
     void answered(const std::string& data, Turn& t) override;
     void listed(const std::string& text, Turn& t) override;
     void done(Turn& t) override;
-    void failed(const std::string& why, int error, Turn& t) override;
-    std::string dropped() override;
+    void without_success(drive::Failure& how, Turn& t) override;
 
     [[nodiscard]] bool downloads() const noexcept { return is(Doing::download); }
     /// A stop came in between: a download is over.
@@ -108,7 +107,7 @@ public:
     void plan(const Command& command, Turn& t) override;
     void sending(Step& step, Request& r) override;
     void done(Turn& t) override;
-    std::string dropped() override;
+    void without_success(drive::Failure& how, Turn& t) override;
     /// It gives a fresh drive its name: nothing for others in between, the fresh drive would take it too.
     [[nodiscard]] bool naming() const noexcept;
     void came(Turn& t);
@@ -137,13 +136,6 @@ public:
 private:
     std::optional<Command> awaited_;  ///< reset: answered when the drive is set up again, also when it was away meanwhile
     Instant until_{};
-};
-
-/// Which verb an action is.
-class Actions : public Part {
-public:
-    using Part::Part;
-    [[nodiscard]] Verb& verb_of(std::string_view action) const noexcept;
 };
 
 }  // namespace axisgate::mcode

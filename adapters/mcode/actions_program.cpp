@@ -156,25 +156,24 @@ void Programs::download_failed(std::string why, Turn& t) {
     fail(Reason::interrupted, fmt::format("{}: {}{}", name(), why, touched ? "; " + memory_is_half() : ""), t);
 }
 
-void Programs::failed(const std::string& why, int error, Turn& t) {
-    if (work_.doing == Doing::tidy) {
-        note(Severity::warning, "program_mode", error,
+void Programs::without_success(drive::Failure& how, Turn& t) {
+    const bool clears = work_.doing == Doing::clear, tidies = work_.doing == Doing::tidy;
+    if (how.dropped) {
+        clear_half_ = clear_half_ || clears;
+        tidy_ = tidy_ || tidies;
+        if (!work_.memory_touched) return;
+        keep_half();
+        how.text += "; " + memory_is_half();
+    } else if (tidies) {
+        note(Severity::warning, "program_mode", how.code,
              fmt::format("{}: questions of this gateway may stand at the end of its program (PR \"#...): they could not be removed, {}",
-                         name(), why),
+                         name(), how.text),
+             t);
+    } else if (clears) {
+        note(Severity::warning, "program", how.code,
+             fmt::format("{}: the half of a broken download stays in its program memory: it could not be removed, {}", name(), how.text),
              t);
     }
-    if (work_.doing == Doing::clear) {
-        note(Severity::warning, "program", error,
-             fmt::format("{}: the half of a broken download stays in its program memory: it could not be removed, {}", name(), why), t);
-    }
-}
-
-std::string Programs::dropped() {
-    if (work_.doing == Doing::clear) clear_half_ = true;
-    if (work_.doing == Doing::tidy) tidy_ = true;
-    if (!work_.memory_touched) return {};
-    keep_half();
-    return "; " + memory_is_half();
 }
 
 /// Program mode is left first; CP then removes the half, behind every stop that waits, also when the drive was away.
@@ -212,11 +211,11 @@ void Programs::clean_up() {
     if (!feedback().at_rest()) return;
     if (std::exchange(clear_half_, false)) {
         begin(Doing::clear);
-        Job& job = drive_.jobs.begin(*this);
+        Job& job = drive_.jobs.begin_own(*this);
         was_away_ || !half_from_.empty() ? job.list("L") : job.send("CP");
     } else if (std::exchange(tidy_, false)) {
         begin(Doing::tidy);
-        drive_.jobs.begin(*this).list("L");
+        drive_.jobs.begin_own(*this).list("L");
     }
 }
 

@@ -83,7 +83,9 @@ void LineSetupAction::came(Turn& t) {
     if (named() && job().steps.empty()) succeed(job().text, t);
 }
 
-std::string LineSetupAction::dropped() { return named_ ? "; no fresh drive took the name, or more than one did: power up one alone" : ""; }
+void LineSetupAction::without_success(drive::Failure& how, Turn&) {
+    if (how.dropped && named_) how.text += "; no fresh drive took the name, or more than one did: power up one alone";
+}
 
 // --- reset, factory_defaults -----------------------------------------------------------------------------------------------------
 
@@ -137,10 +139,10 @@ bool Restart::ended(const Step& step, Verdict v, Turn& t) {
     }
     if (step.text != reset_key) return false;
     if (job().command.until_done) {
-        awaited_ = drive_.jobs.hand_over();
+        awaited_ = drive_.jobs.hand_over().command;
         until_ = t.now + limit;
     } else {
-        drive_.jobs.over(Outcome::accepted, Reason::none, fmt::format("{} restarts: it is looked for and set up again", name()), t);
+        accept(fmt::format("{} restarts: it is looked for and set up again", name()), t);
     }
     drive_.fail_all(Reason::interrupted, fmt::format("{} was restarted by reset", name()), t);
     drive_.mode.restarted();
@@ -165,7 +167,7 @@ void Restart::watch(Turn& t) {
 
 void Restart::over(Outcome o, Reason r, std::string_view what, Turn& t) {
     const auto c = std::exchange(awaited_, std::nullopt);
-    if (c) drive_.jobs.tickets.answer(c->ticket, o, r, fmt::format("{}: {}", name(), what), t.out);
+    if (c) drive_.tickets.answer(c->ticket, o, r, fmt::format("{}: {}", name(), what), t.out);
 }
 
 }  // namespace axisgate::mcode

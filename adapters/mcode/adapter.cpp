@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gateway/drive/option_reader.hpp"
+#include "gateway/drive/text_lines.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -136,18 +137,11 @@ void LineAdapter::gather(Verdict v, Turn& t) {
 
 // --- one exchange ----------------------------------------------------------------------------------------------------------------
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up()) return;
-    Turn t{now, out};
-    if (frame.kind != Frame::Kind::bytes) {
-        ++bus_.counters.garbled;
-        return;
-    }
-    const std::string_view bytes(reinterpret_cast<const char*>(frame.data().data()), frame.size);
-    if (!flight_.drive) {
-        stray(bytes, t);
-        return end(t);
-    }
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
+    if (!bus_.is_run(frame)) return;
+    const Instant now = t.now;
+    const std::string_view bytes = drive::text_of(frame);
+    if (!flight_.drive) return stray(bytes, t);
     const Verdict v = reader_.push(bytes);
     if (flight_.kind == Expect::Kind::block && v == Verdict::waiting) {
         // A drive that is still speaking must not be spoken to; behind the closing question its answer is waited for.
@@ -164,11 +158,10 @@ void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
     } else {
         finish(v, t);
     }
-    end(t);
 }
 
 void LineAdapter::send(std::string_view bytes, Priority priority, Turn& t) const {
-    for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](const Frame& f) { t.out.send(f, priority); });
+    for_each_run(drive::bytes_of(bytes), [&](const Frame& f) { t.out.send(f, priority); });
 }
 
 std::string LineAdapter::next_mark() {

@@ -18,13 +18,13 @@ class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& catalogue) : bus_(catalogue) {}
 
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
     [[nodiscard]] AdapterCounters counters() const override { return bus_.counters; }
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
     void leaving(Drive& drive, Turn& t) override;

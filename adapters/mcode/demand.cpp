@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string>
 
 #include "adapters/mcode/wire.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -30,15 +30,7 @@ constexpr std::array<std::string_view, 4> shaping{"AT", "DT", "BE", "IP"};
 std::optional<std::int64_t> field_of(std::string_view line) {
     const auto at = line.find_first_of(" =");
     if (at == std::string_view::npos) return std::nullopt;
-    std::string_view s = line.substr(at + 1);
-    while (!s.empty() && s.front() == ' ')
-        s.remove_prefix(1);
-    while (!s.empty() && s.back() == ' ')
-        s.remove_suffix(1);
-    std::int64_t v = 0;
-    const auto [end, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (ec != std::errc{} || end != s.data() + s.size()) return std::nullopt;
-    return v;
+    return parse_whole(trimmed(line.substr(at + 1)), INT64_MIN, INT64_MAX);
 }
 
 /// P counts in 32 bits and rolls over [L1866]: the demand is told beside it.

@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
+
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 using namespace std::chrono_literals;
@@ -18,16 +19,14 @@ using What = Request::Purpose;
 const std::string& Part::name() const noexcept { return drive_.name(); }
 Feedback& Part::feedback() const noexcept { return drive_.feedback; }
 void Part::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) const {
-    drive_.note(severity, kind, code, std::move(text), t);
+    drive_.notice(severity, kind, code, std::move(text), t);
 }
 
 // --- words -----------------------------------------------------------------------------------------------------------------------
 
 std::optional<std::int64_t> whole(std::string_view s) {
-    double v = 0;
-    const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (ec != std::errc{} || p != s.data() + s.size() || !(std::fabs(v) < 9e15)) return std::nullopt;
-    return std::llround(v);
+    const auto v = parse_number(s);
+    return v && std::fabs(*v) < 9e15 ? std::optional<std::int64_t>(std::llround(*v)) : std::nullopt;
 }
 
 std::vector<std::string_view> split(std::string_view s) {
@@ -57,13 +56,6 @@ Request Request::say(Purpose purpose, std::string line) {
 }
 
 // --- presence --------------------------------------------------------------------------------------------------------------------
-
-Drive::Drive(Bus& of_line, const DriveSetup& setup, std::size_t slot)
-    : bus(of_line), presence(setup.id, of_line.timing), setup_(setup), slot_(slot), notices_(setup.id) {
-    for (const auto& a : setup.axes) {
-        if (a.channel == 1) axis_ = a.id;
-    }
-}
 
 void Drive::fail_all(Reason reason, const std::string& why, Turn& t) {
     program.lost(reason, why, t);
@@ -107,7 +99,7 @@ void Drive::came(std::string identity, Turn& t) {
     poll.soon(t.now);
     survey.plan_listing(t.now);
     const std::string rate = line_setup.named() ? std::string() : start.rate_trouble();  // line.setup sets BD too
-    if (!rate.empty()) note(Severity::warning, "bit_rate", 0, rate, t);
+    if (!rate.empty()) notice(Severity::warning, "bit_rate", 0, rate, t);
     restart.came(rate, t);
     line_setup.came(t);
 }
@@ -118,10 +110,9 @@ void Drive::submit(const Command& c, Turn& t) {
     const auto* action = std::get_if<Action>(&c.body);
     if (action && action->name == "line.setup" && !ready() && !presence.is(drive::Presence::Phase::down) && jobs.idle()) {
         // It makes the drive ready: it does not wait for that.
-        if (jobs.tickets.open(c, t.out)) jobs.begin(c, t);
+        if (tickets.open(c, t.out)) jobs.take(c, t);
         return;
     }
-    drive::Tickets& tickets = is_urgent(c.body) ? stops.tickets : jobs.tickets;
     if (drive::admit(c, name(), presence, jobs.queue, tickets, t) == drive::Admission::urgent) stops.add(c, t);
 }
 
@@ -267,14 +258,10 @@ void Drive::confirmed(Turn& t) {
 }
 
 void Drive::unconfirmed(std::string why, Turn& t) {
-    stops.confirming() ? stops.unconfirmed(std::move(why), t) : jobs.unconfirmed(std::move(why), t);
+    stops.confirming() ? stops.unconfirmed(std::move(why), t) : jobs.fail(Reason::no_answer, std::move(why), t);
 }
 
 // --- what is told ----------------------------------------------------------------------------------------------------------------
-
-void Drive::note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
-    notices_.tell(severity, axis_, kind, code, std::move(text), t.now, t.out);
-}
 
 void Drive::watch_quality(Verdict v, const ReplyReader& r, Turn& t) {
     const bool heard = v != Verdict::waiting;
@@ -290,12 +277,13 @@ void Drive::trouble(Trouble::Kind kind, Turn& t) {
     const bool doubled = kind == Trouble::Kind::twice;
     const std::string counts = (doubled ? twice_ : trouble_).add(kind, t.now);
     if (counts.empty()) return;
-    note(Severity::warning, "protocol", 0,
-         doubled ? fmt::format("{} answered the same question twice ({}): two drives may have the same name {}", name(), counts, address())
-                 : fmt::format(
-                       "{}: answers of the drive at {} are spoiled again and again ({}): look at its cable, its rate and its reply time",
-                       name(), address(), counts),
-         t);
+    notice(
+        Severity::warning, "protocol", 0,
+        doubled
+            ? fmt::format("{} answered the same question twice ({}): two drives may have the same name {}", name(), counts, address())
+            : fmt::format("{}: answers of the drive at {} are spoiled again and again ({}): look at its cable, its rate and its reply time",
+                          name(), address(), counts),
+        t);
 }
 
 void Drive::foreign(std::string_view text, Turn& t) {
@@ -303,7 +291,7 @@ void Drive::foreign(std::string_view text, Turn& t) {
     std::string shown;
     std::ranges::copy_if(text, std::back_inserter(shown), [](char c) { return c >= 0x20 && c <= 0x7E; });
     if (shown.size() < 2 || shown.find("PR \"#") != std::string::npos || shown.size() > 200) return;
-    note(Severity::info, "output", 0, fmt::format("{}: {}", name(), shown), t);
+    notice(Severity::info, "output", 0, fmt::format("{}: {}", name(), shown), t);
 }
 
 }  // namespace axisgate::mcode

@@ -15,19 +15,16 @@
 #include "adapters/mcode/parameters.hpp"
 #include "adapters/mcode/start.hpp"
 #include "adapters/mcode/stop.hpp"
-#include "gateway/drive/notices.hpp"
+#include "gateway/drive/drive_base.hpp"
 #include "gateway/drive/polls.hpp"
-#include "gateway/drive/presence.hpp"
 #include "gateway/drive/turns.hpp"
 
 namespace axisgate::mcode {
 
-class Drive {
+class Drive : public drive::DriveBase {
 public:
     static constexpr int channels = 1;
-    Drive(Bus& bus, const DriveSetup& setup, std::size_t slot);
-    Drive(const Drive&) = delete;
-    Drive& operator=(const Drive&) = delete;
+    Drive(Bus& of_line, const DriveSetup& setup, std::size_t slot) : DriveBase(setup, of_line.timing, slot), bus(of_line) {}
 
     // --- from the line ------------------------------------------------------------------------------------------------------
     void line_up(Turn& t) { start.probe_anew(t); }
@@ -61,17 +58,11 @@ public:
     [[nodiscard]] bool confirms() const noexcept { return stops.confirming() || jobs.job().confirming; }
     void confirmed(Turn& t);
     void unconfirmed(std::string why, Turn& t);
-    void note(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
 
     // --- what is known ------------------------------------------------------------------------------------------------------
-    [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
-    [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
-    [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
     [[nodiscard]] const std::string& address() const noexcept { return setup_.address; }
-    [[nodiscard]] AxisId axis() const noexcept { return axis_; }
     /// Points are numbered by it. What the language is stands in the family's page: names of users are none of its words.
-    [[nodiscard]] const Catalogue& catalogue() const noexcept { return setup_.catalogue ? *setup_.catalogue : bus.catalogue; }
-    [[nodiscard]] bool ready() const noexcept { return presence.is(drive::Presence::Phase::ready); }
+    [[nodiscard]] const Catalogue& catalogue() const noexcept { return catalogue_or(bus.catalogue); }
     [[nodiscard]] bool away() const noexcept { return presence.is(drive::Presence::Phase::absent); }
     /// It could hear a line to all drives now, or later: else it is away.
     [[nodiscard]] bool in_reach() const noexcept { return !away() && !presence.is(drive::Presence::Phase::down); }
@@ -83,7 +74,6 @@ public:
 
     Bus& bus;
     LinkWords words;
-    drive::Presence presence;
     drive::PollTimer poll;
     drive::Pace pace;
     Start start{*this};
@@ -99,7 +89,6 @@ public:
     Survey survey{*this};
     NativeLines native{*this};
     PlainActions plain_actions{*this};
-    Actions actions{*this};
     Programs programs{*this};
     ProgramEnd program{*this};
     LineSetupAction line_setup{*this};
@@ -111,10 +100,6 @@ private:
     void confirm_ended(Verdict v, const ReplyReader& r, Turn& t);
     void poll_ended(Verdict v, const ReplyReader& r, Turn& t);
 
-    DriveSetup setup_;
-    AxisId axis_ = no_axis;
-    std::size_t slot_;
-    drive::Notices notices_;
     Request::Purpose purpose_ = Request::Purpose::poll;
     int poll_refusals_ = 0;
     std::uint32_t unanswered_ = 0;  ///< questions without an answer since it was heard last

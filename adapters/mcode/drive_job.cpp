@@ -18,17 +18,9 @@ using What = Request::Purpose;
 
 // --- verbs -----------------------------------------------------------------------------------------------------------------------
 
-Job& Verb::job() noexcept { return drive_.jobs.job(); }
 void Verb::answered(const std::string&, Turn& t) { drive_.jobs.step_done(t); }
 void Verb::listed(const std::string& text, Turn& t) { succeed(text, t, Value{text}); }
 void Verb::done(Turn& t) { succeed(job().text, t); }
-void Verb::refuse(Reason reason, std::string text, Turn& t) { drive_.jobs.over(Outcome::refused, reason, std::move(text), t); }
-void Verb::fail(Reason reason, std::string text, Turn& t, std::int32_t code) {
-    drive_.jobs.over(Outcome::failed, reason, std::move(text), t, code);
-}
-void Verb::succeed(std::string text, Turn& t, Value value) {
-    drive_.jobs.over(Outcome::done, Reason::none, std::move(text), t, 0, std::move(value));
-}
 
 bool Verb::wait_for_rest(Turn& t) {
     if (!feedback().flags().mv && !feedback().moving()) return true;
@@ -50,21 +42,15 @@ Verb& Jobs::verb_of(const CommandBody& b) const noexcept {
     if (std::holds_alternative<ReadParameter>(b) || std::holds_alternative<WriteParameter>(b)) return drive_.parameters;
     if (std::holds_alternative<Native>(b)) return drive_.native;
     const auto* action = std::get_if<Action>(&b);
-    return action ? drive_.actions.verb_of(action->name) : drive_.motion;
+    if (!action) return drive_.motion;
+    const std::string& name = action->name;
+    if (name == "program.upload" || name == "program.download" || name == "program.edit") return drive_.programs;
+    if (name == "line.setup") return drive_.line_setup;
+    if (name == "reset" || name == "factory_defaults") return drive_.restart;
+    return drive_.plain_actions;
 }
 
-void Jobs::begin(const Command& command, Turn& t) {
-    job_ = {};
-    job_.command = command;
-    job_.verb = &verb_of(command.body);
-    job_.verb->plan(command, t);
-}
-
-Job& Jobs::begin(Verb& verb) {
-    job_ = {};
-    job_.verb = &verb;
-    return job_;
-}
+void Jobs::take(const Command& command, Turn& t) { begin(verb_of(command.body), command).verb->plan(command, t); }
 
 void Jobs::take_next(Turn& t) {
     // What it does of its own accord goes first: commands rest on it.
@@ -74,10 +60,10 @@ void Jobs::take_next(Turn& t) {
         Command zero;
         zero.axis = drive_.axis();
         zero.body = SetPosition{0};
-        begin(zero, t);
+        take(zero, t);
     }
     while (idle() && !queue.empty())
-        begin(queue.pop(), t);
+        take(queue.pop(), t);
     if (idle()) drive_.survey.list_variables(t.now);
 }
 
@@ -101,32 +87,12 @@ bool Jobs::ended_by_stop(const CommandBody& b, bool power_off) const {
 
 void Jobs::cancel_motions(std::string_view by, bool power_off, Turn& t) {
     feedback().no_zero();
-    const bool over = !idle() && (job_.verb->moves() || job_.waits_for_rest()) && ended_by_stop(job_.command.body, power_off);
-    if (over) {
-        (void)job_.verb->dropped();
-        const Ticket ticket = std::exchange(job_, {}).command.ticket;
-        tickets.failed(ticket, Reason::interrupted, drive::CommandQueue::interrupted_by(by), t.out);
-    }
-    queue.interrupt([&](const Command& c) { return ended_by_stop(c.body, power_off); }, by, tickets, t);
+    const auto ends = [&](const Command& c) {
+        const bool in_hand = &c == &job_.command;
+        return (!in_hand || job_.verb->moves() || job_.waits_for_rest()) && ended_by_stop(c.body, power_off);
+    };
+    interrupt(ends, by, t);
 }
-
-void Jobs::fail_all(Reason reason, const std::string& why, Turn& t) {
-    if (!idle()) {
-        const std::string more = job_.verb->dropped();
-        const Ticket ticket = std::exchange(job_, {}).command.ticket;
-        tickets.failed(ticket, reason, why + more, t.out);
-    }
-    while (!queue.empty())
-        tickets.failed(queue.pop().ticket, reason, why, t.out);
-}
-
-void Jobs::over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t code, Value value) {
-    if (o == Outcome::refused || o == Outcome::failed) job_.verb->failed(text, code, t);
-    Job ended = std::exchange(job_, {});
-    tickets.answer(ended.command.ticket, o, r, std::move(text), t.out, code, std::move(value), std::move(ended.bytes));
-}
-
-Command Jobs::hand_over() { return std::exchange(job_, {}).command; }
 
 // --- steps -----------------------------------------------------------------------------------------------------------------------
 
@@ -181,11 +147,10 @@ void Jobs::query_ended(Verdict v, const ReplyReader& r, Turn& t) {
         return;
     }
     const std::string items = job_.steps[job_.at].text;
-    if (v != Verdict::refused) return over(Outcome::failed, Reason::no_answer, fmt::format("{} did not answer PR {}", name(), items), t);
+    if (v != Verdict::refused) return fail(Reason::no_answer, fmt::format("{} did not answer PR {}", name(), items), t);
     drive_.errors.ask(true);
     const auto hint = drive_.parameters.variable_hint();
-    over(Outcome::refused, Reason::not_supported,
-         hint.empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), items) : hint, t);
+    refuse(Reason::not_supported, hint.empty() ? fmt::format("{} does not have {}, or cannot show it now", name(), items) : hint, t);
 }
 
 /// A block is over when the question behind it was answered, which is a poll: it tells as well whether the drive complained.
@@ -194,7 +159,7 @@ void Jobs::block_ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (v != Verdict::answered || r.overflowed() || !feedback().learn_poll(r.data(), t)) {
         if (v == Verdict::waiting) drive_.start.silent(t);
         if (idle()) return;
-        return over(Outcome::failed, Reason::no_answer,
+        return fail(Reason::no_answer,
                     r.raw().empty() ? fmt::format("{} did not answer {}", name(), line)
                                     : fmt::format("the end of what {} answers to {} was not heard: ask again", name(), line),
                     t);
@@ -215,11 +180,11 @@ void Jobs::block_read(Turn& t) {
     const std::string line = job_.steps[job_.at].text, sent = request(drive_.link(), line);
     const std::string text = plain_text(job_.listing, std::string_view(sent).substr(0, sent.size() - 1), sums);
     if (sums && job_.listing.find(nak) != std::string::npos && text.empty())
-        return over(Outcome::refused, Reason::drive_refused, fmt::format("{} refused {}", name(), line), t);
+        return refuse(Reason::drive_refused, fmt::format("{} refused {}", name(), line), t);
     if (sums && !block_sums_good(job_.listing)) {
         ++drive_.bus.counters.garbled;
         if (++job_.tries <= drive_.bus.timing.retries && !is(drive_.native)) return;
-        return over(Outcome::failed, Reason::no_answer, fmt::format("what {} answers to {} does not fit its checksum", name(), line), t);
+        return fail(Reason::no_answer, fmt::format("what {} answers to {} does not fit its checksum", name(), line), t);
     }
     job_.verb->listed(text, t);
 }
@@ -232,11 +197,11 @@ void Jobs::confirmed(Turn& t) {
     if (error != 0) {
         if (job_.verb->complained(step, error, t)) return;
         const auto hint = error == 20 ? drive_.parameters.variable_hint() : std::string();
-        return over(Outcome::refused, Reason::drive_refused,
-                    hint.empty() ? fmt::format("{}: {} was refused with {}{}", name(), step.text, drive_.errors.text_of(error),
-                                               job_.at > 0 && is(drive_.motion) ? "; values set before it stay" : "")
-                                 : hint,
-                    t, error);
+        return refuse(Reason::drive_refused,
+                      hint.empty() ? fmt::format("{}: {} was refused with {}{}", name(), step.text, drive_.errors.text_of(error),
+                                                 job_.at > 0 && is(drive_.motion) ? "; values set before it stay" : "")
+                                   : hint,
+                      t, error);
     }
     if (step.what == Step::What::block) return block_read(t);
     if (job_.acknowledgement == Verdict::acknowledged || job_.acknowledgement == Verdict::answered) return step_done(t);
@@ -245,20 +210,18 @@ void Jobs::confirmed(Turn& t) {
         return;
     }
     if (job_.verb->complained(step, 0, t)) return;
-    over(Outcome::failed, Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), step.text), t);
+    fail(Reason::no_answer, fmt::format("{} did not acknowledge {}", name(), step.text), t);
 }
-
-void Jobs::unconfirmed(std::string why, Turn& t) { over(Outcome::failed, Reason::no_answer, std::move(why), t); }
 
 void Jobs::missed(Turn& t) {
     if (!idle() && ++job_.tries > drive_.bus.timing.retries + 3)
-        unconfirmed(fmt::format("{} did not say whether it took {}", name(), job_.steps[job_.at].text), t);
+        fail(Reason::no_answer, fmt::format("{} did not say whether it took {}", name(), job_.steps[job_.at].text), t);
 }
 
 void Jobs::watch(Turn& t) {
     if (job_.confirming || !job_.waits_for_rest()) return;
     if (!feedback().flags().mv) return step_done(t);
-    if (t.now >= job_.give_up) over(Outcome::failed, Reason::wrong_state, fmt::format("{} does not come to a standstill", name()), t);
+    if (t.now >= job_.give_up) fail(Reason::wrong_state, fmt::format("{} does not come to a standstill", name()), t);
 }
 
 void Jobs::step_done(Turn& t) {

@@ -57,7 +57,7 @@ void Homing::done(Turn& t) {
     }
     feedback().began({Feedback::Motion::Kind::home, 0, false}, t);
     drive_.poll.soon(t.now);
-    drive_.jobs.over(Outcome::accepted, Reason::none, {}, t);
+    accept({}, t);
 }
 
 }  // namespace axisgate::mcode

@@ -112,18 +112,19 @@ void Motion::done(Turn& t) {
     feedback().began({endless ? Kind::velocity : Kind::position, endless ? 0 : number, endless && number == 0}, t);
     // The confirming poll was taken before `target_reached` was withdrawn: what it showed is shown again.
     drive_.poll.soon(t.now);
-    drive_.jobs.over(Outcome::accepted, Reason::none, {}, t);
+    accept({}, t);
 }
 
 /// What it had planned to set may not have been.
-void Motion::failed(const std::string&, int, Turn&) {
+void Motion::without_success(drive::Failure& how, Turn&) {
     Feedback::Values& now = feedback().values;
-    if (std::holds_alternative<Move>(job().command.body)) now.vi = now.vm = now.a = now.d = 0;
+    const bool move = std::holds_alternative<Move>(job().command.body);
+    if (how.dropped) {
+        feedback().relearn = feedback().relearn || move;
+        return;
+    }
+    if (move) now.vi = now.vm = now.a = now.d = 0;
     feedback().no_zero();
-}
-std::string Motion::dropped() {
-    feedback().relearn = feedback().relearn || std::holds_alternative<Move>(job().command.body);
-    return {};
 }
 
 }  // namespace axisgate::mcode

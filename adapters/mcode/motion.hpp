@@ -26,8 +26,7 @@ public:
     void plan(const Command& command, Turn& t) override;
     void sending(Step& step, Request& r) override;
     void done(Turn& t) override;
-    void failed(const std::string& why, int error, Turn& t) override;
-    std::string dropped() override;
+    void without_success(drive::Failure& how, Turn& t) override;
     [[nodiscard]] bool moves() const noexcept override { return true; }
     [[nodiscard]] bool own_lines() const noexcept override { return true; }
 

@@ -88,8 +88,8 @@ void PlainActions::plan(const Command& c, Turn& t) {
 void PlainActions::done(Turn& t) {
     const bool begun = std::get<Action>(job().command.body).name == "program.start";
     if (!begun) return succeed(job().text, t);
-    if (!job().command.until_done) return drive_.jobs.over(Outcome::accepted, Reason::none, job().text, t);
-    drive_.program.await(drive_.jobs.hand_over(), t);
+    if (!job().command.until_done) return accept(job().text, t);
+    drive_.program.await(drive_.jobs.hand_over().command, t);
     drive_.poll.soon(t.now);
 }
 

@@ -5,8 +5,9 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
 #include <optional>
+
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 namespace {
@@ -14,12 +15,6 @@ namespace json = boost::json;
 
 constexpr double most_whole = 2147483647.0, least_whole = -2147483648.0;
 
-std::optional<double> number_of(std::string_view s) {
-    double v = 0;
-    const auto [end, fault] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (s.empty() || fault != std::errc{} || end != s.data() + s.size()) return std::nullopt;
-    return v;
-}
 std::string_view text_in(const json::object& o, std::string_view key) {
     const auto* v = o.if_contains(key);
     return v && v->is_string() ? std::string_view(v->get_string()) : std::string_view();
@@ -58,8 +53,8 @@ Field field_of(std::string_view inside, const json::object* ranges) {
         auto dash = part.find("..");
         std::size_t width = 2;
         if (dash == std::string_view::npos) dash = part.find('-', 1), width = 1;
-        const auto low = number_of(part.substr(0, dash));
-        const auto high = dash == std::string_view::npos ? low : number_of(part.substr(dash + width));
+        const auto low = parse_number(part.substr(0, dash));
+        const auto high = dash == std::string_view::npos ? low : parse_number(part.substr(dash + width));
         if (!low || !high) return f.ranges.clear(), f;  // a name without a range
         f.ranges.emplace_back(*low, *high);
     }

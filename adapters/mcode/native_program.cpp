@@ -12,14 +12,14 @@
 
 #include "adapters/mcode/native_statement.hpp"
 #include "adapters/mcode/wire.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 namespace {
 std::string upper(std::string_view s) {
     std::string out(s);
-    for (char& c : out) {
-        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    }
+    for (char& c : out)
+        c = axisgate::upper(c);
     return out;
 }
 std::string_view trim(std::string_view s) {

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include "adapters/mcode/drive.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 
@@ -27,12 +27,11 @@ std::optional<Value> value_of(const Parameter& p, std::string_view text) {
     text.remove_prefix(std::min(first, text.size()));
     text = text.substr(0, text.find_last_not_of(" \r\n") + 1);
     if (p.type == ValueType::text || p.type == ValueType::bytes) return Value{std::string(text)};
-    double v = 0;
-    const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (ec != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    if (p.type == ValueType::boolean) return Value{v != 0};
-    if (p.type == ValueType::f32 || p.type == ValueType::f64) return Value{v};
-    return Value{static_cast<std::int64_t>(std::llround(v))};
+    const auto v = parse_number(text);
+    if (!v) return std::nullopt;
+    if (p.type == ValueType::boolean) return Value{*v != 0};
+    if (p.type == ValueType::f32 || p.type == ValueType::f64) return Value{*v};
+    return Value{static_cast<std::int64_t>(std::llround(*v))};
 }
 
 /// "\nOS=1,2,0\n": rows of the drive without blanks.
@@ -117,10 +116,10 @@ void Parameters::answered(const std::string& data, Turn& t) {
     const Parameter* p = in_hand();
     const auto* write = std::get_if<WriteParameter>(&job().command.body);
     if (write && already_typed_ && !has_type(data)) {
-        return drive_.jobs.over(Outcome::refused, Reason::drive_refused,
-                                fmt::format("{}: {} was refused with error 6: a point has this type already; give it type {} first", name(),
-                                            job().steps[0].text, p->id == "IS" ? 0 : 16),
-                                t, 6);
+        return refuse(Reason::drive_refused,
+                      fmt::format("{}: {} was refused with error 6: a point has this type already; give it type {} first", name(),
+                                  job().steps[0].text, p->id == "IS" ? 0 : 16),
+                      t, 6);
     }
     const auto v = value_of(*p, data);
     if (!v) {

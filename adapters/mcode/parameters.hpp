@@ -28,7 +28,6 @@ public:
 
 private:
     [[nodiscard]] const Parameter* in_hand() const;
-    void read(const Parameter& p, Turn& t);
     void write(const Parameter& p, const Value& value, Turn& t);
     void write_variables(const std::string& rows, Turn& t);
     [[nodiscard]] bool has_type(const std::string& data) const;
@@ -42,7 +41,7 @@ public:
     void plan(const Command&, Turn&) override {}
     void answered(const std::string& data, Turn& t) override;
     void listed(const std::string& text, Turn& t) override;
-    void failed(const std::string& why, int error, Turn& t) override;
+    void without_success(drive::Failure& how, Turn& t) override;
 
     /// The drive was found: its user variables are listed when its turn has come.
     void plan_listing(Instant now);

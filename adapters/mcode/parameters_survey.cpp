@@ -38,17 +38,17 @@ bool Survey::wants_listing(Instant now) const noexcept {
 void Survey::read_again() {
     shape_ = false;
     if (std::exchange(feedback().relearn, false)) {
-        drive_.jobs.begin(*this).ask(feedback().value_items());
+        drive_.jobs.begin_own(*this).ask(feedback().value_items());
     } else if (feedback().wants_shape()) {
         shape_ = true;
-        drive_.jobs.begin(*this).ask(R"(BE,",",AT,",",DT)");
+        drive_.jobs.begin_own(*this).ask(R"(BE,",",AT,",",DT)");
     }
 }
 
 void Survey::list_variables(Instant now) {
     if (!wants_listing(now)) return;
     listing_ = false;
-    drive_.jobs.begin(*this).list("PR UV");
+    drive_.jobs.begin_own(*this).list("PR UV");
 }
 
 void Survey::answered(const std::string& data, Turn& t) {
@@ -59,7 +59,9 @@ void Survey::answered(const std::string& data, Turn& t) {
     succeed({}, t);
 }
 
-void Survey::failed(const std::string&, int, Turn&) { feedback().shape_refused = feedback().shape_refused || shape_; }
+void Survey::without_success(drive::Failure& how, Turn&) {
+    if (!how.dropped && shape_) feedback().shape_refused = true;
+}
 
 void Survey::listed(const std::string& listing, Turn& t) {
     const auto all = listed_variables(listing);

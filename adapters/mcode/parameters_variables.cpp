@@ -6,9 +6,10 @@
 
 #include <algorithm>
 #include <boost/json/object.hpp>
-#include <charconv>
 #include <memory>
 #include <sstream>
+
+#include "gateway/core/text.hpp"
 
 namespace axisgate::mcode {
 namespace {
@@ -125,13 +126,12 @@ std::string variable_line(std::string_view text, const Language& language, std::
                             r.name.empty() ? "nothing" : r.name);
         return {};
     }
-    std::int64_t v = 0;
-    const auto [end, ec] = std::from_chars(r.value.data(), r.value.data() + r.value.size(), v);
-    if (ec != std::errc{} || end != r.value.data() + r.value.size() || v < INT32_MIN || v > INT32_MAX) {
+    const auto v = parse_whole(r.value, INT32_MIN, INT32_MAX);
+    if (!v) {
         fault = fmt::format("{}: {} is no whole number from -2147483648 to 2147483647", r.name, r.value.empty() ? "nothing" : r.value);
         return {};
     }
-    return r.local ? std::string() : fmt::format("{}={}", r.name, v);
+    return r.local ? std::string() : fmt::format("{}={}", r.name, *v);
 }
 
 }  // namespace axisgate::mcode

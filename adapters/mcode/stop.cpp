@@ -18,7 +18,7 @@ void Stops::add(const Command& c, Turn& t) {
     fresh.command = c;
     Stop* s = lane_.add(std::move(fresh));
     if (!s) {
-        tickets.refused(c.ticket, Reason::busy, "too many stops wait", t.out);
+        drive_.tickets.refused(c.ticket, Reason::busy, "too many stops wait", t.out);
         return;
     }
     const bool off = std::holds_alternative<Disable>(c.body);
@@ -92,8 +92,8 @@ void Stops::say_again() noexcept {
 }
 
 void Stops::fail_all(Reason reason, std::string_view why, Turn& t) {
+    lane_.each([&](const Stop& s) { drive_.tickets.failed(s.command.ticket, reason, std::string(why), t.out); });
     lane_.clear();
-    tickets.fail_all(reason, why, t.out);
 }
 
 // --- a line to every drive at once -----------------------------------------------------------------------------------------------
@@ -131,7 +131,7 @@ void Stops::over(Outcome o, Reason r, std::string text, Turn& t, std::int32_t co
     Stop* s = lane_.first();
     const Ticket ticket = s->command.ticket;
     lane_.remove(s);
-    tickets.answer(ticket, o, r, std::move(text), t.out, code);
+    drive_.tickets.answer(ticket, o, r, std::move(text), t.out, code);
 }
 
 void Stops::unconfirmed(std::string why, Turn& t) { over(Outcome::failed, Reason::no_answer, std::move(why), t); }

@@ -42,8 +42,6 @@ public:
     /// The acknowledgement of the one that is confirmed.
     [[nodiscard]] Verdict acknowledgement() const noexcept { return lane_.first()->acknowledgement; }
 
-    drive::Tickets tickets{limit + drive::Tickets::for_stops};
-
 private:
     struct Stop {
         Command command;

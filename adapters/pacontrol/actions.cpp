@@ -3,7 +3,7 @@
 // Never guesses an argument: what cannot be read is refused with an example.
 #include <fmt/core.h>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 #include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
@@ -32,7 +32,7 @@ void Actions::start(Axis& a, const Action& action, Turn& t) {
     const auto w = words_of(arg);
     const auto mode = [&](std::uint16_t what) {
         if (!w.empty()) return jobs_.refuse(a, Reason::out_of_range, fmt::format("{} takes no argument", n), t);
-        power_.start_mode(a, what, t);
+        drive_.power.start_mode(a, what, t);
     };
     const auto real = [&](std::uint16_t what, std::string_view unit) {
         const auto v = w.size() == 1 ? real_of(w[0]) : std::nullopt;
@@ -44,14 +44,14 @@ void Actions::start(Axis& a, const Action& action, Turn& t) {
     if (n == "online.give_back") return mode(code::abort_online);
     if (n == "automatic.cancel") return mode(code::abort_auto);
     if (n == "automatic.start") {
-        if (w.empty() || (w.size() == 1 && (w[0] == "START" || w[0] == "start"))) return power_.start_mode(a, code::start_auto, t);
+        if (w.empty() || (w.size() == 1 && (w[0] == "START" || w[0] == "start"))) return drive_.power.start_mode(a, code::start_auto, t);
         return jobs_.refuse(a, Reason::not_supported,
                             fmt::format("program {}: the serial port starts the program that the control has defined as its START program; "
                                         "define it there and leave the argument empty",
                                         arg),
                             t);
     }
-    if (n == "reference") return homing_.start_several(a, arg, t);
+    if (n == "reference") return drive_.homing.start_several(a, arg, t);
     if (n == "traverse_until_input") return start_until_input(a, arg, t);
     if (n == "manual_move") return start_manual(a, arg, t);
     if (n == "measure") {
@@ -158,23 +158,23 @@ void Actions::learn(Axis& a, const Reply& reply, Turn& t) {
         case code::measuring_on:
             a.on = false;
             a.status = 8;
-            return polls_.soon(code::status_axis, a);
+            return drive_.polls.soon(code::status_axis, a);
         case code::measuring_off:
             a.status = -1;  // read anew at once; nothing is refused for what was
-            return polls_.soon(code::status_axis, a);
+            return drive_.polls.soon(code::status_axis, a);
         case code::no_reference:
             a.fb.referenced = true;
             return;
         case code::position_null:
             a.fb.referenced = true;
             feedback_.learn_position(a, 0.0, t);
-            return polls_.soon(code::position, a);
+            return drive_.polls.soon(code::position, a);
         case code::reference_here:
             a.fb.referenced = true;
             if (reply.real && number_of(reply)) feedback_.learn_position(a, reply, t);
-            return polls_.soon(code::position, a);
+            return drive_.polls.soon(code::position, a);
         case code::set_position:
-            return polls_.soon(code::position, a);
+            return drive_.polls.soon(code::position, a);
         case code::condition:
             a.condition_set = true;
             return;

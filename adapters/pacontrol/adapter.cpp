@@ -24,10 +24,10 @@ std::string check_address(std::string_view address) {
 }
 
 void LineAdapter::take(const LineSetup& setup, Turn& t) {
-    line_.take(setup, timing_defaults);  // the reply time-out counts besides the time that the bytes take
+    bus_.take(setup, timing_defaults);  // the reply time-out counts besides the time that the bytes take
     drive::OptionReader read(setup.options);
-    line_.check = check_mode_named(read.word("check", {"learn", "compute", "zero"})).value_or(CheckMode::learn);
-    line_.strict = read.flag("strict", false);
+    bus_.check = check_mode_named(read.word("check", {"learn", "compute", "zero"})).value_or(CheckMode::learn);
+    bus_.strict = read.flag("strict", false);
     drive::tell_faults(read, t);
 }
 
@@ -37,22 +37,15 @@ std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
     return fmt::format("the line belongs to drive {} already: a PA-CONTROL has a serial port of its own", other->setup().name);
 }
 
-std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t, Turn&) { return std::make_unique<Drive>(line_, s); }
+std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t, Turn&) { return std::make_unique<Drive>(bus_, s); }
 
 void LineAdapter::end(Turn& t) {
     last_ = t.now;
     drives().each([&](Drive& d) { d.pump(t); });
 }
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up()) return;
-    Turn t{now, out};
-    if (frame.kind != Frame::Kind::bytes) {
-        ++line_.counters.garbled;
-        return;
-    }
-    drives().each([&](Drive& d) { d.on_bytes(frame.data(), t); });
-    end(t);
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
+    if (bus_.is_run(frame)) drives().each([&](Drive& d) { d.port.on_bytes(frame.data(), t); });
 }
 
 void LineAdapter::on_deadline(Instant now, Out& out) {

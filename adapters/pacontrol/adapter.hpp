@@ -16,22 +16,22 @@ namespace axisgate::pacontrol {
 
 class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
-    LineAdapter(const Catalogue& of_family, LineKind) : line_(of_family) {}
+    LineAdapter(const Catalogue& of_family, LineKind) : bus_(of_family) {}
 
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
-    [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
+    [[nodiscard]] AdapterCounters counters() const override { return bus_.counters; }
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
     void line_changed(Turn&) override {}
     void settle(Drive&, Turn&) override {}
     void end(Turn& t) override;
 
-    LineForm line_;
+    Bus bus_;
     Instant last_{};
 };
 

@@ -6,19 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "adapters/pacontrol/wire_commands.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
-std::string hex(std::span<const std::uint8_t> data) {
-    std::string s;
-    for (const auto b : data)
-        fmt::format_to(std::back_inserter(s), "{}{:02X}", s.empty() ? "" : " ", b);
-    return s;
-}
+std::string hex(std::span<const std::uint8_t> data) { return fmt::format("{:02X}", fmt::join(data, " ")); }
 
 /// "check 57 good", "check 60 leaves the ETX in or out against the rule", "check 0, not used", "check 12 wrong (57)".
 std::string check_text(std::string_view text, std::string_view digits, CheckForm rule) {

@@ -8,6 +8,8 @@
 
 #include "adapters/pacontrol/wire_number.hpp"
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 namespace {
 constexpr double microsteps = 3200;  // of one motor revolution [L3098]
@@ -25,22 +27,22 @@ void Demands::follow(const Sent& x, const Reply& reply, Instant now) {
     if (x.eot || x.purpose == Purpose::poll || x.purpose == Purpose::probe || x.purpose == Purpose::barrier) return;
     const bool of_parameter = r.code == code::put_axis_parameter;
     const std::uint32_t channel = of_parameter ? r.parameter >> 8 : r.parameter;
-    if (of_parameter && channel >= 1 && channel <= pac_.axes.size()) {
-        pac_.axes[channel - 1].demand.parameters = {};
+    if (of_parameter && channel >= 1 && channel <= drive_.axes.size()) {
+        drive_.axes[channel - 1].demand.parameters = {};
         return;
     }
     if (reply.quit != 0) return;
     if (r.code == code::stop) {
-        for (Axis& a : pac_.axes)
+        for (Axis& a : drive_.axes)
             brake(a, now);
         return;
     }
     const CommandInfo* c = command_info(r.code);
-    if (!c || c->parameter != Takes::axis || channel < 1 || channel > pac_.axes.size()) return;
-    Axis& a = pac_.axes[channel - 1];
-    if (!a.used() || !is_online(pac_.mode)) return;
+    if (!c || c->parameter != Takes::axis || channel < 1 || channel > drive_.axes.size()) return;
+    Axis& a = drive_.axes[channel - 1];
+    if (!a.used() || !is_online(drive_.mode)) return;
     // It may have been a late answer to something else: the order is on its way, and when it begins is not known.
-    if (port_.out_of_step()) return not_acknowledged(r);
+    if (drive_.port.out_of_step()) return not_acknowledged(r);
     const double data = static_cast<double>(increments_of(real_of(r.data).value_or(0)));
     const double from = static_cast<double>(increments_of(number_of(reply).value_or(0)));
     switch (r.code) {
@@ -84,11 +86,11 @@ void Demands::follow(const Sent& x, const Reply& reply, Instant now) {
 void Demands::not_acknowledged(const Request& r) {
     const CommandInfo* c = command_info(r.code);
     if (r.code == code::stop) {
-        for (Axis& a : pac_.axes)
+        for (Axis& a : drive_.axes)
             doubt(a);
     }
-    if (!c || !c->online_only || c->parameter != Takes::axis || r.parameter < 1 || r.parameter > pac_.axes.size()) return;
-    Axis& a = pac_.axes[r.parameter - 1];
+    if (!c || !c->online_only || c->parameter != Takes::axis || r.parameter < 1 || r.parameter > drive_.axes.size()) return;
+    Axis& a = drive_.axes[r.parameter - 1];
     if (r.code == code::set_speed) a.demand.speed_doubted = true;
     if (r.code == code::set_acceleration) a.demand.ramp_doubted = true;
     doubt(a);
@@ -114,7 +116,7 @@ void Demands::ordered(Axis& a, double start, double target, Instant now) {
 /// The ramp of the axis takes it to rest [L3756], and the place where it stands is taken over.
 void Demands::brake(Axis& a, Instant now) {
     if (!a.used()) return;
-    if (!a.demand.computed.known() || port_.out_of_step()) return doubt(a);
+    if (!a.demand.computed.known() || drive_.port.out_of_step()) return doubt(a);
     a.demand.computed.stop(now, a.demand.ramps);
     a.demand.settle = true;
     a.demand.stands = false;
@@ -136,7 +138,7 @@ void Demands::rest(Axis& a, std::int64_t position) {
 
 /// Whether orders of this gateway decide where the axis is. What happens while they do not is nobody's demand.
 void Demands::guide(Axis& a) {
-    const bool guided = a.on && pac_.mode == status::online && pac_.error == 0 && a.status != 4 && a.status != 8 &&
+    const bool guided = a.on && drive_.mode == status::online && drive_.error == 0 && a.status != 4 && a.status != 8 &&
                         a.motion.kind != Motion::Kind::reference;
     if (guided == a.demand.guided) return;
     a.demand.guided = guided;
@@ -154,7 +156,7 @@ void Demands::seen_running(Axis& a, Instant now) {
 void Demands::seen_standing(Axis& a) {
     if (!a.demand.guided || !a.demand.settle || a.motion.active()) return;
     a.demand.stands = true;
-    polls_.soon_standing(a);
+    drive_.polls.soon_standing(a);
 }
 
 void Demands::show(Axis& a, Instant now) {
@@ -208,21 +210,21 @@ void Demands::following_refused(Axis& a, const Reply& reply) {
     if (reply.quit == quit::inadmissible && ++a.demand.lag_refusals < refusals_limit) return;
     a.demand.lag_missing = true;
     a.demand.lag.reset();
-    polls_.drop(code::following_error, &a);
+    drive_.polls.drop(code::following_error, &a);
 }
 
 // --- axis parameters -----------------------------------------------------------------------------------------------------------------
 
 void Demands::parameters_may_have_changed() {
-    pac_.parameters_at = {};  // an older refusal was the other mode's
-    for (Axis& a : pac_.axes)
+    drive_.parameters_at = {};  // an older refusal was the other mode's
+    for (Axis& a : drive_.axes)
         a.demand.parameters = {};
 }
 
 void Demands::parameter_answered(Axis& a, std::uint8_t which, const Reply& reply, Instant now) {
     if (reply.quit == quit::inadmissible) {
-        pac_.parameters_at = now + parameters_pause;  // the mode says home position and the control does not: later
-        polls_.drop(code::axis_parameter);
+        drive_.parameters_at = now + parameters_pause;  // the mode says home position and the control does not: later
+        drive_.polls.drop(code::axis_parameter);
         return;
     }
     AxisDemand::Known& k = a.demand.parameters[which];

@@ -7,9 +7,9 @@
 
 namespace axisgate::pacontrol {
 
-class Demands {
+class Demands : public Part {
 public:
-    Demands(Control& control, const Port& port, Polls& polls) noexcept : pac_(control), port_(port), polls_(polls) {}
+    using Part::Part;
 
     // --- what the control acknowledged, or not ------------------------------------------------------------------------------
     /// Every acknowledged command passes here, whoever asked for it: verb, action or native text.
@@ -38,10 +38,6 @@ private:
     void brake(Axis& a, Instant now);
     void doubt(Axis& a);
     void guide(Axis& a);
-
-    Control& pac_;
-    const Port& port_;
-    Polls& polls_;
 };
 
 }  // namespace axisgate::pacontrol

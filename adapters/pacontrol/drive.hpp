@@ -5,7 +5,6 @@
 // the verbs of drive_verbs.hpp: power, motion, homing, parameters, native, actions.
 #pragma once
 
-#include <span>
 #include <string>
 #include <utility>
 
@@ -13,13 +12,9 @@
 
 namespace axisgate::pacontrol {
 
-class Drive final : private Port::User {
+class Drive final : public Control {
 public:
-    static constexpr int channels = Control::channels;
-
-    Drive(LineForm& line, const DriveSetup& setup);
-    Drive(const Drive&) = delete;
-    Drive& operator=(const Drive&) = delete;
+    using Control::Control;
 
     void line_up(Turn& t);
     void line_down(std::string_view why, Turn& t);
@@ -28,23 +23,36 @@ public:
     void set_axes(const DriveSetup& setup, Turn& t);
     void submit(const Command& command, Turn& t);
     void look(const DriveSetup& setup) noexcept;
-    void on_bytes(std::span<const std::uint8_t> bytes, Turn& t) { port_.on_bytes(bytes, t); }
     void on_deadline(Turn& t);
     [[nodiscard]] Instant deadline(Instant now) const noexcept;
     /// Sends what is due. Every call from outside ends with it.
     void pump(Turn& t);
 
-    [[nodiscard]] const DriveSetup& setup() const noexcept { return pac_.setup; }
+    // --- from its port: what became of what was sent ------------------------------------------------------------------------
+    void answered(const Sent& sent, const Reply& reply, Turn& t);
+    /// The control could not read it (10h, 11h, 12h), so it has not been executed and may be sent again, whatever it was.
+    void not_read(const Sent& sent, const Reply& reply, Turn& t);
+    void silent(const Sent& sent, Turn& t);
+    /// Every answer from here on belongs to what asked for it.
+    void in_step();
+
+    Port port{*this};
+    Polls polls{*this};
+    Demands demands{*this};
+    Feedback feedback{*this};
+    Jobs jobs{*this};
+    Stops stops{*this};
+    Power power{*this};
+    Moves motion{*this};
+    Homing homing{*this};
+    Parameters parameters{*this};
+    NativeText native{*this};
+    Actions actions{*this};
 
 private:
     using Phase = drive::Presence::Phase;
 
     // drive.cpp
-    void answered(const Sent& sent, const Reply& reply, Turn& t) override;
-    void not_read(const Sent& sent, const Reply& reply, Turn& t) override;
-    void silent(const Sent& sent, Turn& t) override;
-    void unasked(const Reply& reply, Turn& t) override;
-    void in_step() override;
     void take_next(Axis& a, Turn& t);
     [[nodiscard]] std::pair<Job::Kind, Verb*> verb_for(const CommandBody& body) noexcept;
     [[nodiscard]] bool send_renewal(Turn& t);
@@ -56,21 +64,8 @@ private:
     void count_silence(Turn& t);
     void fail_all(Reason reason, const std::string& text, Turn& t);
     void fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t);
-    void forget();
+    void forget_all();
 
-    Control pac_;
-    Port port_;
-    Polls polls_;
-    Demands demands_;
-    Feedback feedback_;
-    Jobs jobs_;
-    Stops stops_;
-    Power power_;
-    Moves motion_;
-    Homing homing_;
-    Parameters parameters_;
-    NativeText native_;
-    Actions actions_;
     std::uint8_t commands_in_a_row_ = 0;
 };
 

@@ -13,12 +13,15 @@
 #include "gateway/axis/demand.hpp"
 #include "gateway/core/adapter.hpp"
 #include "gateway/drive/command_queue.hpp"
+#include "gateway/drive/part.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/drive/turn.hpp"
 
 namespace axisgate::pacontrol {
 
 using drive::Turn;
+class Drive;
+using Part = drive::Part<Drive>;
 struct Axis;
 
 /// A verb of CiA 402, or of the control's own language, as exchanges (drive_verbs.hpp).
@@ -68,13 +71,6 @@ struct Motion {
     [[nodiscard]] bool active() const noexcept { return kind != Kind::none; }
 };
 
-struct Wait {
-    enum class For : std::uint8_t { target, standstill, speed };
-    For what = For::target;
-    Ticket ticket = no_ticket;
-    std::int64_t value = 0;
-};
-
 /// What the demand of one axis rests on (demand.cpp): the control's own word where it has one (1915), else the orders that it acknowledged.
 struct AxisDemand {
     enum Parameter : std::uint8_t { traverse_speed, start_stop_speed, acceleration, gear, enable_mode };
@@ -110,6 +106,13 @@ struct AxisDemand {
 
     /// 1915 can be had, and its microsteps mean something: the way of one revolution is known.
     [[nodiscard]] bool has_lag() const noexcept { return guided && !lag_missing && parameters[gear].value.value_or(0) > 0; }
+};
+
+struct Wait {
+    enum class For : std::uint8_t { target, standstill, speed };
+    For what = For::target;
+    Ticket ticket = no_ticket;
+    std::int64_t value = 0;
 };
 
 struct Axis {

@@ -42,22 +42,15 @@ DriveOptions drive_options(const DriveSetup& d) {
     return o;
 }
 
-Control::Control(LineForm& form, const DriveSetup& of_site)
-    : catalogue(form.catalogue),
-      elements(form.elements),
-      counters(form.counters),
-      line(form),
-      setup(of_site),
+Control::Control(Bus& of_line, const DriveSetup& of_site)
+    : DriveBase(of_site, of_line.timing, 0, channels, drive::Tickets(channels * (Axis::queue_limit + Axis::wait_limit + 1) + stop_limit)),
+      bus(of_line),
       options(drive_options(of_site)),
-      presence(of_site.id, form.timing),
-      notices(of_site.id),
-      tickets(channels * (Axis::queue_limit + Axis::wait_limit + 1) + stop_limit),
       axes(channels) {
-    for (std::size_t i = 0; i < channels; ++i)
+    for (std::size_t i = 0; i < axes.size(); ++i)
         axes[i].channel = static_cast<int>(i) + 1;
-    for (const AxisSetup& a : of_site.axes) {
-        if (a.channel >= 1 && a.channel <= static_cast<int>(channels)) axes[static_cast<std::size_t>(a.channel) - 1].id = a.id;
-    }
+    for (const AxisSetup& a : of_site.axes)
+        if (a.channel >= 1 && a.channel <= channels) axes[static_cast<std::size_t>(a.channel) - 1].id = a.id;
 }
 
 Axis* Control::axis_of(AxisId id) noexcept {
@@ -88,12 +81,8 @@ void Control::begin_processing(std::size_t axis, std::uint16_t code, bool foreig
     processing = {true, foreign, false, axis, axis, code, now, now + options.processing_limit};
 }
 
-void Control::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis) {
-    notices.tell(severity, axis, kind, code, std::move(text), t.now, t.out);
-}
-
 void Control::sample(const Axis& a, Point point, const Value& value, Turn& t) const {
-    const Binding* b = elements.binding(point);
+    const Binding* b = bus.elements.binding(point);
     if (!b || !known(value)) return;
     for (const Axis& x : axes) {  // what belongs to the control has one value, whichever axis one looks through
         if (b->drive ? x.used() : &x == &a) t.out.samples.push_back({x.id, point, value, Quality::good, t.now});
@@ -121,7 +110,7 @@ bool Control::fault_of_all(Instant now) const noexcept {
 std::string Control::mode_text() const { return "operating status " + status_text(mode); }
 
 std::string Control::error_text() const {
-    const ErrorCode* of_catalogue = catalogue.error(error, "system");
+    const ErrorCode* of_catalogue = bus.catalogue.error(error, "system");
     return fmt::format("PA-CONTROL error E{}{}{}", error, of_catalogue ? ": " : "", of_catalogue ? of_catalogue->text : "");
 }
 

@@ -8,15 +8,13 @@
 
 #include "adapters/pacontrol/drive_axis.hpp"
 #include "gateway/drive/bus.hpp"
-#include "gateway/drive/notices.hpp"
-#include "gateway/drive/presence.hpp"
-#include "gateway/drive/tickets.hpp"
+#include "gateway/drive/drive_base.hpp"
 
 namespace axisgate::pacontrol {
 
 /// What all of a line have in common.
-struct LineForm : drive::Bus {
-    explicit LineForm(const Catalogue& of_family) : Bus(of_family), elements(of_family) {}
+struct Bus : drive::Bus {
+    explicit Bus(const Catalogue& of_family) : drive::Bus(of_family), elements(of_family) {}
     const Elements elements;
     CheckMode check = CheckMode::learn;
     bool strict = false;
@@ -48,21 +46,14 @@ struct Processing {
     Instant limit = never;
 };
 
-struct Control {
-    static constexpr std::size_t channels = 16;
+struct Control : drive::DriveBase {
+    static constexpr int channels = 16;
     static constexpr std::size_t stop_limit = 32;  ///< urgent commands that wait; one more is refused as busy
 
-    Control(LineForm& form, const DriveSetup& of_site);
+    Control(Bus& of_line, const DriveSetup& of_site);
 
-    const Catalogue& catalogue;
-    const Elements& elements;
-    AdapterCounters& counters;
-    const LineForm& line;
-    DriveSetup setup;
+    Bus& bus;
     DriveOptions options;
-    drive::Presence presence;
-    drive::Notices notices;
-    drive::Tickets tickets;
     std::vector<Axis> axes;  ///< by channel - 1; those that the site does not have carry no_axis
 
     int mode = -1;  ///< operating status [L3991-L4019]; -1: not known
@@ -78,12 +69,10 @@ struct Control {
     bool wake = false;  ///< something changed that a waiting job may want to see
 
     [[nodiscard]] Axis* axis_of(AxisId id) noexcept;
-    [[nodiscard]] bool ready() const noexcept { return presence.is(drive::Presence::Phase::ready); }
     /// Everything that may have changed while nobody listened.
     void forget();
     void begin_processing(std::size_t axis, std::uint16_t code, bool foreign, Instant now);
 
-    void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis = no_axis);
     void sample(const Axis& a, Point point, const Value& value, Turn& t) const;
 
     [[nodiscard]] bool in_trouble() const noexcept { return error != 0 || is_malfunction(mode); }

@@ -8,6 +8,8 @@
 
 #include "adapters/pacontrol/wire_number.hpp"
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::uint8_t frame_tries = 4;  // of one request that the control could not read (10h, 11h, 12h)
@@ -44,23 +46,23 @@ void Jobs::over(Axis& a, Outcome outcome, Reason reason, std::string text, Turn&
                 std::vector<std::uint8_t> bytes) {
     if (!a.job.active()) return;
     const Ticket ticket = std::exchange(a.job, Job{}).command.ticket;
-    pac_.tickets.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
+    drive_.tickets.answer(ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(bytes));
 }
 
 void Jobs::finished(Axis& a, Turn& t) { over(a, a.job.command.until_done ? Outcome::done : Outcome::accepted, Reason::none, "", t); }
 
 void Jobs::accepted(Axis& a, Wait::For what, std::int64_t value, std::string text, Turn& t) {
     const Command c = std::exchange(a.job, Job{}).command;
-    feedback_.accepted(a, c, what, value, std::move(text), t);
+    drive_.feedback.accepted(a, c, what, value, std::move(text), t);
 }
 
 bool Jobs::ended_by_quit(Axis& a, const Reply& reply, Turn& t, std::string_view advice, Reason reason) {
     if (reply.quit == 0) return false;
-    ++pac_.counters.refused;
-    if (a.job.request.code == code::abort_online) pac_.leaving = false;
+    ++drive_.bus.counters.refused;
+    if (a.job.request.code == code::abort_online) drive_.leaving = false;
     if (reply.quit == quit::not_switched_on && a.on) {
         a.on = false;  // the control says IDLE or SAFE [L4071]: switched off at the control
-        feedback_.publish(a, t);
+        drive_.feedback.publish(a, t);
     }
     std::string text = fmt::format("{}: {}", describe(a.job.request), describe_quit(reply.quit));
     if (reply.quit == quit::inadmissible) text += fmt::format(", which is {}", status_text(reply.status));
@@ -71,7 +73,7 @@ bool Jobs::ended_by_quit(Axis& a, const Reply& reply, Turn& t, std::string_view 
 }
 
 bool Jobs::ended_by_state(Axis& a, Turn& t) {
-    std::string why = pac_.why_not_movable(a);
+    std::string why = drive_.why_not_movable(a);
     if (why.empty()) return false;
     refuse(a, Reason::wrong_state, std::move(why), t);
     return true;
@@ -80,8 +82,8 @@ bool Jobs::ended_by_state(Axis& a, Turn& t) {
 // --- exchanges -------------------------------------------------------------------------------------------------------------------
 
 void Jobs::wake(Turn& t) {
-    if (!std::exchange(pac_.wake, false)) return;
-    for (Axis& a : pac_.axes) {
+    if (!std::exchange(drive_.wake, false)) return;
+    for (Axis& a : drive_.axes) {
         if (!a.job.waits()) continue;
         a.job.want = Job::Want::nothing;
         run(a, nullptr, t);
@@ -93,14 +95,14 @@ void Jobs::send_of(Axis& a, Turn& t) {
     j.in_flight = true;
     j.want = Job::Want::nothing;
     ++j.tries;
-    if (j.request.code == code::abort_online) pac_.leaving = true;  // whoever asks for it here, it is no surprise
+    if (j.request.code == code::abort_online) drive_.leaving = true;  // whoever asks for it here, it is no surprise
     const Sent sent{Purpose::job, a.place(), j.request, j.poll};
-    j.raw.empty() ? port_.send(sent, Priority::command, t) : port_.send_raw(sent, j.raw, t);
+    j.raw.empty() ? drive_.port.send(sent, Priority::command, t) : drive_.port.send_raw(sent, j.raw, t);
 }
 
 bool Jobs::send(Turn& t) {
-    for (std::size_t n = 0; n < Control::channels; ++n) {
-        Axis& a = pac_.axes[std::exchange(next_, (next_ + 1) % Control::channels)];
+    for (std::size_t n = 0; n < drive_.axes.size(); ++n) {
+        Axis& a = drive_.axes[std::exchange(next_, (next_ + 1) % drive_.axes.size())];
         if (a.job.want != Job::Want::send || a.job.in_flight) continue;
         send_of(a, t);
         return true;
@@ -110,8 +112,8 @@ bool Jobs::send(Turn& t) {
 
 /// A poll that a client asked for is the one thing of a client that may cross the line while a command is being processed.
 bool Jobs::send_native_poll(Turn& t) {
-    const auto a = std::ranges::find_if(pac_.axes, [](const Axis& x) { return x.job.poll && x.job.want == Job::Want::send; });
-    if (a == pac_.axes.end()) return false;
+    const auto a = std::ranges::find_if(drive_.axes, [](const Axis& x) { return x.job.poll && x.job.want == Job::Want::send; });
+    if (a == drive_.axes.end()) return false;
     send_of(*a, t);
     return true;
 }
@@ -120,22 +122,22 @@ void Jobs::answered(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
     const bool orphan = !j.active() || !j.in_flight;  // a stop has ended it meanwhile
     j.in_flight = false;
-    if (!orphan && j.poll && pac_.processing.active) {
+    if (!orphan && j.poll && drive_.processing.active) {
         run(a, &reply, t);
-        if (reply.end && !pac_.processing.hidden) processing_over(reply, t);
+        if (reply.end && !drive_.processing.hidden) processing_over(reply, t);
         return;
     }
     const bool on = reply.quit == 0 && !reply.end;
     if (orphan) {
-        if (on) pac_.begin_processing(a.place(), 0, true, t.now);
+        if (on) drive_.begin_processing(a.place(), 0, true, t.now);
         return;
     }
     if (on) {
-        pac_.begin_processing(a.place(), j.request.code, false, t.now);
-        if (j.kind == Job::Kind::single && !j.places.empty()) pac_.processing.axis = j.places[j.at];
+        drive_.begin_processing(a.place(), j.request.code, false, t.now);
+        if (j.kind == Job::Kind::single && !j.places.empty()) drive_.processing.axis = j.places[j.at];
     }
     if (j.unknown) {
-        if (reply.quit == 0) feedback_.learn_position(a, reply, t);
+        if (reply.quit == 0) drive_.feedback.learn_position(a, reply, t);
         return over(a, Outcome::failed, Reason::no_answer,
                     fmt::format("{}; the position read back is {}", j.text, reply.quit == 0 ? reply.data : "not known"), t);
     }
@@ -145,10 +147,10 @@ void Jobs::answered(Axis& a, const Reply& reply, Turn& t) {
 void Jobs::goes_on(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
     j.processing = j.begun = true;
-    if (reply.real && moves_and_tells(j.request.code)) feedback_.learn_position(a, reply, t);
+    if (reply.real && moves_and_tells(j.request.code)) drive_.feedback.learn_position(a, reply, t);
     if (j.kind == Job::Kind::home || (j.kind == Job::Kind::single && !j.places.empty())) {
-        feedback_.begin_motion(pac_.axes[pac_.processing.axis], {Motion::Kind::reference}, t);
-        if (!j.command.until_done) pac_.tickets.accepted(j.command.ticket, t.out);  // nobody waits for the end: it has begun
+        drive_.feedback.begin_motion(drive_.axes[drive_.processing.axis], {Motion::Kind::reference}, t);
+        if (!j.command.until_done) drive_.tickets.accepted(j.command.ticket, t.out);  // nobody waits for the end: it has begun
     }
     if (j.kind == Job::Kind::native) run(a, &reply, t);  // the answer is the answer; the polls go on without it
 }
@@ -173,13 +175,13 @@ void Jobs::silent(Axis& a, Turn& t) {
     j.in_flight = false;
     const CommandInfo* c = command_info(j.request.code);
     const bool repeatable = c && c->repeatable && j.kind != Job::Kind::native;
-    if (repeatable && j.tries <= pac_.line.timing.retries) {
-        ++pac_.counters.retries;
+    if (repeatable && j.tries <= drive_.bus.timing.retries) {
+        ++drive_.bus.counters.retries;
         j.want = Job::Want::send;
         return;
     }
     const bool changes_mode = j.kind == Job::Kind::enable || j.kind == Job::Kind::reset || j.kind == Job::Kind::mode;
-    if (changes_mode && ++j.rounds <= pac_.line.timing.retries) return wait(a, t.now + mode_pause);
+    if (changes_mode && ++j.rounds <= drive_.bus.timing.retries) return wait(a, t.now + mode_pause);
     if (j.unknown) return over(a, Outcome::failed, Reason::no_answer, j.text + "; the position could not be read back", t);
     std::string text = fmt::format("{} was not acknowledged{}", j.poll ? "the poll" : describe(j.request),
                                    repeatable ? "" : ": whether the control carries it out is not known");
@@ -195,47 +197,47 @@ void Jobs::silent(Axis& a, Turn& t) {
 // --- what is being processed -----------------------------------------------------------------------------------------------------
 
 void Jobs::send_processing_poll(Turn& t) {
-    Processing& p = pac_.processing;
+    Processing& p = drive_.processing;
     if (p.next_poll > t.now) return;
     p.next_poll = t.now + processing_period;
-    port_.send({Purpose::processing, p.axis, request_for(code::status_axis, static_cast<std::uint32_t>(p.axis) + 1), !p.hidden},
-               Priority::command, t);
+    drive_.port.send({Purpose::processing, p.axis, request_for(code::status_axis, static_cast<std::uint32_t>(p.axis) + 1), !p.hidden},
+                     Priority::command, t);
 }
 
 void Jobs::processing_answered(const Sent& sent, const Reply& reply, Turn& t) {
-    if (!pac_.processing.active) return;
-    Axis& a = pac_.axes[sent.axis];
+    if (!drive_.processing.active) return;
+    Axis& a = drive_.axes[sent.axis];
     if (!sent.eot) {                  // hidden: the status of the axis
         if (reply.quit != 0) return;  // still barred
-        feedback_.learn_status(a, static_cast<int>(number_of(reply).value_or(-1)), t);
+        drive_.feedback.learn_status(a, static_cast<int>(number_of(reply).value_or(-1)), t);
         if (a.status != 1) processing_over(reply, t);
         return;
     }
-    if (reply.real && number_of(reply) && moves_and_tells(pac_.processing.code)) feedback_.learn_position(a, reply, t);
+    if (reply.real && number_of(reply) && moves_and_tells(drive_.processing.code)) drive_.feedback.learn_position(a, reply, t);
     if (!reply.end) a.running_at = t.now;
-    feedback_.publish_all(t);
+    drive_.feedback.publish_all(t);
     if (reply.end) processing_over(reply, t);
 }
 
 /// BE = 1 for what was being processed.
 void Jobs::processing_over(const Reply& reply, Turn& t) {
-    const Processing was = std::exchange(pac_.processing, Processing{});
-    feedback_.hurry(t.now);
-    Axis& a = pac_.axes[was.owner];
+    const Processing was = std::exchange(drive_.processing, Processing{});
+    drive_.polls.hurry(t.now);
+    Axis& a = drive_.axes[was.owner];
     if (!a.job.active() || !a.job.processing || was.foreign) return;  // the next cycle sees what became of it
     a.job.processing = false;
     run(a, &reply, t);
 }
 
 void Jobs::processing_late(Turn& t) {
-    const Processing was = std::exchange(pac_.processing, Processing{});
-    port_.lose_step();
-    Axis& a = pac_.axes[was.axis];
-    Axis& owner = pac_.axes[was.owner];
+    const Processing was = std::exchange(drive_.processing, Processing{});
+    drive_.port.lose_step();
+    Axis& a = drive_.axes[was.axis];
+    Axis& owner = drive_.axes[was.owner];
     const std::string text = fmt::format("{:04X}: end of processing was not reported within {} s: what became of it is not known", was.code,
-                                         milliseconds_of(pac_.options.processing_limit) / 1000);
-    pac_.notice(Severity::warning, "protocol", 0, text, t, a.id);
-    if (a.motion.active()) feedback_.end_motion(a, false, Reason::no_answer, text, t);
+                                         milliseconds_of(drive_.options.processing_limit) / 1000);
+    drive_.notice(Severity::warning, "protocol", 0, text, t, a.id);
+    if (a.motion.active()) drive_.feedback.end_motion(a, false, Reason::no_answer, text, t);
     if (owner.job.processing) over(owner, Outcome::failed, Reason::no_answer, text, t);
 }
 
@@ -243,19 +245,19 @@ void Jobs::processing_late(Turn& t) {
 
 void Jobs::late(Axis& a, Turn& t) {
     over(a, a.job.of_parameter() ? Outcome::refused : Outcome::failed, Reason::wrong_state,
-         fmt::format("{}the control did not get there in time; {}", a.job.text.empty() ? "" : a.job.text + ": ", pac_.mode_text()), t);
+         fmt::format("{}the control did not get there in time; {}", a.job.text.empty() ? "" : a.job.text + ": ", drive_.mode_text()), t);
 }
 
 void Jobs::on_deadline(Turn& t) {
-    for (Axis& a : pac_.axes) {
+    for (Axis& a : drive_.axes) {
         if (a.job.waits() && a.job.limit <= t.now) late(a, t);
     }
-    if (pac_.processing.active && pac_.processing.limit <= t.now) processing_late(t);
+    if (drive_.processing.active && drive_.processing.limit <= t.now) processing_late(t);
 }
 
 Instant Jobs::deadline() const noexcept {
-    Instant d = pac_.processing.active ? pac_.processing.limit : never;
-    for (const Axis& a : pac_.axes) {
+    Instant d = drive_.processing.active ? drive_.processing.limit : never;
+    for (const Axis& a : drive_.axes) {
         if (a.job.waits()) d = std::min(d, a.job.limit);
     }
     return d;

@@ -7,9 +7,9 @@
 
 namespace axisgate::pacontrol {
 
-class Jobs {
+class Jobs : public Part {
 public:
-    Jobs(Control& control, Port& port, Feedback& feedback) noexcept : pac_(control), port_(port), feedback_(feedback) {}
+    using Part::Part;
 
     // --- for the verbs ------------------------------------------------------------------------------------------------------
     void ask(Axis& a, Request request);
@@ -50,9 +50,6 @@ private:
     void processing_late(Turn& t);
     void late(Axis& a, Turn& t);
 
-    Control& pac_;
-    Port& port_;
-    Feedback& feedback_;
     std::size_t next_ = 0;
 };
 

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::size_t reply_bytes = 48;  // of the longest acknowledgement but rare ones
@@ -15,10 +17,6 @@ bool could_not_read(std::uint16_t q) { return q == quit::check_wrong || q == qui
 bool asks_input(const Request& r) { return r.code == 0x1900 || r.code == 0x1901; }
 }  // namespace
 
-Port::Port(Control& control, User& user) : pac_(control), user_(user) {
-    if (pac_.line.check == CheckMode::zero) form_ = CheckForm::zero;
-}
-
 void Port::forget() {
     exchange_.drop();
     framer_.reset();
@@ -28,15 +26,15 @@ void Port::forget() {
 
 void Port::begin(Sent what, std::span<const std::uint8_t> bytes, Priority priority, Turn& t) {
     t.out.send(Frame::run(bytes), priority);
-    const LineForm& line = pac_.line;
-    const Duration patience = line.timing.reply_timeout + line.wire(bytes.size() + reply_bytes);
+    const Bus& bus = drive_.bus;
+    const Duration patience = bus.timing.reply_timeout + bus.wire(bytes.size() + reply_bytes);
     exchange_.begin(std::move(what), t.now, patience, 0);
-    ++pac_.exchanges;
+    ++drive_.exchanges;
     framer_.reset();
 }
 
 void Port::send(Sent what, Priority priority, Turn& t) {
-    const CheckForm form = pac_.line.check == CheckMode::zero ? CheckForm::zero : form_;
+    const CheckForm form = drive_.bus.check == CheckMode::zero ? CheckForm::zero : form_;
     const auto bytes = what.eot ? std::vector<std::uint8_t>{EOT} : framed(text_of(what.request), form);
     begin(std::move(what), bytes, priority, t);
 }
@@ -62,10 +60,10 @@ void Port::on_bytes(std::span<const std::uint8_t> bytes, Turn& t) {
 
 /// Counted always; published at most every ten seconds.
 void Port::garbled(std::string_view what, Turn& t) {
-    ++pac_.counters.garbled;
+    ++drive_.bus.counters.garbled;
     if (t.now < next_protocol_notice_) return;
     next_protocol_notice_ = t.now + protocol_notice_period;
-    pac_.notice(Severity::warning, "protocol", 0, fmt::format("not an acknowledgement: {}", what), t);
+    drive_.notice(Severity::warning, "protocol", 0, fmt::format("not an acknowledgement: {}", what), t);
 }
 
 void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
@@ -75,7 +73,7 @@ void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
     if (!form) {
         fault = fmt::format("check {} is wrong, {} would be right: {}", digits.empty() ? "(none)" : digits,
                             check_of(text, CheckForm::with_etx), text);
-    } else if (pac_.line.strict && *form == CheckForm::text) {
+    } else if (drive_.bus.strict && *form == CheckForm::text) {
         fault = fmt::format("check {} leaves the ETX out, {} would be right (strict = off takes both): {}", digits,
                             check_of(text, CheckForm::with_etx), text);
     } else if (*form == CheckForm::zero && reply_form_) {
@@ -88,22 +86,22 @@ void Port::on_text(std::string_view text, std::string_view digits, Turn& t) {
         // A whole frame came, so the answer is here and cannot come late; what it says is not known.
         if (!busy()) return;
         exchange_.drop();
-        ++pac_.counters.timeouts;
+        ++drive_.bus.counters.timeouts;
         return silent(t);
     }
-    if (*form != CheckForm::zero) reply_form_ = pac_.line.strict ? CheckForm::with_etx : *form;
+    if (*form != CheckForm::zero) reply_form_ = drive_.bus.strict ? CheckForm::with_etx : *form;
     raw_reply_ = framed(text, *form);
     on_reply(*reply, t);
 }
 
 void Port::unasked(const Reply& reply, Turn& t) {
-    ++pac_.counters.unexpected;
+    ++drive_.bus.counters.unexpected;
     if (t.now >= next_protocol_notice_) {
         next_protocol_notice_ = t.now + protocol_notice_period;
-        pac_.notice(Severity::info, "protocol", reply.quit, fmt::format("an acknowledgement that nobody waits for: {}", describe(reply)),
-                    t);
+        drive_.notice(Severity::info, "protocol", reply.quit, fmt::format("an acknowledgement that nobody waits for: {}", describe(reply)),
+                      t);
     }
-    user_.unasked(reply, t);
+    if (drive_.ready()) drive_.feedback.learn(reply, t);  // its status is as fresh as any
 }
 
 bool Port::is_of_another(const Sent& sent, const Reply& reply) {
@@ -127,27 +125,27 @@ bool Port::is_of_another(const Sent& sent, const Reply& reply) {
 void Port::on_reply(const Reply& reply, Turn& t) {
     if (!busy()) return unasked(reply, t);
     if (is_of_another(exchange_.request(), reply)) {
-        ++pac_.counters.unexpected;
+        ++drive_.bus.counters.unexpected;
         return;
     }
-    pac_.presence.answered();
+    drive_.presence.answered();
     if (could_not_read(reply.quit) && !exchange_.request().eot) {
         exchange_.drop();
-        ++pac_.counters.retries;
+        ++drive_.bus.counters.retries;
         const Sent sent = exchange_.request();
         check_refused(reply, t);
-        return user_.not_read(sent, reply, t);
+        return drive_.not_read(sent, reply, t);
     }
     check_refusals_ = 0;
     form_proved_ = true;
     if (exchange_.request().purpose == Purpose::barrier && reply.quit != quit::input_unknown && reply.quit != quit::inadmissible) {
-        ++pac_.counters.unexpected;  // late: the barrier's own answer is still to come
+        ++drive_.bus.counters.unexpected;  // late: the barrier's own answer is still to come
         answered_in_barrier_ = true;
         return;
     }
-    const Sent sent = exchange_.answered(pac_.counters);
-    quiet_until_ = t.now + pac_.line.timing.pause;
-    user_.answered(sent, reply, t);
+    const Sent sent = exchange_.answered(drive_.bus.counters);
+    quiet_until_ = t.now + drive_.bus.timing.pause;
+    drive_.answered(sent, reply, t);
     if (sent.purpose == Purpose::look) return regain_step();
     if (sent.purpose != Purpose::barrier) return;
     if (reply.quit == quit::input_unknown) return regain_step();
@@ -155,15 +153,15 @@ void Port::on_reply(const Reply& reply, Turn& t) {
 }
 
 void Port::check_refused(const Reply& reply, Turn& t) {
-    if (reply.quit != quit::check_wrong || pac_.line.check != CheckMode::learn || ++check_refusals_ < (form_proved_ ? 3 : 2)) return;
+    if (reply.quit != quit::check_wrong || drive_.bus.check != CheckMode::learn || ++check_refusals_ < (form_proved_ ? 3 : 2)) return;
     check_refusals_ = 0;
     form_ = form_ == CheckForm::text ? CheckForm::with_etx : form_ == CheckForm::with_etx ? CheckForm::zero : CheckForm::text;
-    pac_.notice(Severity::warning, "protocol", reply.quit,
-                fmt::format("the control answers that the check is wrong; now sent: {}", name_of(form_)), t);
+    drive_.notice(Severity::warning, "protocol", reply.quit,
+                  fmt::format("the control answers that the check is wrong; now sent: {}", name_of(form_)), t);
 }
 
 void Port::on_deadline(Turn& t) {
-    if (exchange_.on_deadline(t.now, pac_.counters) == drive::Late::over) silent(t);
+    if (exchange_.on_deadline(t.now, drive_.bus.counters) == drive::Late::over) silent(t);
 }
 
 /// The exchange has had no answer that could be read.
@@ -172,15 +170,15 @@ void Port::silent(Turn& t) {
     out_of_step_ = true;
     if (sent.purpose == Purpose::barrier && answered_in_barrier_) {
         regain_step();  // answers came, then silence for a whole time-out: nothing is on its way any more
-        pac_.presence.answered();
+        drive_.presence.answered();
         return;
     }
-    user_.silent(sent, t);
+    drive_.silent(sent, t);
 }
 
 void Port::regain_step() {
     out_of_step_ = answered_in_barrier_ = look_due_ = false;
-    user_.in_step();
+    drive_.in_step();
 }
 
 }  // namespace axisgate::pacontrol

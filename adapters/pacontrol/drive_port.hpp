@@ -33,22 +33,9 @@ struct Sent {
     Poll poll{};
 };
 
-class Port {
+class Port : public Part {
 public:
-    /// Who is told what became of what was sent.
-    class User {
-    public:
-        virtual ~User() = default;
-        virtual void answered(const Sent& sent, const Reply& reply, Turn& t) = 0;
-        /// The control could not read it (10h, 11h, 12h), so it has not been executed and may be sent again, whatever it was.
-        virtual void not_read(const Sent& sent, const Reply& reply, Turn& t) = 0;
-        virtual void silent(const Sent& sent, Turn& t) = 0;
-        /// An acknowledgement that nobody waits for: its status is as fresh as any.
-        virtual void unasked(const Reply& reply, Turn& t) = 0;
-        /// Every answer from here on belongs to what asked for it.
-        virtual void in_step() = 0;
-    };
-    Port(Control& control, User& user);
+    using Part::Part;
 
     void send(Sent what, Priority priority, Turn& t);
     /// As they are; `what` stands for them.
@@ -81,8 +68,6 @@ private:
     void silent(Turn& t);
     void regain_step();
 
-    Control& pac_;
-    User& user_;
     Framer framer_;
     drive::Exchange<Sent> exchange_;
     Instant quiet_until_{};

@@ -10,12 +10,14 @@ namespace axisgate::pacontrol {
 inline constexpr Duration renew_period = std::chrono::milliseconds(400);  ///< of a manual move: the control wants it within 1 s [L3606]
 
 /// What every verb works with.
-class DriveVerb : public Verb {
+class DriveVerb : public Verb, public Part {
+public:
+    explicit DriveVerb(Drive& drive) noexcept;
+
 protected:
-    DriveVerb(Control& control, Jobs& jobs, Feedback& feedback) noexcept : pac_(control), jobs_(jobs), feedback_(feedback) {}
+    ~DriveVerb() = default;
     /// What to do about a command error; empty where its name says it.
     [[nodiscard]] static std::string_view advice_for(std::uint16_t quit);
-    Control& pac_;
     Jobs& jobs_;
     Feedback& feedback_;
 };
@@ -23,8 +25,7 @@ protected:
 /// power.cpp: enable, reset, and the operating modes.
 class Power final : public DriveVerb {
 public:
-    Power(Control& control, Jobs& jobs, Feedback& feedback, Port& port, Stops& stops) noexcept
-        : DriveVerb(control, jobs, feedback), port_(port), stops_(stops) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
     /// The actions online.start, online.stop, online.give_back, automatic.start, automatic.stop, automatic.cancel, by their codes.
     void start_mode(Axis& a, std::uint16_t code, Turn& t);
@@ -37,14 +38,12 @@ private:
     [[nodiscard]] bool reset_goes_on(Axis& a, const Reply& reply, Turn& t);
     void run_mode(Axis& a, const Reply* reply, Turn& t);
     [[nodiscard]] bool is_there(std::uint16_t code) const noexcept;
-    Port& port_;
-    Stops& stops_;
 };
 
 /// motion.cpp: moves, setting a position, starting several axes.
 class Moves final : public DriveVerb {
 public:
-    Moves(Control& control, Jobs& jobs, Feedback& feedback, Stops& stops) noexcept : DriveVerb(control, jobs, feedback), stops_(stops) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
 
 private:
@@ -54,13 +53,12 @@ private:
     void run_origin(Axis& a, const Reply* reply, Turn& t);
     [[nodiscard]] bool gather(Axis& a, Turn& t);
     void run_together(Axis& a, const Reply* reply, Turn& t);
-    Stops& stops_;
 };
 
 /// homing.cpp: a reference run, and those of several axes one after the other.
 class Homing final : public DriveVerb {
 public:
-    Homing(Control& control, Jobs& jobs, Feedback& feedback) noexcept : DriveVerb(control, jobs, feedback) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
     /// The action `reference`: "all", channels with commas ("1,3"), or a mask ("0x5"). Each run bars the line until its end.
     void start_several(Axis& a, std::string_view argument, Turn& t);
@@ -74,7 +72,7 @@ private:
 /// parameters.cpp: reading and writing points.
 class Parameters final : public DriveVerb {
 public:
-    Parameters(Control& control, Jobs& jobs, Feedback& feedback) noexcept : DriveVerb(control, jobs, feedback) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
 
 private:
@@ -84,20 +82,17 @@ private:
 /// native.cpp: exchanges in the control's own language.
 class NativeText final : public DriveVerb {
 public:
-    NativeText(Control& control, Jobs& jobs, Feedback& feedback, const Port& port) noexcept
-        : DriveVerb(control, jobs, feedback), port_(port) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
 
 private:
     void start(Axis& a, const Native& native, Turn& t);
-    const Port& port_;
 };
 
 /// actions.cpp: the functions of this family beyond the common ones, by the catalogue's names, and every command code by its own.
 class Actions final : public DriveVerb {
 public:
-    Actions(Control& control, Jobs& jobs, Feedback& feedback, Polls& polls, Power& power, Homing& homing) noexcept
-        : DriveVerb(control, jobs, feedback), polls_(polls), power_(power), homing_(homing) {}
+    using DriveVerb::DriveVerb;
     void run(Axis& a, const Reply* reply, Turn& t) override;
 
 private:
@@ -107,9 +102,6 @@ private:
     void start_manual(Axis& a, std::string_view argument, Turn& t);
     void begun(Axis& a, bool conditional, const Reply& reply, Turn& t);
     void learn(Axis& a, const Reply& reply, Turn& t);
-    Polls& polls_;
-    Power& power_;
-    Homing& homing_;
 };
 
 }  // namespace axisgate::pacontrol

@@ -1,21 +1,13 @@
 // Family pacontrol: the table of its makers.
 // In: nothing. Out: functions, and what lines of the family are like unless the site says otherwise.
 // Never decides anything: that is for the files beside it.
-#include "adapters/pacontrol/family.hpp"
-
 #include "adapters/pacontrol/adapter.hpp"
 #include "adapters/pacontrol/decoder.hpp"
 #include "adapters/pacontrol/twin/twin.hpp"
 
 namespace axisgate {
 
-/// The port is point to point, so there is one question: does a control answer here? None where a drive has the address already.
-ScanPlan pacontrol::scan(const ScanWish& wish) {
-    ScanPlan plan;
-    if (wish.known.empty()) plan.addresses.emplace_back("com1");
-    return plan;
-}
-
+/// IEF Werner PA-CONTROL on its serial command port COM1.
 const Family& family_pacontrol() {
     static const Family family{
         "pacontrol",
@@ -29,7 +21,12 @@ const Family& family_pacontrol() {
         false,
         true,
         0,
-        pacontrol::scan,
+        // The port is point to point, so there is one question: does a control answer here? None where a drive has the address already.
+        [](const ScanWish& wish) {
+            ScanPlan plan;
+            if (wish.known.empty()) plan.addresses.emplace_back("com1");
+            return plan;
+        },
     };
     return family;
 }

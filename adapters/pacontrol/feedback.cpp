@@ -11,68 +11,70 @@
 
 #include "adapters/pacontrol/wire_number.hpp"
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 
 /// Where an axis is shown, its fault is the alarm; the control's own word is one only where there is none to say it.
 bool Feedback::shown_by_axes() const {
-    return pac_.ready() && std::ranges::any_of(pac_.axes, [](const Axis& a) { return a.used() && a.position_known; });
+    return drive_.ready() && std::ranges::any_of(drive_.axes, [](const Axis& a) { return a.used() && a.position_known; });
 }
 
 void Feedback::ask_whose_fault(Turn& t) {
-    pac_.trouble_at = t.now;
-    for (auto a = pac_.axes.rbegin(); a != pac_.axes.rend(); ++a) {
-        if (a->here()) polls_.soon(a->status_code(), *a);
+    drive_.trouble_at = t.now;
+    for (auto a = drive_.axes.rbegin(); a != drive_.axes.rend(); ++a) {
+        if (a->here()) drive_.polls.soon(a->status_code(), *a);
     }
 }
 
 void Feedback::learn(const Reply& reply, Turn& t) {
-    const int before = pac_.mode;
-    const bool error_changed = pac_.error != reply.error, was_in_trouble = pac_.in_trouble();
-    pac_.mode = reply.status;
-    pac_.error = reply.error;
-    if (pac_.in_trouble() && (!was_in_trouble || (error_changed && pac_.error != 0))) ask_whose_fault(t);
+    const int before = drive_.mode;
+    const bool error_changed = drive_.error != reply.error, was_in_trouble = drive_.in_trouble();
+    drive_.mode = reply.status;
+    drive_.error = reply.error;
+    if (drive_.in_trouble() && (!was_in_trouble || (error_changed && drive_.error != 0))) ask_whose_fault(t);
     if (error_changed) {
-        if (pac_.error != 0) {
-            pac_.notice(shown_by_axes() ? Severity::info : Severity::alarm, "alarm", pac_.error, pac_.error_text(), t);
+        if (drive_.error != 0) {
+            drive_.notice(shown_by_axes() ? Severity::info : Severity::alarm, "alarm", drive_.error, drive_.error_text(), t);
         } else {
-            pac_.notice(Severity::info, "alarm", 0, "no PA-CONTROL error any more", t);
+            drive_.notice(Severity::info, "alarm", 0, "no PA-CONTROL error any more", t);
         }
-        pac_.wake = true;
+        drive_.wake = true;
     }
-    if (before != pac_.mode) mode_changed(before, t);
-    if (error_changed || before != pac_.mode) publish_all(t);
+    if (before != drive_.mode) mode_changed(before, t);
+    if (error_changed || before != drive_.mode) publish_all(t);
 }
 
 void Feedback::mode_changed(int before, Turn& t) {
-    pac_.wake = true;
-    polls_.hurry(t.now);
+    drive_.wake = true;
+    drive_.polls.hurry(t.now);
     if (before < 0) return;  // just found
-    if (is_online(before) && !is_online(pac_.mode)) return left_online(before, t);
-    if (is_home(pac_.mode) && !is_home(before)) demands_.parameters_may_have_changed();
-    if (is_malfunction(pac_.mode) && !is_malfunction(before)) {
-        pac_.notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", pac_.mode,
-                    fmt::format("operating status is now {}", status_text(pac_.mode)), t);
-    } else if (pac_.mode == status::online_stop || (pac_.mode == status::online_stopped && before == status::online)) {
+    if (is_online(before) && !is_online(drive_.mode)) return left_online(before, t);
+    if (is_home(drive_.mode) && !is_home(before)) drive_.demands.parameters_may_have_changed();
+    if (is_malfunction(drive_.mode) && !is_malfunction(before)) {
+        drive_.notice(shown_by_axes() ? Severity::info : Severity::alarm, "mode", drive_.mode,
+                      fmt::format("operating status is now {}", status_text(drive_.mode)), t);
+    } else if (drive_.mode == status::online_stop || (drive_.mode == status::online_stopped && before == status::online)) {
         const std::string text =
-            fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(pac_.mode));
-        pac_.notice(Severity::warning, "mode", pac_.mode, text, t);
-        for (Axis& a : pac_.axes) {
+            fmt::format("operating status is now {}: stopped at the control or by its stop input", status_text(drive_.mode));
+        drive_.notice(Severity::warning, "mode", drive_.mode, text, t);
+        for (Axis& a : drive_.axes) {
             if (a.motion.active()) end_motion(a, false, Reason::interrupted, text, t);
         }
-    } else if (is_manual(pac_.mode) || is_automatic(pac_.mode) || is_home(pac_.mode)) {
-        if (is_manual(pac_.mode) != is_manual(before) || is_automatic(pac_.mode) != is_automatic(before)) {
-            pac_.notice(Severity::info, "mode", pac_.mode, fmt::format("operating status is now {}", status_text(pac_.mode)), t);
+    } else if (is_manual(drive_.mode) || is_automatic(drive_.mode) || is_home(drive_.mode)) {
+        if (is_manual(drive_.mode) != is_manual(before) || is_automatic(drive_.mode) != is_automatic(before)) {
+            drive_.notice(Severity::info, "mode", drive_.mode, fmt::format("operating status is now {}", status_text(drive_.mode)), t);
         }
     }
 }
 
 /// ONLINE has ended: overrides are dropped [L3496], commanded motions are over [L3253], and no axis is on for the gateway.
 void Feedback::left_online(int before, Turn& t) {
-    const bool expected = pac_.leaving;
-    const std::string text = fmt::format("operating status changed from {} to {}{}", status_text(before), status_text(pac_.mode),
+    const bool expected = drive_.leaving;
+    const std::string text = fmt::format("operating status changed from {} to {}{}", status_text(before), status_text(drive_.mode),
                                          expected ? "" : ", not by this gateway: switched at the control, or by an error");
     bool any = false;
-    for (Axis& a : pac_.axes) {
+    for (Axis& a : drive_.axes) {
         any = any || a.on;
         if (a.motion.active()) end_motion(a, false, Reason::interrupted, text, t);
         end_waits(a, Reason::interrupted, text, t);
@@ -81,22 +83,22 @@ void Feedback::left_online(int before, Turn& t) {
         a.acceleration.reset();
         a.renewal.stop();
     }
-    if (!expected || is_malfunction(pac_.mode)) {
-        pac_.notice(any ? Severity::warning : Severity::info, "mode", pac_.mode, text, t);
+    if (!expected || is_malfunction(drive_.mode)) {
+        drive_.notice(any ? Severity::warning : Severity::info, "mode", drive_.mode, text, t);
     }
-    pac_.started_by_us = pac_.leaving = pac_.give_back_due = false;
+    drive_.started_by_us = drive_.leaving = drive_.give_back_due = false;
 }
 
 // --- axes ------------------------------------------------------------------------------------------------------------------------
 
 void Feedback::derive(Axis& a, Instant now) {
     AxisFeedback& f = a.fb;
-    f.power = pac_.mode < 0                  ? AxisFeedback::Power::unknown
-              : a.on && is_online(pac_.mode) ? AxisFeedback::Power::on
-                                             : AxisFeedback::Power::off;
-    f.fault = a.status == 4 || pac_.fault_of_all(now);
+    f.power = drive_.mode < 0                  ? AxisFeedback::Power::unknown
+              : a.on && is_online(drive_.mode) ? AxisFeedback::Power::on
+                                               : AxisFeedback::Power::off;
+    f.fault = a.status == 4 || drive_.fault_of_all(now);
     // The error's number goes before the status of the axis is read anew: until then it is the same fault, not one without a number.
-    if (pac_.error != 0) a.trouble = pac_.error;
+    if (drive_.error != 0) a.trouble = drive_.error;
     if (!f.fault) a.trouble = 0;
     f.error_code = a.trouble;
     f.moving = a.moves();
@@ -104,15 +106,15 @@ void Feedback::derive(Axis& a, Instant now) {
     if (!f.moving) f.velocity = 0;  // it stands: 1910 or 1911 shows it
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
     // Stopped by the control: by its stop input, by a key, by the malfunction of another axis. Only enable, or a reset there, ends it.
-    f.quick_stopping = a.on && !f.fault && is_online(pac_.mode) && pac_.mode != status::online && pac_.mode != status::online_started;
-    f.warning = (a.limits >= 0 && a.on && !(a.limits & 1)) || (pac_.in_trouble() && !f.fault);
-    demands_.show(a, now);
+    f.quick_stopping = a.on && !f.fault && is_online(drive_.mode) && drive_.mode != status::online && drive_.mode != status::online_started;
+    f.warning = (a.limits >= 0 && a.on && !(a.limits & 1)) || (drive_.in_trouble() && !f.fault);
+    drive_.demands.show(a, now);
     // The control calls it in position by its counter alone; whoever reads the flag means the shaft.
     const bool behind = !f.moving && Demands::stands_behind(a);
     f.target_reached = a.reached && !behind;
     f.warning = f.warning || behind;
     const int status = a.status < 0 && a.running ? 1 : a.status;  // 1911 says as much as 1910 of an axis that moves
-    f.native_status = static_cast<std::uint32_t>(pac_.mode & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
+    f.native_status = static_cast<std::uint32_t>(drive_.mode & 0xFF) | static_cast<std::uint32_t>(status & 0xFF) << 8 |
                       static_cast<std::uint32_t>(a.limits & 0xFF) << 16;
     // As old as the oldest of what is published together. The switches of an axis that moves are looked at in turn, and are not counted.
     f.at = a.demand.shown_at;
@@ -122,14 +124,14 @@ void Feedback::derive(Axis& a, Instant now) {
 }
 
 void Feedback::publish(Axis& a, Turn& t) {
-    if (!a.used() || !a.position_known || !pac_.ready()) return;
+    if (!a.used() || !a.position_known || !drive_.ready()) return;
     derive(a, t.now);
     t.out.feedback.push_back({a.id, a.fb});
     check_waits(a, t);
 }
 
 void Feedback::publish_all(Turn& t) {
-    for (Axis& a : pac_.axes)
+    for (Axis& a : drive_.axes)
         publish(a, t);
 }
 
@@ -137,38 +139,39 @@ void Feedback::learn_position(Axis& a, double units, Turn& t) {
     a.counter = increments_of(units);
     a.counter_at = t.now;
     a.demand.fresh = true;
-    if (a.demand.stands && a.demand.settle && !a.moves()) demands_.rest(a, a.counter);
+    if (a.demand.stands && a.demand.settle && !a.moves()) drive_.demands.rest(a, a.counter);
     const bool first = !a.position_known;
     a.position_known = true;
     if (first && !a.lost.empty()) {
-        pac_.notice(Severity::warning, "motion", 0, fmt::format("{}; the position read back is {}", a.lost, axis_text(a.counter)), t, a.id);
+        drive_.notice(Severity::warning, "motion", 0, fmt::format("{}; the position read back is {}", a.lost, axis_text(a.counter)), t,
+                      a.id);
         a.lost.clear();
     }
     publish(a, t);
 }
 
 void Feedback::learn_running(std::uint32_t mask, Turn& t) {
-    for (Axis& a : pac_.axes) {
+    for (Axis& a : drive_.axes) {
         if (!a.here()) continue;
         const bool was = a.running;
         a.running = mask >> (a.channel - 1) & 1u;
         a.running_at = t.now;
         if (!a.running) a.velocity_at = t.now;
         const bool motion_seen = a.motion.active() && a.motion.kind != Motion::Kind::reference;
-        if (a.running != was) pac_.wake = true;
+        if (a.running != was) drive_.wake = true;
         if (a.running) {
             a.motion.final_due = false;
-            demands_.seen_running(a, t.now);
-        } else if (motion_seen && a.motion.begun < pac_.exchanges && !a.motion.final_due) {
+            drive_.demands.seen_running(a, t.now);
+        } else if (motion_seen && a.motion.begun < drive_.exchanges && !a.motion.final_due) {
             // It stands, and was asked after the motion had begun. Status and position first, then its end is published.
             a.motion.final_due = true;
             if (a.status != 4) a.status = -1;  // a malfunction that has been read meanwhile is the newest there is
-            polls_.soon_standing(a);
-            polls_.soon(a.status_code(), a);
+            drive_.polls.soon_standing(a);
+            drive_.polls.soon(a.status_code(), a);
         } else if (was && !motion_seen) {
-            polls_.soon_standing(a);
+            drive_.polls.soon_standing(a);
         }
-        if (!a.running) demands_.seen_standing(a);
+        if (!a.running) drive_.demands.seen_standing(a);
         publish(a, t);
     }
 }
@@ -182,8 +185,8 @@ void Feedback::learn_status(Axis& a, int s, Turn& t) {
     }
     if (s == 4 && !a.malfunction_published) {
         // The fault that follows from it is the alarm.
-        pac_.notice(Severity::info, "axis", 4, fmt::format("axis {}: axis status 4, malfunction", a.channel), t, a.id);
-        pac_.wake = true;
+        drive_.notice(Severity::info, "axis", 4, fmt::format("axis {}: axis status 4, malfunction", a.channel), t, a.id);
+        drive_.wake = true;
     }
     a.malfunction_published = s == 4;
 }
@@ -191,8 +194,8 @@ void Feedback::learn_status(Axis& a, int s, Turn& t) {
 // --- polls -----------------------------------------------------------------------------------------------------------------------
 
 void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
-    Axis& a = pac_.axes[p.axis];
-    if (p.code == code::axis_parameter) demands_.parameter_answered(a, p.parameter, reply, t.now);
+    Axis& a = drive_.axes[p.axis];
+    if (p.code == code::axis_parameter) drive_.demands.parameter_answered(a, p.parameter, reply, t.now);
     if (reply.quit != 0) return poll_refused(a, p, reply, t);
     const double v = number_of(reply).value_or(0);
     const auto n = std::fabs(v) < 4e9 ? static_cast<std::uint32_t>(std::llround(std::fabs(v))) : 0u;
@@ -211,7 +214,7 @@ void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             a.limits = static_cast<int>((n >> 24 & 1u) | (n >> 16 & 1u) << 1 | (n >> 8 & 1u) << 2);
             return learn_status(a, static_cast<int>(n & 0xFFu), t);
         case code::following_error:
-            demands_.following_answered(a, v, t.now);
+            drive_.demands.following_answered(a, v, t.now);
             if (!a.running) publish(a, t);  // of one that runs the position is asked next: they are published together
             return;
         case code::position:
@@ -222,18 +225,18 @@ void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
 }
 
 void Feedback::poll_refused(Axis& a, const Poll& p, const Reply& reply, Turn& t) {
-    ++pac_.counters.refused;
-    if (p.code == code::following_error) demands_.following_refused(a, reply);
+    ++drive_.bus.counters.refused;
+    if (p.code == code::following_error) drive_.demands.following_refused(a, reply);
     if (reply.quit == quit::axis_unknown && !a.missing) {
         a.missing = true;
-        pac_.notice(Severity::alarm, "setup", reply.quit,
-                    fmt::format("the control has no axis {} ({}): take it out of the site, or raise system parameter 2 (number of axes)",
-                                a.channel, describe_quit(reply.quit)),
-                    t, a.id);
+        drive_.notice(Severity::alarm, "setup", reply.quit,
+                      fmt::format("the control has no axis {} ({}): take it out of the site, or raise system parameter 2 (number of axes)",
+                                  a.channel, describe_quit(reply.quit)),
+                      t, a.id);
     } else if (reply.quit != quit::inadmissible) {
         if (p.code == code::extended_status) a.extended_missing = true;
         if (p.code == code::status_axis) a.status_at = t.now;  // asked, and it does not say
-        if (p.code == code::system_flag) pac_.system_flags_missing = true;
+        if (p.code == code::system_flag) drive_.system_flags_missing = true;
     }
 }
 
@@ -254,7 +257,7 @@ void Feedback::learn_end(Axis& a, double units, Turn& t) {
     const Motion m = a.motion;
     std::string why;
     bool reached = m.kind == Motion::Kind::position || m.kind == Motion::Kind::manual;
-    const std::string cause = pac_.what_ended(a);
+    const std::string cause = drive_.what_ended(a);
     const std::int64_t slack = std::max<std::int64_t>(50, std::llabs(m.target) / 100'000);  // 7 digits, and the step of a gear
     if (a.status == 4) {
         reached = false;
@@ -275,28 +278,28 @@ void Feedback::learn_end(Axis& a, double units, Turn& t) {
     a.counter_at = t.now;
     a.demand.fresh = true;
     a.running = false;
-    demands_.rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);
-    end_motion(a, reached, a.status == 4 && pac_.error != 0 ? Reason::drive_refused : Reason::interrupted,
+    drive_.demands.rest(a, reached && m.kind == Motion::Kind::position ? m.target : position);
+    end_motion(a, reached, a.status == 4 && drive_.error != 0 ? Reason::drive_refused : Reason::interrupted,
                fmt::format("axis {} has stopped at {}, target {}: {}", a.channel, axis_text(position), axis_text(m.target), why), t);
     if (reached && Demands::stands_behind(a))
-        pac_.notice(Severity::warning, "motion", a.status,
-                    fmt::format("axis {}: in position by its counter, but the shaft is {} behind: it is held or has lost steps", a.channel,
-                                axis_text(Demands::following_error(a))),
-                    t, a.id);
+        drive_.notice(Severity::warning, "motion", a.status,
+                      fmt::format("axis {}: in position by its counter, but the shaft is {} behind: it is held or has lost steps",
+                                  a.channel, axis_text(Demands::following_error(a))),
+                      t, a.id);
     if (!reached)
-        pac_.notice(Severity::info, "motion", a.status, fmt::format("axis {}: {}, at {}", a.channel, why, axis_text(position)), t, a.id);
+        drive_.notice(Severity::info, "motion", a.status, fmt::format("axis {}: {}, at {}", a.channel, why, axis_text(position)), t, a.id);
 }
 
 void Feedback::begin_motion(Axis& a, Motion motion, Turn& t) {
     a.motion = motion;
-    a.motion.begun = pac_.exchanges;
+    a.motion.begun = drive_.exchanges;
     if (!a.running) a.velocity_at = t.now;  // it stood until then
     a.running = true;
     a.running_at = t.now;
     a.status = -1;
     a.reached = a.fb.homing_attained = false;
     a.fb.homing_error = false;
-    polls_.hurry(t.now);
+    drive_.polls.hurry(t.now);
     publish(a, t);
 }
 
@@ -305,7 +308,7 @@ void Feedback::end_motion(Axis& a, bool reached, Reason reason, const std::strin
     a.motion = {};
     a.renewal.stop();
     a.condition_set = false;
-    pac_.wake = true;
+    drive_.wake = true;
     if (reached) a.running = false;
     a.reached = reached;
     if (was.kind == Motion::Kind::reference) {
@@ -321,7 +324,7 @@ void Feedback::end_motion(Axis& a, bool reached, Reason reason, const std::strin
 
 void Feedback::accepted(Axis& a, const Command& c, Wait::For what, std::int64_t value, std::string text, Turn& t) {
     if (!c.until_done || c.ticket == no_ticket || a.waits.size() >= Axis::wait_limit) {
-        pac_.tickets.accepted(c.ticket, t.out, std::move(text));
+        drive_.tickets.accepted(c.ticket, t.out, std::move(text));
         return;
     }
     a.waits.push_back({what, c.ticket, value});
@@ -334,7 +337,7 @@ void Feedback::check_waits(Axis& a, Turn& t) {
         const bool done = w.what == Wait::For::speed    ? std::llabs(f.velocity - w.value) * 100 <= std::llabs(w.value)
                           : w.what == Wait::For::target ? a.reached && !f.moving
                                                         : !f.moving;
-        if (done) pac_.tickets.answer(w.ticket, Outcome::done, Reason::none, "", t.out);
+        if (done) drive_.tickets.answer(w.ticket, Outcome::done, Reason::none, "", t.out);
         return done;
     });
 }
@@ -342,7 +345,7 @@ void Feedback::check_waits(Axis& a, Turn& t) {
 void Feedback::end_waits(Axis& a, Reason reason, const std::string& text, Turn& t, bool motions_only) {
     std::erase_if(a.waits, [&](const Wait& w) {
         if (motions_only && w.what == Wait::For::standstill) return false;
-        pac_.tickets.failed(w.ticket, reason, text, t.out, pac_.error);
+        drive_.tickets.failed(w.ticket, reason, text, t.out, drive_.error);
         return true;
     });
 }

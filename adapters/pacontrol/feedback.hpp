@@ -7,9 +7,9 @@
 
 namespace axisgate::pacontrol {
 
-class Feedback {
+class Feedback : public Part {
 public:
-    Feedback(Control& control, Polls& polls, Demands& demands) noexcept : pac_(control), polls_(polls), demands_(demands) {}
+    using Part::Part;
 
     // --- what is received -----------------------------------------------------------------------------------------------------
     /// STATUS and ERROR of any acknowledgement.
@@ -29,8 +29,6 @@ public:
 
     void publish(Axis& a, Turn& t);
     void publish_all(Turn& t);
-    /// The next cycle of polls begins at once.
-    void hurry(Instant now) noexcept { polls_.hurry(now); }
 
 private:
     void mode_changed(int before, Turn& t);
@@ -43,10 +41,6 @@ private:
     void learn_end(Axis& a, double units, Turn& t);
     void derive(Axis& a, Instant now);
     void check_waits(Axis& a, Turn& t);
-
-    Control& pac_;
-    Polls& polls_;
-    Demands& demands_;
 };
 
 }  // namespace axisgate::pacontrol

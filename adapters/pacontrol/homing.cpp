@@ -3,7 +3,7 @@
 // Never calls an axis referenced that its own flag does not show as such, where the control has the flag.
 #include <fmt/core.h>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 #include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
@@ -16,14 +16,14 @@ void Homing::run(Axis& a, const Reply* reply, Turn& t) {
 /// A run that has begun and did not come to its end. What ended it is the result, and an event: the command may have its result long
 /// since.
 void Homing::aborted(Axis& a, std::string text, std::int32_t code, Turn& t) {
-    const Reason reason = pac_.in_trouble() || pac_.what_ended(a).empty() ? Reason::drive_refused : Reason::interrupted;
+    const Reason reason = drive_.in_trouble() || drive_.what_ended(a).empty() ? Reason::drive_refused : Reason::interrupted;
     a.running = false;
     feedback_.end_motion(a, false, reason, text, t);
     a.fb.homing_attained = false;
     a.fb.homing_error = reason != Reason::interrupted;
     feedback_.publish(a, t);
-    pac_.notice(Severity::warning, "homing", code, fmt::format("axis {}: the reference run has not come to its end: {}", a.channel, text),
-                t, a.id);
+    drive_.notice(Severity::warning, "homing", code, fmt::format("axis {}: the reference run has not come to its end: {}", a.channel, text),
+                  t, a.id);
     jobs_.over(a, Outcome::failed, reason, std::move(text), t, code);
 }
 
@@ -43,17 +43,17 @@ void Homing::run_home(Axis& a, const Reply* reply, Turn& t) {
                         method),
             t);
     }
-    const std::string cause = pac_.what_ended(a);
+    const std::string cause = drive_.what_ended(a);
     if (j.step == 1 && reply->quit != 0) {
         if (!j.begun) {
             jobs_.ended_by_quit(a, *reply, t, advice_for(reply->quit));
             return;
         }
-        ++pac_.counters.refused;
+        ++drive_.bus.counters.refused;
         const std::string refusal = fmt::format("{}: {}", describe(j.request), describe_quit(reply->quit));
-        return aborted(a, cause.empty() ? refusal : cause + "; " + refusal, pac_.error != 0 ? pac_.error : reply->quit, t);
+        return aborted(a, cause.empty() ? refusal : cause + "; " + refusal, drive_.error != 0 ? drive_.error : reply->quit, t);
     }
-    if (!cause.empty()) return aborted(a, cause, pac_.error, t);
+    if (!cause.empty()) return aborted(a, cause, drive_.error, t);
     if (j.step == 1) {
         if (a.motion.kind != Motion::Kind::reference) feedback_.begin_motion(a, {Motion::Kind::reference}, t);
         j.step = 2;
@@ -66,7 +66,7 @@ void Homing::run_home(Axis& a, const Reply* reply, Turn& t) {
             a.demand.fresh = true;
         }
         j.step = 3;
-        if (!pac_.system_flags_missing) return jobs_.ask(a, request_for(code::system_flag, referenced_flag + a.number()));
+        if (!drive_.system_flags_missing) return jobs_.ask(a, request_for(code::system_flag, referenced_flag + a.number()));
     }
     // "Done" is believed when the flag says so where the control has it.
     const bool asked = j.request.code == code::system_flag;
@@ -82,22 +82,22 @@ void Homing::run_home(Axis& a, const Reply* reply, Turn& t) {
 /// Steps: 1 a run, 2 its position; then the next axis.
 void Homing::run_several(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
-    Axis& x = pac_.axes[j.places[j.at]];
+    Axis& x = drive_.axes[j.places[j.at]];
     if (j.step == 1) {
-        const std::string cause = pac_.what_ended(x);
+        const std::string cause = drive_.what_ended(x);
         const bool good = reply.quit == 0 && cause.empty();
-        const Reason reason = pac_.in_trouble() || cause.empty() ? Reason::drive_refused : Reason::interrupted;
+        const Reason reason = drive_.in_trouble() || cause.empty() ? Reason::drive_refused : Reason::interrupted;
         if (x.motion.kind != Motion::Kind::reference && good) feedback_.begin_motion(x, {Motion::Kind::reference}, t);
         x.running = false;
         const std::string refusal = reply.quit == 0 ? std::string() : fmt::format("{}: {}", describe(j.request), describe_quit(reply.quit));
         feedback_.end_motion(x, good, reason, cause.empty() ? refusal : cause, t);
         if (!good) {
-            pac_.counters.refused += reply.quit != 0;
+            drive_.bus.counters.refused += reply.quit != 0;
             return jobs_.over(
                 a, reply.quit != 0 && !j.begun ? Outcome::refused : Outcome::failed, reason,
                 fmt::format("axis {} did not come to its reference: {}{}{}; axes before it in the order are referenced, {} of {}",
                             x.channel, cause, cause.empty() || refusal.empty() ? "" : "; ", refusal, j.at, j.places.size()),
-                t, pac_.error != 0 ? pac_.error : reply.quit);
+                t, drive_.error != 0 ? drive_.error : reply.quit);
         }
         j.step = 2;  // the position has a new zero: known before the end is published
         return jobs_.ask(a, request_for(code::position, x.number()));
@@ -105,7 +105,7 @@ void Homing::run_several(Axis& a, const Reply& reply, Turn& t) {
     if (reply.quit == 0) feedback_.learn_position(x, reply, t);
     if (++j.at >= j.places.size()) return jobs_.over(a, Outcome::done, Reason::none, fmt::format("{} axes referenced", j.places.size()), t);
     j.step = 1;
-    jobs_.ask(a, request_for(code::reference, pac_.axes[j.places[j.at]].number()));
+    jobs_.ask(a, request_for(code::reference, drive_.axes[j.places[j.at]].number()));
 }
 
 void Homing::start_several(Axis& a, std::string_view argument, Turn& t) {
@@ -116,17 +116,17 @@ void Homing::start_several(Axis& a, std::string_view argument, Turn& t) {
     if (w.empty()) {
         mask = 1u << a.place();
     } else if (w.size() == 1 && w[0] == "all") {
-        for (const Axis& x : pac_.axes)
+        for (const Axis& x : drive_.axes)
             mask |= x.here() ? 1u << x.place() : 0u;
     } else if (w.size() == 1 && w[0].starts_with("0x")) {
         mask = whole_of(w[0]).value_or(0);
     } else {
         for (const auto& one : w) {
             const auto n = whole_of(one);
-            mask |= n && *n >= 1 && *n <= Control::channels ? 1u << (*n - 1) : wrong;
+            mask |= n && *n >= 1 && *n <= drive_.axes.size() ? 1u << (*n - 1) : wrong;
         }
     }
-    for (const Axis& x : pac_.axes)
+    for (const Axis& x : drive_.axes)
         if ((mask >> x.place() & 1u) && !x.used()) mask |= wrong;
     if (mask == 0 || mask >= wrong)
         return jobs_.refuse(a, Reason::out_of_range, "reference takes all, channels of the site's axes as in 1,3, or a mask as in 0x5", t);
@@ -135,13 +135,13 @@ void Homing::start_several(Axis& a, std::string_view argument, Turn& t) {
         if (mask >> place & 1u) j.places.push_back(place);
         mask &= ~(1u << place);
     };
-    for (const int channel : pac_.options.reference_order)
+    for (const int channel : drive_.options.reference_order)
         take(static_cast<std::size_t>(channel) - 1);
-    for (std::size_t i = 0; i < Control::channels; ++i)
+    for (std::size_t i = 0; i < drive_.axes.size(); ++i)
         take(i);
     j.verb = this;
     j.step = 1;
-    jobs_.ask(a, request_for(code::reference, pac_.axes[j.places[0]].number()));
+    jobs_.ask(a, request_for(code::reference, drive_.axes[j.places[0]].number()));
 }
 
 }  // namespace axisgate::pacontrol

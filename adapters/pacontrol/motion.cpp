@@ -7,13 +7,15 @@
 #include <cstdlib>
 #include <limits>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 #include "adapters/pacontrol/wire_number.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
 constexpr Duration stand_limit = std::chrono::seconds(10);  // a motion that was stopped for the next one has to stand within
 }
+
+DriveVerb::DriveVerb(Drive& drive) noexcept : Part(drive), jobs_(drive.jobs), feedback_(drive.feedback) {}
 
 std::string_view DriveVerb::advice_for(std::uint16_t q) {
     switch (q) {
@@ -140,8 +142,8 @@ void Moves::run_origin(Axis& a, const Reply* reply, Turn& t) {
     if (!reply) {
         if (jobs_.ended_by_state(a, t)) return;
         j.step = 1;
-        if (pac_.options.set_by_g26 && wanted == 0) return jobs_.ask(a, code::position_null);
-        return jobs_.ask(a, pac_.options.set_by_g26 ? code::reference_here : code::set_position, axis_text(wanted));
+        if (drive_.options.set_by_g26 && wanted == 0) return jobs_.ask(a, code::position_null);
+        return jobs_.ask(a, drive_.options.set_by_g26 ? code::reference_here : code::set_position, axis_text(wanted));
     }
     if (jobs_.ended_by_quit(a, *reply, t, j.step == 1 ? advice_for(reply->quit) : std::string_view())) return;
     if (j.step == 1) {
@@ -163,9 +165,9 @@ bool Moves::gather(Axis& a, Turn& t) {
     };
     std::vector<std::size_t>& places = a.job.places;
     for (const AxisId id : std::get<StartTogether>(a.job.command.body).axes) {
-        const Axis* x = pac_.axis_of(id);
+        const Axis* x = drive_.axis_of(id);
         if (!x) return refused("one of the axes is not an axis of this control");
-        if (std::string why = pac_.why_not_movable(*x); !why.empty()) return refused(std::move(why));
+        if (std::string why = drive_.why_not_movable(*x); !why.empty()) return refused(std::move(why));
         if (!x->prepared) return refused(fmt::format("axis {} has no prepared motion", x->channel));
         places.push_back(x->place());
     }
@@ -176,15 +178,15 @@ void Moves::run_together(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     if (!reply && !gather(a, t)) return;
     if (reply) {
-        Axis& x = pac_.axes[j.places[j.at]];
+        Axis& x = drive_.axes[j.places[j.at]];
         x.prepared = false;
         if (reply->quit != 0) {
-            ++pac_.counters.refused;
+            ++drive_.bus.counters.refused;
             std::string text = fmt::format("{}: {}", describe(j.request), describe_quit(reply->quit));
             for (std::size_t i = 0; i < j.at; ++i) {
-                const Axis& started = pac_.axes[j.places[i]];
+                const Axis& started = drive_.axes[j.places[i]];
                 text += fmt::format("{}{}", i == 0 ? "; stopped again: axis " : ", ", started.channel);
-                stops_.add(Stops::Kind::halt, started);
+                drive_.stops.add(Stops::Kind::halt, started);
             }
             return jobs_.over(a, j.at == 0 ? Outcome::refused : Outcome::failed, Reason::drive_refused, std::move(text), t, reply->quit);
         }
@@ -195,7 +197,7 @@ void Moves::run_together(Axis& a, const Reply* reply, Turn& t) {
         feedback_.begin_motion(x, m, t);
         ++j.at;
     }
-    if (j.at < j.places.size()) return jobs_.ask(a, pac_.axes[j.places[j.at]].prepared_request);
+    if (j.at < j.places.size()) return jobs_.ask(a, drive_.axes[j.places[j.at]].prepared_request);
     jobs_.over(a, Outcome::accepted, Reason::none,
                fmt::format("{} axes were started one behind the other: the control has no common start", j.places.size()), t);
 }

@@ -3,14 +3,14 @@
 // Never judges a command: any code goes out, and QUIT is an answer like others.
 #include <fmt/core.h>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
 
 void NativeText::run(Axis& a, const Reply* reply, Turn& t) {
     if (!reply) return start(a, Native(std::get<Native>(a.job.command.body)), t);
-    if (reply->quit != 0 && a.job.request.code == code::abort_online) pac_.leaving = false;
-    jobs_.over(a, Outcome::done, Reason::none, text_of(*reply), t, reply->quit, {}, port_.raw_reply());
+    if (reply->quit != 0 && a.job.request.code == code::abort_online) drive_.leaving = false;
+    jobs_.over(a, Outcome::done, Reason::none, text_of(*reply), t, reply->quit, {}, drive_.port.raw_reply());
 }
 
 /// Text: "1900;5;0;0" is framed and gets its check; "EOT" is the poll. Bytes: one whole frame, or 04, as they are.

@@ -6,35 +6,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
 
 /// It waits for home position, or is refused.
 void Parameters::not_here(Axis& a, const std::string& id, Turn& t) {
     Job& j = a.job;
-    j.text = fmt::format("{} can be {} in home position alone; {}", id, j.kind == Job::Kind::write ? "written" : "read", pac_.mode_text());
-    if (!pac_.options.parameters_wait) return jobs_.refuse(a, Reason::wrong_state, j.text + " (option when = wait lets it wait)", t);
-    const auto powered = std::ranges::find_if(pac_.axes, [&](const Axis& x) { return is_online(pac_.mode) && pac_.powered_at_home(x); });
-    if (powered != pac_.axes.end())
+    j.text =
+        fmt::format("{} can be {} in home position alone; {}", id, j.kind == Job::Kind::write ? "written" : "read", drive_.mode_text());
+    if (!drive_.options.parameters_wait) return jobs_.refuse(a, Reason::wrong_state, j.text + " (option when = wait lets it wait)", t);
+    const auto powered =
+        std::ranges::find_if(drive_.axes, [&](const Axis& x) { return is_online(drive_.mode) && drive_.powered_at_home(x); });
+    if (powered != drive_.axes.end())
         j.text += fmt::format(
             "; axis {} may have power there by its enable mode (AP[50]), so ONLINE is not left for it: online.give_back leaves it",
             powered->channel);
-    jobs_.wait(a, j.limit == never ? t.now + pac_.options.wait_limit : j.limit);
+    jobs_.wait(a, j.limit == never ? t.now + drive_.options.wait_limit : j.limit);
 }
 
 void Parameters::run(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     const auto* write = std::get_if<WriteParameter>(&j.command.body);
     j.point = write ? write->point : std::get<ReadParameter>(j.command.body).point;
-    const Binding* b = pac_.elements.binding(j.point);
-    const std::string id = b ? pac_.catalogue.id_of(j.point) : std::string("this point");
+    const Binding* b = drive_.bus.elements.binding(j.point);
+    const std::string id = b ? drive_.bus.catalogue.id_of(j.point) : std::string("this point");
     const CommandInfo* c = b ? (write ? b->write : b->read) : nullptr;
     if (!c)
         return jobs_.refuse(a, b ? Reason::not_supported : Reason::unknown_point,
                             fmt::format("{}: the serial port has no command to {} it", id, write ? "write" : "read"), t);
     if (!reply || (reply->quit == quit::inadmissible && c->home_only)) {
-        if (c->home_only && pac_.mode >= 0 && (!is_home(pac_.mode) || reply)) return not_here(a, id, t);
+        if (c->home_only && drive_.mode >= 0 && (!is_home(drive_.mode) || reply)) return not_here(a, id, t);
         j.text.clear();
         return jobs_.ask(a, write ? Elements::write(*b, j.point, a.channel, write->value) : Elements::read(*b, j.point, a.channel));
     }
@@ -52,10 +54,10 @@ void Parameters::run(Axis& a, const Reply* reply, Turn& t) {
         if (!same && c->answer != Carries::nothing)
             text = fmt::format("{}: {} was written, the control took {}", id, to_text(wanted), to_text(v));
     }
-    pac_.sample(a, j.point, v, t);
+    drive_.sample(a, j.point, v, t);
     if (!write && b->drive) {
         // What all axes share is asked once for all that wait for it: sixteen snapshots read the control's own parameters one time.
-        for (Axis& x : pac_.axes) {
+        for (Axis& x : drive_.axes) {
             const bool same = x.job.kind == Job::Kind::read && x.job.want == Job::Want::send && x.job.point == j.point;
             if (&x != &a && same) jobs_.over(x, Outcome::done, Reason::none, {}, t, 0, v);
         }

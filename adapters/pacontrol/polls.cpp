@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 namespace {
 constexpr Duration longest_cycle = std::chrono::seconds(10);
@@ -16,18 +18,18 @@ constexpr std::size_t parameters_per_cycle = 4;
 }  // namespace
 
 void Polls::plan_cycle(Instant now) {
-    const Duration period = pace_.period(pac_.line.timing.poll_period);
+    const Duration period = pace_.period(drive_.bus.timing.poll_period);
     cycle_time_ = std::clamp<Duration>(now - cycle_began_, period, longest_cycle);
     cycle_began_ = now;
     cycle_at_ = now + period;
     std::size_t moving = 0;
     waiting_.push_back({code::running_axes});
-    for (Axis& a : pac_.axes) {
+    for (Axis& a : drive_.axes) {
         if (!a.here()) continue;
         const bool lag = a.demand.has_lag();
         if (first_cycle_) {
             add(code::position, a);
-            if (!pac_.system_flags_missing) add(code::system_flag, a);
+            if (!drive_.system_flags_missing) add(code::system_flag, a);
             add(a.status_code(), a);
         } else if (a.motion.final_due) {
             add(a.status_code(), a);
@@ -61,13 +63,13 @@ void Polls::plan_cycle(Instant now) {
 /// never older than `standing_age` where the line allows it; where axes move, not one more.
 void Polls::plan_standing(bool crowded) {
     const auto stands = [](const Axis& a) { return a.here() && !a.moves() && !a.looked_at && a.position_known; };
-    const auto standing = static_cast<std::size_t>(std::ranges::count_if(pac_.axes, stands));
+    const auto standing = static_cast<std::size_t>(std::ranges::count_if(drive_.axes, stands));
     const double wanted = crowded ? static_cast<double>(standing) * seconds(cycle_time_) / seconds(standing_age)
                                   : static_cast<double>(standing) / standing_cycles;
     auto left = std::min(standing, static_cast<std::size_t>(std::ceil(wanted)));
-    for (std::size_t k = 0; k < Control::channels && left > 0; ++k) {
-        idle_at_ = (idle_at_ + 1) % Control::channels;
-        const Axis& a = pac_.axes[idle_at_];
+    for (std::size_t k = 0; k < drive_.axes.size() && left > 0; ++k) {
+        idle_at_ = (idle_at_ + 1) % drive_.axes.size();
+        const Axis& a = drive_.axes[idle_at_];
         if (!stands(a)) continue;
         --left;
         if (a.demand.has_lag()) add(code::following_error, a);  // held, it may be pushed without its counter moving
@@ -78,15 +80,15 @@ void Polls::plan_standing(bool crowded) {
 
 /// One thing per cycle of what seldom changes: the switches of an axis that moves, references, and in home position parameters.
 void Polls::plan_slow(Instant now) {
-    constexpr std::size_t all = 3 * Control::channels;
+    const std::size_t all = 3 * drive_.axes.size();
     for (std::size_t k = 0; k < all; ++k) {
         slow_at_ = (slow_at_ + 1) % all;
-        Axis& a = pac_.axes[slow_at_ / 3];
+        Axis& a = drive_.axes[slow_at_ / 3];
         const std::size_t what = slow_at_ % 3;
         if (!a.here()) continue;
         if (what == 0 && a.running) return add(a.status_code(), a);
-        if (what == 1 && !pac_.system_flags_missing) return add(code::system_flag, a);
-        if (what == 2 && pac_.parameters_readable(now)) {
+        if (what == 1 && !drive_.system_flags_missing) return add(code::system_flag, a);
+        if (what == 2 && drive_.parameters_readable(now)) {
             std::uint8_t& next = a.demand.next_parameter;
             add(code::axis_parameter, a, next);
             next = static_cast<std::uint8_t>((next + 1u) % AxisDemand::numbers.size());
@@ -98,9 +100,9 @@ void Polls::plan_slow(Instant now) {
 /// A few at a time, in home position, where nothing moves and nothing else is urgent. Those that are known are looked at again in the
 /// slow round: they can be changed at the control.
 void Polls::plan_parameters(Instant now) {
-    if (!pac_.parameters_readable(now)) return;
+    if (!drive_.parameters_readable(now)) return;
     std::size_t planned = 0;
-    for (const Axis& a : pac_.axes) {
+    for (const Axis& a : drive_.axes) {
         if (!a.here()) continue;
         for (std::uint8_t k = 0; k < AxisDemand::numbers.size(); ++k) {
             if (a.demand.parameters[k].read) continue;

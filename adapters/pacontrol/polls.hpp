@@ -11,9 +11,9 @@ namespace axisgate::pacontrol {
 
 /// Cycles and not the kit's periods: a following error and the position that it belongs to are asked one behind the other, and how many
 /// axes that stand are asked in a cycle depends on how long the one before took.
-class Polls {
+class Polls : public Part {
 public:
-    explicit Polls(Control& control) noexcept : pac_(control) {}
+    using Part::Part;
 
     [[nodiscard]] bool wanted(Instant now) const noexcept { return !waiting_.empty() || cycle_at_ <= now; }
     [[nodiscard]] Instant deadline() const noexcept { return cycle_at_; }
@@ -42,7 +42,6 @@ private:
     void plan_parameters(Instant now);
     void add(std::uint16_t code, const Axis& a, std::uint8_t parameter = 0) { waiting_.push_back({code, a.place(), parameter}); }
 
-    Control& pac_;
     drive::Pace pace_;
     std::deque<Poll> waiting_;
     bool first_cycle_ = true;

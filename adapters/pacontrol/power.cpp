@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "adapters/pacontrol/drive_verbs.hpp"
+#include "adapters/pacontrol/drive.hpp"
 
 namespace axisgate::pacontrol {
 namespace {
@@ -28,27 +28,27 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
     switch (j.request.code) {
         case code::start_online:
-            if (reply.quit == 0) pac_.started_by_us = true;
+            if (reply.quit == 0) drive_.started_by_us = true;
             // Somebody may have changed the mode in the same moment: then it is decided anew.
-            if (reply.quit != quit::no_external_stop && is_online(pac_.mode) && reply.quit != 0 && j.rounds++ < rounds_limit) return true;
+            if (reply.quit != quit::no_external_stop && is_online(drive_.mode) && reply.quit != 0 && j.rounds++ < rounds_limit) return true;
             return !jobs_.ended_by_quit(a, reply, t, stop_advice(reply.quit));
         case code::abort_online:
             j.step = 1;
             return !jobs_.ended_by_quit(a, reply, t);
         case code::stop_axis:
             // Whatever was interrupted counts as finished now; a refusal means that there was nothing.
-            if (pac_.mode != status::online || pac_.error != 0) return true;
+            if (drive_.mode != status::online || drive_.error != 0) return true;
             jobs_.ask(a, code::axis_on);
             return false;
         case code::axis_on:
             // 15h: this axis has no switch; it is on with ONLINE.
             if (reply.quit != quit::not_executable && jobs_.ended_by_quit(a, reply, t)) return false;
-            if (pac_.options.release && !a.fb.referenced) {
+            if (drive_.options.release && !a.fb.referenced) {
                 jobs_.ask(a, code::no_reference);
                 return false;
             }
-            if (is_online(pac_.mode)) break;
-            jobs_.refuse(a, Reason::wrong_state, pac_.why_not_online(), t);
+            if (is_online(drive_.mode)) break;
+            jobs_.refuse(a, Reason::wrong_state, drive_.why_not_online(), t);
             return false;
         case code::no_reference:
             if (jobs_.ended_by_quit(a, reply, t)) return false;
@@ -59,8 +59,8 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
     }
     a.on = true;
     a.off_ordered = false;
-    if (j.rounds > 0) stops_.keep_off();  // by way of home position
-    pac_.give_back_due = false;
+    if (j.rounds > 0) drive_.stops.keep_off();  // by way of home position
+    drive_.give_back_due = false;
     feedback_.publish(a, t);
     jobs_.finished(a, t);
     return false;
@@ -71,20 +71,20 @@ bool Power::enable_goes_on(Axis& a, const Reply& reply, Turn& t) {
 void Power::run_enable(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     if (reply && !enable_goes_on(a, *reply, t)) return;
-    const int mode = pac_.mode;
-    if (j.rounds > rounds_limit) return jobs_.refuse(a, Reason::wrong_state, pac_.why_not_online(), t);
+    const int mode = drive_.mode;
+    if (j.rounds > rounds_limit) return jobs_.refuse(a, Reason::wrong_state, drive_.why_not_online(), t);
     if (j.step == 1 && is_online(mode)) return jobs_.wait(a, j.limit == never ? t.now + change_limit : j.limit);
     j.step = 0;
-    if (mode == status::online && pac_.error == 0) {
+    if (mode == status::online && drive_.error == 0) {
         if (a.status != 8) return jobs_.ask(a, code::stop_axis);
         return jobs_.refuse(a, Reason::wrong_state, fmt::format("axis {} is in measuring mode: leave it with measure off", a.channel), t);
     }
-    if (mode == status::home && pac_.error == 0) {
-        if (!pac_.options.online_auto && !pac_.started_by_us)
+    if (mode == status::home && drive_.error == 0) {
+        if (!drive_.options.online_auto && !drive_.started_by_us)
             return jobs_.refuse(
                 a, Reason::wrong_state,
                 "the control is in home position and the option online is manual: start ONLINE with the action online.start", t);
-        const bool asked = std::ranges::any_of(pac_.axes, [&](const Axis& x) {
+        const bool asked = std::ranges::any_of(drive_.axes, [&](const Axis& x) {
             return &x != &a && x.job.active() && x.job.request.code == code::start_online &&
                    (x.job.in_flight || x.job.want == Job::Want::send);
         });
@@ -96,11 +96,11 @@ void Power::run_enable(Axis& a, const Reply* reply, Turn& t) {
         j.text = "enable";
         return jobs_.wait(a, std::min(j.limit, t.now + change_limit));
     }
-    if (mode == status::online_stopped && pac_.error == 0) {
+    if (mode == status::online_stopped && drive_.error == 0) {
         ++j.rounds;
         return jobs_.ask(a, code::abort_online);
     }
-    jobs_.refuse(a, Reason::wrong_state, pac_.why_not_online(), t);
+    jobs_.refuse(a, Reason::wrong_state, drive_.why_not_online(), t);
 }
 
 /// False: the job has ended.
@@ -108,7 +108,7 @@ bool Power::reset_goes_on(Axis& a, const Reply& reply, Turn& t) {
     Job& j = a.job;
     const std::uint16_t asked = j.request.code;
     if (asked == code::reset_error && reply.quit == quit::not_executable) {
-        ++pac_.counters.refused;
+        ++drive_.bus.counters.refused;
         jobs_.over(a, Outcome::failed, Reason::drive_refused,
                    fmt::format("the PA-CONTROL error E{} cannot be reset ({}): remove its cause, then switch the control off and on",
                                reply.data, describe_quit(reply.quit)),
@@ -128,23 +128,23 @@ bool Power::reset_goes_on(Axis& a, const Reply& reply, Turn& t) {
 void Power::run_reset(Axis& a, const Reply* reply, Turn& t) {
     Job& j = a.job;
     if (reply && !reset_goes_on(a, *reply, t)) return;
-    const int mode = pac_.mode;
-    const bool trouble = pac_.in_trouble();
+    const int mode = drive_.mode;
+    const bool trouble = drive_.in_trouble();
     if (j.step == 1 && (is_online(mode) || is_automatic(mode))) return jobs_.wait(a, j.limit == never ? t.now + change_limit : j.limit);
     j.step = 0;
     if (mode < 0) return jobs_.wait(a, t.now + change_limit);
     if (!trouble && a.status != 4) {
         a.fb.homing_error = false;
-        if (j.rounds > 0) stops_.keep_off();
+        if (j.rounds > 0) drive_.stops.keep_off();
         feedback_.publish_all(t);
         return jobs_.finished(a, t);
     }
     if (j.rounds++ > rounds_limit)
         return jobs_.over(
             a, Outcome::failed, Reason::drive_refused,
-            fmt::format("the fault is still there: {}, PA-CONTROL error E{}, axis status {}", pac_.mode_text(), pac_.error, a.status), t,
-            pac_.error);
-    if (is_manual(mode)) return jobs_.refuse(a, Reason::wrong_state, pac_.why_not_online(), t);
+            fmt::format("the fault is still there: {}, PA-CONTROL error E{}, axis status {}", drive_.mode_text(), drive_.error, a.status),
+            t, drive_.error);
+    if (is_manual(mode)) return jobs_.refuse(a, Reason::wrong_state, drive_.why_not_online(), t);
     if (is_online(mode)) return jobs_.ask(a, code::abort_online);
     if (is_automatic(mode)) return jobs_.ask(a, code::abort_auto);
     // Home position. An axis that shows a malfunction without an error is looked at again.
@@ -159,7 +159,7 @@ void Power::start_mode(Axis& a, std::uint16_t what, Turn& t) {
 }
 
 bool Power::is_there(std::uint16_t what) const noexcept {
-    const int mode = pac_.mode;
+    const int mode = drive_.mode;
     return what == code::start_online   ? mode == status::online
            : what == code::abort_online ? !is_online(mode)
            : what == code::abort_auto   ? !is_automatic(mode)
@@ -172,16 +172,16 @@ void Power::run_mode(Axis& a, const Reply* reply, Turn& t) {
     const auto what = static_cast<std::uint16_t>(j.step);
     if (!reply && j.rounds == 0) {
         if (is_there(what) && what != code::stop)
-            return jobs_.over(a, Outcome::done, Reason::none, fmt::format("operating status is {} already", status_text(pac_.mode)), t);
+            return jobs_.over(a, Outcome::done, Reason::none, fmt::format("operating status is {} already", status_text(drive_.mode)), t);
         ++j.rounds;
         return jobs_.ask(a, what);
     }
     if (reply) {
         if (jobs_.ended_by_quit(a, *reply, t, stop_advice(reply->quit))) return;
-        if (what == code::start_online) pac_.started_by_us = false;  // started by hand: given back by hand
-        if (!j.command.until_done) return jobs_.over(a, Outcome::accepted, Reason::none, pac_.mode_text(), t);
+        if (what == code::start_online) drive_.started_by_us = false;  // started by hand: given back by hand
+        if (!j.command.until_done) return jobs_.over(a, Outcome::accepted, Reason::none, drive_.mode_text(), t);
     }
-    if (is_there(what)) return jobs_.over(a, Outcome::done, Reason::none, pac_.mode_text(), t);
+    if (is_there(what)) return jobs_.over(a, Outcome::done, Reason::none, drive_.mode_text(), t);
     jobs_.wait(a, j.limit == never ? t.now + change_limit : j.limit);
 }
 
@@ -190,18 +190,18 @@ void Power::run_mode(Axis& a, const Reply* reply, Turn& t) {
 void Power::consider_give_back(Turn& t) {
     // A parameter that waits for home position is a reason to go there, not one to stay; what stands behind it in the queue waits with it.
     const auto waits_for_home = [](const Axis& a) { return a.job.of_parameter() && a.job.waits(); };
-    if (!(pac_.give_back_due || std::ranges::any_of(pac_.axes, waits_for_home)) || !pac_.started_by_us || !pac_.options.give_back_auto ||
-        pac_.leaving || port_.busy())
+    if (!(drive_.give_back_due || std::ranges::any_of(drive_.axes, waits_for_home)) || !drive_.started_by_us ||
+        !drive_.options.give_back_auto || drive_.leaving || drive_.port.busy())
         return;
-    if (pac_.mode != status::online && pac_.mode != status::online_stopped) return;
+    if (drive_.mode != status::online && drive_.mode != status::online_stopped) return;
     // Neither a disable nor a parameter that waits is an order to give power to an axis of enable mode 1.
-    for (const Axis& a : pac_.axes) {
-        if (pac_.powered_at_home(a) || a.on || a.moves()) return;
+    for (const Axis& a : drive_.axes) {
+        if (drive_.powered_at_home(a) || a.on || a.moves()) return;
         if (!waits_for_home(a) && (a.job.active() || !a.queue.empty())) return;
     }
-    pac_.give_back_due = false;
-    pac_.leaving = true;
-    port_.send({Purpose::give_back, 0, request_for(code::abort_online)}, Priority::command, t);
+    drive_.give_back_due = false;
+    drive_.leaving = true;
+    drive_.port.send({Purpose::give_back, 0, request_for(code::abort_online)}, Priority::command, t);
 }
 
 }  // namespace axisgate::pacontrol

@@ -8,59 +8,58 @@
 
 namespace axisgate::pacontrol {
 
-void Drive::forget() {
-    port_.forget();
-    pac_.forget();
-    stops_.forget();
-    polls_.clear();
-    polls_.start_over();
+void Drive::forget_all() {
+    port.forget();
+    forget();
+    stops.forget();
+    polls.clear();
+    polls.start_over();
 }
 
 void Drive::line_up(Turn& t) {
-    forget();
-    pac_.presence.begin(t.now);
-    port_.restart(t.now);
-    for (const auto& f : pac_.options.faults)
-        pac_.notice(Severity::warning, "setup", 0, f, t);
+    forget_all();
+    presence.begin(t.now);
+    port.restart(t.now);
+    tell_setup(options.faults, t);
 }
 
 void Drive::line_down(std::string_view why, Turn& t) {
     remove(why, t);
-    pac_.presence.report(std::string(why), t.out);
+    presence.report(std::string(why), t.out);
 }
 
 void Drive::remove(std::string_view why, Turn& t) {
     fail_all(Reason::line_down, std::string(why), t);
-    forget();
-    pac_.presence.close();
+    forget_all();
+    presence.close();
 }
 
 void Drive::found(Turn& t) {
-    const bool again = pac_.presence.ever_found();
-    pac_.presence.found();
-    pac_.presence.made_ready();  // nothing has to be read before commands are taken
-    pac_.mode = -1;
-    port_.lose_step();  // answers to older probes may still be on their way
-    polls_.hurry(t.now);
-    pac_.presence.report(again ? "the PA-CONTROL answers again" : "the PA-CONTROL answers", t.out);
+    const bool again = presence.ever_found();
+    presence.found();
+    presence.made_ready();  // nothing has to be read before commands are taken
+    mode = -1;
+    port.lose_step();  // answers to older probes may still be on their way
+    polls.hurry(t.now);
+    presence.report(again ? "the PA-CONTROL answers again" : "the PA-CONTROL answers", t.out);
 }
 
 void Drive::count_silence(Turn& t) {
-    const bool was_ready = pac_.ready();
+    const bool was_ready = ready();
     std::string why = "no answer";
-    switch (pac_.presence.silent(t.now)) {
+    switch (presence.silent(t.now)) {
         case drive::Presence::Silence::counted:
-            if (pac_.presence.is(Phase::probing)) pac_.presence.report("no answer yet", t.out);
+            if (presence.is(Phase::probing)) presence.report("no answer yet", t.out);
             return;
         case drive::Presence::Silence::still_absent:
-            return pac_.presence.report(std::move(why), t.out);
+            return presence.report(std::move(why), t.out);
         case drive::Presence::Silence::lost:
             break;
     }
-    if (was_ready) why = fmt::format("{} requests in a row were not answered", pac_.presence.silences());
-    fail_all(Reason::no_answer, fmt::format("the PA-CONTROL {} does not answer: {}", pac_.setup.name, why), t);
-    forget();
-    pac_.presence.report(std::move(why), t.out);
+    if (was_ready) why = fmt::format("{} requests in a row were not answered", presence.silences());
+    fail_all(Reason::no_answer, fmt::format("the PA-CONTROL {} does not answer: {}", name(), why), t);
+    forget_all();
+    presence.report(std::move(why), t.out);
 }
 
 void Drive::fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t) {
@@ -71,16 +70,16 @@ void Drive::fail_axis(Axis& a, Reason reason, const std::string& text, Turn& t) 
                  : position                          ? fmt::format("the end of a motion to {} was never heard", axis_text(was.target))
                                                      : std::string("the end of a motion was never heard");
     }
-    jobs_.over(a, Outcome::failed, reason, was.active() ? text + "; whether the motion has ended is not known" : text, t);
-    feedback_.end_waits(a, reason, text + "; the end of the motion was never heard: whether it was reached is not known", t, false);
+    jobs.over(a, Outcome::failed, reason, was.active() ? text + "; whether the motion has ended is not known" : text, t);
+    feedback.end_waits(a, reason, text + "; the end of the motion was never heard: whether it was reached is not known", t, false);
     a.renewal.stop();
     a.queue.clear();
-    pac_.tickets.fail_axis(a.id, reason, text, t.out);
+    tickets.fail_axis(a.id, reason, text, t.out);
 }
 
 void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
-    stops_.fail_all(reason, text, t);
-    for (Axis& a : pac_.axes) {
+    stops.fail_all(reason, text, t);
+    for (Axis& a : axes) {
         if (a.used()) fail_axis(a, reason, text, t);
     }
 }

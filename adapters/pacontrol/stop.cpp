@@ -9,6 +9,8 @@
 
 #include "adapters/pacontrol/wire_number.hpp"
 
+#include "adapters/pacontrol/drive.hpp"
+
 namespace axisgate::pacontrol {
 namespace {
 constexpr std::uint8_t unread_stop_tries = 8;  // of one stop that the control could not read
@@ -30,16 +32,16 @@ bool nobody_commands(int mode) {
 void Stops::interrupt(Axis& a, std::string_view by, bool power_off, Turn& t) {
     const std::string text = drive::CommandQueue::interrupted_by(by);
     const auto ends = [&](const Command& c) { return moves(c.body) || (power_off && std::holds_alternative<Enable>(c.body)); };
-    for (Axis& x : pac_.axes) {
+    for (Axis& x : drive_.axes) {
         const Job& j = x.job;
         // Its own, or one of several axes that includes this one.
         if (!j.active() || !((&x == &a && ends(j.command)) || std::ranges::find(j.places, a.place()) != j.places.end())) continue;
-        if (j.processing) pac_.processing.foreign = true;
-        jobs_.over(x, Outcome::failed, Reason::interrupted, text, t);
+        if (j.processing) drive_.processing.foreign = true;
+        drive_.jobs.over(x, Outcome::failed, Reason::interrupted, text, t);
     }
-    a.queue.interrupt(ends, by, pac_.tickets, t);
-    if (a.motion.active()) feedback_.end_motion(a, false, Reason::interrupted, text, t);
-    feedback_.end_waits(a, Reason::interrupted, text, t);
+    a.queue.interrupt(ends, by, drive_.tickets, t);
+    if (a.motion.active()) drive_.feedback.end_motion(a, false, Reason::interrupted, text, t);
+    drive_.feedback.end_waits(a, Reason::interrupted, text, t);
     a.prepared = false;
     a.renewal.stop();
 }
@@ -48,20 +50,22 @@ void Stops::submit(Axis& a, const Command& c, Turn& t) {
     const Kind kind = std::holds_alternative<Disable>(c.body) ? Kind::off : std::holds_alternative<Halt>(c.body) ? Kind::halt : Kind::quick;
     interrupt(a, name_of(c.body), kind == Kind::off, t);
     if (waiting_.add({.kind = kind, .axis = a.place(), .command = c})) return;
-    pac_.tickets.refused(c.ticket, Reason::busy, fmt::format("{} stops wait already", Control::stop_limit), t.out);
+    drive_.tickets.refused(c.ticket, Reason::busy, fmt::format("{} stops wait already", Control::stop_limit), t.out);
 }
 
 void Stops::keep_off() {
-    for (const Axis& a : pac_.axes) {
-        if (a.off_ordered && pac_.powered_at_home(a)) add(Kind::off, a);
+    for (const Axis& a : drive_.axes) {
+        if (a.off_ordered && drive_.powered_at_home(a)) add(Kind::off, a);
     }
 }
 
 void Stops::fail_all(Reason reason, const std::string& text, Turn& t) {
     waiting_.each(
-        [&](const Stop& s) { pac_.tickets.failed(s.command.ticket, reason, text + ": whether the axis stops is not known", t.out); });
+        [&](const Stop& s) { drive_.tickets.failed(s.command.ticket, reason, text + ": whether the axis stops is not known", t.out); });
     waiting_.clear();
 }
+
+bool Stops::may_go(const Stop& s) const noexcept { return !s.blind && !(s.stopped && drive_.processing.active); }
 
 bool Stops::ready() const noexcept {
     bool any = false;
@@ -71,20 +75,20 @@ bool Stops::ready() const noexcept {
 
 /// Nothing that was commanded moves in home position, but ONLINE alone can take power from the axis.
 bool Stops::goes_online(const Stop& s) const noexcept {
-    return s.kind == Kind::off && pac_.mode == status::home && pac_.error == 0 && pac_.options.online_auto &&
-           pac_.powered_at_home(pac_.axes[s.axis]);
+    return s.kind == Kind::off && drive_.mode == status::home && drive_.error == 0 && drive_.options.online_auto &&
+           drive_.powered_at_home(drive_.axes[s.axis]);
 }
 
 Request Stops::request_of(const Stop& s) const {
-    const std::uint32_t axis = pac_.axes[s.axis].number();
-    const bool standing = nobody_commands(pac_.mode), off = s.kind == Kind::off;
-    if (s.level == 1 || (s.level == 0 && is_automatic(pac_.mode) && !standing)) return request_for(code::stop);
+    const std::uint32_t axis = drive_.axes[s.axis].number();
+    const bool standing = nobody_commands(drive_.mode), off = s.kind == Kind::off;
+    if (s.level == 1 || (s.level == 0 && is_automatic(drive_.mode) && !standing)) return request_for(code::stop);
     if (s.level >= 2) return request_for(code::abort_online);
     // Nothing that was commanded moves there: the control is asked whether that is so.
     if (standing) return request_for(goes_online(s) ? code::start_online : code::get_state);
-    if (off && pac_.mode == status::online_started) return request_for(code::get_state);  // no axis is commanded before it runs
+    if (off && drive_.mode == status::online_started) return request_for(code::get_state);  // no axis is commanded before it runs
     // 0A93 passes while a command is being processed, 0A9A and 0A98 do not.
-    if (pac_.processing.active) return request_for(code::abort_move, axis);
+    if (drive_.processing.active) return request_for(code::abort_move, axis);
     // 0A9A first: a motion that is only switched off counts as interrupted, and the next 0A97 would let it go on.
     return request_for(off && s.stopped ? code::axis_off : code::stop_axis, axis);
 }
@@ -96,53 +100,53 @@ void Stops::send(Turn& t) {
     });
     if (!sent_) return;
     const Request r = request_of(*sent_);
-    if (r.code == code::abort_online) pac_.leaving = true;
+    if (r.code == code::abort_online) drive_.leaving = true;
     ++sent_->tries;
-    port_.send({Purpose::stop, sent_->axis, r}, Priority::urgent, t);
+    drive_.port.send({Purpose::stop, sent_->axis, r}, Priority::urgent, t);
 }
 
 void Stops::over(Stop& s, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code) {
     const Stop was = s;
     waiting_.remove(&s);
     if (outcome == Outcome::accepted && was.kind != Kind::off)
-        return feedback_.accepted(pac_.axes[was.axis], was.command, Wait::For::standstill, 0, std::move(text), t);
+        return drive_.feedback.accepted(drive_.axes[was.axis], was.command, Wait::For::standstill, 0, std::move(text), t);
     if (outcome == Outcome::accepted && was.command.until_done) outcome = Outcome::done;
-    pac_.tickets.answer(was.command.ticket, outcome, reason, std::move(text), t.out, code);
+    drive_.tickets.answer(was.command.ticket, outcome, reason, std::move(text), t.out, code);
 }
 
 /// A stop where no axis is commanded, or was not a moment ago.
 void Stops::found_standing(Stop& s, Turn& t) {
-    Axis& a = pac_.axes[s.axis];
+    Axis& a = drive_.axes[s.axis];
     s.tries = 0;
     if (s.limit == never) s.limit = t.now + switch_off_limit;
-    if (t.now < s.limit && (!nobody_commands(pac_.mode) || goes_online(s))) return;
-    if (s.kind == Kind::off && (!is_home(pac_.mode) || pac_.powered_at_home(a))) {
-        const bool by_hand = pac_.mode == status::home && pac_.error == 0;
+    if (t.now < s.limit && (!nobody_commands(drive_.mode) || goes_online(s))) return;
+    if (s.kind == Kind::off && (!is_home(drive_.mode) || drive_.powered_at_home(a))) {
+        const bool by_hand = drive_.mode == status::home && drive_.error == 0;
         return over(s, Outcome::failed, Reason::wrong_state,
                     "nothing that was commanded moves, but the axis may have power, and only ONLINE can take it: " +
-                        (by_hand ? "start it with the action online.start, then disable again" : pac_.why_not_online()),
+                        (by_hand ? "start it with the action online.start, then disable again" : drive_.why_not_online()),
                     t);
     }
-    feedback_.publish(a, t);
-    over(s, Outcome::accepted, Reason::none, pac_.mode_text() + ": no axis is commanded", t);
+    drive_.feedback.publish(a, t);
+    over(s, Outcome::accepted, Reason::none, drive_.mode_text() + ": no axis is commanded", t);
 }
 
 void Stops::refused(Stop& s, std::uint16_t code, const Sent& sent, Turn& t) {
-    ++pac_.counters.refused;
-    const bool online = is_online(pac_.mode), automatic = is_automatic(pac_.mode);
+    ++drive_.bus.counters.refused;
+    const bool online = is_online(drive_.mode), automatic = is_automatic(drive_.mode);
     if (!online && !automatic) return found_standing(s, t);
     const std::string text = fmt::format("{}: {}", describe(sent.request), describe_quit(code));
     const bool all = sent.request.code == code::stop;
     if (code == quit::axis_unknown || s.level >= 2 || (automatic && all))
         return over(s, Outcome::refused, Reason::drive_refused, text, t, code);
     if (!all && sent.request.code != code::abort_online)
-        pac_.notice(Severity::warning, "stop", code, text + "; all axes are stopped instead (0600)", t, pac_.axes[s.axis].id);
+        drive_.notice(Severity::warning, "stop", code, text + "; all axes are stopped instead (0600)", t, drive_.axes[s.axis].id);
     if (online) ++s.level;
 }
 
 /// 0A93 tells whether something is still being processed, of whichever axis.
 void Stops::abort_answered(Stop& s, const Reply& reply, Instant now) {
-    Processing& p = pac_.processing;
+    Processing& p = drive_.processing;
     const bool of_another = p.active && p.axis != s.axis;
     if (of_another) {
         p.hidden = true;
@@ -150,31 +154,31 @@ void Stops::abort_answered(Stop& s, const Reply& reply, Instant now) {
     } else if (reply.end) {
         p = {};
     } else {
-        pac_.begin_processing(s.axis, code::abort_move, true, now);
+        drive_.begin_processing(s.axis, code::abort_move, true, now);
     }
 }
 
 void Stops::answered(const Sent& sent, const Reply& reply, Turn& t) {
     if (!sent_ || waiting_.empty()) return;
     Stop& s = *sent_;
-    Axis& a = pac_.axes[s.axis];
-    if (port_.out_of_step() && !pac_.processing.active) {
+    Axis& a = drive_.axes[s.axis];
+    if (drive_.port.out_of_step() && !drive_.processing.active) {
         s.blind = true;  // this may have been a late answer to something else: the stop is repeated when that is sorted out
         return;
     }
     const std::uint16_t what = sent.request.code;
     const bool off = s.kind == Kind::off, place_known = reply.real && number_of(reply);
     if (off && what == code::stop_axis) {
-        if (reply.quit == 0 && place_known) feedback_.learn_position(a, reply, t);
-        if (reply.quit != 0) ++pac_.counters.refused;  // it is switched off all the same
+        if (reply.quit == 0 && place_known) drive_.feedback.learn_position(a, reply, t);
+        if (reply.quit != 0) ++drive_.bus.counters.refused;  // it is switched off all the same
         s.stopped = true;
         s.tries = 0;
         return;
     }
     if (what == code::start_online) {
-        if (reply.quit == 0) pac_.started_by_us = true;
-        if (reply.quit == 0 || pac_.mode != status::home) return found_standing(s, t);
-        ++pac_.counters.refused;
+        if (reply.quit == 0) drive_.started_by_us = true;
+        if (reply.quit == 0 || drive_.mode != status::home) return found_standing(s, t);
+        ++drive_.bus.counters.refused;
         return over(
             s, Outcome::failed, Reason::drive_refused,
             fmt::format("the axis may have power, and ONLINE, where it is switched off, does not start: {}", describe_quit(reply.quit)), t,
@@ -189,25 +193,25 @@ void Stops::answered(const Sent& sent, const Reply& reply, Turn& t) {
             return;
         }
     }
-    feedback_.hurry(t.now);
+    drive_.polls.hurry(t.now);
     if (what == code::axis_off || what == code::abort_online) {
         a.on = false;
         a.off_ordered = off;
-        pac_.give_back_due = true;
+        drive_.give_back_due = true;
     } else {
-        if (place_known) feedback_.learn_position(a, reply, t);
+        if (place_known) drive_.feedback.learn_position(a, reply, t);
         supervised_ = s.axis;
         supervise_at_ = t.now + supervise_after;
     }
     if (off && what == code::stop) {
         // Stopped with all others, and not switched off.
-        const bool online = is_online(pac_.mode);
+        const bool online = is_online(drive_.mode);
         return over(s, Outcome::failed, online ? Reason::drive_refused : Reason::wrong_state,
                     "all axes were stopped (0600), but the axis could not be switched off" +
-                        (online ? std::string() : ": " + pac_.why_not_online()),
+                        (online ? std::string() : ": " + drive_.why_not_online()),
                     t);
     }
-    feedback_.publish(a, t);
+    drive_.feedback.publish(a, t);
     over(s, Outcome::accepted, Reason::none, what == code::stop ? "the control was stopped (0600): all axes" : "", t);
 }
 
@@ -219,8 +223,8 @@ void Stops::not_read(const Reply& reply, Turn& t) {
 void Stops::silent(Turn& t) {
     if (!sent_ || waiting_.empty()) return;
     const int tries = sent_->tries;
-    if (tries < (pac_.ready() ? pac_.line.timing.retries + 1 : 1)) {
-        ++pac_.counters.retries;
+    if (tries < (drive_.ready() ? drive_.bus.timing.retries + 1 : 1)) {
+        ++drive_.bus.counters.retries;
         return;
     }
     over(*sent_, Outcome::failed, Reason::no_answer,
@@ -236,12 +240,12 @@ void Stops::in_step() {
 void Stops::on_deadline(Turn& t) {
     if (supervise_at_ > t.now) return;
     supervise_at_ = never;
-    const Axis& a = pac_.axes[supervised_];
-    if (!a.running || a.motion.active() || !pac_.ready() || waiting_.size() >= Control::stop_limit) return;
-    pac_.notice(Severity::warning, "stop", 0,
-                fmt::format("axis {} still runs {} s after it was stopped: all axes are stopped (0600)", a.channel,
-                            milliseconds_of(supervise_after) / 1000),
-                t, a.id);
+    const Axis& a = drive_.axes[supervised_];
+    if (!a.running || a.motion.active() || !drive_.ready() || waiting_.size() >= Control::stop_limit) return;
+    drive_.notice(Severity::warning, "stop", 0,
+                  fmt::format("axis {} still runs {} s after it was stopped: all axes are stopped (0600)", a.channel,
+                              milliseconds_of(supervise_after) / 1000),
+                  t, a.id);
     (void)waiting_.add({.axis = supervised_, .level = 1});
 }
 

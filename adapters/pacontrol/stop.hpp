@@ -7,12 +7,10 @@
 
 namespace axisgate::pacontrol {
 
-class Stops {
+class Stops : public Part {
 public:
     enum class Kind : std::uint8_t { quick, halt, off };
-
-    Stops(Control& control, Port& port, Feedback& feedback, Jobs& jobs) noexcept
-        : pac_(control), port_(port), feedback_(feedback), jobs_(jobs) {}
+    using Part::Part;
 
     void submit(Axis& a, const Command& command, Turn& t);
     /// Nobody has asked for it: nobody could stop the axis any more, or what was to move with it does not.
@@ -43,7 +41,7 @@ private:
         Instant limit = never;   ///< off in home position: of the start of ONLINE
     };
     void interrupt(Axis& a, std::string_view by, bool power_off, Turn& t);
-    [[nodiscard]] bool may_go(const Stop& s) const noexcept { return !s.blind && !(s.stopped && pac_.processing.active); }
+    [[nodiscard]] bool may_go(const Stop& s) const noexcept;
     [[nodiscard]] Request request_of(const Stop& s) const;
     [[nodiscard]] bool goes_online(const Stop& s) const noexcept;
     void over(Stop& s, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code = 0);
@@ -51,10 +49,6 @@ private:
     void refused(Stop& s, std::uint16_t code, const Sent& sent, Turn& t);
     void abort_answered(Stop& s, const Reply& reply, Instant now);
 
-    Control& pac_;
-    Port& port_;
-    Feedback& feedback_;
-    Jobs& jobs_;
     drive::StopLane<Stop, Control::stop_limit> waiting_;
     Stop* sent_ = nullptr;  ///< whose exchange is on its way, or was last
     Instant supervise_at_ = never;

@@ -15,9 +15,8 @@ std::string LineAdapter::fault(const DriveSetup& s, const LineSetup&) const {
 
 std::unique_ptr<Drive> LineAdapter::make(const DriveSetup& s, std::size_t, Turn&) { return std::make_unique<Drive>(line_, s); }
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    Turn t{now, out};
-    if (!up() || frame.kind != Frame::Kind::bytes) return;
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
+    if (frame.kind != Frame::Kind::bytes) return;
     framer_.push(drive::text_of(frame), [&](std::string_view line) {
         if (line.empty()) return;
         const auto telegram = mirror::telegram_of(line);

@@ -11,13 +11,13 @@ namespace axisgate::remote {
 class LineAdapter final : public drive::LineAdapter<Drive> {
 public:
     explicit LineAdapter(const Catalogue& catalogue) : line_(catalogue) {}
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
     [[nodiscard]] Instant deadline() const override;
     [[nodiscard]] AdapterCounters counters() const override { return line_.counters; }
 
 private:
     void take(const LineSetup& setup, Turn& t) override { line_.take(setup, t.now); }
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
     void line_changed(Turn&) override { framer_.clear(); }

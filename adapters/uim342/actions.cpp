@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "adapters/uim342/adapter.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate::uim342 {
 void LineAdapter::start_together(const Command& command, const StartTogether& what, Turn& t) {
@@ -30,26 +30,26 @@ void LineAdapter::start_together(const Command& command, const StartTogether& wh
 }
 
 void LineAdapter::start_group(const Command& command, const std::string& argument, Turn& t) {
-    unsigned group = 0;
-    const auto [p, ec] = std::from_chars(argument.data(), argument.data() + argument.size(), group);
-    if (ec != std::errc{} || p != argument.data() + argument.size() || group < first_node || group > last_node) {
+    const auto given = parse_whole(argument, first_node, last_node);
+    if (!given) {
         return drive::Tickets::refuse(command, Reason::out_of_range,
                                       fmt::format("start_group takes a group ID {}..{}", first_node, last_node), t.out);
     }
+    const auto group = static_cast<std::uint8_t>(*given);
     if (const Drive* n = by_id_[group]) {
         return drive::Tickets::refuse(command, Reason::wrong_state, fmt::format("{} is {}'s node ID, not a group", group, n->name()),
                                       t.out);
     }
     std::vector<Drive*> members;
     drives().each([&](Drive& d) {
-        if (d.ever_seen() && d.group() == group) members.push_back(&d);
+        if (d.presence.ever_found() && d.known.group == group) members.push_back(&d);
     });
     if (members.empty()) {
         return drive::Tickets::refuse(command, Reason::wrong_state, fmt::format("no drive of this line is known to be in group {}", group),
                                       t.out);
     }
     gather(command, Joint::Kind::start_group, std::move(members), t);
-    joint_.group = static_cast<std::uint8_t>(group);
+    joint_.group = group;
 }
 
 void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Drive*> members, Turn& t) {
@@ -57,7 +57,8 @@ void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Dr
         return drive::Tickets::refuse(command, Reason::busy, "another joint start of this line is in progress", t.out);
     }
     for (const Drive* n : members) {
-        if (!n->online()) return drive::Tickets::refuse(command, Reason::no_answer, fmt::format("{} does not answer", n->name()), t.out);
+        if (!n->presence.online())
+            return drive::Tickets::refuse(command, Reason::no_answer, fmt::format("{} does not answer", n->name()), t.out);
     }
     if (!tickets_.open(command, t.out)) return;
     joint_ = Joint{};
@@ -67,8 +68,8 @@ void LineAdapter::gather(const Command& command, Joint::Kind how, std::vector<Dr
     joint_.members = std::move(members);
     for (Drive* n : joint_.members) {
         if (!n->together.join())
-            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), Jobs::queue_limit), 0,
-                             t);
+            return end_joint(Outcome::refused, Reason::busy, fmt::format("{}: {} commands wait already", n->name(), n->jobs.queue.limit()),
+                             0, t);
     }
     for (Drive* n : joint_.members)
         drive::settle(turns, *n, t.now);
@@ -84,12 +85,12 @@ void LineAdapter::share_ready(Drive& drive, Turn& t) {
 std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
     const auto member = [&](const Drive* n) { return std::ranges::find(joint_.members, n) != joint_.members.end(); };
     std::string why;
-    const auto group = joint_.members.front()->group();
-    if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->group() == group; })) {
+    const auto group = joint_.members.front()->known.group;
+    if (group && std::ranges::all_of(joint_.members, [&](const Drive* n) { return n->known.group == group; })) {
         std::vector<std::string> others;
         drives().each([&](const Drive& d) {
             if (d.address() == *group) others.push_back(d.name() + " (its node ID)");
-            if (!member(&d) && d.ever_seen() && d.group() == group) others.push_back(d.name());
+            if (!member(&d) && d.presence.ever_found() && d.known.group == group) others.push_back(d.name());
         });
         if (others.empty()) {
             id = *group;
@@ -101,7 +102,7 @@ std::string LineAdapter::whom_to_start(std::uint8_t& id) const {
     }
     std::vector<std::string> others;
     drives().each([&](const Drive& d) {
-        if (!member(&d) && d.ever_seen()) others.push_back(d.name());
+        if (!member(&d) && d.presence.ever_found()) others.push_back(d.name());
     });
     if (others.empty()) {
         id = global_id;
@@ -126,7 +127,7 @@ void LineAdapter::begin_joint(Turn& t) {
     transmit(message(id, cw::BG), Priority::command, t);  // without acknowledgement: who would answer is not written (erratum E-44)
     const auto members = joint_.members;
     for (Drive* n : members) {
-        n->together.begun(joint_.command.until_done, t);
+        n->together.begun(t);
         drive::settle(turns, *n, t.now);
     }
 }
@@ -141,7 +142,7 @@ void LineAdapter::global_stop(const Command& command, Turn& t) {
     if (joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::interrupted, "interrupted by global_stop", 0, t);
     std::vector<Drive*> members;
     drives().each([&](Drive& d) {
-        if (d.online()) members.push_back(&d);
+        if (d.presence.online()) members.push_back(&d);
     });
     if (members.empty()) return (void)tickets_.failed(command.ticket, Reason::no_answer, "sent; no drive of the line answers", t.out);
     joint_ = Joint{};
@@ -169,8 +170,7 @@ void LineAdapter::share_done(Drive& drive, Share share, Turn& t) {
     }
     if (joint_.stage == Joint::Stage::gathering || !was_open || !joint_.open.empty()) return;
     if (joint_.bad) return end_joint(Outcome::failed, joint_.worst.reason, joint_.worst.text, joint_.worst.code, t);
-    const bool finished = joint_.command.until_done && joint_.kind != Joint::Kind::stop;
-    end_joint(finished ? Outcome::done : Outcome::accepted, Reason::none, "", 0, t);
+    end_joint(Outcome::accepted, Reason::none, "", 0, t);
 }
 
 void LineAdapter::end_joint(Outcome outcome, Reason reason, std::string text, std::int32_t code, Turn& t) {

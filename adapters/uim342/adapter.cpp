@@ -93,27 +93,18 @@ void LineAdapter::on_command(const Command& command, Instant now, Out& out) {
 
 // --- what arrives ----------------------------------------------------------------------------------------------------------------
 
-void LineAdapter::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (!up()) return;
-    Turn t{now, out};
+void LineAdapter::arrived(const Frame& frame, Turn& t) {
     if (kind == LineKind::bytes) {
-        if (frame.kind != Frame::Kind::bytes) {
-            ++Bus::counters.garbled;
-            return;
-        }
+        if (!is_run(frame)) return;
         framer_.push(
             frame.data(), [&](const UiCheck& check, const UiBytes&) { deliver(check.message, t); },
             [&](std::uint8_t) { ++Bus::counters.garbled; });
         if (framer_.other_seen()) tell_other_crc(t);
     } else {
         const auto m = from_can(frame);
-        if (!m) {
-            ++Bus::counters.garbled;  // controller reports, base or remote frames, reserved bits
-            return;
-        }
-        deliver(m->message, t);
+        if (m) deliver(m->message, t);
+        if (!m) ++Bus::counters.garbled;  // controller reports, base or remote frames, reserved bits
     }
-    end(t);
 }
 
 /// Once each time the line comes up: nothing would be heard, and nobody would know why.
@@ -161,7 +152,7 @@ void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
 
 std::string LineAdapter::user_of(std::uint8_t id, const Drive& but) const {
     if (id < by_id_.size() && by_id_[id] && by_id_[id] != &but) return fmt::format("{}'s node ID", by_id_[id]->name());
-    const Drive* member = drives().find([&](const Drive& d) { return &d != &but && d.group() == id; });
+    const Drive* member = drives().find([&](const Drive& d) { return &d != &but && d.known.group == id; });
     return member ? fmt::format("{}'s group ID", member->name()) : std::string();
 }
 

@@ -24,11 +24,11 @@ public:
     LineAdapter(const Catalogue& of_family, LineKind on) : Bus(of_family, on), TurnsAdapter(static_cast<drive::Bus&>(*this)) {}
 
     void on_command(const Command& command, Instant now, Out& out) override;
-    void on_frame(const Frame& frame, Instant now, Out& out) override;
     using TurnsAdapter::counters;
 
 private:
     void take(const LineSetup& setup, Turn& t) override;
+    void arrived(const Frame& frame, Turn& t) override;
     [[nodiscard]] std::string fault(const DriveSetup& drive, const LineSetup& line) const override;
     [[nodiscard]] std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) override;
     void leaving(Drive& drive, Turn& t) override;

@@ -27,28 +27,17 @@ DriveOptions drive_options(const DriveSetup& setup) {
 }
 
 Drive::Drive(Bus& of_line, const DriveSetup& setup, std::uint8_t address, std::size_t slot)
-    : bus(of_line),
-      options(drive_options(setup)),
-      presence(setup.id, of_line.timing),
-      setup_(setup),
-      address_(address),
-      slot_(slot),
-      notices_(setup.id) {
-    for (const auto& a : setup.axes) {
-        if (a.channel == 1) axis_ = a.id;
-    }
-}
+    : DriveBase(setup, of_line.timing, slot), bus(of_line), options(drive_options(setup)), address_(address) {}
 
 // --- the line ----------------------------------------------------------------------------------------------------------------
 
 void Drive::line_up(Turn& t) {
-    for (const auto& fault : options.faults)
-        notice(Severity::warning, "setup", 0, fault, t);
+    tell_setup(options.faults, t);
     start.begin(t);
 }
 
 void Drive::line_down(std::string_view why, Turn& t) {
-    const bool was_online = online();
+    const bool was_online = presence.online();
     remove(why, t);
     exchanges.forget_late();  // nothing of before comes through a line that was down
     polls.stop();
@@ -63,7 +52,15 @@ void Drive::remove(std::string_view why, Turn& t) {
 void Drive::fail_all(Reason reason, const std::string& text, Turn& t) {
     exchanges.drop();
     stops.fail_all(reason, text, t);
+    break_off(reason, text, t);
+    start.not_back(reason, text, t);
     jobs.fail_all(reason, text, t);
+}
+
+void Drive::break_off(Reason reason, const std::string& text, Turn& t) {
+    if (homing.searching()) homing.over(false, reason, text, t);
+    together.give_up({false, reason, 0, text}, t);
+    together.unprepare();
 }
 
 void Drive::submit(const Command& command, Turn& t) {
@@ -133,12 +130,8 @@ void Drive::on_deadline(Turn& t) {
 
 void Drive::publish(const Message& answer, std::uint8_t mf, Turn& t) const {
     bus.points.each(answer, mf, [&](const Binding& b, Value v) {
-        t.out.samples.push_back({axis_, b.point, std::move(v), Quality::good, t.now});
+        t.out.samples.push_back({axis(), b.point, std::move(v), Quality::good, t.now});
     });
-}
-
-void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
-    notices_.tell(severity, axis_, kind, code, std::move(text), t.now, t.out);
 }
 
 }  // namespace axisgate::uim342

@@ -3,31 +3,25 @@
 // Never asks two things at once (stops excepted), never sends before it was given a place (stops excepted).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "adapters/uim342/demand.hpp"
 #include "adapters/uim342/drive_exchange.hpp"
 #include "adapters/uim342/drive_verbs.hpp"
-#include "adapters/uim342/feedback_errors.hpp"
 #include "adapters/uim342/homing.hpp"
 #include "adapters/uim342/parameters_known.hpp"
 #include "adapters/uim342/polls.hpp"
 #include "adapters/uim342/start.hpp"
 #include "adapters/uim342/stop.hpp"
-#include "gateway/drive/notices.hpp"
-#include "gateway/drive/presence.hpp"
-#include "gateway/drive/tickets.hpp"
+#include "gateway/drive/drive_base.hpp"
 
 namespace axisgate::uim342 {
 
-class Drive {
+class Drive : public drive::DriveBase {
 public:
     static constexpr int channels = 1;
     Drive(Bus& bus, const DriveSetup& setup, std::uint8_t address, std::size_t slot);
-    Drive(const Drive&) = delete;
-    Drive& operator=(const Drive&) = delete;
 
     // --- from the adapter -----------------------------------------------------------------------------------------------
     void line_up(Turn& t);
@@ -49,7 +43,8 @@ public:
 
     // --- for its parts --------------------------------------------------------------------------------------------------
     void fail_all(Reason reason, const std::string& text, Turn& t);
-    void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
+    /// By a stop, or because it is gone: a search and a share of a joint start end, and what was prepared is forgotten.
+    void break_off(Reason reason, const std::string& text, Turn& t);
     /// The points that an answer tells something about.
     void publish(const Message& answer, std::uint8_t mf, Turn& t) const;
     [[nodiscard]] Message get(std::uint8_t cw, std::uint8_t index = 0) const noexcept { return uim342::get(address_, cw, index); }
@@ -57,21 +52,10 @@ public:
         return uim342::set(address_, cw, v, index);
     }
     [[nodiscard]] Message act(std::uint8_t cw) const noexcept { return uim342::act(address_, cw); }
-
-    // --- plain facts ----------------------------------------------------------------------------------------------------
     [[nodiscard]] std::uint8_t address() const noexcept { return address_; }
-    [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
-    [[nodiscard]] AxisId axis() const noexcept { return axis_; }
-    [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
-    [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
-    [[nodiscard]] bool online() const noexcept { return presence.online(); }
-    [[nodiscard]] bool ever_seen() const noexcept { return presence.ever_found(); }
-    [[nodiscard]] std::optional<std::uint8_t> group() const noexcept { return known.group; }
 
     Bus& bus;
     const DriveOptions options;
-    drive::Presence presence;
-    drive::Tickets tickets;
     Exchanges exchanges{*this};
     Stops stops{*this};
     Jobs jobs{*this};
@@ -80,7 +64,6 @@ public:
     Known known{*this};
     Feedback feedback{*this};
     Errors errors{*this};
-    Waits waits{*this};
     AxisDemand demand{*this};
     Power power{*this};
     FaultReset reset{*this};
@@ -92,11 +75,7 @@ public:
     NativeLines native{*this};
 
 private:
-    DriveSetup setup_;
-    AxisId axis_ = no_axis;
     std::uint8_t address_;
-    std::size_t slot_;
-    drive::Notices notices_;
 };
 
 }  // namespace axisgate::uim342

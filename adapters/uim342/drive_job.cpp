@@ -34,15 +34,14 @@ std::string_view advice(std::uint8_t code, std::uint8_t function) {
 
 // --- verbs -----------------------------------------------------------------------------------------------------------------------
 
-Job& Verb::job() noexcept { return drive_.jobs.job(); }
-void Verb::refuse(Reason reason, std::string text, Turn& t) { drive_.jobs.over(Outcome::refused, reason, std::move(text), t); }
-void Verb::finish(std::string text, Turn& t) {
-    drive_.jobs.over(job().command.until_done ? Outcome::done : Outcome::accepted, Reason::none, std::move(text), t);
+void Verb::without_success(Failure& how, Turn&) {
+    if (how.dropped) drive_.exchanges.abandon_job();
 }
 
 void Verb::failed(const Step& step, Failure how, Turn& t) {
-    drive_.jobs.over(how.outcome, how.reason, std::move(how.text), t, how.code);
-    if (how.reason != Reason::no_answer) return;
+    const bool silent = how.reason == Reason::no_answer;
+    drive_.jobs.over(std::move(how), t);
+    if (!silent) return;
     if (step.message.function() == cw::BG) drive_.feedback.begin_motion({Motion::Kind::unknown}, t);
     drive_.polls.soon(t.now);
 }
@@ -66,63 +65,9 @@ bool Jobs::ready() const noexcept {
 }
 
 void Jobs::take_next(Turn& t) {
-    job_ = {};
-    job_.command = queue.pop();
-    job_.verb = &verb_of(job_.command.body);
-    const Command command = job_.command;
-    job_.verb->plan(command, t);
+    const Command command = queue.pop();
+    begin(verb_of(command.body), command).verb->plan(command, t);
     if (job_.runs()) run(t);
-}
-
-Job& Jobs::begin(Verb& verb, const CommandBody& body) {
-    job_ = {};
-    job_.verb = &verb;
-    job_.command = Command{no_ticket, drive_.axis(), body, false, {}};
-    return job_;
-}
-
-void Jobs::interrupt(std::string_view by, bool power_off, Turn& t) {
-    const std::string text = drive::CommandQueue::interrupted_by(by);
-    const auto ends = [&](const CommandBody& body) {
-        return drive::is_motion(body) || (power_off && std::holds_alternative<Enable>(body));
-    };
-    if (drive_.homing.searching()) drive_.homing.over(false, Reason::interrupted, text, t);
-    if (!idle() && ends(job_.command.body)) {
-        drive_.exchanges.abandon_job();
-        over(Outcome::failed, Reason::interrupted, text, t);
-    }
-    bool joined = false;
-    (void)queue.interrupt(
-        [&](const Command& waiting) {
-            joined = joined || Together::is_place(waiting.body);
-            return ends(waiting.body);
-        },
-        by, drive_.tickets, t);
-    drive_.waits.end(true, Reason::interrupted, text, t);
-    if (joined) drive_.bus.share_done(drive_, {false, Reason::interrupted, 0, text}, t);
-    drive_.together.unprepare();
-}
-
-void Jobs::fail_all(Reason reason, const std::string& text, Turn& t) {
-    if (drive_.homing.searching()) drive_.homing.over(false, reason, text, t);
-    over(Outcome::failed, reason, text, t);
-    drive_.waits.end(false, reason, text, t);
-    bool joined = false;
-    while (!queue.empty()) {
-        const Command waiting = queue.pop();
-        joined = joined || Together::is_place(waiting.body);
-        (void)drive_.tickets.failed(waiting.ticket, reason, text, t.out);
-    }
-    if (joined) drive_.bus.share_done(drive_, {false, reason, 0, text}, t);
-    drive_.together.unprepare();
-}
-
-void Jobs::over(Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code, Value value) {
-    if (idle()) return;
-    Job was = hand_over();
-    const bool good = outcome == Outcome::accepted || outcome == Outcome::done;
-    if (was.verb == &drive_.together && !good) drive_.bus.share_done(drive_, {false, reason, code, text}, t);
-    (void)drive_.tickets.answer(was.command.ticket, outcome, reason, std::move(text), t.out, code, std::move(value), std::move(was.bytes));
 }
 
 // --- steps -----------------------------------------------------------------------------------------------------------------------
@@ -172,7 +117,7 @@ void Jobs::answered(const Message& m, Turn& t) {
 
 void Jobs::refused(const Message& m, Turn& t) {
     if (idle()) return;
-    const Step step = job_.steps[std::min<std::size_t>(job_.at, job_.steps.size() - 1)];
+    const Step step = job_.steps[here()];
     const auto report = error_report_of(m);
     const std::uint8_t code = report ? report->code : std::uint8_t{0};
     std::string text =
@@ -184,7 +129,7 @@ void Jobs::refused(const Message& m, Turn& t) {
 
 void Jobs::silent(Turn& t) {
     if (idle()) return;
-    const Step step = job_.steps[std::min<std::size_t>(job_.at, job_.steps.size() - 1)];
+    const Step step = job_.steps[here()];
     if (step.mf != 0 && job_.rounds < drive_.bus.timing.retries) {
         // Its MF may be used up: the pair is sent anew, never the value alone.
         ++job_.rounds;

@@ -52,7 +52,7 @@ private:
     Motion motion_;  ///< as it will be begun
 };
 
-/// motion_together.cpp: the drive's share of a joint start, run by the adapter: prepared, gathered, begun, ended.
+/// motion.cpp: the drive's share of a joint start, run by the adapter: prepared, gathered, begun, ended.
 class Together final : public Verb {
 public:
     using Verb::Verb;
@@ -69,21 +69,23 @@ public:
     /// False: the queue is full.
     [[nodiscard]] bool join();
     /// The joint start has been sent: find out what became of it; the adapter is told by share_done.
-    void begun(bool until_done, Turn& t);
+    void begun(Turn& t);
     /// The joint start will not be: goes on with what waits.
     void leave(Turn& t);
     /// A status has come that was asked for at `sent`.
     void at_status(Instant sent, Turn& t);
-    /// If it waits for that status: it waits no more.
+    /// What it has begun has come to an end.
     void over(Share share, Turn& t);
+    /// The same, also while it waits for the others.
+    void give_up(Share share, Turn& t);
     /// A BG to a group may still be on its way.
     [[nodiscard]] bool on_its_way(Instant now) const noexcept { return now < broadcast_until_; }
 
 private:
     std::optional<Motion> prepared_;
     Instant broadcast_until_{};
-    bool pending_ = false;  ///< begun; the first status behind it has not come yet
-    bool until_done_ = false;
+    enum class Stage : std::uint8_t { none, joined, begun };  ///< begun: until the first status behind it
+    Stage stage_ = Stage::none;
 };
 
 /// parameters.cpp: points of the catalogue.
@@ -97,7 +99,6 @@ private:
     void plan_write(const WriteParameter& write, const Parameter& p, const std::string& id, Turn& t);
     void add(const Message& m);
     void written(const Step& step, const Message& m, Turn& t);
-    void succeed(std::string text, Value value, Turn& t);
     [[nodiscard]] std::string id_conflict(std::uint8_t index, std::int64_t value) const;
     [[nodiscard]] std::string storage_note() const;
 

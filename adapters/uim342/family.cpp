@@ -1,14 +1,22 @@
-// Family uim342: the table of its makers.
+// Family uim342: the table of its makers, and its scan.
 // In: nothing. Out: functions, and what lines of the family are like unless the site says otherwise.
 // Never decides anything: that is for the files beside it.
-#include "adapters/uim342/family.hpp"
-
 #include "adapters/uim342/adapter.hpp"
 #include "adapters/uim342/decoder.hpp"
 #include "adapters/uim342/twin/twin.hpp"
+#include "gateway/drive/scan_range.hpp"
 
 namespace axisgate {
+namespace {
+/// Every node ID is asked for its model (ML); never the global or a group address, where everybody would answer at once.
+ScanPlan uim342_scan(const ScanWish& wish) {
+    ScanPlan plan = drive::scan_range(wish, uim342::first_node, uim342::last_node, uim342::check_address);
+    plan.at_once = wish.kind == LineKind::can ? 8 : 2;
+    return plan;
+}
+}  // namespace
 
+/// UIROBOT UIM342 on CAN (SimpleCAN 3.0) or behind a UIM2513 / 2523 / 2533 gateway (UIMessage).
 const Family& family_uim342() {
     static const Family family{
         "uim342",
@@ -22,7 +30,7 @@ const Family& family_uim342() {
         true,
         true,
         500'000,  // what the twin's factory setting says; the manual is silent
-        uim342::scan,
+        uim342_scan,
         nullptr,
         // All of the extended ones: nodes that the site does not name are heard as well, and told of.
         [](std::span<const std::string>) {

@@ -1,5 +1,5 @@
-// Feedback: statuses, speeds and notifications, each with what it says of the last motion.
-// In: messages of the drive. Out: the axis' picture, when it has changed; what follows for waits, demand and homing.
+// Feedback and Errors: statuses, speeds and notifications, each with what it says of the last motion; reports, alarms and flags.
+// In: messages of the drive. Out: the axis' picture, when it has changed; what follows for demand and homing.
 // Never calls a standing axis at rest before its place was read behind its standstill.
 #include "adapters/uim342/feedback.hpp"
 
@@ -21,6 +21,7 @@ bool looks_other(const AxisFeedback& a, const AxisFeedback& b) {
     return a.power != b.power || a.moving != b.moving || a.target_reached != b.target_reached || a.fault != b.fault ||
            a.warning != b.warning || a.quick_stopping != b.quick_stopping || a.native_status != b.native_status;
 }
+bool alarm_is_fault(std::uint8_t code) { return code != 0 && code != 0x1F; }
 }  // namespace
 
 void Feedback::emit(Turn& t) {
@@ -57,11 +58,9 @@ void Feedback::on_status(const Message& m, Turn& t) {
     status_at_ = t.now;
     if (!status_.stop) {
         motion_.seen_moving = true;
-        motion_.stood_since = never;
         rest_unread_ = false;
     } else {
         drive_.stops.ramp_over();
-        if (motion_.stood_since == never) motion_.stood_since = t.now;
         // Place and speed of a standing axis are those that were read after it stood: until then it is not called at rest.
         if (fb_.moving && position_known_) {
             rest_unread_ = true;
@@ -80,7 +79,7 @@ void Feedback::on_status(const Message& m, Turn& t) {
         suspect_restart("the driver went off without being told to (input action, stall, or a restart)", t);
     }
     drive_.homing.on_status(t);
-    drive_.waits.check(t);
+    drive_.start.back(t);
 }
 
 void Feedback::on_speed(const Message& m, Turn& t) {
@@ -100,7 +99,6 @@ void Feedback::on_speed(const Message& m, Turn& t) {
         suspect_restart("the position of the standing axis fell to 0: it was restarted, or somebody else has set its origin", t);
     }
     emit(t);
-    drive_.waits.check(t);
 }
 
 /// Status, alarms and what we know of the last motion, as the axis profile sees them.
@@ -132,7 +130,7 @@ void Feedback::on_notification(const Message& m, Turn& t) {
 /// Its action may have stopped the axis, started it, or called the place 0: only an input that is known to have none changes nothing.
 void Feedback::on_input(const Notification& n, Turn& t) {
     drive_.notice(Severity::info, "input", n.code, fmt::format("IN{} {}", n.input, n.rising ? "rising" : "falling"), t);
-    if (!drive_.online()) return;
+    if (!drive_.presence.online()) return;
     (n.input == 1 ? status_.in1 : n.input == 2 ? status_.in2 : status_.in3) = n.rising;
     if (const auto& il = drive_.known.ram.il[static_cast<std::size_t>(n.input - 1)]; !il || (*il & 0x7F7F) != 0) drive_.demand.forget();
     set_bit(0x08u << (n.input - 1), n.rising);
@@ -143,7 +141,7 @@ void Feedback::on_input(const Notification& n, Turn& t) {
 
 void Feedback::on_finished(const Notification& n, Turn& t) {
     drive_.notice(Severity::info, "motion", n.code, fmt::format("PTP motion finished at {}", n.position), t);
-    if (!drive_.online()) return;
+    if (!drive_.presence.online()) return;
     // It may still be the end of the motion before: only the target of the present one proves that it is this one.
     if (motion_.kind == Motion::Kind::absolute && motion_.target == n.position && !drive_.exchanges.on_its_way(cw::BG)) {
         motion_.seen_moving = true;
@@ -156,7 +154,6 @@ void Feedback::on_finished(const Notification& n, Turn& t) {
         derive(t);
         drive_.demand.at_position(t.now);
         emit(t);
-        drive_.waits.check(t);
     }
     drive_.polls.soon(t.now);
 }
@@ -171,7 +168,7 @@ void Feedback::suspect_restart(std::string why, Turn& t) {
 // --- what was ordered ------------------------------------------------------------------------------------------------------------
 
 void Feedback::begin_motion(const Motion& motion, Turn& t) {
-    drive_.waits.end(true, Reason::interrupted, "another motion of the same axis began", t);
+    drive_.together.over({false, Reason::interrupted, 0, "another motion of the same axis began"}, t);
     drive_.demand.begins(motion, t.now);
     motion_ = motion;
     motion_.seen_moving = false;
@@ -212,6 +209,93 @@ void Feedback::found() noexcept {
     status_known_ = position_known_ = rest_unread_ = false;
     motion_ = {};
     fb_.target_reached = fb_.homing_error = false;
+}
+
+// --- errors ----------------------------------------------------------------------------------------------------------------------
+
+bool Errors::fault(const Status& s) const noexcept {
+    return s.lock || s.tlif || (s.err && cause_ == Cause::foreign && alarm_ != 0x1F) || alarm_is_fault(alarm_);
+}
+
+void Errors::on_status(const Status& s, bool err_is_new) noexcept {
+    if (!s.err) {
+        cause_ = Cause::none;
+        if (!s.tlif && !s.lock) alarm_ = 0;
+    } else if (err_is_new) {
+        // Its cause is known if the drive has just refused something of ours; else it is taken for a fault.
+        if (cause_ == Cause::none) cause_ = Cause::foreign;
+        to_read_ = true;
+    }
+}
+
+void Errors::refused_ours(const Message& m) noexcept {
+    if (cause_ == Cause::none) cause_ = Cause::own;
+    if (const auto report = error_report_of(m)) latest_ = report->code;
+}
+
+void Errors::read(Turn& t) {
+    const Message m = drive_.get(cw::ER);
+    if (drive_.exchanges.makes_way(m, 0, Priority::poll, t)) return;
+    to_read_ = false;
+    drive_.exchanges.send({m, Purpose::error}, 1, Priority::poll, t);
+}
+
+void Errors::on_latest(const Message& m, Turn& t) {
+    const auto report = error_report_of(m);
+    if (!report || (report->slot != 0 && report->slot != 10)) return;
+    latest_ = report->code;
+    const bool told = drive_.feedback.fb().error_code == report->code;
+    drive_.feedback.derive(t);
+    if (!told) drive_.feedback.emit(t);
+}
+
+void Errors::on_report(const Message& m, Turn& t) {
+    ++drive_.bus.counters.unexpected;
+    const auto report = error_report_of(m);
+    if (!report) {
+        ++drive_.bus.counters.garbled;
+        return;
+    }
+    // ER[i] answers that come late, and "no error", are no news.
+    if (!drive_.presence.online() || report->slot != 0 || report->code == 0 || drive_.exchanges.late(drive_.get(cw::ER))) return;
+    const std::uint8_t function = report->cw & 0x7F;
+    Message about;
+    about.cw = report->cw;
+    const Instruction* i = instruction(report->cw);
+    if (i && i->indexed) about = make_get(drive_.address(), *i, report->index);
+    Message setting = about;
+    if (i && i->answer == SetAnswer::desired) setting = make_set(drive_.address(), *i, 0, 0);
+    const bool of_group_start = function == cw::BG && drive_.together.on_its_way(t.now);
+    const bool of_blind = drive_.jobs.job().blind == function;
+    const bool ours = of_group_start || of_blind || drive_.exchanges.late(about) || drive_.exchanges.late(setting);
+    cause_ = ours && cause_ != Cause::foreign ? Cause::own : Cause::foreign;
+    latest_ = report->code;
+    const std::string request = name_of_request(report->cw, report->index), error = describe_error(report->code);
+    drive_.notice(
+        Severity::warning, "error_report", report->code,
+        fmt::format("the drive reports error {} about {}{}", error, request, ours ? "" : ", which this gateway is not waiting for"), t);
+    if (of_group_start) drive_.together.over({false, Reason::drive_refused, report->code, error}, t);
+    if (of_blind) {
+        // The refusal of an instruction that asked for no acknowledgement: it ends the job that is waiting behind it.
+        drive_.exchanges.abandon_job();
+        ++drive_.bus.counters.refused;
+        drive_.jobs.over({Outcome::refused, Reason::drive_refused, fmt::format("{}: the drive says {}", request, error), report->code}, t);
+    }
+    drive_.feedback.derive(t);
+    drive_.polls.soon(t.now);
+}
+
+void Errors::on_alarm(std::uint8_t code, Turn& t) {
+    const ErrorCode* known = drive_.bus.catalogue.error(code, "alarm");
+    std::string text(known && !known->text.empty() ? std::string_view(known->text) : alarm_text(code));
+    if (text.empty()) text = "not named by the manual";
+    drive_.notice(alarm_is_fault(code) ? Severity::alarm : Severity::warning, "alarm", code, fmt::format("alarm 0x{:02X}: {}", code, text),
+                  t);
+    if (!drive_.presence.online()) return;
+    alarm_ = code;
+    cause_ = Cause::foreign;
+    drive_.feedback.update(t);
+    drive_.polls.soon(t.now);
 }
 
 }  // namespace axisgate::uim342

@@ -1,5 +1,5 @@
-// Feedback: what the drive says of itself, turned into the axis' picture; and the motion that the picture is compared with.
-// In: answers, notifications (RT). Out: feedback, samples, notices.
+// Feedback and Errors: what the drive says of itself, turned into the axis' picture; the motion that the picture is compared with; what its
+// error flag stands for. In: answers, notifications (RT), error reports. Out: feedback, samples, notices.
 // Never invents: PAIF alone says that a target was reached, STOP that the axis stands, SON that it is on.
 #pragma once
 
@@ -17,7 +17,41 @@ struct Motion {
     std::int64_t speed = 0;   ///< absolute and relative: SP as sent, pulse/s; 0: not known
     bool seen_moving = true;  ///< STOP = 0 was seen since its BG
     Instant begun{};
-    Instant stood_since = never;  ///< standing, not (yet) in position
+};
+
+class Errors : public Part {
+public:
+    using Part::Part;
+
+    void on_report(const Message& m, Turn& t);  ///< CW 0F that nobody has asked for
+    void on_latest(const Message& m, Turn& t);  ///< ER[0]
+    void on_alarm(std::uint8_t code, Turn& t);
+    void on_status(const Status& s, bool err_is_new) noexcept;
+    /// The drive has refused something of ours.
+    void refused_ours(const Message& m) noexcept;
+    void cleared() noexcept { cause_ = Cause::none, alarm_ = latest_ = 0; }
+    /// `ours`: a flag that stood before a silence was for something that it had refused: it is no fault after it. A restart clears the
+    /// flag, and then it says nothing.
+    void found(bool ours) noexcept { cause_ = ours ? Cause::own : Cause::none, alarm_ = 0; }
+
+    [[nodiscard]] bool to_read() const noexcept { return to_read_; }
+    void read(Turn& t);
+    void read_again() noexcept { to_read_ = true; }
+    void no_read() noexcept { to_read_ = false; }
+
+    [[nodiscard]] bool ours() const noexcept { return cause_ == Cause::own; }
+    [[nodiscard]] bool any_latest() const noexcept { return latest_ != 0; }
+    [[nodiscard]] bool fault(const Status& s) const noexcept;
+    [[nodiscard]] bool warning(const Status& s) const noexcept { return !fault(s) && (s.err || alarm_ != 0); }
+    [[nodiscard]] bool at_limit() const noexcept { return alarm_ == 0x1A || alarm_ == 0x1B; }
+    [[nodiscard]] std::uint16_t code(const Status& s) const noexcept { return alarm_ != 0 ? alarm_ : s.err ? latest_ : std::uint16_t{0}; }
+
+private:
+    enum class Cause : std::uint8_t { none, own, foreign };  ///< of the ERR flag
+    Cause cause_ = Cause::none;
+    std::uint8_t alarm_ = 0;   ///< last alarm that stands, 0: none
+    std::uint8_t latest_ = 0;  ///< code of ER[0] as last read
+    bool to_read_ = false;
 };
 
 class Feedback : public Part {
@@ -55,7 +89,6 @@ public:
     }
     [[nodiscard]] const AxisFeedback& fb() const noexcept { return fb_; }
     [[nodiscard]] const Status& status() const noexcept { return status_; }
-    [[nodiscard]] Instant status_at() const noexcept { return status_at_; }
     [[nodiscard]] const Motion& motion() const noexcept { return motion_; }
     [[nodiscard]] bool status_known() const noexcept { return status_known_; }
     [[nodiscard]] bool position_known() const noexcept { return position_known_; }

@@ -60,7 +60,7 @@ void Origin::plan(const Command& command, Turn& t) {
 
 void Origin::done(Turn& t) {
     drive_.feedback.origin_set(std::holds_alternative<Home>(job().command.body), t);
-    finish("", t);
+    accept("", t);
 }
 
 // --- the search ------------------------------------------------------------------------------------------------------------------
@@ -156,7 +156,7 @@ void Homing::begun(Turn& t) {
     (void)drive_.jobs.hand_over();
     drive_.feedback.begin_motion({Motion::Kind::velocity}, t);
     drive_.demand.forget();  // the switch ends it, and may call the place 0
-    if (!search_.command.until_done) (void)drive_.tickets.accepted(std::exchange(search_.command.ticket, no_ticket), t.out);
+    drive_.tickets.accepted(std::exchange(search_.command.ticket, no_ticket), t.out);
 }
 
 /// One move: the input is told what to do at the edge, then the axis is sent off.
@@ -196,7 +196,7 @@ void Homing::on_status(Turn& t) {
 void Homing::check(Turn& t) {
     search_.check_due = false;
     search_.checking = true;
-    Job& j = drive_.jobs.begin(*this, search_.command.body);
+    Job& j = drive_.jobs.begin_own(*this, search_.command.body);
     j.exact = true;
     j.add(drive_.get(cw::IL, changed_.input));
     j.add(drive_.get(cw::MS, 1));  // where it stands, read behind its standstill: the end is told with it
@@ -232,7 +232,7 @@ bool Homing::put_back_due() const noexcept {
 }
 
 void Homing::put_back(Turn& t) {
-    Job& j = drive_.jobs.begin(*this, ReadParameter{});
+    Job& j = drive_.jobs.begin_own(*this, ReadParameter{});
     const auto i = changed_.input;
     j.add(drive_.set(cw::TG, changed_.tg, i));
     j.add(drive_.set(cw::IL, changed_.il, i));

@@ -1,5 +1,5 @@
-// Moves: positioning and jog, taken apart into values and BG.
-// In: Move, StartTogether of this drive alone, what is known of AC, DC, SS and their unit. Out: PA, PR or JV, SP, AC, DC, BG.
+// Moves: positioning and jog, taken apart into values and BG; Together: one drive's share of a joint start, whose BG is the adapter's.
+// In: Move, StartTogether, what is known of AC, DC, SS and their unit. Out: PA, PR or JV, SP, AC, DC, BG; news for Bus::share_done.
 // Never starts what it could not set: any refused or altered value ends the job before BG.
 #include <fmt/format.h>
 
@@ -29,16 +29,13 @@ void Moves::plan(const Command& command, Turn& t) {
 }
 
 void Moves::done(Turn& t) {
-    Job was = drive_.jobs.hand_over();
-    const Command& c = was.command;
-    if (const auto* move = std::get_if<Move>(&c.body); move && move->prepare_only) {
+    std::string text = job().text;
+    if (const auto* move = std::get_if<Move>(&job().command.body); move && move->prepare_only) {
         drive_.together.prepare(motion_);
-        if (!was.text.empty()) was.text += "; ";
-        return (void)drive_.tickets.accepted(c.ticket, t.out, was.text + "prepared: start_together starts it");
+        return accept(text + (text.empty() ? "" : "; ") + "prepared: start_together starts it", t);
     }
     drive_.feedback.begin_motion(motion_, t);
-    const auto until = motion_.kind == Motion::Kind::velocity ? Waits::Until::speed : Waits::Until::target;
-    drive_.waits.accepted({until, c.ticket, motion_.target}, c.until_done, std::move(was.text), t);
+    accept(std::move(text), t);
 }
 
 void Moves::plan_move(const Move& move, Turn& t) {
@@ -115,6 +112,63 @@ std::optional<std::uint32_t> Moves::ramp(std::int64_t rate, std::int64_t speed, 
     }
     fmt::format_to(std::back_inserter(text), "{}{} = {} ms", text.empty() ? "" : ", ", what, rounded);
     return static_cast<std::uint32_t>(rounded);
+}
+
+// --- a share of a joint start ----------------------------------------------------------------------------------------------------
+
+bool Together::is_place(const CommandBody& body) noexcept {
+    const auto* together = std::get_if<StartTogether>(&body);
+    return together && together->axes.empty();
+}
+
+bool Together::join() {
+    if (!drive_.jobs.queue.push(Command{no_ticket, drive_.axis(), StartTogether{}, false, {}})) return false;
+    stage_ = Stage::joined;
+    return true;
+}
+
+void Together::plan(const Command&, Turn& t) {
+    job().waiting = true;
+    drive_.bus.share_ready(drive_, t);
+}
+
+std::string Together::not_startable() const {
+    const std::string& name = drive_.name();
+    const Status& s = drive_.feedback.status();
+    if (!drive_.presence.is(drive::Presence::Phase::ready)) return fmt::format("{} does not answer", name);
+    if (!s.on) return fmt::format("{} is off", name);
+    if (s.lock) return fmt::format("{} is locked", name);
+    const bool ramp = drive_.stops.ramp() && drive_.feedback.fb().moving;
+    return !drive_.stops.empty() || ramp ? fmt::format("{} is being stopped", name) : std::string();
+}
+
+void Together::begun(Turn& t) {
+    if (drive_.jobs.is(*this)) (void)drive_.jobs.hand_over();
+    stage_ = Stage::none;
+    broadcast_until_ = t.now + 4 * drive_.bus.timing.reply_timeout;  // it may wait in the line's queue behind other frames
+    drive_.feedback.begin_motion(prepared_.value_or(Motion{Motion::Kind::unknown}), t);
+    stage_ = Stage::begun;
+}
+
+/// Asked behind the joint BG: had the drive refused that, its report would have come before this.
+void Together::at_status(Instant sent, Turn& t) {
+    if (stage_ != Stage::begun || sent < drive_.feedback.motion().begun) return;
+    broadcast_until_ = t.now;
+    give_up({true}, t);
+}
+
+void Together::over(Share share, Turn& t) {
+    if (stage_ == Stage::begun) give_up(std::move(share), t);
+}
+
+void Together::give_up(Share share, Turn& t) {
+    if (std::exchange(stage_, Stage::none) != Stage::none) drive_.bus.share_done(drive_, std::move(share), t);
+}
+
+void Together::leave(Turn& t) {
+    if (drive_.jobs.is(*this)) (void)drive_.jobs.hand_over();
+    (void)drive_.jobs.queue.interrupt([](const Command& c) { return is_place(c.body); }, "", drive_.tickets, t);
+    stage_ = Stage::none;
 }
 
 }  // namespace axisgate::uim342

@@ -111,8 +111,8 @@ void NativeLines::done(Turn& t) {
         drive_.start.read_all();  // the factory settings are in force now
         drive_.polls.soon(t.now);
     }
-    if (std::holds_alternative<Action>(job().command.body)) return finish(std::move(job().text), t);
-    drive_.jobs.over(Outcome::done, Reason::none, std::move(job().text), t);
+    const bool taken = std::holds_alternative<Action>(job().command.body) && !job().command.until_done;
+    taken ? accept(job().text, t) : succeed(job().text, t);
 }
 
 /// SY[1] has been sent; nothing acknowledges it.
@@ -125,8 +125,7 @@ void NativeLines::restart(Turn& t) {
         (void)drive_.tickets.answer(ticket, action ? Outcome::accepted : Outcome::done, Reason::none,
                                     was.text + "; the drive does not acknowledge it and restarts", t.out);
     }
-    drive_.start.reboot_begun(t);
-    if (watch) drive_.waits.add({Waits::Until::boot, ticket}, t);
+    drive_.start.reboot_begun(watch ? ticket : no_ticket, t);
 }
 
 }  // namespace axisgate::uim342

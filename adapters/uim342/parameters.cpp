@@ -32,12 +32,8 @@ void Parameters::answered(const Step& step, const Message* m, Turn& t) {
     if (std::holds_alternative<WriteParameter>(job().command.body)) return written(step, *m, t);
     if (step.select) return;
     auto value = Points::value(*binding_, *m);
-    if (value) return succeed("", std::move(*value), t);
-    drive_.jobs.over(Outcome::failed, Reason::internal, fmt::format("the answer is too short: {}", describe_answer(*m)), t);
-}
-
-void Parameters::succeed(std::string text, Value value, Turn& t) {
-    drive_.jobs.over(Outcome::done, Reason::none, std::move(text), t, 0, std::move(value));
+    if (value) return succeed("", t, std::move(*value));
+    fail(Reason::internal, fmt::format("the answer is too short: {}", describe_answer(*m)), t);
 }
 
 /// Drive IDs and group IDs of one network must all differ [L1064]; empty: no conflict known.
@@ -46,7 +42,7 @@ std::string Parameters::id_conflict(std::uint8_t index, std::int64_t value) cons
     const auto id = static_cast<std::uint8_t>(value);
     const bool group = index == 8;
     if (group && id == drive_.address()) return fmt::format("{} is the drive's own node ID", id);
-    if (!group && drive_.group() == id) return fmt::format("{} is the drive's own group ID", id);
+    if (!group && drive_.known.group == id) return fmt::format("{} is the drive's own group ID", id);
     const auto user = drive_.bus.user_of(id, drive_);
     if (user.empty() || (group && !user.ends_with("node ID"))) return {};  // a group may have several members
     return fmt::format("{} is {}", id, user);
@@ -86,13 +82,13 @@ void Parameters::written(const Step& step, const Message& m, Turn& t) {
     const auto told = value_of(step.message, m);
     const bool read = form_of(step.message) == Form::get;
     if (b.part && i.cw == cw::IL) {
-        if (!read) return succeed(storage_note(), Points::value(b, m).value_or(Value{wanted_}), t);
+        if (!read) return succeed(storage_note(), t, Points::value(b, m).value_or(Value{wanted_}));
         const unsigned at = (b.byte - 1u) * 8u + b.bit;
         const std::int64_t mask = ((std::int64_t{1} << b.bits) - 1) << at;
         return job().add(make_set(drive_.address(), i, b.index, (told.value_or(0) & ~mask) | (wanted_ << at & mask)));
     }
     if (read) {  // PP: what is stored
-        if (told == wanted_) succeed("it is stored already: FLASH was not written", Value{wanted_}, t);
+        if (told == wanted_) succeed("it is stored already: FLASH was not written", t, Value{wanted_});
         return;
     }
     std::int64_t value = wanted_;
@@ -103,7 +99,7 @@ void Parameters::written(const Step& step, const Message& m, Turn& t) {
         drive_.exchanges.mf_unknown = true;  // whatever of ours comes next must not hit that group
         text = "selected, but every exchange of the gateway falls back to group 0: write MF2.AC and the like instead";
     }
-    succeed(std::move(text), b.type == ValueType::boolean ? Value{value != 0} : Value{value}, t);
+    succeed(std::move(text), t, b.type == ValueType::boolean ? Value{value != 0} : Value{value});
 }
 
 std::string Parameters::storage_note() const {

@@ -22,9 +22,8 @@ void Power::plan(const Command&, Turn& t) {
 }
 
 void Power::done(Turn& t) {
-    const Command c = drive_.jobs.hand_over().command;
     drive_.polls.soon(t.now);
-    drive_.waits.accepted({Waits::Until::on, c.ticket}, c.until_done, "", t);
+    accept("", t);
 }
 
 /// MS[0]=0 clears PAIF, TLIF and ERR [L920]; a lock is left by MO=0 (erratum E-39); ER[0]=0 takes the shown error away.
@@ -47,14 +46,14 @@ void FaultReset::done(Turn& t) {
     feedback.fault_reset();
     if (s.err || s.tlif || s.lock) {
         feedback.derive(t);
-        return drive_.jobs.over(Outcome::failed, Reason::drive_refused,
-                                fmt::format("after MS[0]=0 the drive still shows{}{}{}", s.tlif ? " a stall" : "", s.lock ? " a lock" : "",
-                                            s.err ? " an error" : ""),
-                                t, feedback.fb().error_code);
+        return fail(Reason::drive_refused,
+                    fmt::format("after MS[0]=0 the drive still shows{}{}{}", s.tlif ? " a stall" : "", s.lock ? " a lock" : "",
+                                s.err ? " an error" : ""),
+                    t, feedback.fb().error_code);
     }
     drive_.errors.cleared();
     feedback.update(t);
-    finish("", t);
+    accept("", t);
 }
 
 }  // namespace axisgate::uim342

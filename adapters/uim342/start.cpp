@@ -134,13 +134,20 @@ void Start::core_known(Turn& t) {
     feedback.update(t);
 }
 
-void Start::reboot_begun(Turn& t) {
+void Start::reboot_begun(Ticket waits, Turn& t) {
     before_ = {};
     drive_.feedback.zero_lost();
     drive_.fail_all(Reason::interrupted, "the drive is restarted", t);
+    reboot_ = waits;
     drive_.homing.nothing_to_put_back();
     drive_.presence.restart(t.now, boot_time);
     drive_.polls.stop();
+}
+
+void Start::back(Turn& t) { drive_.tickets.answer(std::exchange(reboot_, no_ticket), Outcome::done, Reason::none, "", t.out); }
+
+void Start::not_back(Reason reason, const std::string& text, Turn& t) {
+    drive_.tickets.failed(std::exchange(reboot_, no_ticket), reason, text, t.out);
 }
 
 }  // namespace axisgate::uim342

@@ -20,8 +20,11 @@ public:
     void probe_refused(Turn& t);
     /// Its presence has been lost just now.
     void lost(Turn& t, std::string why);
-    /// SY[1] has been sent; nothing acknowledges it [L1216].
-    void reboot_begun(Turn& t);
+    /// SY[1] has been sent; nothing acknowledges it [L1216]. `waits`: answered when the drive is back.
+    void reboot_begun(Ticket waits, Turn& t);
+    /// Its first status behind that.
+    void back(Turn& t);
+    void not_back(Reason reason, const std::string& text, Turn& t);
 
     [[nodiscard]] const drive::Reading& reading() const noexcept { return reading_; }
     void read_next(Turn& t);
@@ -36,6 +39,7 @@ private:
     void core_known(Turn& t);
 
     drive::Reading reading_;
+    Ticket reboot_ = no_ticket;  ///< of who waits for its end
     std::string identity_;
     struct Before {  ///< last seen before a silence, to tell a broken cable from a restart
         bool known = false, on = false, referenced = false;

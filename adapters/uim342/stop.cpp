@@ -24,13 +24,18 @@ void Stops::add(const Command& command, Turn& t) {
     if (std::holds_alternative<Disable>(command.body)) s.kind = Stop::Kind::off;
     if (std::holds_alternative<Halt>(command.body)) s.kind = Stop::Kind::halt;
     s.ticket = command.ticket;
-    s.until_done = command.until_done;
-    drive_.jobs.interrupt(name_of(command.body), s.kind != Stop::Kind::halt, t);
+    interrupt(name_of(command.body), s.kind != Stop::Kind::halt, t);
     add(s, t);
 }
 
+void Stops::interrupt(std::string_view by, bool power_off, Turn& t) {
+    drive_.break_off(Reason::interrupted, drive::CommandQueue::interrupted_by(by), t);
+    const auto ends = [&](const Command& c) { return drive::is_motion(c.body) || (power_off && std::holds_alternative<Enable>(c.body)); };
+    drive_.jobs.interrupt(ends, by, t);
+}
+
 void Stops::add_shared(Turn& t) {
-    drive_.jobs.interrupt("global_stop", true, t);
+    interrupt("global_stop", true, t);
     Stop s;
     s.shared = true;
     add(s, t);
@@ -164,8 +169,6 @@ void Stops::over(Stop& s, Outcome outcome, Reason reason, std::string text, std:
     lane_.remove(&s);
     const bool good = outcome == Outcome::accepted;
     if (was.shared) drive_.bus.share_done(drive_, {good, reason, code, text}, t);
-    const auto until = was.kind == Stop::Kind::off ? Waits::Until::off : Waits::Until::standstill;
-    if (good) return drive_.waits.accepted({until, was.ticket}, was.until_done, std::move(text), t);
     (void)drive_.tickets.answer(was.ticket, outcome, reason, std::move(text), t.out, code);
 }
 
@@ -203,7 +206,7 @@ void Stops::on_deadline(Turn& t) {
     if (t.now < supervise_at_) return;
     supervise_at_ = never;
     const AxisFeedback& fb = drive_.feedback.fb();
-    if (!fb.moving || !drive_.online()) return;
+    if (!fb.moving || !drive_.presence.online()) return;
     drive_.notice(
         Severity::warning, "stop", 0,
         fmt::format("the axis still moves after {}, at {} pulse/s; ST is sent", supervise_soft_ ? "a halt" : "a stop", fb.velocity), t);

@@ -24,7 +24,6 @@ struct Stop {
     bool by_supervision = false;
     bool shared = false;  ///< belongs to a joint stop: the adapter is told
     Ticket ticket = no_ticket;
-    bool until_done = false;
     drive::Exchange<Message> exchange;
 };
 
@@ -62,6 +61,8 @@ public:
 
 private:
     void add(const Stop& wanted, Turn& t);
+    /// Every motion that waits or runs ends; with the power off so does what would bring that back.
+    void interrupt(std::string_view by, bool power_off, Turn& t);
     void begin(Stop& s, Turn& t);
     void send(Stop& s, const Message& m, int retries, Turn& t);
     void silent(Stop& s, Turn& t);

@@ -23,6 +23,12 @@ struct Bus {
     /// Time of so many bytes on a serial line; none where the rate is not known (TCP).
     [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
 
+    /// On a line of bytes anything else is counted as no word of its language.
+    [[nodiscard]] bool is_run(const Frame& frame) noexcept {
+        if (frame.kind != Frame::Kind::bytes) ++counters.garbled;
+        return frame.kind == Frame::Kind::bytes;
+    }
+
     const Catalogue& catalogue;
     Timing timing;
     std::uint32_t bit_rate = 0;  ///< bit/s; 0: not known

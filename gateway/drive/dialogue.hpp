@@ -14,35 +14,33 @@
 
 #include "gateway/drive/bus.hpp"
 #include "gateway/drive/command_queue.hpp"
+#include "gateway/drive/drive_base.hpp"
 #include "gateway/drive/exchange.hpp"
 #include "gateway/drive/language.hpp"
 #include "gateway/drive/polls.hpp"
-#include "gateway/drive/presence.hpp"
 #include "gateway/drive/set_points.hpp"
-#include "gateway/drive/tickets.hpp"
 #include "gateway/drive/turns.hpp"
 
 namespace axisgate::drive {
 
 /// `Message` is the family's: a value that can be compared. Axes are told apart by their channel 1..`Channels`.
 template <class Message, int Channels>
-class Dialogue : protected Language<Message> {
+class Dialogue : public DriveBase, protected Language<Message> {
 public:
     static constexpr int channels = Channels;
     static constexpr std::size_t stop_limit = 8;  ///< on their way at once; one more is refused as busy
     using Job = DialogueJob<Message>;
 
-    Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot)
-        : bus_(bus), setup_(setup), slot_(slot), presence_(setup.id, bus.timing) {}
+    Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot) : DriveBase(setup, bus.timing, slot, Channels), bus_(bus) {}
 
     // --- for LineAdapter, and for settle, serve and wake ------------------------------------------------------------------------
-    void line_up(Turn& t) { presence_.begin(t.now); }
+    void line_up(Turn& t) { presence.begin(t.now); }
     void line_down(std::string_view why, Turn& t) {
         remove(why, t);
-        presence_.report(std::string(why), t.out);
+        presence.report(std::string(why), t.out);
     }
     void remove(std::string_view why, Turn& t) {
-        presence_.close();
+        presence.close();
         exchange_.drop();
         stops_.clear();
         end_all(Reason::line_down, why, t);
@@ -53,17 +51,15 @@ public:
         if (pace_.take(setup)) polls_.hurry();
     }
     void follow(const SetPoint& p) {
-        if (presence_.online()) set_points_.put(p);
+        if (presence.online()) set_points_.put(p);
     }
     void submit(const Command& command, Turn& t);
     void on_message(const Message& message, Turn& t);
     [[nodiscard]] Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant deadline() const noexcept { return exchange_.deadline(); }
-    [[nodiscard]] Instant wish() const noexcept { return std::min(presence_.deadline(), polls_.deadline()); }
+    [[nodiscard]] Instant wish() const noexcept { return std::min(presence.deadline(), polls_.deadline()); }
     void go(Turn& t);
     void on_deadline(Turn& t);
-    [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
-    [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
 
 protected:
     // --- for its language -------------------------------------------------------------------------------------------------------
@@ -108,11 +104,7 @@ private:
     void end_all(Reason reason, std::string_view why, Turn& t);
 
     Bus& bus_;
-    DriveSetup setup_;
-    std::size_t slot_;
-    Presence presence_;
     CommandQueue queue_;
-    Tickets tickets_;
     StopLane<Ask, stop_limit> stops_;
     Exchange<Ask> exchange_;
     LateMarks<Message, 8> late_;

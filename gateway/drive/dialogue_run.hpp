@@ -19,8 +19,8 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
     for (const AxisSetup& a : setup_.axes) {
         if (in(setup, a) || !has(a.channel)) continue;
         const auto its = [&](const Command& w) { return w.axis == a.id; };
-        tickets_.fail_axis(a.id, Reason::line_down, "the axis was removed or changed", t.out);
-        (void)queue_.interrupt(its, "its removal", tickets_, t);
+        tickets.fail_axis(a.id, Reason::line_down, "the axis was removed or changed", t.out);
+        (void)queue_.interrupt(its, "its removal", tickets, t);
         set_points_.forget(a.id);
         if (job_ && its(job_->command)) job_.reset();
         polls_.drop(item(a.channel));
@@ -28,25 +28,25 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
             (void)stops_.add({Ask::Why::stop, this->stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
     }
     for (const AxisSetup& a : setup.axes)
-        if (presence_.online() && !in(setup_, a)) poll_every(a.channel, t);
+        if (presence.online() && !in(setup_, a)) poll_every(a.channel, t);
     setup_ = setup;
 }
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
     if (is_urgent(c.body) || is_motion(c.body)) set_points_.forget(c.axis);
-    if (admit(c, setup_.name, presence_, queue_, tickets_, t) != Admission::urgent) return;
+    if (admit(c, name(), presence, queue_, tickets, t) != Admission::urgent) return;
     const auto ends = [&](const Command& w) { return w.axis == c.axis && ended_by(c.body, w.body); };
-    (void)queue_.interrupt(ends, name_of(c.body), tickets_, t);
+    (void)queue_.interrupt(ends, name_of(c.body), tickets, t);
     if (job_ && ends(job_->command)) {
-        tickets_.failed(job_->command.ticket, Reason::interrupted, CommandQueue::interrupted_by(name_of(c.body)), t.out);
+        tickets.failed(job_->command.ticket, Reason::interrupted, CommandQueue::interrupted_by(name_of(c.body)), t.out);
         job_.reset();
     }
     const int channel = channel_of(c.axis);
     at(channel).followed = {};
     exchange_.no_repeats();
     if (!stops_.add({Ask::Why::stop, this->stop(c), c.ticket, channel, 0}))
-        tickets_.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
+        tickets.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
 }
 
 template <class Message, int Channels>
@@ -61,7 +61,7 @@ void Dialogue<Message, Channels>::begin(Job job, Turn& t) {
         at(channel_of(job.command.axis)).followed = {};
         t.out.stream_ends.push_back({job.command.axis, reason, std::move(why)});
     } else {
-        tickets_.refused(job.command.ticket, reason, std::move(why), t.out);
+        tickets.refused(job.command.ticket, reason, std::move(why), t.out);
     }
 }
 
@@ -88,9 +88,9 @@ typename Dialogue<Message, Channels>::Job Dialogue<Message, Channels>::job_for(c
 
 template <class Message, int Channels>
 Want Dialogue<Message, Channels>::wants(Instant now) const noexcept {
-    if (exchange_.active() || presence_.is(Presence::Phase::down)) return Want::nothing;
+    if (exchange_.active() || presence.is(Presence::Phase::down)) return Want::nothing;
     if (!stops_.empty()) return Want::urgent;
-    if (!presence_.online()) return presence_.probe_due(now) ? Want::probe : Want::nothing;
+    if (!presence.online()) return presence.probe_due(now) ? Want::probe : Want::nothing;
     if (job_ || !queue_.empty() || !set_points_.empty()) return Want::command;
     const bool moves = std::ranges::any_of(axes_, [](const Axis& a) { return a.feedback.moving; });
     return !polls_.due(now) ? Want::nothing : moves && !pace_.close() ? Want::quick_poll : Want::poll;
@@ -99,8 +99,8 @@ Want Dialogue<Message, Channels>::wants(Instant now) const noexcept {
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::go(Turn& t) {
     if (!stops_.empty()) return send(*stops_.first(), bus_.timing.retries, t);
-    if (!presence_.online()) {
-        presence_.probe_sent();
+    if (!presence.online()) {
+        presence.probe_sent();
         return send({Ask::Why::probe, this->probe(false), no_ticket, 0, 0}, 0, t);
     }
     while (!job_ && !queue_.empty()) {
@@ -130,7 +130,7 @@ void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
         retries = 0;
     }
     const Duration patience = bus_.timing.reply_timeout + bus_.on_wire;
-    bus_.turns.began(slot_, ask.why == Ask::Why::probe);
+    bus_.turns.began(slot(), ask.why == Ask::Why::probe);
     exchange_.begin(std::move(ask), t.now, patience, retries);
     transmit(t);
 }
@@ -151,15 +151,15 @@ void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
     if (!exchange_.active() || this->mark_of(asked) != this->mark_of(answer) ||
         !(this->told(answer).refused || this->answers(asked, answer))) {
         ++bus_.counters.unexpected;
-        return presence_.heard(t.now);
+        return presence.heard(t.now);
     }
     const bool again = exchange_.tries() > 1;  // the other copies' answers may still come
     const Ask ask = exchange_.answered(bus_.counters);
     const Message mark = this->mark_of(ask.message);
     if (again) late_.add(mark);
-    bus_.turns.ended(slot_);
+    bus_.turns.ended(slot());
     bus_.turns.heard(t.now);
-    presence_.answered();
+    presence.answered();
     if (!late_.has(mark)) late_.clear();
     answered(ask, answer, t);
 }
@@ -168,10 +168,10 @@ template <class Message, int Channels>
 void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer, Turn& t) {
     const Told what = this->told(answer);
     if (what.refused) ++bus_.counters.refused;
-    if (!presence_.online()) {
-        presence_.found();
-        presence_.made_ready();
-        presence_.report(this->title(ask.why == Ask::Why::probe ? &answer : nullptr), t.out);
+    if (!presence.online()) {
+        presence.found();
+        presence.made_ready();
+        presence.report(this->title(ask.why == Ask::Why::probe ? &answer : nullptr), t.out);
         for (const AxisSetup& a : setup_.axes)
             poll_every(a.channel, t);
     }
@@ -180,8 +180,8 @@ void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer
     if (ask.why != Ask::Why::stop) return;
     if (!stops_.empty()) stops_.remove(stops_.first());
     (void)polls_.soon(item(ask.channel), t.now);
-    if (!what.refused) tickets_.accepted(ask.ticket, t.out);
-    tickets_.refused(ask.ticket, Reason::drive_refused, "the drive refuses the stop with code " + what.text, t.out);
+    if (!what.refused) tickets.accepted(ask.ticket, t.out);
+    tickets.refused(ask.ticket, Reason::drive_refused, "the drive refuses the stop with code " + what.text, t.out);
 }
 
 template <class Message, int Channels>
@@ -195,7 +195,7 @@ void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) 
             at(channel_of(job_->command.axis)).followed = {};
             t.out.stream_ends.push_back({job_->command.axis, Reason::drive_refused, why});
         }
-        tickets_.refused(job_->command.ticket, Reason::drive_refused, std::move(why), t.out, what.code);
+        tickets.refused(job_->command.ticket, Reason::drive_refused, std::move(why), t.out, what.code);
         return job_.reset();
     }
     this->stepped(*job_, answer);
@@ -218,11 +218,11 @@ void Dialogue<Message, Channels>::finish(const Job& job, const Told& what, Turn&
     }
     this->acted(body, fb);
     if (const Parameter* p = parameter_of(body)) {
-        tickets_.answer(job.command.ticket, Outcome::done, Reason::none, {}, t.out, 0, parse_value(what.text, p->type).value_or(Value{}));
+        tickets.answer(job.command.ticket, Outcome::done, Reason::none, {}, t.out, 0, parse_value(what.text, p->type).value_or(Value{}));
     } else if (std::holds_alternative<Native>(body)) {
-        tickets_.answer(job.command.ticket, Outcome::accepted, Reason::none, what.text, t.out, 0, {}, {what.text.begin(), what.text.end()});
+        tickets.answer(job.command.ticket, Outcome::accepted, Reason::none, what.text, t.out, 0, {}, {what.text.begin(), what.text.end()});
     } else {
-        tickets_.accepted(job.command.ticket, t.out);
+        tickets.accepted(job.command.ticket, t.out);
     }
 }
 
@@ -259,19 +259,19 @@ void Dialogue<Message, Channels>::on_deadline(Turn& t) {
     if (late == Late::repeat) return transmit(t);
     if (late == Late::no) return;
     const Ask ask = exchange_.request();
-    bus_.turns.ended(slot_);
+    bus_.turns.ended(slot());
     late_.add(this->mark_of(ask.message));
     if (ask.why == Ask::Why::stop && !stops_.empty()) stops_.remove(stops_.first());
     if (ask.why == Ask::Why::step && job_ && job_->number == ask.job) {
         at(ask.channel).followed = {};
         job_.reset();
     }
-    tickets_.failed(ask.ticket, Reason::no_answer,
-                    this->words_of(ask.message) + " was not answered: whether the drive took it is not known", t.out);
-    if (presence_.silent(t.now) == Presence::Silence::counted) return;
+    tickets.failed(ask.ticket, Reason::no_answer, this->words_of(ask.message) + " was not answered: whether the drive took it is not known",
+                   t.out);
+    if (presence.silent(t.now) == Presence::Silence::counted) return;
     // Stops that were not sent yet still are: a drive that is not heard may hear.
     end_all(Reason::no_answer, "the drive does not answer", t);
-    presence_.report("the drive does not answer", t.out);
+    presence.report("the drive does not answer", t.out);
 }
 
 template <class Message, int Channels>
@@ -282,7 +282,7 @@ void Dialogue<Message, Channels>::end_all(Reason reason, std::string_view why, T
     job_.reset();
     for (Axis& a : axes_)
         a.followed = {};
-    tickets_.fail_all(reason, why, t.out);
+    tickets.fail_all(reason, why, t.out);
 }
 
 }  // namespace axisgate::drive

@@ -1,6 +1,6 @@
 // LineAdapter: what every adapter does with its calls: which drive they are for, who came and went, what follows from each.
 // In: the calls of core/adapter.hpp. Out: calls of the drives; each call ends with `end`, so that a free place is given away at once.
-// The family says what is on its line (`take`, `fault`, `make`) and what a frame is (`on_frame`). Never decides about a drive.
+// The family says what is on its line (`take`, `fault`, `make`) and what a frame is (`arrived`). Never decides about a drive.
 // `Drive` is as Roster wants it, and has `line_up(t)`, `line_down(why, t)`, `remove(why, t)` (ends everything; its link is not told),
 // `submit(command, t)`; with several axes `set_axes(setup, t)`; if its drives follow streams, `follow(set_point)`.
 #pragma once
@@ -53,6 +53,12 @@ public:
         settle(*d, t);
         end(t);
     }
+    void on_frame(const Frame& frame, Instant now, Out& out) override {
+        if (!up_) return;
+        Turn t{now, out};
+        arrived(frame, t);
+        end(t);
+    }
     void on_set_point(const SetPoint& p, Instant now, Out& out) override {
         if constexpr (requires(Drive & d) { d.follow(p); }) {
             Turn t{now, out};
@@ -78,6 +84,8 @@ protected:
     virtual void fitted() {}
     /// The line came up or went down; the drives are told next. What was being received is lost.
     virtual void line_changed(Turn& t) = 0;
+    /// While the line is up.
+    virtual void arrived(const Frame& frame, Turn& t) = 0;
     /// Something has happened to this drive.
     virtual void settle(Drive& drive, Turn& t) = 0;
     /// The end of a call from outside.
@@ -101,7 +109,7 @@ private:
     bool up_ = false;
 };
 
-/// Of drives that take turns on the line: the rest of what an adapter is but `on_frame`. A drive is as `settle`, `serve` and `wake` want
+/// Of drives that take turns on the line: the rest of what an adapter is but `arrived`. A drive is as `settle`, `serve` and `wake` want
 /// it.
 template <class Drive>
 class TurnsAdapter : public LineAdapter<Drive> {

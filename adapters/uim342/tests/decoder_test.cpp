@@ -8,7 +8,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "adapters/uim342/family.hpp"
+namespace axisgate {
+const Family& family_uim342();
+}
 
 namespace axisgate::uim342 {
 namespace {

@@ -28,8 +28,6 @@ TEST(Uim342Enable, StopsBeforeAndAfterAndLeavesNoOldTarget) {
     EXPECT_EQ(r.outcome, Outcome::accepted);
     EXPECT_EQ(s.b.heard(5), lines({"97", "95 01", "97", "9D 00 00 00 00"}));
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::on);
-    s.b.mark();
-    EXPECT_EQ(s.b.ask(Enable{}, true).outcome, Outcome::done) << "until done: SON has been seen";
 }
 
 TEST(Uim342Enable, NothingThatSetsAMotionIsSentWhileTheDriverIsOff) {
@@ -90,7 +88,6 @@ TEST(Uim342Disable, GoesAtOnce) {
     EXPECT_EQ(s.b.ask(Disable{}).outcome, Outcome::accepted);
     EXPECT_EQ(s.b.heard(5), lines({"95 00"}));
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::off);
-    EXPECT_EQ(s.b.ask(Disable{}, true).outcome, Outcome::done);
     for (const auto& x : s.b.sent) {
         if (x.message == message(5, 0x95, std::array<std::uint8_t, 1>{0})) EXPECT_EQ(x.priority, Priority::urgent);
     }
@@ -125,7 +122,8 @@ TEST(Uim342Move, SpeedIsSentAgainAfterAJog) {
     s.b.ask(absolute(100, 700));
     s.f.finish();
     s.b.ask(jog(4000));
-    s.b.ask(QuickStop{}, true);
+    s.b.ask(QuickStop{});
+    ASSERT_TRUE(s.b.run_until([&] { return !s.b.feedback().moving; }, 1s));
     s.b.mark();
     EXPECT_EQ(s.b.ask(absolute(200)).outcome, Outcome::accepted);
     EXPECT_EQ(s.b.heard(5), lines({"A0 C8 00 00 00", "9E BC 02 00 00", "96"})) << "the last positioning speed, 700";
@@ -215,79 +213,82 @@ TEST(Uim342Move, AnOldInPositionFlagIsNotTakenForTheNewMotion) {
         }
         return v;
     };
-    const Ticket t = s.b.command(absolute(5000, 100), true);
+    s.b.command(absolute(5000, 100));
     s.b.run(3ms);
     EXPECT_FALSE(s.b.feedback().target_reached);
+    s.b.feedbacks.clear();
     s.b.run(300ms);
-    EXPECT_FALSE(s.b.results.contains(t)) << "still on its way";
+    for (const auto& fb : s.b.feedbacks)
+        EXPECT_TRUE(fb.value.moving && !fb.value.target_reached) << "still on its way";
     s.f.finish();
     s.b.run(100ms);
-    ASSERT_TRUE(s.b.results.contains(t));
-    EXPECT_EQ(s.b.results[t].outcome, Outcome::done);
+    EXPECT_TRUE(s.b.feedback().target_reached);
 }
 
-TEST(Uim342Move, AMotionThatEndsAtOnceIsDone) {
+TEST(Uim342Move, AMotionThatEndsAtOnceIsShown) {
     Started s;
     s.f.instant_motion = true;
-    EXPECT_EQ(s.b.ask(absolute(0, 100), true, 0, 200ms).outcome, Outcome::done) << "PA where it stands already";
+    EXPECT_EQ(s.b.ask(absolute(0, 100)).outcome, Outcome::accepted);
+    EXPECT_TRUE(s.b.run_until([&] { return s.b.feedback().target_reached; }, 200ms)) << "PA where it stands already";
 }
 
-TEST(Uim342Move, UntilDone) {
+TEST(Uim342Move, ItsEndIsShown) {
     Started s;
-    const Ticket t = s.b.command(absolute(5000, 100), true);
+    EXPECT_EQ(s.b.ask(absolute(5000, 100)).outcome, Outcome::accepted) << "what takes time is watched by what the axis shows";
     s.b.run(1s);
-    EXPECT_FALSE(s.b.results.contains(t));
+    EXPECT_TRUE(s.b.feedback().moving && !s.b.feedback().target_reached);
     s.f.finish();
     s.b.run(50ms);
-    ASSERT_TRUE(s.b.results.contains(t));
-    EXPECT_EQ(s.b.results[t].outcome, Outcome::done);
     EXPECT_EQ(s.b.feedback().position, 5000);
-    EXPECT_TRUE(s.b.feedback().target_reached);
+    EXPECT_TRUE(s.b.feedback().target_reached && !s.b.feedback().moving);
 
-    const Ticket v = s.b.command(jog(2000), true);
+    s.b.ask(jog(2000));
     s.b.run(50ms);
-    ASSERT_TRUE(s.b.results.contains(v));
-    EXPECT_EQ(s.b.results[v].outcome, Outcome::done) << "the speed is there";
+    EXPECT_EQ(s.b.feedback().velocity, 2000) << "the speed is there";
 }
 
-TEST(Uim342Move, UntilDoneEndsInAnotherWay) {
+TEST(Uim342Move, AnotherEndThanTheTargetIsShownAsThat) {
     struct Row {
         const char* what;
         std::function<void(Started&)> then;
-        Reason reason;
+        std::function<bool(const AxisFeedback&)> shows;
     };
+    const auto stands = [](const AxisFeedback& f) { return !f.moving; };
+    const auto faulty = [](const AxisFeedback& f) { return f.fault; };
+    const auto off = [](const AxisFeedback& f) { return f.power == AxisFeedback::Power::off; };
     const std::vector<Row> rows{
-        {"stopped by the client", [](Started& s) { s.b.command(QuickStop{}); }, Reason::interrupted},
-        {"halted", [](Started& s) { s.b.command(Halt{}); }, Reason::interrupted},
-        {"disabled", [](Started& s) { s.b.command(Disable{}); }, Reason::interrupted},
-        {"replaced", [](Started& s) { s.b.command(relative(5, 5)); }, Reason::interrupted},
-        {"stopped by an input action", [](Started& s) { s.f.stop = true; }, Reason::interrupted},
+        {"stopped by the client", [](Started& s) { s.b.command(QuickStop{}); }, stands},
+        {"halted", [](Started& s) { s.b.command(Halt{}); }, stands},
+        {"disabled", [](Started& s) { s.b.command(Disable{}); }, off},
+        {"stopped by an input action", [](Started& s) { s.f.stop = true; }, stands},
         {"switched off by an input action",
          [](Started& s) {
              s.f.on = false;
              s.f.stop = true;
          },
-         Reason::interrupted},
-        {"stalled", [](Started& s) { s.f.tlif = s.f.err = s.f.stop = true; }, Reason::interrupted},
+         off},
+        {"stalled", [](Started& s) { s.f.tlif = s.f.err = s.f.stop = true; }, faulty},
         {"alarm",
          [](Started& s) {
              s.b.say(message(5, cw::RT, std::array<std::uint8_t, 5>{0, 0x1E}));
          },
-         Reason::interrupted},
-        {"out of reach", [](Started& s) { s.f.silent = true; }, Reason::no_answer},
-        {"line down", [](Started& s) { s.b.line(false); }, Reason::line_down},
+         faulty},
     };
     for (const Row& row : rows) {
         SCOPED_TRACE(row.what);
         Started s;
-        const Ticket t = s.b.command(absolute(5000, 100), true);
+        s.b.ask(absolute(5000, 100));
         s.b.run(100ms);
-        ASSERT_FALSE(s.b.results.contains(t));
+        ASSERT_FALSE(row.shows(s.b.feedback()));
+        s.b.feedbacks.clear();
         row.then(s);
         s.b.run(2s);
-        ASSERT_TRUE(s.b.results.contains(t));
-        EXPECT_EQ(s.b.results[t].outcome, Outcome::failed);
-        EXPECT_EQ(s.b.results[t].reason, row.reason) << s.b.results[t].text;
+        bool shown = false;  // an alarm is until the next status that has no error
+        for (const auto& fb : s.b.feedbacks) {
+            shown = shown || row.shows(fb.value);
+            EXPECT_FALSE(fb.value.target_reached);
+        }
+        EXPECT_TRUE(shown);
     }
 }
 
@@ -415,7 +416,7 @@ TEST(Uim342Home, OriginWhereItStands) {
         EXPECT_TRUE(s.b.feedback().referenced);
         EXPECT_TRUE(s.b.feedback().homing_attained);
         EXPECT_EQ(s.b.feedback().position, 0);
-        EXPECT_EQ(s.b.ask(Home{method}, true).outcome, Outcome::done);
+        EXPECT_EQ(s.b.ask(Home{method}).outcome, Outcome::accepted);
         EXPECT_EQ(s.b.notices_of("presence"), 0u) << "a zero that we made is no restart";
     }
 }
@@ -483,20 +484,19 @@ TEST(Uim342Home, SearchIntoTheSwitch) {
         Homing s(high);
         const auto before = s.f.values;
         const auto groups = s.f.group;
-        const Ticket t = s.b.command(Home{20}, true);
+        const Ticket t = s.b.command(Home{20});
         ASSERT_TRUE(s.b.run_until([&] { return s.f.speed != 0; }, 1s));
         EXPECT_EQ(s.f.speed, 500) << "method 20 enters the switch in the positive direction";
         const auto h = s.b.heard(5);
         EXPECT_EQ(std::ranges::count(h, "B4 01 01"), 0);
         EXPECT_NE(std::ranges::find(h, high ? "B4 01 80 86" : "B4 01 86 80"), h.end()) << "d1 falling, d2 rising, FG = 1";
         s.b.run(300ms);
-        EXPECT_FALSE(s.b.results.contains(t));
+        EXPECT_EQ(s.b.results[t].outcome, Outcome::accepted);
+        EXPECT_TRUE(s.b.feedback().homing && !s.b.feedback().homing_attained);
         EXPECT_EQ(s.b.read("AC").outcome, Outcome::done) << "values can be read meanwhile";
         s.edge(true);
-        ASSERT_TRUE(s.b.run_until([&] { return s.b.results.contains(t); }, 1s));
-        EXPECT_EQ(s.b.results[t].outcome, Outcome::done) << s.b.results[t].text;
+        ASSERT_TRUE(s.b.run_until([&] { return s.b.feedback().homing_attained; }, 1s));
         EXPECT_TRUE(s.b.feedback().referenced);
-        EXPECT_TRUE(s.b.feedback().homing_attained);
         EXPECT_FALSE(s.b.feedback().homing_error);
         s.b.run(200ms);
         for (const std::uint16_t key : Words{0x3401, 0x3501})
@@ -510,7 +510,7 @@ TEST(Uim342Home, SearchOutOfTheSwitchApproachesItFirst) {
     Homing s;
     const Ticket t = s.b.command(Home{19});
     ASSERT_TRUE(s.b.run_until([&] { return s.b.results.contains(t); }, 1s));
-    EXPECT_EQ(s.b.results[t].outcome, Outcome::accepted) << "not until done: the motion was acknowledged";
+    EXPECT_EQ(s.b.results[t].outcome, Outcome::accepted) << "the motion was acknowledged";
     EXPECT_EQ(s.f.speed, 500) << "towards the switch, on the positive side";
     s.b.run(200ms);
     s.edge(true);
@@ -528,7 +528,7 @@ TEST(Uim342Home, SearchBeginsTheOtherWayIfTheSwitchIsActive) {
     Homing s;
     s.set_switch(true);
     s.b.run(200ms);
-    s.b.command(Home{22}, true);
+    s.b.command(Home{22});
     ASSERT_TRUE(s.b.run_until([&] { return s.f.speed != 0; }, 1s));
     EXPECT_EQ(s.f.speed, 500) << "method 22 enters in the negative direction; first it has to get out";
     s.edge(false);
@@ -539,7 +539,7 @@ TEST(Uim342Home, SearchesThatFail) {
     struct Row {
         const char* what;
         std::function<void(Homing&)> then;
-        Reason reason;
+        const char* why;
     };
     const std::vector<Row> rows{
         {"stopped without an edge",
@@ -547,28 +547,29 @@ TEST(Uim342Home, SearchesThatFail) {
              s.f.speed = 0;
              s.f.stop = true;
          },
-         Reason::interrupted},
-        {"stopped by the client", [](Homing& s) { s.b.command(QuickStop{}); }, Reason::interrupted},
+         "without the switch having changed"},
+        {"stopped by the client", [](Homing& s) { s.b.command(QuickStop{}); }, "interrupted by quick_stop"},
         {"driver off",
          [](Homing& s) {
              s.f.on = false;
              s.f.stop = true;
          },
-         Reason::interrupted},
-        {"stall", [](Homing& s) { s.f.tlif = s.f.err = s.f.stop = true; }, Reason::interrupted},
-        {"never found", [](Homing&) {}, Reason::interrupted},
-        {"out of reach", [](Homing& s) { s.f.silent = true; }, Reason::no_answer},
+         "the driver is off"},
+        {"stall", [](Homing& s) { s.f.tlif = s.f.err = s.f.stop = true; }, "a fault ended it"},
+        {"never found", [](Homing&) {}, "the switch was not found within"},
+        {"out of reach", [](Homing& s) { s.f.silent = true; }, "has not answered"},
     };
     for (const Row& row : rows) {
         SCOPED_TRACE(row.what);
         Homing s;
-        const Ticket t = s.b.command(Home{20}, true);
+        s.b.command(Home{20});
         ASSERT_TRUE(s.b.run_until([&] { return s.f.speed != 0; }, 1s));
         s.b.run(100ms);
         row.then(s);
-        ASSERT_TRUE(s.b.run_until([&] { return s.b.results.contains(t); }, 10s));
-        EXPECT_EQ(s.b.results[t].outcome, Outcome::failed);
-        EXPECT_EQ(s.b.results[t].reason, row.reason) << s.b.results[t].text;
+        ASSERT_TRUE(s.b.run_until([&] { return s.b.notices_of("homing") == 1; }, 10s)) << "whoever waits is told by it";
+        const auto told = std::ranges::find(s.b.notices, "homing", &Notice::kind);
+        EXPECT_NE(told->text.find(row.why), std::string::npos) << told->text;
+        EXPECT_TRUE(s.b.feedback().homing_error);
         s.b.run(500ms);
         EXPECT_FALSE(s.b.feedback().homing_attained);
         EXPECT_FALSE(s.b.feedback().referenced);
@@ -586,7 +587,7 @@ TEST(Uim342Home, SearchesThatFail) {
 
 TEST(Uim342Home, TheInputIsDisarmedBeforeTheNextMotion) {
     Homing s;
-    s.b.command(Home{20}, true);
+    s.b.command(Home{20});
     ASSERT_TRUE(s.b.run_until([&] { return s.f.speed != 0; }, 1s));
     s.b.command(Disable{});
     s.b.run(200ms);
@@ -711,25 +712,23 @@ TEST(Uim342Notify, FinishedCarriesItsPositionInD4) {
     Started s;
     s.b.setup.timing.poll_period = 5s;
     s.b.configure();
-    const Ticket t = s.b.command(absolute(-1000, 100), true);
+    s.b.command(absolute(-1000, 100));
     s.b.run(30ms);
-    ASSERT_FALSE(s.b.results.contains(t));
+    ASSERT_FALSE(s.b.feedback().target_reached);
     s.f.finish();
     s.b.say(message(5, cw::RT, std::array<std::uint8_t, 8>{0x29, 0, 0, 0, 0x18, 0xFC, 0xFF, 0xFF}));
     s.b.run(1us);
-    ASSERT_TRUE(s.b.results.contains(t)) << "the notification ends it, without a poll";
-    EXPECT_EQ(s.b.results[t].outcome, Outcome::done);
+    EXPECT_TRUE(s.b.feedback().target_reached) << "the notification ends it, without a poll";
     EXPECT_EQ(s.b.feedback().position, -1000);
-    EXPECT_TRUE(s.b.feedback().target_reached);
 }
 
 TEST(Uim342Notify, TheEndOfTheMotionBeforeIsNotThatOfTheNewOne) {
     Started s;
-    const Ticket t = s.b.command(absolute(5000, 100), true);
+    s.b.command(absolute(5000, 100));
     s.b.run(50ms);
     s.b.say(message(5, cw::RT, std::array<std::uint8_t, 8>{0x29, 0, 0, 0, 0x10, 0x27, 0, 0}));  // at 10000: another target
     s.b.run(100ms);
-    EXPECT_FALSE(s.b.results.contains(t));
+    EXPECT_TRUE(s.b.feedback().moving);
     EXPECT_FALSE(s.b.feedback().target_reached);
 }
 

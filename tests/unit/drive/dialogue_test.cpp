@@ -59,7 +59,7 @@ private:
 class ToyAdapter final : public TurnsAdapter<ToyDrive> {
 public:
     explicit ToyAdapter(const Catalogue& c) : TurnsAdapter(bus_), bus_(c) {}
-    void on_frame(const Frame&, Instant, Out&) override {}
+    void arrived(const Frame&, Turn&) override {}
     void answer(const Letter& a, Instant now, Out& out) {
         Turn t{now, out};
         ToyDrive& d = *drives().at(0);

@@ -16,7 +16,10 @@ using View = std::span<const std::uint8_t>;
 
 class Reader {
 public:
-    explicit Reader(View bytes) noexcept : rest_(bytes) {}
+    /// `alone`: one value, that is all of the bytes.
+    explicit Reader(View bytes, bool alone = false) noexcept : rest_(bytes), alone_(alone) {}
+    /// Whether there are more bytes than its one value has.
+    [[nodiscard]] bool too_long_for(std::size_t bytes) const noexcept { return alone_ && rest_.size() > bytes; }
     [[nodiscard]] std::uint8_t u8() noexcept { return static_cast<std::uint8_t>(number(1)); }
     [[nodiscard]] std::uint16_t u16() noexcept { return static_cast<std::uint16_t>(number(2)); }
     [[nodiscard]] std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(number(4)); }
@@ -44,6 +47,7 @@ private:
         return v;
     }
     View rest_;
+    bool alone_;
     bool bad_ = false;
 };
 

@@ -54,6 +54,7 @@ General TcpIpObject::get(std::uint32_t, std::uint32_t attribute, const Context&,
 General TcpIpObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
     if (attribute != 13) return Object::set(instance, attribute, context, data);
     if (data.left() < 2) return General::not_enough_data;
+    if (data.too_long_for(2)) return General::too_much_data;
     const std::uint16_t wanted = data.u16();
     if (wanted > 3600) return General::invalid_attribute_value;
     inactivity_s_ = wanted;
@@ -121,6 +122,7 @@ General QosObject::get(std::uint32_t, std::uint32_t attribute, const Context&, B
 General QosObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
     if (attribute < first_mark || attribute > last_mark) return Object::set(instance, attribute, context, data);
     if (data.left() < 1) return General::not_enough_data;
+    if (data.too_long_for(1)) return General::too_much_data;
     const std::uint8_t wanted = data.u8();
     if (wanted > most_mark) return General::invalid_attribute_value;
     marks_[attribute - first_mark] = wanted;

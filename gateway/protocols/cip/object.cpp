@@ -80,7 +80,7 @@ Response Object::get_single(std::uint32_t instance, std::uint32_t attribute, con
 }
 
 Response Object::set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) {
-    Reader reader(data);
+    Reader reader(data, true);
     Response r;
     r.general = set(instance, attribute, context, reader);
     if (r.good() && reader.left() > 0) r.general = General::too_much_data;

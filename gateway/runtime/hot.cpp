@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <future>
+#include <utility>
 
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/threads.hpp"
@@ -44,7 +45,7 @@ bool Hot::start() {
     turns_.live(now());
     std::promise<bool> first;
     auto ranked = first.get_future();
-    thread_ = std::thread([this, &first] {
+    thread_ = std::thread([this, first = std::move(first)]() mutable {
         enter_thread("axisgate-hot", hot_stands_back);
         const bool goes_first = settings_.spin_us == 0 && go_first();
         if (!goes_first) take_short_turns(hot_turn_ns);

@@ -28,6 +28,7 @@ TEST(DriveBase, OnlyADriveOfOneChannelSpeaksForItsAxis) {
     EXPECT_EQ(one.axis(), AxisId{7});
     EXPECT_EQ(bare.axis(), no_axis);
     EXPECT_EQ(several.axis(), no_axis) << "what it tells may be about another one";
+    EXPECT_EQ(BareDrive(setup_of({{AxisId{7}, 2}}), timing, 0).axis(), no_axis) << "of a channel that it has not";
     EXPECT_EQ(one.slot(), 2u);
     EXPECT_EQ(one.name(), "feeder");
 

@@ -142,6 +142,7 @@ TEST(Jobs, ADriveThatIsGoneLeavesNobodyWaiting) {
         EXPECT_EQ(r.reason, Reason::line_down);
         EXPECT_EQ(r.text, "the line is down");
     }
+    EXPECT_TRUE(b.drive.reads.seen.at(0).dropped);
     EXPECT_EQ(b.drive.tickets.size(), 0u);
     EXPECT_TRUE(b.drive.jobs.idle() && b.drive.jobs.queue.empty());
     b.drive.jobs.fail_all(Reason::line_down, "the line is down", b.t);

@@ -604,7 +604,6 @@ def test_bad_input_is_answered_and_stops_nothing(gateway):
         status, _, data = client.request("PUT", "/api/v1/site", json.dumps(DEMO).encode())
         assert status == 200, f"turn {turn}: the site cannot be put back: {status} {data[:300]!r}"
         serves(gateway, client)
-    answered = 0
     for data in RAW:
         for part in (data, data[:len(data) // 2]):
             s = socket.create_connection(client.address, timeout=1)
@@ -614,7 +613,6 @@ def test_bad_input_is_answered_and_stops_nothing(gateway):
                 said = b""
                 while chunk := s.recv(65536):
                     said += chunk
-                answered += said.startswith(b"HTTP/1.1 ")
                 assert not said.startswith(b"HTTP/1.1 5") or said[9:12] in (b"501", b"503", b"505"), f"{data[:100]!r}: {said[:300]!r}"
             except (TimeoutError, ConnectionError):
                 pass  # half a request may wait for its end, and a wrong one may be cut off

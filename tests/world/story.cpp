@@ -51,8 +51,7 @@ public:
     }
 
 private:
-    /// So near that a velocity move comes to them within a story.
-    static constexpr double limit_units = 40, limit_increments = limit_units * 100;
+    static constexpr double limit_units = 200, limit_increments = limit_units * 100;
 
     /// One axis of a drive behind a cable.
     struct Machine {
@@ -274,7 +273,7 @@ private:
     CommandBody any_body(const Subject& s, Given& g) {
         Move m;
         m.target = static_cast<std::int64_t>(pick(20001)) - 10000;
-        if (plan_.limits) m.target = m.target * 6 / 10;  // some lead beyond
+        if (plan_.limits) m.target *= 3;  // some lead beyond
         m.velocity = 1 + static_cast<std::int64_t>(pick(8000));
         m.acceleration = 10000 + static_cast<std::int64_t>(pick(30000));
         m.deceleration = m.acceleration;

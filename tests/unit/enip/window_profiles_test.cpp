@@ -162,7 +162,7 @@ TEST(EnipWindow, TheImageOfALanguageIsWhatItsPageHas) {
         d.state.site.profiles = {p};
         d.put_site();
         const auto windows = windows_of(d.state);
-        ASSERT_EQ(windows.size(), 2u) << name_of(p.language);
+        ASSERT_GE(windows.size(), 2u) << name_of(p.language);
         for (const auto& w : windows) {
             const bool out = w.spec.direction == output;
             const auto in_image = d.image.unit(50)->values(w.spec.table, w.spec.address, w.spec.registers, out);

@@ -11,11 +11,14 @@ import shlex
 import shutil
 import signal
 import socket
+import struct
 import subprocess
+import time
 
 import harness
 from harness import Process, run, until
 from netns import Plant
+from test_enip import Originator, statusword
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 KNOWN = {"FROM", "COPY", "RUN", "USER", "VOLUME", "STOPSIGNAL", "HEALTHCHECK", "ENTRYPOINT", "CMD"}
@@ -190,6 +193,37 @@ def test_run_starts_a_fleet_whose_printed_lines_move_an_axis_of_another(folder):
             assert "result" in curl(move)
             until(lambda: curl("curl -s http://127.0.0.1:8082/api/v1/axes/feeder")["position"] > begun + 1, 20, "an axis of hall-2 moves")
             until(lambda: curl(mirror).get("position", 0) > begun + 1, 20, "and hall-1 shows it as its own")
+        finally:
+            p.terminate()
+            p.stdout.read()
+            p.wait(30)
+
+
+def test_run_prints_an_ethernet_ip_address_that_a_scanner_finds_and_moves_an_axis_by(folder):
+    """deploy/run in a network of its own: the address that it prints is browsed, and held by a class 1 connection that moves the demo's axis."""
+    shutil.copytree(TOP / "deploy", folder / "deploy", ignore=shutil.ignore_patterns("node_modules"))
+    with Plant(1).places[0].inside(), subprocess.Popen([folder / "deploy/run", "--use", harness.PROGRAM, "--set", "dds.enabled=false"], cwd=folder,
+                                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as p:
+        try:
+            printed = None
+            for line in p.stdout:
+                printed = printed or re.search(r"EtherNet/IP +(\d+\.\d+\.\d+\.\d+):(\d+), TCP and UDP, implicit data on UDP (\d+)", line)
+                if line.startswith("ready"):
+                    break
+            assert printed, "deploy/run prints no EtherNet/IP address"
+            with Originator(printed[1], int(printed[2]), int(printed[3])) as o:
+                assert o.get(1, 1, 7) == b"\x08axisgate"
+                assert struct.unpack("<H", o.get(4, 101, 4))[0] == 32
+                assert o.open(151, 101) == (0, ())
+                o.start()
+                for word, state in ((0x06, 0x21), (0x07, 0x23), (0x0F, 0x27)):
+                    o.write(word)
+                    until(lambda: statusword(o.inputs()) & 0x6F == state, 10, f"state {state:#x}")
+                target = struct.unpack("<i", o.inputs()[4:8])[0] + 3200
+                o.write(0x0F, 1, target, 3200)
+                time.sleep(0.05)
+                o.write(0x1F, 1, target, 3200)
+                until(lambda: struct.unpack("<i", o.inputs()[4:8])[0] == target, 10, "the target")
         finally:
             p.terminate()
             p.stdout.read()

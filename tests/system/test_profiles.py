@@ -2,7 +2,8 @@
 drives it as a Lexium, and the list of registers is told."""
 import struct
 
-from harness import ModbusException, until
+from harness import Gateway, ModbusException, until
+from test_demo import demo
 
 FEEDER = {"axis": "feeder", "velocity": 50, "acceleration": 500}
 
@@ -65,6 +66,28 @@ def test_a_recorded_sequence_of_a_pa_control_drives_another_makers_axis(gateway)
         assert abs(axis["position"] - 10) < 0.001 and axis["state"] != "operation_enabled", axis
     events = gateway.get("/events?axis=feeder")
     assert any("modbus" in str(e) for e in events), "who it was is known"
+
+
+def test_eight_axes_of_all_families_are_one_pa_control(folder):
+    names = ["feeder", "portal.x", "lift", "turntable", "shuttle", "spindle", "macs.master", "macs.slave"]
+    with Gateway(folder, demo()) as g, g.modbus() as m:
+        site = g.get("/site")
+        family = {d["name"]: d.get("family") or next(x["family"] for x in site["lines"] if x["name"] == d["line"]) for d in site["drives"]}
+        drive = {a["name"]: a["drive"] for a in site["axes"]}
+        assert len({family[drive[n]] for n in names}) == 6, "every family of the demo"
+        put(g, 20, "pacontrol", [{"axis": n, "velocity": 20, "acceleration": 200} for n in names])
+        until(lambda: all(g.axis(n)["online"] for n in names), 20, "all of them")
+        pa = PaControl(m, 20)
+        assert pa.ask(0x1700, 2) == (0, [0, 8, 1, 0xA000]), "eight axes; home position"
+        assert pa.ask(0x0603)[0] == 0, "ONLINE"
+        until(lambda: all(g.axis(n)["state"] == "operation_enabled" for n in names), 20, "all are on")
+        for number, name in enumerate(names, 1):
+            assert pa.ask(0x0A84, number, seconds=40)[0] == 0, f"{name}: reference run"
+            before = g.axis(name)["position"]
+            error, image = pa.ask(0x0A89, number, real(2.5))
+            assert error == 0, f"{name}: {error:02X} {image}"
+            until(lambda: abs(g.axis(name)["position"] - before - 2.5) < 0.02, 10, f"{name} has gone its way")
+        assert pa.ask(0x0A89, 9, real(1))[0] == 0x20, "there is no ninth"
 
 
 def test_mbpoll_drives_an_axis_as_a_lexium(gateway):

@@ -181,7 +181,7 @@ void Drive::go(Turn& t) {
         if (!ask) return;
         ask->axis = at;
         if (ask->step.kind != Step::Kind::nmt) return exchanges.send(std::move(*ask), t);
-        t.out.send(canopen::nmt_frame(ask->step.nmt, node.number));  // nobody answers it
+        t.out.send(canopen::nmt_frame(ask->step.nmt, node.number), Priority::command, ask->ticket);  // nobody answers it
         return heed(axes[at]->answered(*ask, {}, t), t);
     }
     if (t.now >= check_at_) exchanges.send({Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0, axes.size()}, t);

@@ -6,9 +6,9 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-void emit(const std::vector<Frame>& frames, Priority priority, Turn& t) {
+void emit(const std::vector<Frame>& frames, Priority priority, Ticket order, Turn& t) {
     for (const Frame& f : frames)
-        t.out.send(f, priority);
+        t.out.send(f, priority, order);
 }
 }  // namespace
 
@@ -47,7 +47,7 @@ void Exchanges::transfer(Turn& t) {
         (void)sdo_.read(s.address, t.now, frames);
     }
     const bool soon = ask_.why == Ask::Why::step || ask_.why == Ask::Why::turns;
-    emit(frames, ask_.why == Ask::Why::stop ? Priority::urgent : soon ? Priority::command : Priority::poll, t);
+    emit(frames, ask_.why == Ask::Why::stop ? Priority::urgent : soon ? Priority::command : Priority::poll, ask_.ticket, t);
 }
 
 std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
@@ -56,7 +56,7 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     std::vector<Frame> frames;
     const auto strays = sdo_.strays();
     auto end = sdo_.on_frame(f, t.now, frames);
-    emit(frames, Priority::command, t);
+    emit(frames, Priority::command, ask_.ticket, t);
     if (sdo_.strays() != strays) {
         ++line.counters.unexpected;
         drive_.stray();

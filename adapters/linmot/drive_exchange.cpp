@@ -9,15 +9,18 @@ namespace axisgate::linmot {
 
 void Exchanges::missed(Instant now) noexcept { late_.missed(now, drive_.bus.timing.reply_timeout); }
 
+Ticket Exchanges::order_of(const Request& r) const noexcept {
+    return r.purpose == Purpose::stop ? drive_.stops.order() : r.purpose == Purpose::job ? drive_.jobs.job().command.ticket : no_ticket;
+}
+
 void Exchanges::send(Request r, Turn& t) {
     const Bus& bus = drive_.bus;
     const auto bytes = pack(r.telegram, bus.checksum);
     const Duration both = bus.wire(bytes.size() + wire_size(ram_size, bus.checksum));
     const bool once =
         r.purpose == Purpose::probe || r.purpose == Purpose::poll || r.purpose == Purpose::stream || r.any_length || r.quiet || r.once;
-    t.out.send(Frame::run(bytes), r.purpose == Purpose::stop                                  ? Priority::urgent
-                                  : r.purpose == Purpose::poll || r.purpose == Purpose::probe ? Priority::poll
-                                                                                              : Priority::command);
+    const bool poll = r.purpose == Purpose::poll || r.purpose == Purpose::probe;
+    t.out.send(Frame::run(bytes), r.purpose == Purpose::stop ? Priority::urgent : poll ? Priority::poll : Priority::command, order_of(r));
     const auto period = r.purpose == Purpose::stream ? drive_.stream.patience() : std::nullopt;
     exchange_.begin(std::move(r), t.now, period.value_or(bus.timing.reply_timeout + both), once ? 0 : bus.timing.retries);
 }
@@ -55,7 +58,7 @@ bool Exchanges::on_deadline(Turn& t) {
     if (late == drive::Late::repeat) {
         repeated_at_ = t.now;
         t.out.send(Frame::run(pack(request().telegram, drive_.bus.checksum)),
-                   request().purpose == Purpose::stop ? Priority::urgent : Priority::command);
+                   request().purpose == Purpose::stop ? Priority::urgent : Priority::command, order_of(request()));
     }
     return late == drive::Late::over;
 }

@@ -44,6 +44,8 @@ public:
     [[nodiscard]] Instant ready_at() const noexcept { return late_.until(); }
 
 private:
+    [[nodiscard]] Ticket order_of(const Request& request) const noexcept;
+
     drive::Exchange<Request> exchange_;
     drive::LateTime late_;
     Instant repeated_at_ = Instant::min();

@@ -29,6 +29,7 @@ public:
     void forget() noexcept { lane_.clear(); }
 
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
+    [[nodiscard]] Ticket order() const noexcept { return empty() ? no_ticket : lane_.first()->command.ticket; }
     /// Nothing but a halt wants to go: it leaves a stream to end by itself.
     [[nodiscard]] bool empty_or_halt() const noexcept { return empty() || std::holds_alternative<Halt>(lane_.first()->command.body); }
 

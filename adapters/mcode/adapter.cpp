@@ -160,8 +160,8 @@ void LineAdapter::arrived(const Frame& frame, Turn& t) {
     }
 }
 
-void LineAdapter::send(std::string_view bytes, Priority priority, Turn& t) const {
-    for_each_run(drive::bytes_of(bytes), [&](const Frame& f) { t.out.send(f, priority); });
+void LineAdapter::send(std::string_view bytes, Priority priority, Turn& t, Ticket order) const {
+    for_each_run(drive::bytes_of(bytes), [&](const Frame& f) { t.out.send(f, priority, order); });
 }
 
 std::string LineAdapter::next_mark() {
@@ -196,7 +196,7 @@ void LineAdapter::start(Drive& d, Turn& t) {
                                                                        : Duration{1s});
     reader_.begin(std::move(e));
     bus_.turns.began(d.slot(), false);
-    send(bytes, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command, t);
+    send(bytes, r.urgent ? Priority::urgent : r.purpose == Request::Purpose::poll ? Priority::poll : Priority::command, t, r.order);
 }
 
 /// The line is silent behind a block: the question whose answer is its end. false: that was in vain, or it is no such block.

@@ -38,7 +38,7 @@ private:
     [[nodiscard]] bool stop_all_at_once(Turn& t);
     // one exchange
     void start(Drive& drive, Turn& t);
-    void send(std::string_view bytes, Priority priority, Turn& t) const;
+    void send(std::string_view bytes, Priority priority, Turn& t, Ticket order = no_ticket) const;
     [[nodiscard]] std::string next_mark();
     [[nodiscard]] bool close_block(Turn& t);
     void finish(Verdict v, Turn& t);

@@ -156,6 +156,11 @@ bool Drive::wants_unmarked(Instant now) const noexcept {
 Request Drive::next(Turn& t) {
     Request r = choose(t);
     purpose_ = r.purpose;
+    if (!stops.empty()) {
+        r.order = stops.order();
+    } else if (purpose_ == What::step || purpose_ == What::confirm || purpose_ == What::error) {
+        r.order = jobs.job().command.ticket;
+    }
     return r;
 }
 

@@ -47,8 +47,9 @@ struct Request {
     bool end_mark = false;
     bool ends = false;  ///< block: its end is proven by a question behind it
     bool urgent = false;
-    bool wake = false;    ///< a LF goes before: wakes a party line, ends half a line [L5002]
-    Duration patience{};  ///< beyond the reply time-out
+    bool wake = false;         ///< a LF goes before: wakes a party line, ends half a line [L5002]
+    Duration patience{};       ///< beyond the reply time-out
+    Ticket order = no_ticket;  ///< the command for which it is sent
 
     [[nodiscard]] static Request ask(Purpose purpose, std::string items);
     /// A line that is acknowledged. Those that write flash memory get their time.

@@ -21,6 +21,7 @@ public:
     /// Its ticket is open here.
     void add(const Command& command, Turn& t);
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
+    [[nodiscard]] Ticket order() const noexcept { return lane_.first()->command.ticket; }
     [[nodiscard]] bool confirming() const noexcept { return !empty() && lane_.first()->confirming; }
     [[nodiscard]] Request next(Instant now);
     /// Perhaps an absent drive hears: with and without checksum, since nobody says which it would take.

@@ -96,7 +96,7 @@ void Jobs::send_of(Axis& a, Turn& t) {
     j.want = Job::Want::nothing;
     ++j.tries;
     if (j.request.code == code::abort_online) drive_.leaving = true;  // whoever asks for it here, it is no surprise
-    const Sent sent{Purpose::job, a.place(), j.request, j.poll};
+    const Sent sent{Purpose::job, a.place(), j.request, j.poll, {}, j.command.ticket};
     j.raw.empty() ? drive_.port.send(sent, Priority::command, t) : drive_.port.send_raw(sent, j.raw, t);
 }
 

@@ -25,7 +25,7 @@ void Port::forget() {
 }
 
 void Port::begin(Sent what, std::span<const std::uint8_t> bytes, Priority priority, Turn& t) {
-    t.out.send(Frame::run(bytes), priority);
+    t.out.send(Frame::run(bytes), priority, what.order);
     const Bus& bus = drive_.bus;
     const Duration patience = bus.timing.reply_timeout + bus.wire(bytes.size() + reply_bytes);
     exchange_.begin(std::move(what), t.now, patience, 0);

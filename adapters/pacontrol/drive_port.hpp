@@ -31,6 +31,7 @@ struct Sent {
     Request request{};
     bool eot = false;  ///< the lone EOT instead
     Poll poll{};
+    Ticket order = no_ticket;  ///< the command for which it is sent
 };
 
 class Port : public Part {

@@ -102,7 +102,7 @@ void Stops::send(Turn& t) {
     const Request r = request_of(*sent_);
     if (r.code == code::abort_online) drive_.leaving = true;
     ++sent_->tries;
-    drive_.port.send({Purpose::stop, sent_->axis, r}, Priority::urgent, t);
+    drive_.port.send({Purpose::stop, sent_->axis, r, false, {}, sent_->command.ticket}, Priority::urgent, t);
 }
 
 void Stops::over(Stop& s, Outcome outcome, Reason reason, std::string text, Turn& t, std::int32_t code) {

@@ -124,7 +124,8 @@ void LineAdapter::begin_joint(Turn& t) {
     }
     joint_.stage = Joint::Stage::running;
     joint_.open = joint_.members;
-    transmit(message(id, cw::BG), Priority::command, t);  // without acknowledgement: who would answer is not written (erratum E-44)
+    transmit(message(id, cw::BG), Priority::command, t,
+             joint_.command.ticket);  // without acknowledgement: who would answer is not written (erratum E-44)
     const auto members = joint_.members;
     for (Drive* n : members) {
         n->together.begun(t);
@@ -133,7 +134,7 @@ void LineAdapter::begin_joint(Turn& t) {
 }
 
 void LineAdapter::global_stop(const Command& command, Turn& t) {
-    transmit(message(global_id, cw::ST), Priority::urgent, t);
+    transmit(message(global_id, cw::ST), Priority::urgent, t, command.ticket);
     if (!tickets_.open(command, t.out)) return;
     if (joint_.kind == Joint::Kind::stop) {
         return (void)tickets_.failed(command.ticket, Reason::busy,

@@ -134,9 +134,9 @@ void LineAdapter::deliver(const Message& m, Turn& t) {
     settle(*d, t);
 }
 
-void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
+void LineAdapter::transmit(const Message& m, Priority priority, Turn& t, Ticket order) {
     if (kind == LineKind::can) {
-        t.out.send(to_can(m), priority);
+        t.out.send(to_can(m), priority, order);
         return;
     }
     CrcMode mode = framer_.accepting();
@@ -145,7 +145,7 @@ void LineAdapter::transmit(const Message& m, Priority priority, Turn& t) {
         mode = try_thirteen_ ? CrcMode::thirteen : CrcMode::twelve;
         try_thirteen_ = !try_thirteen_;
     }
-    t.out.send(Frame::run(to_uimessage(m, mode)), priority);
+    t.out.send(Frame::run(to_uimessage(m, mode)), priority, order);
 }
 
 // --- questions of nodes ----------------------------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ private:
     void leaving(Drive& drive, Turn& t) override;
     void line_changed(Turn& t) override;
     // Bus
-    void transmit(const Message& m, Priority priority, Turn& t) override;
+    void transmit(const Message& m, Priority priority, Turn& t, Ticket order) override;
     void share_ready(Drive& drive, Turn& t) override;
     void share_done(Drive& drive, Share share, Turn& t) override;
     [[nodiscard]] std::string user_of(std::uint8_t id, const Drive& but) const override;

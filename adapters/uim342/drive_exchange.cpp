@@ -12,10 +12,14 @@
 
 namespace axisgate::uim342 {
 
+Ticket Exchanges::order_of(const Request& request) const noexcept {
+    return request.purpose == Purpose::job ? drive_.jobs.job().command.ticket : no_ticket;
+}
+
 void Exchanges::send(const Request& request, int retries, Priority priority, Turn& t) {
     exchange_.begin(request, t.now, drive_.bus.timing.reply_timeout, retries);
     drive_.bus.turns.began(drive_.slot(), request.purpose == Purpose::probe);
-    drive_.bus.transmit(request.message, priority, t);
+    drive_.bus.transmit(request.message, priority, t, order_of(request));
 }
 
 bool Exchanges::makes_way(const Message& m, std::uint8_t mf, Priority priority, Turn& t) {
@@ -155,7 +159,7 @@ void Exchanges::count_silence(Turn& t) {
 
 void Exchanges::on_deadline(Turn& t) {
     const drive::Late late = exchange_.on_deadline(t.now, drive_.bus.counters);
-    if (late == drive::Late::repeat) drive_.bus.transmit(exchange_.request().message, Priority::command, t);
+    if (late == drive::Late::repeat) drive_.bus.transmit(exchange_.request().message, Priority::command, t, order_of(exchange_.request()));
     if (late == drive::Late::over) silent(t);
 }
 

@@ -61,6 +61,7 @@ public:
     bool mf_unknown = false;  ///< a group may still be selected in the drive: MF=0 goes before what would use it up
 
 private:
+    [[nodiscard]] Ticket order_of(const Request& request) const noexcept;
     void barrier(Turn& t);
     void answered(const Message& m, Turn& t);
     void refused(const Message& m, Turn& t);

@@ -94,7 +94,7 @@ void Jobs::run(Turn& t) {
             return wire.send({m, Purpose::job, step.mf}, repeatable ? drive_.bus.timing.retries : 0, Priority::command, t);
         }
         job_.blind = m.function();
-        drive_.bus.transmit(m, Priority::command, t);
+        drive_.bus.transmit(m, Priority::command, t, job_.command.ticket);
         ++job_.at;
         job_.verb->answered(step, nullptr, t);
     }

@@ -33,7 +33,7 @@ struct Bus : drive::Bus {
     Bus& operator=(const Bus&) = delete;
 
     /// Sends now. Not for urgent frames alone: a place in the window must have been given for the others.
-    virtual void transmit(const Message& m, Priority priority, Turn& t) = 0;
+    virtual void transmit(const Message& m, Priority priority, Turn& t, Ticket order) = 0;
     /// A drive that joined has come to the joint order in its queue.
     virtual void share_ready(Drive& drive, Turn& t) = 0;
     /// One drive's share of the joint order in progress has come to its end (or to "begun").

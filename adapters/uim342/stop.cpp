@@ -52,7 +52,7 @@ void Stops::add(const Stop& wanted, Turn& t) {
     // All places are taken by stops that nobody has acknowledged: this one is sent too, but cannot be watched.
     Message m = wanted.kind == Stop::Kind::off ? drive_.set(cw::MO, 0) : drive_.act(cw::ST);
     m.cw &= static_cast<std::uint8_t>(~ack_bit);
-    drive_.bus.transmit(m, Priority::urgent, t);
+    drive_.bus.transmit(m, Priority::urgent, t, wanted.ticket);
     drive_.demand.forget();
     const std::string text = fmt::format("sent, but not watched: {} stops wait for their acknowledgement already", limit);
     (void)drive_.tickets.failed(wanted.ticket, Reason::busy, text, t.out);
@@ -101,7 +101,7 @@ void Stops::exchange_ended(Turn& t) {
 
 void Stops::send(Stop& s, const Message& m, int retries, Turn& t) {
     s.exchange.begin(m, t.now, drive_.bus.timing.reply_timeout, retries);
-    drive_.bus.transmit(m, Priority::urgent, t);
+    drive_.bus.transmit(m, Priority::urgent, t, s.ticket);
 }
 
 void Stops::repeat(Turn& t) {
@@ -200,7 +200,7 @@ Instant Stops::deadline() const noexcept {
 void Stops::on_deadline(Turn& t) {
     lane_.each([&](Stop& s) {
         const drive::Late late = s.exchange.on_deadline(t.now, drive_.bus.counters);
-        if (late == drive::Late::repeat) drive_.bus.transmit(s.exchange.request(), Priority::urgent, t);
+        if (late == drive::Late::repeat) drive_.bus.transmit(s.exchange.request(), Priority::urgent, t, s.ticket);
         if (late == drive::Late::over) silent(s, t);
     });
     if (t.now < supervise_at_) return;

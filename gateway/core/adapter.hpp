@@ -17,6 +17,7 @@ struct Out {
     struct Tx {
         Frame frame;
         Priority priority = Priority::command;
+        Ticket order = no_ticket;  ///< the command for which it is sent; none: of the adapter's own accord
     };
     struct Feedback {
         AxisId axis = no_axis;
@@ -45,7 +46,9 @@ struct Out {
         notices.clear();
         stream_ends.clear();
     }
-    void send(const Frame& frame, Priority priority = Priority::command) { frames.push_back({frame, priority}); }
+    void send(const Frame& frame, Priority priority = Priority::command, Ticket order = no_ticket) {
+        frames.push_back({frame, priority, order});
+    }
 };
 
 /// What an adapter counted on its line since it was made.

@@ -138,9 +138,8 @@ void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::transmit(Turn& t) const {
     const auto why = exchange_.request().why;
-    t.out.send(this->frame_of(exchange_.request().message), why == Ask::Why::stop   ? Priority::urgent
-                                                            : why == Ask::Why::step ? Priority::command
-                                                                                    : Priority::poll);
+    const Priority priority = why == Ask::Why::stop ? Priority::urgent : why == Ask::Why::step ? Priority::command : Priority::poll;
+    t.out.send(this->frame_of(exchange_.request().message), priority, exchange_.request().ticket);
 }
 
 // --- what comes ------------------------------------------------------------------------------------------------------------------

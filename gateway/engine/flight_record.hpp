@@ -86,7 +86,7 @@ struct PictureRecord {
 
 struct FrameRecord {
     bool to_drive = false;
-    Ticket cause = no_ticket;  ///< the client's command for which it was sent at once; none: a poll, or a later part of an exchange
+    Ticket cause = no_ticket;  ///< the client's command for which it was sent; none: a poll, or the gateway's own doing
     Frame frame;
 };
 
@@ -170,7 +170,8 @@ public:
     void frame(LineId line, const Frame& frame, bool to_drive, bool twin);
 
     // what came of it
-    void handed(LineId line, const Frame& frame, bool twin, Instant now);
+    /// `command`: for whose it is sent; none: of a poll, or what the call in hand is for (FlightCause).
+    void handed(LineId line, const Frame& frame, bool twin, Ticket command, Instant now);
     void picture(AxisId axis, const AxisPicture& p, Instant now);
     void result(const Result& r, Instant now);
     void event(const Event& e, Instant now);

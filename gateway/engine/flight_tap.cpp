@@ -71,17 +71,18 @@ void FlightTap::frame(LineId line, const Frame& f, bool to_drive, bool twin) {
     if (twin) return give(FlightKind::twin_frame, index_of(line), f.at);
     give(to_drive ? FlightKind::sent : FlightKind::received, place_of(line), f.at);
 }
-void FlightTap::handed(LineId line, const Frame& f, bool twin, Instant now) {
-    if (cause_ != no_ticket) {
+void FlightTap::handed(LineId line, const Frame& f, bool twin, Ticket command, Instant now) {
+    const Ticket cause = command != no_ticket ? command : cause_;
+    if (cause != no_ticket) {
         if (waiting_.size() >= most_waiting) waiting_.erase(waiting_.begin());
-        waiting_.push_back({line, cause_, f});
+        waiting_.push_back({line, cause, f});
     }
     if (twin) return;
     if (handed_.size() <= index_of(line)) handed_.resize(index_of(line) + 1u);
     ++handed_[index_of(line)];
     FrameRecord r;
     r.to_drive = true;
-    r.cause = cause_;
+    r.cause = cause;
     r.frame = f;
     pack(scratch_, r);
     give(FlightKind::handed, index_of(line), now);

@@ -96,6 +96,13 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     routing_.ask(by, now, [&](Out& out) { by.adapter->on_command(order, now, out); });
 }
 
+Ticket Orders::client_of(Ticket order) const noexcept {
+    const auto it = order == no_ticket ? pending_.orders.end() : pending_.orders.find(order);
+    if (it == pending_.orders.end()) return no_ticket;
+    const auto client = pending_.clients.find(it->second.client);
+    return client == pending_.clients.end() ? no_ticket : client->second->ticket;
+}
+
 void Orders::result(const Result& given, Instant now) {
     for (Side* s : machine_.sides) {  // it has ended: with a frame that was seen to leave, or without one
         if (s->followed.ticket != given.ticket) continue;

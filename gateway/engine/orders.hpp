@@ -27,6 +27,8 @@ public:
     /// A command of the engine's own: what the axis' state makes of it.
     void give_own(Axis& axis, const CommandBody& body, Instant now);
     void result(const Result& result, Instant now);
+    /// The ticket of the client for whom it was given; no_ticket: nobody's, or it has ended.
+    [[nodiscard]] Ticket client_of(Ticket order) const noexcept;
     void on_stored(Ticket order, const std::string& fault, Instant now);
     [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
 

@@ -64,7 +64,7 @@ void Routing::drain(Speaker& by, Out& out, Instant now) {
     }
     for (auto& tx : out.frames) {
         tx.frame.sender = by.number;
-        if (FlightTap* tap = publisher_.tap()) tap->handed(side.unit.id, tx.frame, side.twin, now);
+        if (FlightTap* tap = publisher_.tap()) tap->handed(side.unit.id, tx.frame, side.twin, orders_.client_of(tx.order), now);
         const bool taken = side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
         if (publisher_.tap() && !taken && !side.twin) publisher_.tap()->send_refused(side.unit.id, now);
         if (auto& f = side.followed; taken && f.ticket != no_ticket && !f.handed_on && tx.priority != Priority::poll) {

@@ -61,7 +61,8 @@ struct Config {
     std::int64_t recorder_stretch_mb = 32;     ///< [recorder] stretch_mb, 1..1024: memory of the stretch that can be frozen
     std::int64_t recorder_inputs_mb = 32;      ///< [recorder] inputs_mb, 0..1024: of the inputs since the start, for replay
     std::int64_t recorder_disk_mb = 512;       ///< [recorder] disk_mb, 1..1000000: of all recordings
-    std::int64_t recorder_trend_disk_mb = 0;   ///< [recorder] trend_disk_mb, 0..100000: of the trends on the disk; 0: in memory alone
+    /// [recorder] trend_disk_mb, 0..100000: of the trends on the disk; 0: in memory alone; none: 200, of the axes alone that the site marks
+    std::optional<std::int64_t> recorder_trend_disk_mb;
     std::int64_t recorder_captures_mb = 64;    ///< [recorder] captures_mb, 1..100000: of all captures, on the disk
     std::string recorder_freeze_on = "fault";  ///< [recorder] freeze_on: kinds of alarms, with commas; empty: none
     /// [modbus_rtu] port: path of a serial port, or the URI of a byte line (serial:, tcp:, tcp-listen:, pty:); empty: no Modbus RTU door

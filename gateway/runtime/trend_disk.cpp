@@ -108,7 +108,10 @@ std::string TrendDisk::packed(const Trends& trends, const SiteState& site, Insta
     w.begin(axr_meta);
     w.add(boost::json::serialize(boost::json::object{{"version", AXISGATE_VERSION}, {"to_unix_ns", ns_of(now) + unix_offset_ns}}));
     w.begin(axr_trends);
+    const bool all = unmarked_ && std::ranges::none_of(site.site.axes, &AxisSpec::trend_on_disk);
+    bool some = false;
     for (std::size_t i = 0; i < site.axis_ids.size() && i < site.site.axes.size(); ++i) {
+        if (!all && !site.site.axes[i].trend_on_disk) continue;
         std::vector<TrendRow> rows;
         for (const auto& c : trends.read(site.axis_ids[i], written_, now, 0).columns) {
             rows.push_back(c.low);
@@ -122,14 +125,16 @@ std::string TrendDisk::packed(const Trends& trends, const SiteState& site, Insta
         put_u32(part, coded.size());
         part += coded;
         w.add(part);
+        some = true;
     }
-    return w.finish();
+    return some ? w.finish() : std::string();
 }
 
 void TrendDisk::keep(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns) {
     if (now - written_ < period) return;
     std::string bytes = packed(trends, site, now, unix_offset_ns);
     written_ = now;
+    if (bytes.empty()) return;
     const auto ms = (ns_of(now) + unix_offset_ns) / 1'000'000;
     boost::asio::post(disk_, [directory = directory_, bound = bound_, name = std::to_string(ms), bytes = std::move(bytes)] {
         put_trends(directory, name, bytes, bound);
@@ -137,8 +142,8 @@ void TrendDisk::keep(const Trends& trends, const SiteState& site, Instant now, s
 }
 
 void TrendDisk::end(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns) {
-    if (site.axis_ids.empty()) return;
-    put_trends(directory_, std::to_string((ns_of(now) + unix_offset_ns) / 1'000'000), packed(trends, site, now, unix_offset_ns), bound_);
+    const std::string bytes = packed(trends, site, now, unix_offset_ns);
+    if (!bytes.empty()) put_trends(directory_, std::to_string((ns_of(now) + unix_offset_ns) / 1'000'000), bytes, bound_);
 }
 
 }  // namespace axisgate

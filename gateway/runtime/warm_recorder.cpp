@@ -157,7 +157,8 @@ RecorderSettings recorder_settings(const Config& c) {
     r.stretch_bytes = static_cast<std::size_t>(c.recorder_stretch_mb) << 20;
     r.inputs_bytes = static_cast<std::size_t>(c.recorder_inputs_mb) << 20;
     r.trends = c.data_dir + "/trends";
-    r.trend_disk_bytes = static_cast<std::uint64_t>(c.recorder_trend_disk_mb) << 20;
+    r.trend_disk_bytes = static_cast<std::uint64_t>(c.recorder_trend_disk_mb.value_or(200)) << 20;
+    r.trend_disk_unmarked = c.recorder_trend_disk_mb.has_value();
     r.captures = c.data_dir + "/captures";
     r.captures_bytes = static_cast<std::uint64_t>(c.recorder_captures_mb) << 20;
     r.disk_bytes = static_cast<std::uint64_t>(c.recorder_disk_mb) << 20;
@@ -194,7 +195,7 @@ void WarmRecorder::begin(RecorderSettings settings) {
     inputs_ = std::make_unique<FlightLog>(settings_.inputs_bytes, false);
     shelf_.open(settings_.directory, info_of);
     if (settings_.trend_disk_bytes > 0) {
-        trend_disk_ = std::make_unique<TrendDisk>(disk_, settings_.trends, settings_.trend_disk_bytes);
+        trend_disk_ = std::make_unique<TrendDisk>(disk_, settings_.trends, settings_.trend_disk_bytes, settings_.trend_disk_unmarked);
         if (auto fault = trend_disk_->open(unix_now_ns(), unix_ns_of(at_ns(0)), settings_.trend_length); !fault.empty()) {
             Event e;
             e.kind = "recording";

@@ -27,6 +27,7 @@ struct RecorderSettings {
     std::string captures;                ///< folder of the captures
     std::string trends;                  ///< folder of the trends
     std::uint64_t trend_disk_bytes = 0;  ///< 0: they are in memory alone
+    bool trend_disk_unmarked = false;    ///< those of all axes, where the site marks none
     Duration trend_length = std::chrono::minutes(10);
     std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
     std::uint64_t disk_bytes = 512u << 20, captures_bytes = 64u << 20;

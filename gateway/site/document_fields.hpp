@@ -73,6 +73,11 @@ public:
         fault(key, fmt::format("{} must be a whole number", key), fmt::format("write a value from {} to {}", low, high));
         return std::nullopt;
     }
+    bool flag(std::string_view key) {
+        const auto* v = get(key);
+        if (v && !v->is_bool()) fault(key, fmt::format("{} must be true or false", key), "write one of them, or leave it out for false");
+        return v && v->is_bool() && v->get_bool();
+    }
     std::map<std::string, std::string> options(std::string_view key) {
         std::map<std::string, std::string> out;
         const auto* v = get(key);

@@ -158,6 +158,7 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
     if (!a.group.empty()) o["group"] = a.group;
+    if (a.trend_on_disk) o["trend_on_disk"] = true;
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
     if (a.stored_parameters != StoredParameters::ignore) o["stored_parameters"] = name_of(a.stored_parameters);
     json::object fail_safe;

@@ -69,6 +69,7 @@ struct AxisSpec {
     AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
     StoredParameters stored_parameters = StoredParameters::ignore;  ///< what was written is compared when the drive answers, or written
     FailSafe fail_safe;                                             ///< what happens when the client that commands it is lost
+    bool trend_on_disk = false;                                     ///< its trends outlive the gateway
     bool operator==(const AxisSpec&) const = default;
 };
 

@@ -430,6 +430,7 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
             f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
         a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
         a.group = read_group(f);
+        a.trend_on_disk = f.flag("trend_on_disk");
         a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
         if (const auto x = f.number("increments_per_unit", "3200")) {
             a.increments_per_unit = *x;

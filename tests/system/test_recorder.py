@@ -168,6 +168,41 @@ def test_the_kept_recordings_do_the_same_again():
         assert code == 0 and " 0 differences" in told, f"{file.name}: {told}\nIf this is as it should be: tests/recordings/make.py build/release/axisgate"
 
 
+def test_the_site_says_whose_trends_are_on_the_disk(folder):
+    trends = folder / "data" / "trends"
+
+    def told(g, axis):
+        return [a for a in g.get(f"/recorder/trends?axes={axis}&points=position&columns=5000")["axes"] if a["at"]]
+
+    def positions(g):
+        return [v for a in told(g, "slide") for v in a["points"]["position"].get("values") or a["points"]["position"]["high"] if v is not None]
+
+    def moved_and_ended(g):
+        move_a_little(g)
+        until(lambda: told(g, "slide") and told(g, "feeder"), 10, "rows of both")
+        time.sleep(1)  # what was told a moment ago is on its way
+        assert g.stop() == 0
+
+    with harness.Gateway(folder, harness.DEMO) as g:
+        moved_and_ended(g)
+    assert not list(trends.glob("*")), "nobody has asked for it"
+    with harness.Gateway(folder, None, "--set", "recorder.trend_disk_mb=0") as g:
+        status, refused, _ = g.request("PATCH", "/api/v1/axes/slide", {"trend_on_disk": "yes"}, {"Content-Type": "application/merge-patch+json"})
+        assert status == 422 and "must be true or false" in str(refused), refused
+        g.send("PATCH", "/axes/slide", {"trend_on_disk": True})
+        moved_and_ended(g)
+    assert not list(trends.glob("*")), "the host keeps off its disk"
+    with harness.Gateway(folder, None) as g:
+        assert {a["name"]: a.get("trend_on_disk") for a in g.get("/site")["axes"]} == {"feeder": None, "slide": True}
+        g.send("PATCH", "/axes/slide", {"trend_on_disk": False})
+        g.send("PATCH", "/axes/slide", {"trend_on_disk": True})  # it counts in a gateway that runs
+        moved_and_ended(g)
+    kept = b"".join(p.read_bytes() for p in trends.glob("*.axt"))
+    assert b"slide" in kept and b"feeder" not in kept
+    with harness.Gateway(folder, None) as g:
+        until(lambda: (v := positions(g)) and max(v) - min(v) > 4, 15, "what was before")
+
+
 def test_trends_on_the_disk_outlive_the_gateway(folder):
     settings = ("--set", "recorder.trend_disk_mb=8")
     with harness.Gateway(folder, harness.DEMO, *settings) as g:

@@ -122,3 +122,22 @@ describe('options', () => {
     await p.see('form[aria-label="Change axis gantry-x"]', 'make one mm; one increment of pacontrol is 0.001 AE');
   });
 });
+
+describe('trends of an axis', () => {
+  it('are kept on the disk by a box, which says what for', async () => {
+    p = await openPage('/site', { door });
+    await p.see('main', 'Add an axis');
+    await p.press('Change axis gantry-x');
+    const box = p.field('Trends on the disk');
+    expect(box.checked).toBe(false);
+    expect(document.getElementById(box.getAttribute('aria-describedby') ?? '')?.textContent).toBe('they outlive a restart of the gateway');
+    box.click();
+    await p.press('Save to draft');
+    await p.see('[data-diff="axes/gantry-x"]', 'trend on disk nothing → true');
+    await p.press('Change axis gantry-x');
+    expect(p.field('Trends on the disk').checked).toBe(true);
+    p.field('Trends on the disk').click();
+    await p.press('Save to draft');
+    await soon(() => expect(p.root.querySelector('[data-diff="axes/gantry-x"]')).toBeNull());
+  });
+});

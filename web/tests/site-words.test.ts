@@ -26,6 +26,14 @@ describe('an entry', () => {
     expect(check('drives', { name: 'a', line: 'rs', address: 'B' }).entry).toEqual({ name: 'a', line: 'rs', address: 'B', presence: 'auto' });
     expect(check('lines', { bitrate: '' }, entry('lines', 'can0')).entry).toEqual({ name: 'can0', uri: 'twin', family: 'uim342' });
   });
+  it('has a switch as true or false, and leaves out what was never switched', () => {
+    const feeder = entry('axes', 'feeder')!;
+    const on = check('axes', { trend_on_disk: 'true' }, feeder).entry!;
+    expect(on.trend_on_disk).toBe(true);
+    expect(textsOfEntry('axes', on).trend_on_disk).toBe('true');
+    expect(check('axes', { trend_on_disk: '' }, on).entry).toEqual(feeder);
+    expect(check('axes', {}, { ...feeder, trend_on_disk: false }).entry!.trend_on_disk).toBe(false);
+  });
   it.each([
     ['lines', { name: 'a b', uri: 'twin', family: 'x' }, 'name', 'letters'],
     ['lines', { name: 'can0', uri: 'twin', family: 'x' }, 'name', 'already a line can0'],

@@ -20,6 +20,7 @@ TEST(Config, DefaultsAreLoopback) {
     EXPECT_EQ(c.data_dir, "./var");
     EXPECT_FALSE(c.dds_enabled);
     EXPECT_EQ(c.spin_us, 0);
+    EXPECT_FALSE(c.recorder_trend_disk_mb) << "what nobody has written keeps marked axes alone";
 }
 
 TEST(Config, SetBeatsEnvironmentBeatsFile) {

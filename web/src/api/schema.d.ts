@@ -2765,6 +2765,8 @@ export interface components {
              * @example infeed
              */
             group?: string;
+            /** @description its trends are kept on the disk too and outlive a restart, within the host's `[recorder] trend_disk_mb`. Left out: false */
+            trend_on_disk?: boolean;
             /**
              * @description lease: a command takes the axis for a while
              * @enum {string}

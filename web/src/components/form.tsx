@@ -104,6 +104,18 @@ export function Choice(p: ChoiceProps) {
   );
 }
 
+export function Switch(p: Common & { on: boolean; onSwitch: (on: boolean) => void }) {
+  const id = useId();
+  return (
+    <div class="form-field">
+      <label class="check">
+        <input type="checkbox" checked={p.on} aria-describedby={`${id}-told`} onChange={(e) => p.onSwitch(e.currentTarget.checked)} /> {p.label}
+      </label>
+      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+    </div>
+  );
+}
+
 function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint: ComponentChildren }) {
   if (fault) {
     return (

@@ -8,7 +8,7 @@ import { familyOf, incrementHint, optionsFor } from '../text/options';
 import type { SiteDraft } from '../state/site-draft';
 import { portKind } from '../text/ports';
 import { checkEntry, fieldsOf, freeNumber, textsOfEntry, uriKinds, type Entry, type FieldSpec, type Room, type Site, type Texts } from '../text/site';
-import { Choice, TextField } from './form';
+import { Choice, Switch, TextField } from './form';
 import { Increments } from './increments';
 import { OptionFields } from './option-fields';
 import { PortChoice } from './port-choice';
@@ -118,6 +118,7 @@ export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
     case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ ...gatewayWords, value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
+    case 'switch': return <Switch {...common} on={text === 'true'} onSwitch={(on) => onText(on ? 'true' : '')} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default: {
       const field = (

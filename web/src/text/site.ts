@@ -22,7 +22,7 @@ export interface FieldSpec {
   /** Where it stands in the entry; "timing.retries" in an object of it. */
   key: string;
   label: string;
-  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'line' | 'drive' | 'family' | 'address';
+  kind: 'name' | 'text' | 'integer' | 'number' | 'choice' | 'switch' | 'line' | 'drive' | 'family' | 'address';
   required?: boolean;
   min?: number;
   max?: number;
@@ -101,6 +101,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
       hint: t('when the drive answers: compared with what was written through the gateway, or written where they differ'),
       choices: [{ value: '', text: t('not looked at') }, { value: 'compare', text: t('compared') }, { value: 'write', text: t('compared and written') }],
     },
+    { key: 'trend_on_disk', label: t('Trends on the disk'), kind: 'switch', more: true, hint: t('they outlive a restart of the gateway') },
     { key: 'authority_mode', label: t('Authority'), kind: 'choice', more: true, hint: t('free: a command needs no lease; lease: a command takes the axis for a while, and others are refused'), choices: [{ value: '', text: t('as the gateway has it') }, { value: 'free', text: t('free') }, { value: 'lease', text: t('lease') }] },
   ],
 };
@@ -139,6 +140,8 @@ function readField(f: FieldSpec, text: string): { value: unknown; why: string } 
     }
     case 'address':
       return { value: /^\d+$/.test(typed) ? Number(typed) : typed, why: '' };
+    case 'switch':
+      return { value: typed === 'true', why: '' };
     default:
       return { value: typed, why: '' };
   }

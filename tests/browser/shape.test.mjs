@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { readFileSync } from 'node:fs';
-import { becomes, launch, look, open, shot, tileOf, until } from './lib/browser.mjs';
+import { becomes, examine, launch, look, open, quiet, shot, tileOf, until } from './lib/browser.mjs';
 import { manyMappings } from './lib/many.mjs';
 import { furnish, parts } from './lib/parts.mjs';
 import { isMock, Program } from './lib/program.mjs';
@@ -342,6 +342,57 @@ test('no tab of an axis is higher than three screens of a small phone', async ()
   }
   assert.deepEqual(wrong, []);
   await phone.context().close();
+});
+
+test('no page is higher than three screens of a small phone; what is folded is there when it is asked for, and whole on paper', async () => {
+  const furnished = await Program.start();
+  try {
+    await furnish(furnished);
+    const phone = await open(browser, furnished.url, { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true, bypassCSP: true });
+    const pages = [...parts, { path: '/report', ready: '[data-field=report]' }, { path: '/fleet', ready: 'main h1' }, ...['trends', 'captures', 'recordings'].map((tab) => ({ path: `/recorder/${tab}`, ready: 'main h1' }))];
+    const wrong = [];
+    for (const { path, ready } of pages) {
+      await phone.goto(furnished.url + path);
+      await phone.locator(ready).first().waitFor();
+      await quiet(phone);
+      const height = await phone.evaluate(() => globalThis.document.querySelector('main').getBoundingClientRect().height);
+      if (height > 3 * 740) wrong.push(`${path} is ${Math.round(height)} px high`);
+    }
+    const linked = await phone.locator('.nav a').evaluateAll((l) => l.map((a) => new URL(a.href).pathname));
+    assert.ok(linked.length > 5, `${linked}`);
+    wrong.push(...linked.filter((path) => !pages.some((p) => p.path === path || p.path.startsWith(`${path}/`))).map((path) => `${path} is not looked at`));
+    assert.deepEqual(wrong, []);
+    for (const path of ['/lines/can0', '/mappings', '/recipes/there-and-back', '/events', '/report']) {
+      await phone.goto(furnished.url + path);
+      await phone.locator(pages.find((p) => p.path === path).ready).first().waitFor();
+      await quiet(phone);
+      wrong.push(...(await examine(phone)).map((v) => `${path}: ${JSON.stringify(v)}`));
+      const folds = phone.locator('main .fold');
+      if (/events|report/.test(path)) assert.ok(await phone.locator('.window[role=region][tabindex="0"]').count() > 0, path);
+      else assert.match((await folds.allInnerTexts()).join('; '), /\w \(\d+\)/, path);
+      for (const fold of await folds.all()) {
+        assert.equal(await fold.getAttribute('aria-expanded'), 'false');
+        await fold.press('Enter');
+        await becomes('it is open', () => fold.getAttribute('aria-expanded'), 'true');
+        assert.ok(await fold.evaluate((e) => [...e.closest('.section').children].every((c) => c.checkVisibility())), path);
+        await fold.press('Enter');
+        await becomes('it is folded', () => fold.getAttribute('aria-expanded'), 'false');
+      }
+      assert.equal(await phone.locator('.is-folded > :not(.section-head):visible').count(), 0, path);
+      await phone.emulateMedia({ media: 'print' });
+      const cut = await phone.evaluate(() => [...globalThis.document.querySelectorAll('main .window, main .is-folded, main .report .scroll')].filter((e) => e.matches('.is-folded') ? [...e.children].some((c) => getComputedStyle(c).display === 'none' && !c.matches('.section-head')) : getComputedStyle(e).maxHeight !== 'none').map((e) => e.className));
+      wrong.push(...cut.map((c) => `${path} on paper: ${c}`));
+      await phone.emulateMedia({ media: null });
+    }
+    await phone.goto(`${furnished.url}/mappings`);
+    await phone.getByRole('button', { name: 'Add a mapping', exact: true }).tap();
+    await becomes('the form is open, and the keyboard in it', () => phone.evaluate(() => globalThis.document.activeElement.closest('form')?.id), 'mapping-form');
+    assert.deepEqual(wrong, []);
+    assert.deepEqual(phone.faults(), []);
+    await phone.context().close();
+  } finally {
+    await furnished.end();
+  }
 });
 
 test('one width of content: head, strip and every part begin and end at the same two lines', async () => {

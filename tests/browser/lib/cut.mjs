@@ -6,7 +6,7 @@ import { drawn } from './browser.mjs';
 export async function unfold(page) {
   await page.evaluate(() => {
     for (const d of document.querySelectorAll('main details:not([open])')) d.open = true;
-    for (const b of document.querySelectorAll('main .help-button[aria-expanded=false]')) if (b.checkVisibility()) b.click();
+    for (const b of document.querySelectorAll('main :is(.help-button, .fold)[aria-expanded=false]')) if (b.checkVisibility()) b.click();
   });
   await drawn(page);
 }

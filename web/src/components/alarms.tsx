@@ -7,6 +7,7 @@ import { RecorderDoor } from '../api/recorder';
 import type { Alarm, Recording } from '../api/types';
 import { useGateway } from '../gateway';
 import { framesPath, linePath, recorderPath } from '../router';
+import { windowOf } from '../state/narrow';
 import { emptied } from '../state/persisted';
 import { alarmWord, canAcknowledge, recordingOf, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
@@ -63,7 +64,7 @@ export function AlarmSection() {
       }
     >
       {all.length > 0 && <Why need="operator" what={t('Acknowledging and shelving')} />}
-      <div class="card">
+      <div {...(all.length > 2 ? { class: 'card window', ...windowOf(t('Alarms')) } : { class: 'card' })}>
         {list === null ? (
           <Empty text={t('Waiting for the gateway.')} />
         ) : all.length === 0 ? (

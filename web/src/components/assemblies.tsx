@@ -55,7 +55,7 @@ export function Assemblies({ revision }: { revision: unknown }) {
     if (await send(was === null ? t('Adding …') : t('Changing …'), () => door.put(read.instance, read.entry), good)) leave();
   };
   return (
-    <Section title={t('EtherNet/IP assemblies')} class="assemblies">
+    <Section title={t('EtherNet/IP assemblies')} class="assemblies" fold={assemblies.length}>
       <p class="where">
         {t("Instances of your own, beside 100+n and 150+n of the axes: a range of a unit's registers, byte by byte. {n} of at most {most}. A change closes the connections that are open.", { n: assemblies.filter((a) => !a.of_profile).length, most })}
       </p>

@@ -6,6 +6,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { gatewayWords, t, theirs } from '../language';
 import { addressBase, addressField, forgetAddressField } from '../state/address-base';
+import { narrow } from '../state/narrow';
 import { emptied, persisted } from '../state/persisted';
 import type { Clash, MappingBook } from '../state/mappings';
 import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Table, type Texts } from '../text/mapping';
@@ -31,6 +32,8 @@ export function isUntouched(d: Draft | undefined, m: Mapping): boolean {
   return fields.every((f) => d[f].peek() === was[f]);
 }
 
+/** On a phone the form for adding is folded until it is asked for. */
+const addingOpen = signal(false);
 const adding = keptDraft();
 addressField(adding.address, () => adding.table.peek() as Table);
 /** Not empty: the type was chosen by hand, and stays whatever the point is. Of an entry that is changed: unless its type is its point's own. */
@@ -40,9 +43,15 @@ export function addAt(unit: number, table: Table, address: number | null, focus:
   adding.unit.value = String(unit);
   adding.table.value = table;
   adding.address.value = address === null ? '' : addressText(table, address, addressBase());
+  const shut = narrow.peek() && !addingOpen.peek();
+  addingOpen.value = true;
   if (!focus) return;
-  document.querySelector<HTMLElement>('#mapping-form')?.scrollIntoView({ block: 'nearest' });
-  document.querySelector<HTMLElement>('#mapping-form select')?.focus({ preventScroll: true });
+  const enter = () => {
+    document.querySelector<HTMLElement>('#mapping-form')?.scrollIntoView({ block: 'nearest' });
+    document.querySelector<HTMLElement>('#mapping-form select')?.focus({ preventScroll: true });
+  };
+  if (shut) requestAnimationFrame(() => requestAnimationFrame(enter)); // when it has been unfolded
+  else enter();
 }
 
 export interface MappingFormProps {
@@ -138,7 +147,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   const names = known.parameters(texts.axis) ?? [];
   const offers = [...known.points.map((p) => ({ value: p.point, text: p.description, ...gatewayWords })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
   return (
-    <Section title={editing ? t('Change {id}', { id: editing.id }) : t('Add a mapping')} class="mapping-form">
+    <Section title={editing ? t('Change {id}', { id: editing.id }) : t('Add a mapping')} class="mapping-form" fold={!editing} unfolded={addingOpen}>
       <form
         id="mapping-form"
         ref={form}

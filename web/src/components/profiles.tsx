@@ -58,7 +58,7 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
     axes.value = (chosen?.axes ?? 1) > next.length && next.at(-1) !== '' ? [...next, ''] : next;
   };
   return (
-    <Section title={t("Profiles: another device's registers")} class="profiles" help="profiles">
+    <Section title={t("Profiles: another device's registers")} class="profiles" help="profiles" fold={profiles.length}>
       <p class="where">{t("A unit of its own speaks the registers that a machine's program was written for, whatever drive is behind.")}</p>
       {profiles.map((p) => (
         <details key={p.unit} class="card profile" data-profile={p.unit}>

@@ -8,6 +8,7 @@ import { useEffect } from 'preact/hooks';
 import type { RecipeReport, RecipeReportHead } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { windowOf } from '../state/narrow';
 import { plain } from '../text/plain';
 import { doneOf, runWord, stepLabel, stepWhat, tookText, typedOf, valueOf, type Json, type RecipeDocument } from '../text/recipe';
 import { clockTime, duration } from '../text/time';
@@ -174,7 +175,7 @@ export function RunReports({ run }: { run: Run }) {
         </Section>
       )}
       {runs.value.length > 0 && (
-        <Section title={t('Runs')}>
+        <Section title={t('Runs')} fold={runs.value.length}>
           <ol class="card run-list" aria-label={t('Runs, newest first')}>
             {runs.value.map((x) => (
               <li key={x.n} class="row">
@@ -231,32 +232,34 @@ export function Report({ report: r }: { report: RecipeReport }) {
           </p>
         ))}
       </div>
-      <ol class="report-steps" aria-label={t('Steps of the run')}>
-        {r.steps.map((s) => {
-          const word = runWord(s.state);
-          return (
-            <li key={s.pointer} class={`report-step tone-${word.tone}`} data-report={s.pointer} data-state={s.state}>
-              <Icon name={word.icon} size={14} />
-              <span class="report-word">{word.text}</span>
-              <span class="report-what">
-                <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span {...gatewayWords}>{plain(stepWhat(s))}</span>
-                {s.times > 1 && ` × ${s.times}`}
-                {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
-                {s.text && <span {...gatewayWords}> {plain(s.text)}</span>}
-                {s.comment && <i> {s.comment}</i>}
-              </span>
-              <span class="report-at mono">
-                {s.started_at && (
-                  <>
-                    <time dateTime={s.started_at}>{clockTime(s.started_at)}</time>
-                    {s.ended_at && <span data-field="step-took">{' '}{tookText(Date.parse(s.ended_at) - Date.parse(s.started_at))}</span>}
-                  </>
-                )}
-              </span>
-            </li>
-          );
-        })}
-      </ol>
+      <div class="window" {...windowOf(t('Steps of the run'))}>
+        <ol class="report-steps" aria-label={t('Steps of the run')}>
+          {r.steps.map((s) => {
+            const word = runWord(s.state);
+            return (
+              <li key={s.pointer} class={`report-step tone-${word.tone}`} data-report={s.pointer} data-state={s.state}>
+                <Icon name={word.icon} size={14} />
+                <span class="report-word">{word.text}</span>
+                <span class="report-what">
+                  <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span {...gatewayWords}>{plain(stepWhat(s))}</span>
+                  {s.times > 1 && ` × ${s.times}`}
+                  {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
+                  {s.text && <span {...gatewayWords}> {plain(s.text)}</span>}
+                  {s.comment && <i> {s.comment}</i>}
+                </span>
+                <span class="report-at mono">
+                  {s.started_at && (
+                    <>
+                      <time dateTime={s.started_at}>{clockTime(s.started_at)}</time>
+                      {s.ended_at && <span data-field="step-took">{' '}{tookText(Date.parse(s.ended_at) - Date.parse(s.started_at))}</span>}
+                    </>
+                  )}
+                </span>
+              </li>
+            );
+          })}
+        </ol>
+      </div>
     </div>
   );
 }

@@ -9,6 +9,7 @@ import { EventList } from '../components/events';
 import { useNamed } from '../components/name';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
+import { windowOf } from '../state/narrow';
 import { persisted } from '../state/persisted';
 import { asked, eventFile, gathered } from '../text/alarm';
 import { plainWord } from '../text/plain';
@@ -117,7 +118,7 @@ export function EventsPage() {
           </p>
         )}
         {!nothing && (
-          <div class="card">
+          <div class="card window" {...windowOf(t('Events'))}>
             <EventList events={shown} limit={most} />
           </div>
         )}

@@ -58,7 +58,7 @@ export function LinePage({ name, at_ms }: { name: string; at_ms?: number | undef
       {known && <ScanSection line={name} />}
       <Trace key={name} line={name} at_ms={at_ms} />
       {simulated.length > 0 && (
-        <Section title={t('Fault simulation: rehearse what goes wrong')}>
+        <Section title={t('Fault simulation: rehearse what goes wrong')} fold={simulated.length}>
           <div class="hands">
             {simulated.map((d) => (
               <section key={d} aria-label={t('Hand of {d}', { d })}>

@@ -56,7 +56,7 @@ export function Overview() {
           <Section title={t('Lines')}>
             <LineList />
           </Section>
-          <Section title={t('Drives')}>
+          <Section title={t('Drives')} fold={store.driveNames.value.length}>
             <DriveList />
           </Section>
         </div>

@@ -269,7 +269,7 @@ export function RecipePage({ name }: { name: string }) {
           <div class="recipe-sides">
             <Gate need="engineer" silent>
               <div>
-                <Section title={t('Parameters')}>
+                <Section title={t('Parameters')} fold={!faults.value.some((f) => f.pointer.startsWith('/parameters/')) && Object.keys(d.parameters ?? {}).length}>
                   <div class="card recipe-card">
                     <RecipeParameters document={d} change={put} faults={faults.value} />
                   </div>
@@ -289,7 +289,7 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
               </div>
             </Gate>
-            <Section title={t('JSON')}>
+            <Section title={t('JSON')} fold={textFault.value === ''}>
               <div class="card recipe-card">
                 <textarea
                   class="recipe-json mono"

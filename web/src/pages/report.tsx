@@ -16,6 +16,7 @@ import { PrintedList } from '../components/mapping-list';
 import { Mark } from '../components/pill';
 import { Overlay } from '../components/recorder-captures';
 import { useGateway } from '../gateway';
+import { windowOf } from '../state/narrow';
 import { persisted } from '../state/persisted';
 import { readMissing } from '../state/read-missing';
 import { markOf, unitOf } from '../text/axis';
@@ -171,46 +172,50 @@ export function ReportPage() {
           </Table>
 
           <h2>{t('Parameters')}</h2>
-          {w.axes.map((a) => (
-            <section key={a.name} aria-label={t('Parameters of {name}', { name: a.name })}>
-              <h3>{a.name}</h3>
-              <p>{comparedSentence(a.report, a.snapshot)}</p>
-              {a.report.rows.length > 0 && (
-                <Table head={[t('Parameter'), t('Name'), t('Now'), t('Default'), a.snapshot ? [t('Snapshot {n}, {at}', { n: a.snapshot.n, at: dateTime(a.snapshot.at) }), ...(a.snapshot.who ? [a.snapshot.who] : [])].join(', ') : t('Snapshot'), t('Unit')]}>
-                  {a.report.rows.map((r) => (
-                    <tr key={r.id}>
-                      <th scope="row" class="mono">{r.id}</th>
-                      <td {...gatewayWords}>{r.name.replaceAll('_', ' ')}</td>
-                      <td>{shown(r.now, r.unit)}</td>
-                      <td>{shown(r.otherwise, r.unit)}</td>
-                      <td>{r.snapshot === undefined ? '–' : shown(r.snapshot, r.unit)}</td>
-                      <td>{unitWords(r.unit || null)}</td>
-                    </tr>
-                  ))}
-                </Table>
-              )}
-            </section>
-          ))}
+          <div class="window" {...windowOf(t('Parameters'))}>
+            {w.axes.map((a) => (
+              <section key={a.name} aria-label={t('Parameters of {name}', { name: a.name })}>
+                <h3>{a.name}</h3>
+                <p>{comparedSentence(a.report, a.snapshot)}</p>
+                {a.report.rows.length > 0 && (
+                  <Table head={[t('Parameter'), t('Name'), t('Now'), t('Default'), a.snapshot ? [t('Snapshot {n}, {at}', { n: a.snapshot.n, at: dateTime(a.snapshot.at) }), ...(a.snapshot.who ? [a.snapshot.who] : [])].join(', ') : t('Snapshot'), t('Unit')]}>
+                    {a.report.rows.map((r) => (
+                      <tr key={r.id}>
+                        <th scope="row" class="mono">{r.id}</th>
+                        <td {...gatewayWords}>{r.name.replaceAll('_', ' ')}</td>
+                        <td>{shown(r.now, r.unit)}</td>
+                        <td>{shown(r.otherwise, r.unit)}</td>
+                        <td>{r.snapshot === undefined ? '–' : shown(r.snapshot, r.unit)}</td>
+                        <td>{unitWords(r.unit || null)}</td>
+                      </tr>
+                    ))}
+                  </Table>
+                )}
+              </section>
+            ))}
+          </div>
 
           <h2>{t('Register list')}</h2>
           <p>
             {t('Hash of the mapping:')}{' '}<span class="mono">{w.mappings.hash || t('not told by this gateway')}</span>{' '}{t('(registers 18 and 19 of each axis show it). Unit 1 has 64 registers for each axis, from (number − 1) · 64 on.')}
           </p>
-          <div class="report-registers" tabIndex={0} role="region" aria-label={t('Register map')}>
+          <div class="report-registers window" tabIndex={0} role="region" aria-label={t('Register map')}>
             <PrintedList rows={w.mappings.rows} known={{ ...plainKnown, axes: names, points: w.points }} hash={w.mappings.hash} />
           </div>
 
           <h2>{t('Curves')}</h2>
           {w.drawn.length === 0 ? <p>{t('No capture is kept.')}</p> : null}
-          {w.drawn.map((c) => (
-            <div key={c.name} class="report-curve">
-              <p>
-                <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerWords(c.trigger, c.axes[0]?.unit)}
-                {c.who ? `, ${t('by {who}', { who: c.who })}` : ''}
-              </p>
-              <Overlay captures={[c]} />
-            </div>
-          ))}
+          <div class="window" {...(w.drawn.length > 0 ? windowOf(t('Curves')) : {})}>
+            {w.drawn.map((c) => (
+              <div key={c.name} class="report-curve">
+                <p>
+                  <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerWords(c.trigger, c.axes[0]?.unit)}
+                  {c.who ? `, ${t('by {who}', { who: c.who })}` : ''}
+                </p>
+                <Overlay captures={[c]} />
+              </div>
+            ))}
+          </div>
 
           <h2>{t('Loss of command')}</h2>
           {w.rehearsal.report ? (

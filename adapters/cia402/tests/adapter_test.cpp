@@ -360,7 +360,7 @@ std::unique_ptr<Twin> drive_with_modes(std::uint32_t modes) {
 
 TEST(Cia402Adapter, ADriveWithoutTheCyclicModeIsLedByTheOlderOne) {
     for (const auto& [modes, shown] : {std::pair{0xA5u, 8}, {0x65u, 7}}) {  // 1, 3, 6 and 8; 1, 3, 6 and 7
-        LineBench b(page(), {}, 1);
+        LineBench b(page(), 1);
         b.bus->add(DriveId{0}, drive_with_modes(modes), {}, b.now);
         b.open();
         b.run(2s);

@@ -24,7 +24,7 @@ public:
     std::vector<Beat> beats;
     std::map<AxisId, std::vector<Instant>> pictures;
 
-    explicit TurnsBench(int nodes, Duration beat = 2ms) : LineBench(page(), {}, 1) {
+    explicit TurnsBench(int nodes, Duration beat = 2ms) : LineBench(page(), 1) {
         setup.timing.poll_period = beat;
         setup.drives.clear();
         add(nodes);

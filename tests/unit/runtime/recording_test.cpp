@@ -27,14 +27,14 @@ Read read(std::string_view text, RecordingFormat format) {
     return r;
 }
 
-struct Line {
+struct RecordedLine {
     std::string_view name, text;
     RecordingFormat format;
     std::string_view frame;  // to_text; empty: not a line
     std::string_view stamp = {};
     std::optional<bool> to_drive = {};
 };
-const Line lines[]{
+const RecordedLine lines[]{
     {"log", "(1.500000) can0 04280095#01", RecordingFormat::candump, "04280095#01", "(1.500000)"},
     {"log_sent", "(1.5) can0 04280095#01 T", RecordingFormat::candump, "04280095#01", "(1.5)", true},
     {"log_received", "(1.5) can0 123#0102 R", RecordingFormat::candump, "123#0102", "(1.5)", false},
@@ -72,10 +72,10 @@ const Line lines[]{
     {"bad_trace_data", R"([{"kind":"can","id":1,"data":7}])", RecordingFormat::trace, ""},
     {"bad_trace_long", R"([{"kind":"can","id":1,"data":"010203040506070809"}])", RecordingFormat::trace, ""},
 };
-class Forms : public testing::TestWithParam<Line> {};
+class Forms : public testing::TestWithParam<RecordedLine> {};
 
 TEST_P(Forms, IsReadOrSaidToBeWrong) {
-    const Line& c = GetParam();
+    const RecordedLine& c = GetParam();
     const Read r = read(c.text, c.format);
     if (c.frame.empty()) {
         EXPECT_EQ(r.frames.size(), 0u);

@@ -87,7 +87,7 @@ void Speakers::configure_side(Side& side, Instant now) {
 /// The adapter of a family on this side, made where there is none.
 Speaker& Speakers::bring_in(Side& side, const FamilyEntry& family, Instant now) {
     if (Speaker* known = side.speaker_of(family)) return *known;
-    const FamilyEntry serves = machine_.families.find(serving_family(*family.family).name);
+    const FamilyEntry serves{&serving_family(*family.family), family.catalogue};  // each drive's setup has its own
     std::uint8_t number = 0;
     while (std::ranges::any_of(side.speakers, [&](const auto& s) { return s->number == number; }))
         ++number;

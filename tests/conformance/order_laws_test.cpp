@@ -162,7 +162,7 @@ TEST_P(OrderLaws, WhatSimulatedDrivesSayMayBeSeenLaterUntilSomebodyWaits) {
         ASSERT_GE(later(), Duration::zero());
         ASSERT_LE(later(), 250us);
     }
-    EXPECT_GT(most, Duration::zero());
+    if (GetParam().wire != Wire::network) EXPECT_GT(most, Duration::zero()) << "on a network nothing is on its way";
     (void)world->command(a1, Halt{}, true);
     for (int i = 0; i < 200 && moving(a1); ++i) {
         ASSERT_EQ(later(), Duration::zero()) << "the answer is waited for";

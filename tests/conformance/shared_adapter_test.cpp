@@ -86,7 +86,7 @@ TEST_F(SharedAdapter, OneSyncAndOneHeartbeatWhoeverMoves) {
     for (const std::size_t i : {1u, 3u}) {
         Move turn;
         turn.kind = Move::Kind::velocity;
-        turn.velocity = 500;
+        turn.target = 500;
         (void)world.command(site->axis_ids[i], turn, true);
         world.run_for(500ms);
         const auto syncs = crossing(0x80, 2s);

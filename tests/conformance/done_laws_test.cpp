@@ -92,6 +92,7 @@ struct Done : testing::Test {
     Family family = [] {
         Family f = *families().entries.front().family;
         f.name = "scripted";
+        f.served_by = nullptr;
         f.make_adapter = [](const Catalogue&, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<ScriptedAdapter>(); };
         f.uses_can = true;
         f.can_identifiers = nullptr;

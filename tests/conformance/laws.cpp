@@ -29,6 +29,7 @@ const Family& family_without_velocity() {
     static const Family& base = *families().entries.front().family;
     static const Family changed = [] {
         Family f = base;
+        f.served_by = nullptr;
         f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
             return std::make_unique<WithoutVelocity>(base.make_adapter(c, kind));
         };

@@ -446,6 +446,7 @@ struct StreamAdapters : testing::Test {
 const Family& in_its_period() {
     static const Family changed = [] {
         Family f = *StreamAdapters::base().family;
+        f.served_by = nullptr;
         f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
             return std::make_unique<InItsPeriod>(StreamAdapters::base().family->make_adapter(c, kind));
         };
@@ -503,6 +504,7 @@ TEST_F(StreamAdapters, AStepIsNoGreaterThanTheSitesSpeedInTheInterpolationTime) 
 TEST_F(StreamAdapters, AnAdapterThatTakesNoSetPointsSaysSo) {
     static const Family changed = [] {
         Family f = *base().family;
+        f.served_by = nullptr;
         f.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
             return std::make_unique<WithoutSetPoints>(base().family->make_adapter(c, kind));
         };

@@ -15,7 +15,7 @@ TEST_F(HttpTest, DriveAndLineDocuments) {
     EXPECT_EQ(d.at("axes"), R"(["feeder"])");
     EXPECT_EQ(
         d.at("status"),
-        R"({"presence":"twin","online":true,"simulated":true,"device_online":false,"text":"the device does not answer","silent_exchanges":4,"retry_pause_ms":800})");
+        R"({"presence":"twin","online":true,"simulated":true,"device_online":false,"text":"the device does not answer","silent_exchanges":4,"retry_pause_ms":800,"sync":null})");
     auto& l = gateway.line_states[gateway.line("can0")];
     l.status.state = LineStatus::State::up;
     l.status.load = 0.25;

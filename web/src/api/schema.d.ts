@@ -2723,16 +2723,17 @@ export interface components {
             text: string;
             silent_exchanges: number;
             retry_pause_ms: number;
-            /** @description how its axes tell of themselves where the line has a SYNC; null: they are asked */
-            sync: {
-                /** @description between two SYNCs while something moves; at rest they are further apart */
-                beat_ms: number;
-                /** @description the axes tell at each so many SYNCs */
-                turns: number;
-                /** @description of its axes: beat_ms x turns */
-                cycle_ms: number;
-            } | null;
+            sync: components["schemas"]["DriveSync"];
         };
+        /** @description how its axes tell of themselves where the line has a SYNC; null: they are asked */
+        DriveSync: {
+            /** @description between two SYNCs while something moves; at rest they are further apart */
+            beat_ms: number;
+            /** @description the axes tell at each so many SYNCs */
+            turns: number;
+            /** @description of its axes: beat_ms x turns */
+            cycle_ms: number;
+        } | null;
         Drive: components["schemas"]["DriveFields"] & {
             readonly axes: string[];
             readonly status: components["schemas"]["DriveStatus"];

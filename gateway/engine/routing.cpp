@@ -110,7 +110,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
     if (!a || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
     const bool first = !machine_.image.picture(id).current;
     auto next = a->profile.on_feedback(value, now);
-    a->stale = false;
+    a->stale = now - value.at > a->drive->line->stale_after;
     if (first) a->run.found = value.moving && a->run.velocity == 0, a->last_deceleration = 0;  // its power may have been off
     if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
         // It is back and has said that nothing is under way any more: its next silence is judged by what it does then.

@@ -15,6 +15,8 @@ using namespace std::chrono_literals;
 constexpr Duration lease = 2s;
 /// From the fastest speed of a story down the flattest ramp, and the widest wait for a drive's own reaction.
 constexpr Duration stop_limit = 2500ms;
+/// What is shown is old after 3 s on a line of bytes, after 1 s on CAN; that is looked at now and then.
+constexpr Duration longest_fresh = 3500ms;
 
 class Story {
 public:
@@ -339,6 +341,8 @@ private:
         for (const Machine& m : machines_) {
             if (!m.present) continue;
             const auto p = world_->picture(m.axis);
+            if (world_->now - p.at > longest_fresh)
+                EXPECT_NE(p.flags & flag_stale, 0) << m.name << " is shown as fresh, and has said nothing";
             if (!(p.flags & flag_online)) EXPECT_NE(p.flags & flag_stale, 0) << m.name << " is shown as fresh, and nobody answers";
             if (m.line > 0 && good_line_was_up_ && !(p.flags & flag_online)) ADD_FAILURE() << m.name << " has no fault, and is offline";
         }

@@ -116,7 +116,7 @@ void Drive::notice(Severity severity, std::string_view kind, std::int32_t code, 
 }
 void Drive::line_down(std::string_view why, Turn& t) {
     node.presence.close();
-    two_nodes_told_ = false;
+    two_nodes_reported_ = false;
     exchanges.drop();
     for (const auto& a : axes)
         a->forget_stops();
@@ -200,7 +200,7 @@ void Drive::on_frame(const Frame& f, Turn& t) {
 }
 
 void Drive::tell_two_nodes(std::string_view sign, Turn& t) {
-    if (std::exchange(two_nodes_told_, true)) return;
+    if (std::exchange(two_nodes_reported_, true)) return;
     notice(Severity::warning, "two_nodes", 0,
            fmt::format("{}: {}: two nodes have the number {}. Give one of them another number: both follow what is ordered "
                        "of the one",

@@ -99,8 +99,8 @@ private:
     canopen::EmergencyGate gate_;
     DoubleAnswer double_answer_;
     DoubleBeat double_beat_;
-    bool two_nodes_told_ = false;  ///< since the line is up
-    Instant check_at_ = never;     ///< of a node without an axis that listens
+    bool two_nodes_reported_ = false;  ///< since the line is up
+    Instant check_at_ = never;         ///< of a node without an axis that listens
 };
 
 }  // namespace axisgate::cia402_drive

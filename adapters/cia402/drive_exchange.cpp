@@ -62,11 +62,11 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
         drive_.stray();
     }
     if (!end) {
-        if (!active()) node.presence.heard(t.now);
+        if (!active()) node.presence.received(t.now);
         return std::nullopt;
     }
     line.turns.ended(drive_.slot());
-    line.turns.heard(t.now);
+    line.turns.received(t.now);
     if (ask_.left != line.timing.retries && ask_.why == Ask::Why::step) late_.add(end->address);
     ++line.counters.exchanges;
     if (!end->done()) ++line.counters.refused;

@@ -13,14 +13,14 @@ int within(std::int64_t beat, int turns) { return static_cast<int>((beat % turns
 
 void PdoTurns::set_up(int turns) noexcept {
     act_ = Act::rest;
-    for (Told& p : told_) {
+    for (Reported& p : reported_) {
         p = {};
         p.turns = turns;
     }
 }
 
 void PdoTurns::came(Pdo which, Turn& t) {
-    Told& p = told_[which];
+    Reported& p = reported_[which];
     const Line& line = drive_.node.line;
     if (p.turns != line.plan.turns || p.turns == 1 || (act_ != Act::rest && at_ == which)) return;
     const int error = within(static_cast<std::int64_t>(line.beat) - drive_.node.slot, p.turns);
@@ -34,10 +34,10 @@ void PdoTurns::came(Pdo which, Turn& t) {
     p.error = error;
     if (p.missed >= sure && p.tries == most_tries) give_up(p, "they come beside it however they are set", t);
 }
-bool PdoTurns::misplaced(const Told& p) const noexcept {
+bool PdoTurns::misplaced(const Reported& p) const noexcept {
     return p.tries <= most_tries && (p.turns != drive_.node.line.plan.turns || (p.missed >= sure && p.tries < most_tries));
 }
-void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
+void PdoTurns::give_up(Reported& p, std::string_view why, Turn& t) {
     p.tries = most_tries + 1;
     act_ = Act::rest;
     drive_.node.notices.tell(
@@ -48,18 +48,18 @@ void PdoTurns::give_up(Told& p, std::string_view why, Turn& t) {
 
 bool PdoTurns::wants(Instant now) const noexcept {
     if (!drive_.known.profile) return false;
-    if (act_ == Act::rest) return misplaced(told_[status]) || misplaced(told_[motion]);
-    return act_ != Act::on || drive_.node.line.in_turn(told_[at_].aim, now);
+    if (act_ == Act::rest) return misplaced(reported_[status]) || misplaced(reported_[motion]);
+    return act_ != Act::on || drive_.node.line.in_turn(reported_[at_].wanted_slot, now);
 }
 
 Step PdoTurns::next() {
     const Line& line = drive_.node.line;
     if (act_ == Act::rest) {
-        at_ = misplaced(told_[status]) ? status : motion;
-        Told& p = told_[at_];
+        at_ = misplaced(reported_[status]) ? status : motion;
+        Reported& p = reported_[at_];
         const bool same = p.turns == line.plan.turns;
-        const int slot = drive_.node.slot, aimed = p.aim < 0 ? slot : p.aim;
-        p.aim = same ? within(aimed - p.error, p.turns) : slot;
+        const int slot = drive_.node.slot, wanted = p.wanted_slot < 0 ? slot : p.wanted_slot;
+        p.wanted_slot = same ? within(wanted - p.error, p.turns) : slot;
         p.tries = same ? p.tries + 1 : 0;
         act_ = Act::off;
     }
@@ -73,7 +73,7 @@ Step PdoTurns::next() {
 
 void PdoTurns::answered(bool done, Turn& t) {
     if (act_ == Act::rest) return;
-    Told& p = told_[at_];
+    Reported& p = reported_[at_];
     if (!done) return give_up(p, "the drive refuses to have them set", t);
     if (act_ == Act::type) p.turns = drive_.node.line.plan.turns;
     if (act_ != Act::on) return void(act_ = act_ == Act::off ? Act::type : Act::on);

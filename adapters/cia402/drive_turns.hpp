@@ -28,21 +28,21 @@ public:
     [[nodiscard]] Step next();
     void answered(bool done, Turn& t);
     /// Its PDOs do not come in one beat, and cannot be moved.
-    [[nodiscard]] bool apart() const noexcept { return told_[status].tries > most_tries || told_[motion].tries > most_tries; }
+    [[nodiscard]] bool apart() const noexcept { return reported_[status].tries > most_tries || reported_[motion].tries > most_tries; }
 
 private:
     static constexpr int sure = 4, most_tries = 4, settled = 64;  ///< now and then a PDO is held up behind another frame of its node
     enum class Act : std::uint8_t { rest, off, type, on };
-    struct Told {
+    struct Reported {
         int turns = 1;                ///< its transmission type
-        int aim = -1;                 ///< it is taken into use in a beat that leaves this; below 0: with NMT start, in its own
+        int wanted_slot = -1;         ///< it is taken into use in a beat that leaves this; below 0: with NMT start, in its own
         int error = 0, missed = 0;    ///< so many beats beside its own, so often in a row
         int tries = 0, in_place = 0;  ///< moves that did not help; times in a row in its beat
     };
-    [[nodiscard]] bool misplaced(const Told& pdo) const noexcept;
-    void give_up(Told& pdo, std::string_view why, Turn& t);
+    [[nodiscard]] bool misplaced(const Reported& pdo) const noexcept;
+    void give_up(Reported& pdo, std::string_view why, Turn& t);
 
-    std::array<Told, 2> told_{};
+    std::array<Reported, 2> reported_{};
     Act act_ = Act::rest;
     std::size_t at_ = 0;
 };

@@ -10,7 +10,7 @@
 namespace axisgate::cia402_drive {
 
 void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
-    if (!node.presence.online()) return node.presence.heard(t.now);
+    if (!node.presence.online()) return node.presence.received(t.now);
     const std::uint16_t number = node.number_of(e.code);
     const ErrorCode* known = node.catalogue().error(number);
     // An EMCY does not say of which axis it is: each that shows a fault then tells it by this code.
@@ -38,7 +38,7 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
             return presence.begin(t.now);
         }
     }
-    presence.heard(t.now);
+    presence.received(t.now);
     // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
     if (news == canopen::NodeNews::state && heartbeat_.state() == canopen::NmtState::pre_operational &&
         presence.is(Presence::Phase::ready) && listeners() > 0)
@@ -52,7 +52,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
         const bool status = canopen::is_data(f, status_base + shift);
         if (!status && !canopen::is_data(f, motion_base + shift)) continue;
         if (!a.listens()) {
-            node.presence.heard(t.now);
+            node.presence.received(t.now);
             return true;
         }
         a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
@@ -64,7 +64,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
         return true;
     }
     if (axes.empty() && (canopen::is_data(f, status_base + node.number) || canopen::is_data(f, motion_base + node.number)))
-        return node.presence.heard(t.now), true;
+        return node.presence.received(t.now), true;
     return false;
 }
 

@@ -26,7 +26,7 @@ void Start::probed(const canopen::SdoEnd& end, Turn& t) {
     }
     drive_.node.presence.found();
     identity_.clear();
-    told_ = {};
+    reported_ = {};
     begin();
 }
 
@@ -125,7 +125,7 @@ void Start::done(Turn& t) {
     node.presence.made_ready();
     node.presence.report(fmt::format("{}, {}", node.dialect.noun, identity_), t.out);
     // It is served all the same: what is safe with another model of the same maker, the plant knows and the gateway does not.
-    if (const std::string fault = differs(expected_, told_); !fault.empty())
+    if (const std::string fault = differs(expected_, reported_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
     drive_.made_ready(t);
 }
@@ -161,7 +161,7 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
     for (const auto& [place, i] : {std::pair{object::vendor, 0u}, {object::product, 1u}, {object::revision, 2u}}) {
         if (address != place) continue;
         identity_ += fmt::format("{}{} {:X}h", i ? ", " : "", names[i], raw);
-        if (end.done()) told_[i] = raw;
+        if (end.done()) reported_[i] = raw;
     }
 }
 

@@ -48,7 +48,7 @@ private:
     std::size_t at_ = 0;
     std::string identity_;
     ExpectedIdentity expected_;  ///< of the description, if the site names one
-    Identity told_;
+    Identity reported_;
     std::uint32_t watched_ = 0;  ///< 1016h:01 as it was found
 };
 

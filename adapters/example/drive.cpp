@@ -13,7 +13,7 @@ bool Drive::answers(const Telegram& request, const Telegram& answer) const {
     return request.kind == Kind::read || request.text == answer.text;
 }
 
-drive::Told Drive::told(const Telegram& answer) const {
+drive::Reported Drive::reported(const Telegram& answer) const {
     const bool refused = answer.kind == Kind::refused;
     return {refused, refused ? std::atoi(answer.text.c_str()) : 0, answer.text};
 }

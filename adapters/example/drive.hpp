@@ -18,7 +18,7 @@ private:
     [[nodiscard]] Frame frame_of(const Telegram& request) const override;
     [[nodiscard]] Telegram mark_of(const Telegram& t) const override { return {t.address, t.axis, t.item, Telegram::Kind::read, {}}; }
     [[nodiscard]] bool answers(const Telegram& request, const Telegram& answer) const override;
-    [[nodiscard]] drive::Told told(const Telegram& answer) const override;
+    [[nodiscard]] drive::Reported reported(const Telegram& answer) const override;
     [[nodiscard]] Telegram probe(bool other) const override { return read(1, other ? "R02" : "R01"); }
     [[nodiscard]] std::string title(const Telegram* answer) const override;
     [[nodiscard]] Telegram poll(int channel) const override { return read(channel, "S00"); }

@@ -123,8 +123,8 @@ void Actions::errors_answered(const std::string& name, const Telegram& telegram,
     if (telegram.size < 5 || telegram.storage[0] != 0) return refuse(Reason::drive_refused, refusal(telegram.storage[0]), t);
     if (name == "error.counters")
         return accept(fmt::format("{} entries in the error log, {} errors have occurred", telegram.u16(1), telegram.u16(3)), t);
-    const std::string said(telegram.data().begin() + 3, telegram.data().end());
-    accept(said.substr(0, said.find('\0')), t);
+    const std::string reported(telegram.data().begin() + 3, telegram.data().end());
+    accept(reported.substr(0, reported.find('\0')), t);
 }
 
 void Actions::add_row(std::string row) {

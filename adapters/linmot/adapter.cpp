@@ -78,11 +78,11 @@ void LineAdapter::line_changed(Turn& t) {
 void LineAdapter::arrived(const Frame& frame, Turn& t) {
     if (!bus_.is_run(frame)) return;
     framer_.push(
-        frame.data(), [&](const Telegram& telegram, std::span<const std::uint8_t>) { heard(telegram, t); },
+        frame.data(), [&](const Telegram& telegram, std::span<const std::uint8_t>) { received(telegram, t); },
         [&](std::span<const std::uint8_t>, std::string_view) { ++bus_.counters.garbled; });
 }
 
-void LineAdapter::heard(const Telegram& telegram, Turn& t) {
+void LineAdapter::received(const Telegram& telegram, Turn& t) {
     Drive* d = asked_;
     if (!d || telegram.id != d->id() || !d->exchanges.answers(telegram)) {
         ++bus_.counters.unexpected;
@@ -93,7 +93,7 @@ void LineAdapter::heard(const Telegram& telegram, Turn& t) {
         return;
     }
     asked_ = nullptr;
-    bus_.turns.heard(t.now);
+    bus_.turns.received(t.now);
     bus_.turns.ended(d->slot());
     d->on_telegram(telegram, t);
     settle(*d, t);

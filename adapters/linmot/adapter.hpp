@@ -29,7 +29,7 @@ private:
     void leaving(Drive& drive, Turn& t) override;
     void line_changed(Turn& t) override;
     void give(Turn& t) override;
-    void heard(const Telegram& telegram, Turn& t);
+    void received(const Telegram& telegram, Turn& t);
     void free_line();
 
     Bus bus_;

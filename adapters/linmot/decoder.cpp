@@ -129,8 +129,8 @@ std::vector<std::string> LineDecoder::on_frame(const Frame& frame, std::optional
 }
 
 void LineDecoder::strange(Stream& s, std::span<const std::uint8_t> bytes, std::string_view why, std::vector<std::string>& lines) {
-    auto& told = s.begun ? lines : s.strange;
-    told.push_back(hex(bytes) + "  unknown: " + std::string(why));
+    auto& reported = s.begun ? lines : s.strange;
+    reported.push_back(hex(bytes) + "  unknown: " + std::string(why));
     if (s.begun) return;
     s.before.insert(s.before.end(), bytes.begin(), bytes.end());
     if (s.before.size() >= longest_telegram) begin(s, lines);

@@ -144,7 +144,7 @@ void Drive::on_deadline(Turn& t) {
 void Drive::silence(Turn& t) {
     const Request& r = exchanges.request();
     if (r.quiet) return jobs.look_later(t);
-    if (r.purpose == Purpose::stream && stream.heard_lately(t.now)) return;
+    if (r.purpose == Purpose::stream && stream.received_lately(t.now)) return;
     exchanges.missed(t.now);
     const auto what = presence.silent(t.now);
     if (what == drive::Presence::Silence::lost) return lost(t, fmt::format("drive {} does not answer", title()));

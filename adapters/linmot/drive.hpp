@@ -40,7 +40,7 @@ public:
     void go(Turn& t);
     [[nodiscard]] bool waiting() const noexcept { return exchanges.active(); }
     void on_telegram(const Telegram& telegram, Turn& t);
-    void unasked(Turn& t) noexcept { presence.heard(t.now); }
+    void unasked(Turn& t) noexcept { presence.received(t.now); }
     void on_deadline(Turn& t);
 
     // --- for its parts --------------------------------------------------------------------------------------------------

@@ -57,11 +57,11 @@ void Feedback::learn(const Status& s, Turn& t) {
 
 void Feedback::watch_errors(Turn& t) {
     if (!in_error()) {
-        told_error_ = 0;
+        reported_error_ = 0;
         return;
     }
     const std::uint8_t code = status_.sub_state();
-    if (std::exchange(told_error_, code) != code)
+    if (std::exchange(reported_error_, code) != code)
         drive_.notice(Severity::alarm, "alarm", code, fmt::format("drive {}: {}", drive_.title(), error_text()), t);
     if (drive_.homing.broken()) homing_failed();
     drive_.motion.no_target();

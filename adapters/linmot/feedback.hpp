@@ -41,7 +41,7 @@ private:
     bool known_ = false;
     Status status_;
     AxisFeedback fb_;
-    std::uint8_t told_error_ = 0;
+    std::uint8_t reported_error_ = 0;
     std::deque<std::pair<Instant, std::int32_t>> track_;  ///< places of the last 100 ms
 };
 

@@ -45,7 +45,7 @@ void PositionStream::begin(Turn& t) {
     state_.ending = false;
     state_.period = stream_period(drive_.bus);
     state_.lead.begin(drive_.demand.place(t.now));
-    state_.next = state_.heard = t.now;
+    state_.next = state_.received = t.now;
     drive_.motion.no_target();
     drive_.demand.forget();
 }
@@ -79,7 +79,7 @@ void PositionStream::answered(Turn& t) {
         return;
     }
     if (!state_.on) return;
-    state_.heard = t.now;
+    state_.received = t.now;
     if (feedback.status().state() == state::enabled) return drive_.demand.rest(state_.lead.place());
     end(Reason::drive_refused,
         feedback.in_error() ? fmt::format("drive {}: {}", drive_.title(), feedback.error_text())
@@ -94,6 +94,6 @@ void PositionStream::end(Reason reason, std::string why, Turn& t) {
 }
 
 std::optional<Duration> PositionStream::patience() const noexcept { return state_.ending ? std::nullopt : std::optional(state_.period); }
-bool PositionStream::heard_lately(Instant now) const noexcept { return now - state_.heard < drive_.bus.timing.reply_timeout; }
+bool PositionStream::received_lately(Instant now) const noexcept { return now - state_.received < drive_.bus.timing.reply_timeout; }
 
 }  // namespace axisgate::linmot

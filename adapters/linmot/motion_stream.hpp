@@ -36,13 +36,13 @@ public:
     /// For an answer, while it runs: its period alone. It goes on with its next set-point: the drive may have heard it all the same.
     [[nodiscard]] std::optional<Duration> patience() const noexcept;
     /// So short a silence is none.
-    [[nodiscard]] bool heard_lately(Instant now) const noexcept;
+    [[nodiscard]] bool received_lately(Instant now) const noexcept;
 
 private:
     struct State {
         bool on = false, ending = false;
         Duration period{};
-        Instant next = never, heard{};  ///< its next set-point; its last answer
+        Instant next = never, received{};  ///< its next set-point; its last answer
         drive::Lead lead;
         std::optional<SetPoint> newest;
     };

@@ -21,10 +21,10 @@ void ProgramEnd::line_taken(std::string_view line) {
     if (started_ && (line == escape_key || w == "E" || w == "CP" || w == "FD")) started_->ended_by = line;
 }
 
-void ProgramEnd::told(int error) noexcept {
+void ProgramEnd::reported(int error) noexcept {
     if (started_) started_->error = error;
 }
-void ProgramEnd::told_first(int error) noexcept {
+void ProgramEnd::reported_first(int error) noexcept {
     if (started_ && started_->error == 0) started_->error = error;
 }
 

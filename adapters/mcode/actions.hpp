@@ -86,8 +86,8 @@ public:
     void await(Command command, Turn& t);
     /// A line that the drive took, or may have taken: does it end programs?
     void line_taken(std::string_view line);
-    void told(int error) noexcept;        ///< the last error since its start
-    void told_first(int error) noexcept;  ///< of its first line, before its start was confirmed
+    void reported(int error) noexcept;        ///< the last error since its start
+    void reported_first(int error) noexcept;  ///< of its first line, before its start was confirmed
     void lost(Reason reason, const std::string& why, Turn& t);
     void watch(Turn& t);  ///< behind a poll
 

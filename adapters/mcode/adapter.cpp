@@ -170,7 +170,7 @@ std::string LineAdapter::next_mark() {
 }
 
 void LineAdapter::start(Drive& d, Turn& t) {
-    bus_.reset_hits_others = drives().find([&](const Drive& o) { return &o != &d && o.hears_every_reset(); }) != nullptr;
+    bus_.reset_hits_others = drives().find([&](const Drive& o) { return &o != &d && o.receives_every_reset(); }) != nullptr;
     Request r = d.next(t);
     Expect e{r.kind, {}, r.end_mark, d.words.sums, d.words.em == 0, r.ends};
     std::string bytes = r.raw;
@@ -187,9 +187,9 @@ void LineAdapter::start(Drive& d, Turn& t) {
     if (lead) bytes.insert(bytes.begin(), lf);
     resync_ = resync_ && !lead;
     d.mode.led(lead || !d.link().party());
-    d.feedback.heard_at = t.now + bus_.wire(bytes.size());
+    d.feedback.received_at = t.now + bus_.wire(bytes.size());
     const Duration expected = e.kind == Expect::Kind::nothing ? Duration{20ms} : bus_.timing.reply_timeout + bus_.wire(64) + r.patience;
-    flight_.deadline = d.feedback.heard_at + expected;
+    flight_.deadline = d.feedback.received_at + expected;
     // Drives that echo one another without end (line.setup with two fresh ones) hold the line for a second at most.
     flight_.latest = flight_.deadline + (e.kind != Expect::Kind::block ? bus_.wire(512) + 200ms
                                          : r.raw.empty()               ? bus_.wire(ReplyReader::limit) + 60s
@@ -207,8 +207,8 @@ bool LineAdapter::close_block(Turn& t) {
     const std::string mark = next_mark();
     const std::string bytes = request(d.link(), fmt::format("PR \"{}\",{}", mark, d.feedback.poll_items(t.now)));
     reader_.close_with(mark, bytes.substr(0, bytes.size() - 1));
-    d.feedback.heard_at = t.now + bus_.wire(bytes.size());
-    flight_.deadline = d.feedback.heard_at + bus_.timing.reply_timeout + bus_.wire(64);
+    d.feedback.received_at = t.now + bus_.wire(bytes.size());
+    flight_.deadline = d.feedback.received_at + bus_.timing.reply_timeout + bus_.wire(64);
     send(bytes, Priority::command, t);
     return true;
 }
@@ -218,7 +218,7 @@ void LineAdapter::finish(Verdict v, Turn& t) {
     if (flight_.kind != Expect::Kind::block) gather(v, t);
     const Flight f = std::exchange(flight_, {});
     bus_.turns.ended(d.slot());
-    bus_.turns.heard(t.now);
+    bus_.turns.received(t.now);
     if (f.to_all) return;
     if (v == Verdict::waiting) {
         late_drive_ = &d;
@@ -263,7 +263,7 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     if (std::exchange(resync_, false)) bytes.insert(bytes.begin(), lf);
     flight_.deadline = flight_.latest = t.now + bus_.wire(bytes.size()) + 20ms;
     reader_.begin({Expect::Kind::nothing, {}, false, false, false});
-    drives().each([&](Drive& d) { d.stops.told_by_all(t.now + bus_.wire(bytes.size())); });
+    drives().each([&](Drive& d) { d.stops.reported_by_all(t.now + bus_.wire(bytes.size())); });
     bus_.turns.began(first->slot(), false);
     send(bytes, Priority::urgent, t);
     return true;

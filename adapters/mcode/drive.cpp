@@ -166,7 +166,7 @@ Request Drive::next(Turn& t) {
 
 Request Drive::choose(Turn& t) {
     if (line_setup.naming()) return jobs.next(t.now);
-    if (!ready()) return away() && !stops.empty() ? stops.unheard() : start.next();
+    if (!ready()) return away() && !stops.empty() ? stops.unreceived() : start.next();
     if (mode.leaving()) return mode.next();
     if (!stops.empty()) return stops.next(t.now);
     if (errors.wanted()) return Request::ask(What::error, "ER");
@@ -188,7 +188,7 @@ void Drive::ended(Verdict v, const ReplyReader& r, Turn& t) {
     if (v == Verdict::refused) ++bus.counters.refused;
     if (v == Verdict::answered || v == Verdict::acknowledged) ++bus.counters.exchanges;
     if (ready()) watch_quality(v, r, t);
-    start.heard(v, r);
+    start.received(v, r);
     restart.watch(t);
     const bool mode_line = mode.line_ended(v);
     if (!ready() && (line_setup.too_late(t.now) || restart.too_late(t.now)))
@@ -222,8 +222,9 @@ void Drive::confirm_ended(Verdict v, const ReplyReader& r, Turn& t) {
             errors.clear_last();
             return confirmed(t);
         }
-        const Verdict said = stops.confirming() ? stops.acknowledgement() : jobs.job().acknowledgement;
-        return errors.ask(said == Verdict::refused || !words.sums || quiet() || stops.told_to_all());  // an ACK means: no error [L2081]
+        const Verdict reported = stops.confirming() ? stops.acknowledgement() : jobs.job().acknowledgement;
+        return errors.ask(reported == Verdict::refused || !words.sums || quiet() ||
+                          stops.reported_to_all());  // an ACK means: no error [L2081]
     }
     if (v == Verdict::waiting) start.silent(t);
     if (ready()) stops.confirming() ? stops.missed(t) : jobs.missed(t);
@@ -249,7 +250,7 @@ void Drive::line_ended(std::string_view line, Verdict v, bool own) {
     if (v == Verdict::refused) return demand.refused();
     program.line_taken(line);
     if (v == Verdict::waiting || v == Verdict::garbled) return demand.doubt(line);
-    demand.published(line, feedback.heard_at, own);
+    demand.published(line, feedback.received_at, own);
     const auto w = word_of(line);
     if (w == "EX") feedback.program_ran();
     // By somebody's text: what the next move would find is read anew.
@@ -269,12 +270,12 @@ void Drive::unconfirmed(std::string why, Turn& t) {
 // --- what is told ----------------------------------------------------------------------------------------------------------------
 
 void Drive::watch_quality(Verdict v, const ReplyReader& r, Turn& t) {
-    const bool heard = v != Verdict::waiting;
+    const bool received = v != Verdict::waiting;
     const bool begun = r.raw().find('#') != std::string::npos && r.raw().find("PR \"#") == std::string::npos;
-    if (v == Verdict::garbled || (!heard && begun)) trouble(heard ? Trouble::Kind::garbled : Trouble::Kind::cut, t);
-    if (!heard && !begun) ++unanswered_;
+    if (v == Verdict::garbled || (!received && begun)) trouble(received ? Trouble::Kind::garbled : Trouble::Kind::cut, t);
+    if (!received && !begun) ++unanswered_;
     // Without an answer it may be going away, which is told otherwise: they count when it is heard again.
-    for (; heard && unanswered_ > 0; --unanswered_)
+    for (; received && unanswered_ > 0; --unanswered_)
         trouble(Trouble::Kind::lost, t);
 }
 

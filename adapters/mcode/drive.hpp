@@ -67,7 +67,7 @@ public:
     /// It could hear a line to all drives now, or later: else it is away.
     [[nodiscard]] bool in_reach() const noexcept { return !away() && !presence.is(drive::Presence::Phase::down); }
     /// A CTRL+C for another drive restarts this one too (CE = 1) [L2005].
-    [[nodiscard]] bool hears_every_reset() const noexcept { return ready() && words.ce == 1; }
+    [[nodiscard]] bool receives_every_reset() const noexcept { return ready() && words.ce == 1; }
     [[nodiscard]] Link link() const noexcept { return {setup_.address[0], words.sums}; }
     /// It takes lines without a word: EM = 2, or CK = 2 while a program runs [L2082, L2664].
     [[nodiscard]] bool quiet() const noexcept { return words.em == 2 || (words.ck == 2 && feedback.running()); }

@@ -15,7 +15,7 @@ std::string Trouble::add(Kind kind, Instant now) {
     recent_.push_back(now);
     if (recent_.size() > from_) recent_.pop_front();
     const bool again = recent_.size() == from_ && now - recent_.front() <= window;
-    if (!again || (ever_ && now - told_ < pause)) return {};
+    if (!again || (ever_ && now - reported_ < pause)) return {};
     constexpr std::array<std::string_view, kinds> words{"late", "cut off", "spoiled", "lost", "doubled"};
     std::string s;
     for (std::size_t i = 0; i < kinds; ++i) {
@@ -24,7 +24,7 @@ std::string Trouble::add(Kind kind, Instant now) {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now - since_).count();
     if (seconds > 0) s += fmt::format(" in {} s", seconds);
     ever_ = true;
-    told_ = now;
+    reported_ = now;
     counts_ = {};
     return s;
 }

@@ -28,7 +28,7 @@ private:
     std::array<std::uint32_t, kinds> counts_{};
     std::deque<Instant> recent_;  ///< at most `from_`
     Instant since_{};             ///< of the counts
-    Instant told_{};
+    Instant reported_{};
     bool ever_ = false;
 };
 

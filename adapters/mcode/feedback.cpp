@@ -28,7 +28,7 @@ std::string Errors::text_of(int code) const {
 
 void Errors::learn(int code, bool ours, Turn& t) {
     last_ = code;
-    if (!ours && code != 0) drive_.program.told(code);
+    if (!ours && code != 0) drive_.program.reported(code);
     if (is_fault_code(code)) fault_ = code;
     // SM says whether a stall (86) ends the motion, and the flags tell that.
     if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) feedback().demand.ended(t.now);
@@ -58,14 +58,14 @@ void Errors::answered(Verdict v, const std::string& data, Turn& t) {
     tries_ = 0;
     feedback().error_read();
     // With a line to all nobody says whose error it is: a fault is told, and the stop is judged by what is read.
-    const bool ours = waits && ours_ && !(drive_.stops.told_to_all() && is_fault_code(static_cast<int>(*code)));
+    const bool ours = waits && ours_ && !(drive_.stops.reported_to_all() && is_fault_code(static_cast<int>(*code)));
     learn(static_cast<int>(*code), ours, t);
     if (!waits) return;
     const int keep = last_;
     if (!ours) last_ = 0;
     drive_.confirmed(t);
     if (last_ == 0) last_ = keep;
-    if (!ours) drive_.program.told_first(keep);
+    if (!ours) drive_.program.reported_first(keep);
 }
 
 // --- the questions ---------------------------------------------------------------------------------------------------------------
@@ -129,7 +129,7 @@ bool Feedback::learn_poll(const std::string& data, Turn& t) {
     }
     const auto flag = [&](std::size_t i) { return f[2][i] == '1'; };
     const bool waited = flags_.input;
-    read_at_ = std::min(heard_at, t.now);
+    read_at_ = std::min(received_at, t.now);
     fb_.position = *p;
     fb_.velocity = *v;
     flags_ = {
@@ -222,7 +222,7 @@ void Feedback::read_demand(std::optional<std::int64_t> lag) {
     constexpr std::array off{13, 14, 72, 75, 79, 96};
     const bool bridges_off = (flags_.locked && !torque()) || std::ranges::find(off, drive_.errors.fault()) != off.end();
     if (has.old_firmware && demand.wants_shape()) demand.shape(true);
-    demand.read({.at = heard_at,
+    demand.read({.at = received_at,
                  .position = fb_.position,
                  .velocity = fb_.velocity,
                  .lag = lag,

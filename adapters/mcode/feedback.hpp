@@ -125,7 +125,7 @@ public:
 
     // --- its demand ---------------------------------------------------------------------------------------------------------
     AxisDemand demand;
-    Instant heard_at{};          ///< when the drive has all of the present request: bytes of its echo or answer tell less
+    Instant received_at{};       ///< when the drive has all of the present request: bytes of its echo or answer tell less
     bool shape_refused = false;  ///< it does not tell what makes a motion another than a trapezoid
     [[nodiscard]] bool wants_shape() const noexcept { return demand.wants_shape() && !shape_refused; }
     void program_ran() noexcept { program_ran_ = true; }

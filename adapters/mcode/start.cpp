@@ -35,7 +35,7 @@ void Start::probe_anew(Turn& t) {
     link_line_.clear();
 }
 
-void Start::again(Turn& t) noexcept { drive_.presence.heard(t.now); }
+void Start::again(Turn& t) noexcept { drive_.presence.received(t.now); }
 
 void Start::link_changed(Turn& t) {
     drive_.presence.begin(t.now);
@@ -77,7 +77,7 @@ void Start::silent(Turn& t) {
 }
 
 /// An echo is silence; anything else is somebody who is not understood.
-void Start::heard(Verdict v, const ReplyReader& r) noexcept {
+void Start::received(Verdict v, const ReplyReader& r) noexcept {
     if (v != Verdict::waiting && v != Verdict::garbled) {
         drive_.presence.answered();
         spoiled_ = 0;
@@ -106,25 +106,25 @@ Request Start::next() {
 }
 
 void Start::ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t) {
-    const bool heard = v != Verdict::waiting;
+    const bool received = v != Verdict::waiting;
     if (drive_.presence.is(Phase::starting)) return read(v, r.data(), t);
     if (!link_line_.empty()) {
         // A probe says what it has become. After CK = 1 the first probe without a checksum is answered with NAK.
         link_line_.clear();
-        if (!heard) silent(t);
+        if (!received) silent(t);
         return;
     }
     if (mode_line) {
         drive_.mode.line_probed();
         again(t);
-        if (!heard) silent(t);
+        if (!received) silent(t);
         return;
     }
     if (drive_.mode.probed(v, r, t)) return;
     if (v == Verdict::answered && r.data().size() == (drive_.bus.ethernet ? 1U : 4U)) return probe_answered(r.data(), t);
     drive_.errors.raised_by_search();
     drive_.words.sums = !drive_.words.sums && !drive_.bus.ethernet;
-    if (!heard) return silent(t);
+    if (!received) return silent(t);
     again(t);
     const bool absent = drive_.presence.is(Phase::absent);
     if (++spoiled_ > 2 * drive_.bus.timing.silent_limit || absent) {

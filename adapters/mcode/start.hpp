@@ -29,7 +29,7 @@ public:
     [[nodiscard]] bool says_line() const noexcept { return !link_line_.empty(); }
     void ended(Verdict v, const ReplyReader& r, bool mode_line, Turn& t);
     /// Every exchange: what came, whatever it was for.
-    void heard(Verdict v, const ReplyReader& r) noexcept;
+    void received(Verdict v, const ReplyReader& r) noexcept;
 
     [[nodiscard]] std::string rate_trouble() const;
     [[nodiscard]] std::string factory_hint() const;

@@ -56,7 +56,7 @@ Request Stops::next(Instant now) {
     return r;
 }
 
-Request Stops::unheard() {
+Request Stops::unreceived() {
     const Stop& s = *lane_.first();
     const LinkWords& w = drive_.words;
     Request r = Request::say(Request::Purpose::stop, s.lines.front());
@@ -105,10 +105,10 @@ std::string_view Stops::line() const noexcept {
 }
 
 /// Its stop's line has gone to all drives, who say nothing: reading tells what became of it.
-void Stops::told_by_all(Instant heard) {
+void Stops::reported_by_all(Instant received) {
     if (empty() || confirming()) return;
     Stop& s = *lane_.first();
-    feedback().demand.published(s.lines[s.at], heard, true);  // who proves not to have heard it loses its demand
+    feedback().demand.published(s.lines[s.at], received, true);  // who proves not to have heard it loses its demand
     s.confirming = s.to_all = true;
     s.acknowledgement = Verdict::acknowledged;
     s.speed.reset();
@@ -164,10 +164,10 @@ void Stops::confirmed(Turn& t) {
     AxisDemand& demand = feedback().demand;
     if (changed_way(s)) return;
     if (s.to_all && error == 0) {
-        const auto heard = reached(s);
-        if (!heard) return;
+        const auto received = reached(s);
+        if (!received) return;
         s.to_all = false;
-        if (!*heard) {
+        if (!*received) {
             demand.forget();
             ++drive_.bus.counters.retries;
             s.confirming = false;

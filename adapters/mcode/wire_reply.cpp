@@ -82,9 +82,9 @@ Verdict ReplyReader::look(bool over) {
             maybe_refused_ = true;
             return over ? Verdict::refused : Verdict::waiting;
         }
-        const bool told = all.find("\r\n") != std::string_view::npos;
-        if (told && expect_.prompt && all.back() == '?') return Verdict::refused;
-        if (over && (all.find(nak) != std::string_view::npos || (told && !expect_.checksum))) return Verdict::refused;
+        const bool reported = all.find("\r\n") != std::string_view::npos;
+        if (reported && expect_.prompt && all.back() == '?') return Verdict::refused;
+        if (over && (all.find(nak) != std::string_view::npos || (reported && !expect_.checksum))) return Verdict::refused;
         return Verdict::waiting;
     }
     std::size_t end = std::string_view::npos;

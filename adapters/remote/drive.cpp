@@ -178,7 +178,7 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
     const auto state = mirror::state_of(telegram.body);
     if (!state) return void(++line_.counters.garbled);
     if (!presence_.online()) {
-        if (!polled) return presence_.heard(t.now);
+        if (!polled) return presence_.received(t.now);
         presence_.found();
         presence_.made_ready();
         presence_.report(setup_.address + (state->simulated ? ", simulated there" : ", by its gateway"), t.out);

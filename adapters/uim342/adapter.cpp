@@ -47,7 +47,7 @@ void LineAdapter::take(const LineSetup& setup, Turn& t) {
     if (crc != crc_ || !std::exchange(configured_, true)) {
         crc_ = crc;
         framer_ = UiFramer(crc);
-        other_crc_told_ = false;
+        other_crc_reported_ = false;
     }
     drive::tell_faults(read, t);
 }
@@ -74,7 +74,7 @@ void LineAdapter::leaving(Drive& d, Turn& t) {
 
 void LineAdapter::line_changed(Turn& t) {
     framer_.reset();
-    other_crc_told_ = false;
+    other_crc_reported_ = false;
     if (!up() && joint_.kind != Joint::Kind::none) end_joint(Outcome::failed, Reason::line_down, "the line went down", 0, t);
     TurnsAdapter::line_changed(t);
 }
@@ -109,8 +109,8 @@ void LineAdapter::arrived(const Frame& frame, Turn& t) {
 
 /// Once each time the line comes up: nothing would be heard, and nobody would know why.
 void LineAdapter::tell_other_crc(Turn& t) {
-    if (other_crc_told_) return;
-    other_crc_told_ = true;
+    if (other_crc_reported_) return;
+    other_crc_reported_ = true;
     const auto words = [](CrcMode m) {
         return m == CrcMode::twelve     ? "12 bytes (ID to d8)"
                : m == CrcMode::thirteen ? "13 bytes (AA to d8)"
@@ -129,7 +129,7 @@ void LineAdapter::deliver(const Message& m, Turn& t) {
         ++Bus::counters.unexpected;  // another master, the gateway itself, or a drive that the setup does not name
         return;
     }
-    turns.heard(t.now);
+    turns.received(t.now);
     d->on_message(m, t);
     settle(*d, t);
 }

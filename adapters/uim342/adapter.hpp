@@ -66,8 +66,8 @@ private:
     bool configured_ = false;
     CrcMode crc_ = CrcMode::twelve;
     UiFramer framer_;
-    bool try_thirteen_ = false;    ///< auto: the next unproved frame goes out with the other range
-    bool other_crc_told_ = false;  ///< since the line came up
+    bool try_thirteen_ = false;        ///< auto: the next unproved frame goes out with the other range
+    bool other_crc_reported_ = false;  ///< since the line came up
     std::array<Drive*, 128> by_id_{};
     drive::Tickets tickets_;  ///< of joint orders
     Joint joint_;

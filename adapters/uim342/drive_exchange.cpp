@@ -79,7 +79,7 @@ void Exchanges::on_message(const Message& m, Turn& t) {
         } else {
             ++(torn ? drive_.bus.counters.garbled : drive_.bus.counters.unexpected);
         }
-        return drive_.presence.heard(t.now);  // an absent drive that says anything is asked at once
+        return drive_.presence.received(t.now);  // an absent drive that says anything is asked at once
     }
     drive_.presence.answered();
     late_.clear();

@@ -119,7 +119,7 @@ void Feedback::derive(Turn& t) {
 
 void Feedback::on_notification(const Message& m, Turn& t) {
     const Notification n = notification_of(m);
-    drive_.presence.heard(t.now);
+    drive_.presence.received(t.now);
     if (n.kind == Notification::Kind::alarm) return drive_.errors.on_alarm(n.code, t);
     if (n.kind == Notification::Kind::input) return on_input(n, t);
     if (n.kind == Notification::Kind::finished && n.has_position) return on_finished(n, t);
@@ -244,9 +244,9 @@ void Errors::on_latest(const Message& m, Turn& t) {
     const auto report = error_report_of(m);
     if (!report || (report->slot != 0 && report->slot != 10)) return;
     latest_ = report->code;
-    const bool told = drive_.feedback.fb().error_code == report->code;
+    const bool reported = drive_.feedback.fb().error_code == report->code;
     drive_.feedback.derive(t);
-    if (!told) drive_.feedback.emit(t);
+    if (!reported) drive_.feedback.emit(t);
 }
 
 void Errors::on_report(const Message& m, Turn& t) {

@@ -79,21 +79,21 @@ void Parameters::written(const Step& step, const Message& m, Turn& t) {
     const Binding& b = *binding_;
     const Instruction& i = *b.instruction;
     if (step.message.function() != i.cw) return;  // the ST before MO=1, or an MF
-    const auto told = value_of(step.message, m);
+    const auto reported = value_of(step.message, m);
     const bool read = form_of(step.message) == Form::get;
     if (b.part && i.cw == cw::IL) {
         if (!read) return succeed(storage_note(), t, Points::value(b, m).value_or(Value{wanted_}));
         const unsigned at = (b.byte - 1u) * 8u + b.bit;
         const std::int64_t mask = ((std::int64_t{1} << b.bits) - 1) << at;
-        return job().add(make_set(drive_.address(), i, b.index, (told.value_or(0) & ~mask) | (wanted_ << at & mask)));
+        return job().add(make_set(drive_.address(), i, b.index, (reported.value_or(0) & ~mask) | (wanted_ << at & mask)));
     }
     if (read) {  // PP: what is stored
-        if (told == wanted_) succeed("it is stored already: FLASH was not written", t, Value{wanted_});
+        if (reported == wanted_) succeed("it is stored already: FLASH was not written", t, Value{wanted_});
         return;
     }
     std::int64_t value = wanted_;
     std::string text = storage_note();
-    if (i.answer == SetAnswer::echo || (i.answer == SetAnswer::desired && b.mf == 0)) value = told.value_or(wanted_);
+    if (i.answer == SetAnswer::echo || (i.answer == SetAnswer::desired && b.mf == 0)) value = reported.value_or(wanted_);
     if (value != wanted_) text = fmt::format("the drive took {} instead of {}{}{}", value, wanted_, text.empty() ? "" : "; ", text);
     if (i.cw == cw::MF && wanted_ != 0) {
         drive_.exchanges.mf_unknown = true;  // whatever of ours comes next must not hit that group

@@ -79,7 +79,7 @@ void Cia402Axis::order_reset(State& s, Decision& d) {
 
 /// Nobody answers, or nobody has said yet where the axis is: it may be moving all the same. What stops is sent, and its answer is the
 /// drive's; everything else is refused, for there is nobody who could do it. False: refused, and `d` says why.
-bool Cia402Axis::change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const {
+bool Cia402Axis::change_unreceived(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const {
     if (!(cw & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(cw & cw_quick_stop)) {
@@ -189,7 +189,7 @@ bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw,
         s.halted = false;
         if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached && !(rising & cw_new_setpoint)) {
             d.orders.emplace_back(*s.active);
-            ++s.told_again;
+            ++s.published_again;
         }
     }
     if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !(rising & cw_halt)) {
@@ -275,7 +275,7 @@ Cia402Axis::Decision Cia402Axis::on_process_data(const ProcessData& data, const 
     Decision power;
     if (data.controlword) {
         if (s.state == PowerState::not_ready_to_switch_on) {
-            if (!change_unheard(s, before, cw, power)) return power;
+            if (!change_unreceived(s, before, cw, power)) return power;
             for (auto& o : power.orders)
                 d.orders.push_back(std::move(o));
             s_ = std::move(s);

@@ -116,8 +116,8 @@ private:
         PowerState state = PowerState::not_ready_to_switch_on;
         Presence presence = Presence::offline;
         AxisFeedback feedback;
-        bool seen = false;                   // since the present presence began
-        Presence heard = Presence::offline;  // whose feedback is kept: offline, nobody's
+        bool seen = false;                      // since the present presence began
+        Presence received = Presence::offline;  // whose feedback is kept: offline, nobody's
         std::uint16_t controlword = 0;
         std::int16_t mode = cia402::mode_none;
         std::array<Written, doors> written;  // by Door
@@ -134,7 +134,7 @@ private:
         Instant power_known_at{};        // feedback up to here may be older than the acknowledged power order
         bool quick_stopped = false;      // quick stop active until left by a control word or command
         bool setpoint_acknowledged = false;  // bit 12 in mode 1
-        int told_again = 0;                  // moves on their way to the drive that are no new set-points: after a halt, or buffered before
+        int published_again = 0;             // moves on their way to the drive that are no new set-points: after a halt, or buffered before
         bool halted = false;
         bool homing_refused = false;  // the last homing was not taken: bit 13, and an older "attained" is not shown
         bool reacting = false;        // the stop of the present fault is on its way, or was taken
@@ -148,7 +148,7 @@ private:
 
     [[nodiscard]] static PowerState state_when_off(const State& s) noexcept;
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
-    [[nodiscard]] bool change_unheard(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
+    [[nodiscard]] bool change_unreceived(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
     void change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const;
     [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own,
                                      Decision& d) const;

@@ -56,8 +56,8 @@ void Cia402Axis::settle(State& s) const {
     }
     const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
     if (s.feedback.fault) {
-        const bool told = own == PowerState::fault || own == PowerState::fault_reaction_active;
-        s.state = told ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
+        const bool reported = own == PowerState::fault || own == PowerState::fault_reaction_active;
+        s.state = reported ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
         s.virtual_step = 0;
         s.quick_stopped = false;
         s.active.reset();
@@ -121,8 +121,8 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
     } else if (std::holds_alternative<SetPosition>(order)) {
         if (good) s.active.reset();  // its target was a place by the old count
     } else if (const auto* m = std::get_if<Move>(&order)) {
-        const bool again = s.told_again > 0;
-        if (again) --s.told_again;
+        const bool again = s.published_again > 0;
+        if (again) --s.published_again;
         if (!good) return;
         if (!again) ++s.setpoints_accepted;
         const auto shown = [](std::uint32_t& into, const std::optional<std::int64_t>& v) {
@@ -157,7 +157,7 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
     }
     s.feedback = f;
     s.seen = true;
-    s.heard = s.presence;
+    s.received = s.presence;
     settle(s);
     if (s.state == PowerState::fault_reaction_active && s.feedback.moving) {
         if (s.reacting || (s.reaction_at != Instant{} && now - s.reaction_at < reaction_again)) return std::nullopt;
@@ -172,7 +172,7 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
         if (s.buffered && !s.halted) {
             Move next = *s.buffered;
             s.buffered.reset();
-            ++s.told_again;  // counted when it was buffered
+            ++s.published_again;  // counted when it was buffered
             return CommandBody{next};
         }
         if (!s.halted) s.active.reset();
@@ -186,14 +186,14 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.seen = false;
     // Of a drive that is silent the last values are kept, with their age; what it is doing now is not known. Another drive begins anew.
     AxisFeedback last;
-    if (presence == Presence::offline || presence == s_.heard) {
+    if (presence == Presence::offline || presence == s_.received) {
         last.position = s_.feedback.position;
         last.velocity = s_.feedback.velocity;
         last.error_code = s_.feedback.error_code;
         last.native_status = s_.feedback.native_status;
         last.at = s_.feedback.at;
     } else {
-        s_.heard = Presence::offline;
+        s_.received = Presence::offline;
     }
     s_.feedback = last;
     s_.power_pending = -1;
@@ -201,7 +201,7 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.virtual_step = 0;
     s_.quick_stopped = false;
     s_.controlword = 0;
-    s_.told_again = 0;
+    s_.published_again = 0;
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
     for (Written& w : s_.written)
@@ -298,7 +298,7 @@ void Cia402Axis::fill(AxisPicture& p) const noexcept {
     p.homing_method = s.homing_method;
     p.setpoints_accepted = s.setpoints_accepted;
     p.presence = s.presence;
-    p.ever_seen = s.heard != Presence::offline;
+    p.ever_seen = s.received != Presence::offline;
     p.current = s.seen;
     p.at = f.at;
     std::uint16_t flags = 0;

@@ -99,7 +99,7 @@ private:
     void begin(Job job, Turn& t);
     [[nodiscard]] Job job_for(const SetPoint& set_point);
     void step_answered(const Message& answer, Turn& t);
-    void finish(const Job& job, const Told& told, Turn& t);
+    void finish(const Job& job, const Reported& reported, Turn& t);
     [[nodiscard]] const Parameter* parameter_of(const CommandBody& body) const;
     void end_all(Reason reason, std::string_view why, Turn& t);
 

@@ -148,16 +148,16 @@ template <class Message, int Channels>
 void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
     const Message& asked = exchange_.request().message;
     if (!exchange_.active() || this->mark_of(asked) != this->mark_of(answer) ||
-        !(this->told(answer).refused || this->answers(asked, answer))) {
+        !(this->reported(answer).refused || this->answers(asked, answer))) {
         ++bus_.counters.unexpected;
-        return presence.heard(t.now);
+        return presence.received(t.now);
     }
     const bool again = exchange_.tries() > 1;  // the other copies' answers may still come
     const Ask ask = exchange_.answered(bus_.counters);
     const Message mark = this->mark_of(ask.message);
     if (again) late_.add(mark);
     bus_.turns.ended(slot());
-    bus_.turns.heard(t.now);
+    bus_.turns.received(t.now);
     presence.answered();
     if (!late_.has(mark)) late_.clear();
     answered(ask, answer, t);
@@ -165,7 +165,7 @@ void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer, Turn& t) {
-    const Told what = this->told(answer);
+    const Reported what = this->reported(answer);
     if (what.refused) ++bus_.counters.refused;
     if (!presence.online()) {
         presence.found();
@@ -185,7 +185,7 @@ void Dialogue<Message, Channels>::answered(const Ask& ask, const Message& answer
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) {
-    const Told what = this->told(answer);
+    const Reported what = this->reported(answer);
     const CommandBody& body = job_->command.body;
     if (what.refused && !std::holds_alternative<Native>(body)) {
         const ErrorCode* known = bus_.catalogue.error(what.code);
@@ -204,7 +204,7 @@ void Dialogue<Message, Channels>::step_answered(const Message& answer, Turn& t) 
 }
 
 template <class Message, int Channels>
-void Dialogue<Message, Channels>::finish(const Job& job, const Told& what, Turn& t) {
+void Dialogue<Message, Channels>::finish(const Job& job, const Reported& what, Turn& t) {
     const CommandBody& body = job.command.body;
     const int channel = channel_of(job.command.axis);
     AxisFeedback& fb = at(channel).feedback;

@@ -11,7 +11,7 @@
 namespace axisgate::drive {
 
 /// What an answer says, whatever the language.
-struct Told {
+struct Reported {
     bool refused = false;
     std::int32_t code = 0;  ///< of the refusal: the catalogue has its words
     std::string text;       ///< the value; of a refusal what came
@@ -43,7 +43,7 @@ protected:
     [[nodiscard]] virtual Message mark_of(const Message& message) const = 0;
     /// What a write is answered with, besides its mark.
     [[nodiscard]] virtual bool answers(const Message& /*request*/, const Message& /*answer*/) const { return true; }
-    [[nodiscard]] virtual Told told(const Message& answer) const = 0;
+    [[nodiscard]] virtual Reported reported(const Message& answer) const = 0;
     /// A request that changes nothing, and another one with another mark: whether somebody is there; what parts late answers from new ones.
     [[nodiscard]] virtual Message probe(bool other) const = 0;
     /// What the link says of a drive that was found; `answer` is the probe's, nullptr if it was found by something else.

@@ -63,7 +63,7 @@ void Presence::lose(Instant now, Duration pause) noexcept {
     next_probe_ = now + retry_pause_;
 }
 
-void Presence::heard(Instant now) noexcept {
+void Presence::received(Instant now) noexcept {
     // While a probe is out, the next one is: its answer or its silence tells.
     if ((phase_ == Phase::absent || phase_ == Phase::probing) && next_probe_ != never) next_probe_ = std::min(next_probe_, now);
 }

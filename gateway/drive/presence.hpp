@@ -49,7 +49,7 @@ public:
     /// It counts as absent for another reason (it is no drive of this family; it refuses everything). `pause` 0: pause_min.
     void lose(Instant now, Duration pause = {}) noexcept;
     /// Something came from it that nobody had asked for: who is looked for is asked at once.
-    void heard(Instant now) noexcept;
+    void received(Instant now) noexcept;
     /// It was told to restart, and will not answer for `time`.
     void restart(Instant now, Duration time) noexcept;
 

@@ -8,7 +8,7 @@
 namespace axisgate::drive {
 
 Timing timing_of(const LineTiming& site, const Timing& defaults) noexcept {
-    const auto or_else = [](Duration said, Duration otherwise) { return said > Duration::zero() ? said : otherwise; };
+    const auto or_else = [](Duration reported, Duration otherwise) { return reported > Duration::zero() ? reported : otherwise; };
     Timing t;
     t.reply_timeout = or_else(site.reply_timeout, defaults.reply_timeout);
     t.poll_period = or_else(site.poll_period, defaults.poll_period);

@@ -62,7 +62,7 @@ public:
     void began(std::size_t slot, bool probe) noexcept;
     void ended(std::size_t slot) noexcept;
     /// Something has arrived: the line's pause begins.
-    void heard(Instant now) noexcept {
+    void received(Instant now) noexcept {
         if (rules_.pause > Duration::zero()) quiet_until_ = now + rules_.pause;
     }
     [[nodiscard]] std::size_t on_their_way() const noexcept { return in_flight_; }

@@ -47,7 +47,7 @@ public:
     /// A drive has told a parameter's value, asked for or not.
     virtual void on_sample(const Sample& /*sample*/) {}
     /// When a client of this door was last heard; nothing: it has no connection here, or the door does not watch.
-    [[nodiscard]] virtual std::optional<Instant> heard(const AuthorityClient& /*client*/) const { return std::nullopt; }
+    [[nodiscard]] virtual std::optional<Instant> last_received(const AuthorityClient& /*client*/) const { return std::nullopt; }
     /// Serves what is there at this moment, for a loop that polls instead of sleeping; false: there was nothing.
     virtual bool serve_now() { return false; }
     /// Its counters as Prometheus text. Any thread.

@@ -49,7 +49,7 @@ struct EngineHost {
     virtual void on_sample(const Sample& sample) = 0;
     virtual void on_store(StoreOrder order) = 0;
     /// When a client that has commanded was last heard on its door; nothing: it is not connected, or its door does not watch.
-    [[nodiscard]] virtual std::optional<Instant> heard(const AuthorityClient&) const { return std::nullopt; }
+    [[nodiscard]] virtual std::optional<Instant> last_received(const AuthorityClient&) const { return std::nullopt; }
     /// A twin's non-volatile memory has changed.
     virtual void on_twin_memory(const std::string& drive, NonVolatile memory) = 0;
     virtual ~EngineHost() = default;

@@ -95,7 +95,7 @@ std::string_view name_of(FlightKind kind) noexcept {
             return "sent";
         case FlightKind::line_state:
             return "line_state";
-        case FlightKind::heard:
+        case FlightKind::last_received:
             return "heard";
         case FlightKind::look:
             return "look";

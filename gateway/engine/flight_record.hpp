@@ -34,16 +34,16 @@ enum class FlightKind : std::uint8_t {
     scan_cancel = 8,  ///< index: line
     hand = 9,         ///< index: drive
     shut_down = 10,
-    received = 11,      ///< a frame from a cable; index: line
-    sent = 12,          ///< a frame has left by a cable; index: line
-    line_state = 13,    ///< of a cable; index: line
-    heard = 14,         ///< the answer of a door to the question when a client was heard last
-    look = 16,          ///< axes are looked at closely, or no more
-    send_refused = 15,  ///< the line did not take a frame: its number among those handed to it; index: line
-    twin_frame = 32,    ///< a frame on a twin bus; index: line
-    handed = 33,        ///< a frame for a cable, handed to its line; index: line
-    picture = 34,       ///< index: axis
-    result = 35,        ///< index: axis
+    received = 11,       ///< a frame from a cable; index: line
+    sent = 12,           ///< a frame has left by a cable; index: line
+    line_state = 13,     ///< of a cable; index: line
+    last_received = 14,  ///< the answer of a door to the question when a client was heard last
+    look = 16,           ///< axes are looked at closely, or no more
+    send_refused = 15,   ///< the line did not take a frame: its number among those handed to it; index: line
+    twin_frame = 32,     ///< a frame on a twin bus; index: line
+    handed = 33,         ///< a frame for a cable, handed to its line; index: line
+    picture = 34,        ///< index: axis
+    result = 35,         ///< index: axis
     event = 36,
     sample = 37  ///< index: axis
 };
@@ -164,7 +164,7 @@ public:
     void hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin, Instant now);
     void shut_down(Instant now) { take({FlightKind::shut_down, 0xFFFF, now, {}}); }
     void line_state(LineId line, bool up, const std::string& why, Instant now);
-    void heard(std::optional<Instant> at, Instant now);
+    void last_received(std::optional<Instant> at, Instant now);
     void send_refused(LineId line, Instant now);
     // inputs on a cable, outcomes on a twin bus
     void frame(LineId line, const Frame& frame, bool to_drive, bool twin);

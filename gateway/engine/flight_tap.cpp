@@ -46,9 +46,9 @@ void FlightTap::line_state(LineId line, bool up, const std::string& why, Instant
     pack(scratch_, LineStateRecord{up, why});
     give(FlightKind::line_state, place_of(line), now);
 }
-void FlightTap::heard(std::optional<Instant> at, Instant now) {
+void FlightTap::last_received(std::optional<Instant> at, Instant now) {
     pack(scratch_, at ? ns_of(*at) : std::int64_t{-1});
-    give(FlightKind::heard, 0xFFFF, now);
+    give(FlightKind::last_received, 0xFFFF, now);
 }
 void FlightTap::send_refused(LineId line, Instant now) {
     const std::size_t i = index_of(line);

@@ -103,9 +103,9 @@ void LossOfCommand::check_watchdog(Axis& a, Instant now) {
     const AuthorityClient& who = a.authority.commander();
     const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
     if (who.door != Door::modbus || limit <= Duration::zero() || !a.profile.commanded()) return;
-    const auto heard = host_.heard(who);
-    if (FlightTap* tap = publisher_.tap()) tap->heard(heard, now);
-    if (heard && now - *heard > limit) act(a, LossCause::modbus_silent, now);
+    const auto received = host_.last_received(who);
+    if (FlightTap* tap = publisher_.tap()) tap->last_received(received, now);
+    if (received && now - *received > limit) act(a, LossCause::modbus_silent, now);
 }
 
 void LossOfCommand::shut_down(Instant now) {

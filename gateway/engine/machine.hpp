@@ -50,7 +50,7 @@ struct Speaker {
     std::uint8_t number;  ///< Frame::sender of what it sends
     std::unique_ptr<Adapter> adapter;
     std::vector<CanIdentifiers> identifiers;
-    bool hears_all = true;
+    bool receives_all = true;
     std::vector<DriveSetup> probes;              ///< addresses that a scan asks now
     std::optional<AdapterCounters> before_scan;  ///< what it had counted when the scan that runs came to it
     AdapterCounters scanned;                     ///< while scans ran that are over
@@ -66,7 +66,9 @@ struct Speaker {
                 now.refused - before.refused,     now.garbled - before.garbled,   now.unexpected - before.unexpected};
     }
 
-    [[nodiscard]] bool hears(const Frame& f) const noexcept { return hears_all || f.kind != Frame::Kind::can || any_holds(identifiers, f); }
+    [[nodiscard]] bool receives(const Frame& f) const noexcept {
+        return receives_all || f.kind != Frame::Kind::can || any_holds(identifiers, f);
+    }
 };
 
 /// Whether drives of one of these families are this adapter's.
@@ -324,9 +326,9 @@ struct Axis {
         std::uint32_t taken = 0, refused = 0;
         Reason refusal = Reason::none;  ///< of the newest one, or of the stream
         Instant tell_again_at{};
-        bool untold = false;       ///< the present refusal has not been told in words
+        bool unpublished = false;  ///< the present refusal has not been told in words
         AuthorityClient ended_by;  ///< whose stream was the last; it must pause before its next one
-        Instant ended_heard{};     ///< when it sent one last, since then
+        Instant ended_received{};  ///< when it sent one last, since then
         Reason ended_for = Reason::none;
         std::string ended_why;
     } stream;
@@ -345,7 +347,7 @@ struct Axis {
     std::uint16_t last_error = 0;
     std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
     std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
-    std::map<Point, Value> said;         ///< what who speaks for it said last; bounded by the catalogue
+    std::map<Point, Value> reported;     ///< what who speaks for it said last; bounded by the catalogue
     std::uint64_t authority_shown = 0;   ///< AxisAuthority::revision whose names stand in its picture
     std::uint32_t source = 0;            ///< AxisPicture::source
 };

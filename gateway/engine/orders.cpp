@@ -62,9 +62,9 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     record.given_at = now;
     if (const auto* write = std::get_if<WriteParameter>(&body)) {
         // Looked at now: the acknowledgement may come with the new value said already.
-        const auto said = a.said.find(write->point), stored = a.stored.find(write->point);
-        if (said != a.said.end() && known(said->second))
-            record.before = said->second;
+        const auto reported = a.reported.find(write->point), stored = a.stored.find(write->point);
+        if (reported != a.reported.end() && known(reported->second))
+            record.before = reported->second;
         else if (stored != a.stored.end())
             record.before = stored->second;
     }
@@ -146,7 +146,7 @@ void Orders::result(const Result& given, Instant now) {
         s.value = order.value;
         s.at = now;
         s.source = a->source;
-        a->said[s.point] = s.value;
+        a->reported[s.point] = s.value;
         publisher_.sample(s, now);
         twins_.save_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
         host_.on_store(std::move(order));

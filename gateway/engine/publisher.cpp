@@ -80,7 +80,7 @@ void Publisher::sample(const Sample& sample, Instant now) {
 /// Another drive, channel or twin speaks for the axis: all that was said until now is forgotten, here and by who reads the image.
 void Publisher::new_source(Axis& a) {
     a.source = ++sources_;
-    a.said.clear();
+    a.reported.clear();
     machine_.image.picture(a.id).source = a.source;
     machine_.image.publish(a.id);
 }

@@ -79,7 +79,7 @@ public:
     }
     void on_sample(const Sample&) override {}
     void on_store(StoreOrder) override {}
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient&) const override { return lost_ ? heard_ : now_; }
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient&) const override { return lost_ ? received_ : now_; }
     void on_twin_memory(const std::string&, NonVolatile) override {}
 
 private:
@@ -114,8 +114,8 @@ private:
     void step_alone() {
         Twin& twin = *engine_.twin(drive_);
         now_ = std::clamp(twin.deadline(), now_ + 10us, now_ + 1ms);
-        Out unheard;
-        if (twin.deadline() <= now_) twin.on_deadline(now_, unheard);
+        Out unreceived;
+        if (twin.deadline() <= now_) twin.on_deadline(now_, unreceived);
     }
     void run_for(Duration time) {
         for (const Instant end = now_ + time; now_ < end;)
@@ -216,7 +216,7 @@ private:
         if (wish_.cause == LossCause::set_points_silent) stream();
         at_ = now_;
         lost_ = true;
-        if (wish_.cause == LossCause::modbus_silent) heard_ = now_;  // the connection stays; else there is none
+        if (wish_.cause == LossCause::modbus_silent) received_ = now_;  // the connection stays; else there is none
         place_at_loss_ = mechanics().position;
         speed_at_loss_ = speed();
         cell_.speed = speed_at_loss_ / spec_.increments_per_unit;
@@ -280,7 +280,7 @@ private:
     DriveId drive_ = no_drive;
     Instant now_ = at_ns(1'000'000'000), at_{};
     bool lost_ = false;
-    std::optional<Instant> heard_, acted_;
+    std::optional<Instant> received_, acted_;
     std::map<Ticket, Result> results_;
     Reason refused_for_ = Reason::none;
     std::string stream_fault_;

@@ -86,11 +86,11 @@ private:
     bool read() {
         FlightReader inputs(recording_.inputs);
         while (const auto r = inputs.next()) {
-            if (r->kind == FlightKind::heard || r->kind == FlightKind::send_refused) {
+            if (r->kind == FlightKind::last_received || r->kind == FlightKind::send_refused) {
                 const auto n = unpack<std::int64_t>(r->payload);
                 if (!n) return broken(*r);
-                if (r->kind == FlightKind::heard)
-                    heard_.push_back(*n);
+                if (r->kind == FlightKind::last_received)
+                    received_.push_back(*n);
                 else
                     cables_[r->index].refused.insert(static_cast<std::uint64_t>(*n));
             } else if (const bool within = of_a_line(r->kind) && (r->index & flight_within) != 0; within && !inputs_.empty()) {
@@ -196,9 +196,9 @@ private:
     void on_sample(const Sample&) override {}
     void on_store(StoreOrder) override {}
     void on_twin_memory(const std::string&, NonVolatile) override {}
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient&) const override {
-        if (next_heard_ >= heard_.size()) return std::nullopt;
-        const std::int64_t at = heard_[next_heard_++];
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient&) const override {
+        if (next_received_ >= received_.size()) return std::nullopt;
+        const std::int64_t at = received_[next_received_++];
         return at < 0 ? std::nullopt : std::optional(at_ns(at));
     }
 
@@ -225,8 +225,8 @@ private:
     Image image_;
     Cables cables_;
     std::vector<FlightRecord> inputs_;
-    std::vector<std::int64_t> heard_;
-    mutable std::size_t next_heard_ = 0;
+    std::vector<std::int64_t> received_;
+    mutable std::size_t next_received_ = 0;
     std::map<std::uint32_t, Stream> streams_;
     std::uint64_t outcomes_ = 0;
     std::size_t current_ = 0;

@@ -26,14 +26,14 @@ void Routing::received(Side& side, const Frame& frame) {
     machine_.now = std::max(machine_.now, frame.at);
     side.unit.log->record(frame, false, side.twin);
     if (FlightTap* tap = publisher_.tap()) tap->frame(side.unit.id, frame, false, side.twin);
-    bool heard = false;
+    bool was_taken = false;
     for (std::size_t i = 0; i < side.speakers.size(); ++i) {
         Speaker& s = *side.speakers[i];
-        if (!s.hears(frame)) continue;
-        heard = true;
+        if (!s.receives(frame)) continue;
+        was_taken = true;
         ask(s, machine_.now, [&](Out& out) { s.adapter->on_frame(frame, machine_.now, out); });
     }
-    if (!heard) {
+    if (!was_taken) {
         ++side.unclaimed;
         side.touched();
     }
@@ -81,7 +81,7 @@ void Routing::drain(Speaker& by, Out& out, Instant now) {
         Axis* a = machine_.axis(s.axis);
         if (!a || a->drive->serving != mine) continue;
         s.source = a->source;
-        a->said[s.point] = s.value;
+        a->reported[s.point] = s.value;
         publisher_.sample(s, now);
     }
     for (const auto& n : out.notices) {

@@ -37,13 +37,13 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
     scan->ends_at = now + wish.limit;
     wish.kind = unit->kind;
     for (const FamilyEntry& family : families) {
-        auto& told = scan->report.parts.emplace_back();
-        told.family = family.family->name;
+        auto& row = scan->report.parts.emplace_back();
+        row.family = family.family->name;
         if (!family.family->scan) {
-            told.text = fmt::format("{} cannot be searched for: it has no question that every drive answers", told.family);
+            row.text = fmt::format("{} cannot be searched for: it has no question that every drive answers", row.family);
             continue;
         }
-        wish.family = told.family;
+        wish.family = row.family;
         wish.known.clear();
         for (const DriveId d : unit->drives) {
             const Drive& drive = *machine_.drives[index_of(d)];
@@ -51,7 +51,7 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
         }
         ScanPlan plan = family.family->scan(wish);
         if (!plan.fault.empty()) {
-            told.text = std::move(plan.fault);
+            row.text = std::move(plan.fault);
             continue;
         }
         auto& part = scan->parts.emplace_back();
@@ -62,13 +62,13 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
             if (std::ranges::find(wish.known, a) == wish.known.end()) part.waiting.push_back(std::move(a));
         }
         std::ranges::reverse(part.waiting);  // taken from the back
-        told.of = part.waiting.size();
+        row.of = part.waiting.size();
         if (!side) {  // a line of twins alone that has none
             part.waiting.clear();
-            told.asked = told.of;
+            row.asked = row.of;
         }
-        scan->report.of += told.of;
-        scan->report.asked += told.asked;
+        scan->report.of += row.of;
+        scan->report.asked += row.asked;
     }
     if (scan->parts.empty()) return scan->report.parts.front().text;
     if (side && !side->up) return fmt::format("line {} is down: {}", unit->spec.name, side->why);

@@ -69,7 +69,7 @@ LineSetup Speakers::setup_for(const Speaker& speaker) const {
 void Speakers::configure(Speaker& speaker, Instant now) {
     const LineSetup setup = setup_for(speaker);
     const auto identifiers = speaker.side.unit.kind == LineKind::can ? speaker.family.family->can_identifiers : nullptr;
-    speaker.hears_all = identifiers == nullptr;
+    speaker.receives_all = identifiers == nullptr;
     if (identifiers) {
         std::vector<std::string> addresses;
         for (const auto& d : setup.drives)

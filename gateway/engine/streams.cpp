@@ -24,7 +24,7 @@ std::int16_t stream_mode(const Catalogue& catalogue, SetPoint::Mode kind) {
         if (m != cia402::mode_none && catalogue.offers_mode(m)) return m;
     return cia402::mode_none;
 }
-constexpr Duration refusal_told_again = std::chrono::seconds(1);
+constexpr Duration refusal_published_again = std::chrono::seconds(1);
 }  // namespace
 
 std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
@@ -36,7 +36,7 @@ std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
     const auto who = AuthorityClient::of(p.origin);
     auto no = against(*a, p, who, now);
     if (!s.on && s.ended_by == who) {
-        s.ended_heard = now;
+        s.ended_received = now;
         if (no && no->reason != s.ended_for) {  // a later refusal counts like an end
             s.ended_for = no->reason;
             s.ended_why = no->text;
@@ -44,10 +44,10 @@ std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
     }
     if (no) {
         ++s.refused;
-        s.untold = std::exchange(s.refusal, no->reason) != no->reason || s.untold;
-        if (s.untold && now >= s.tell_again_at) {
-            s.untold = false;
-            s.tell_again_at = now + refusal_told_again;
+        s.unpublished = std::exchange(s.refusal, no->reason) != no->reason || s.unpublished;
+        if (s.unpublished && now >= s.tell_again_at) {
+            s.unpublished = false;
+            s.tell_again_at = now + refusal_published_again;
             tell(*a, p.origin, Severity::warning, fmt::format("a set-point of {} is refused: {}", who.text(), no->text), now);
         }
         publisher_.publish(*a, now);
@@ -59,7 +59,7 @@ std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
     s.renewed = now;
     s.value = p.value;
     s.refusal = Reason::none;
-    s.untold = false;
+    s.unpublished = false;
     ++s.taken;
     a->profile.follow(p, stream_mode(*a->drive->catalogue, p.mode));
     if (p.mode == SetPoint::Mode::velocity) {  // watched at the limits of position like any velocity move
@@ -92,7 +92,7 @@ std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const 
     }
     // Whatever ended a stream holds: who does not notice, and goes on, must not begin another one with its next cycle.
     const Duration pause = std::max(p.good_for, s.good_for);
-    if (!s.on && s.ended_by == who && now - s.ended_heard <= pause)
+    if (!s.on && s.ended_by == who && now - s.ended_received <= pause)
         return Refusal{s.ended_for, fmt::format("the stream is over ({}); send nothing for {} ms before a new one", s.ended_why,
                                                 milliseconds_of(pause))};
     if (stream_mode(*a.drive->catalogue, p.mode) == cia402::mode_none) {
@@ -155,7 +155,7 @@ void Streams::end(Axis& a, Reason reason, const std::string& why, Instant now) {
     s.on = false;
     s.refusal = s.ended_for = reason;
     s.ended_by = s.who;
-    s.ended_heard = now;
+    s.ended_received = now;
     s.ended_why = why;
     a.profile.end_following();
     a.run.velocity = 0;

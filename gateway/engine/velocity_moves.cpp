@@ -70,11 +70,11 @@ void VelocityMoves::check_run(Axis& a, Instant now) {
     const bool up = velocity > 0;
     const auto& limit = up ? a.limits.position_max : a.limits.position_min;
     if (!limit) return;
-    const double rate = static_cast<double>(a.run.deceleration), told = std::fabs(static_cast<double>(velocity));
+    const double rate = static_cast<double>(a.run.deceleration), reported = std::fabs(static_cast<double>(velocity));
     // While it gains speed it is faster by the time the halt arrives, but never than it was told to go.
-    const double gained = told + 2 * a.run.round_s * static_cast<double>(a.run.acceleration);
+    const double gained = reported + 2 * a.run.round_s * static_cast<double>(a.run.acceleration);
     const double speed =
-        (a.run.velocity > 0) == up ? std::max(told, std::min(gained, std::fabs(static_cast<double>(a.run.velocity)))) : told;
+        (a.run.velocity > 0) == up ? std::max(reported, std::min(gained, std::fabs(static_cast<double>(a.run.velocity)))) : reported;
     const double needed = 2 * speed * a.run.round_s + (rate > 0 ? speed * speed / (2 * rate) : 0);
     const double left = static_cast<double>(up ? *limit - f.position : f.position - *limit);
     if (left > needed) return;

@@ -19,7 +19,7 @@ void RealLine::open(LineEvents& events, Instant) {
     events_ = &events;
     opened_ = std::make_shared<char>();
     attempt_ = std::make_shared<char>();
-    told_ = ever_up_ = false;
+    published_ = ever_up_ = false;
     pause_.reset();
     status_.state = State::opening;
     text_ = "opening";
@@ -68,7 +68,7 @@ void RealLine::drop_stale(Instant now) {
 }
 
 void RealLine::count_received(std::size_t frames, std::size_t bytes) noexcept {
-    heard_ = true;
+    received_ = true;
     status_.frames_in += frames;
     status_.bytes_in += bytes;
 }
@@ -93,7 +93,7 @@ void RealLine::try_now() {
 bool RealLine::came_up(std::string text) {
     status_.reopened += ever_up_ ? 1 : 0;
     ever_up_ = true;
-    heard_ = false;
+    received_ = false;
     up_since_ = base_.clock.now();
     return tell_state(State::up, true, std::move(text));
 }
@@ -105,9 +105,9 @@ void RealLine::went_down(std::string why) {
     flush_posted_ = false;
     stop();
     drop_all();
-    if (was_up && (heard_ || base_.clock.now() - up_since_ >= up_for_good_after)) pause_.reset();
+    if (was_up && (received_ || base_.clock.now() - up_since_ >= up_for_good_after)) pause_.reset();
     retry_after(pause_.take());
-    if (was_up || was_bus_off || !told_) {
+    if (was_up || was_bus_off || !published_) {
         (void)tell_state(State::down, false, std::move(why));
         return;
     }
@@ -117,7 +117,7 @@ void RealLine::went_down(std::string why) {
 
 bool RealLine::tell_state(State state, bool up, std::string text) {
     const std::weak_ptr<char> alive = attempt_;
-    told_ = true;
+    published_ = true;
     status_.state = state;
     text_ = text;
     events_->on_line_state(up, text);

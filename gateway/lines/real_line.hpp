@@ -115,9 +115,9 @@ private:
     std::shared_ptr<char> opened_;   // from open() to close()
     std::shared_ptr<char> attempt_;  // from one attempt to the next
     bool flush_posted_ = false;
-    bool told_ = false;  // the owner has heard a state since open()
+    bool published_ = false;  // the owner has heard a state since open()
     bool ever_up_ = false;
-    bool heard_ = false;  // something came in since the line came up
+    bool received_ = false;  // something came in since the line came up
     Instant up_since_{};
 };
 

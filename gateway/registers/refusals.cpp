@@ -44,7 +44,7 @@ RefusalLog::Client& RefusalLog::client_of(std::string_view host, Instant now) {
     auto it = std::ranges::find(clients_, host, &Client::host);
     if (it == clients_.end()) {
         if (clients_.size() >= most_clients) {
-            it = std::ranges::min_element(clients_, {}, &Client::heard);
+            it = std::ranges::min_element(clients_, {}, &Client::received);
             end_row(*it, now);
             *it = {};
         } else {
@@ -52,18 +52,18 @@ RefusalLog::Client& RefusalLog::client_of(std::string_view host, Instant now) {
         }
         it->host = host;
     }
-    it->heard = now;
+    it->received = now;
     return *it;
 }
 
 void RefusalLog::tell(Client& c, std::string words, Instant now) {
     // The client's own bucket first: one that is over its rate does not use up what the others may tell.
-    if (!c.told.take(client_burst, client_rate, now) || !all_.take(all_burst, all_rate, now)) {
-        ++c.untold;
+    if (!c.published.take(client_burst, client_rate, now) || !all_.take(all_burst, all_rate, now)) {
+        ++c.unpublished;
         return;
     }
-    if (c.untold > 0) words += fmt::format("; {} more refusals of {} were not told one by one", c.untold, c.host);
-    c.untold = 0;
+    if (c.unpublished > 0) words += fmt::format("; {} more refusals of {} were not told one by one", c.unpublished, c.host);
+    c.unpublished = 0;
     Event e = c.event;
     e.text += words;
     tell_(std::move(e), c.axis);
@@ -72,10 +72,10 @@ void RefusalLog::tell(Client& c, std::string words, Instant now) {
 void RefusalLog::end_row(Client& c, Instant now) {
     if (c.again == 0) return;
     const auto n = std::exchange(c.again, 0);
-    const auto before = c.untold;
+    const auto before = c.unpublished;
     tell(c, fmt::format(": {} more", times(n)), now);
-    if (c.untold > before) c.untold += n - 1;
-    c.row_told = now;
+    if (c.unpublished > before) c.unpublished += n - 1;
+    c.row_published = now;
 }
 
 void RefusalLog::add(std::string_view who, Refused r, const RequestNote& note, std::string_view answer, Instant now) {
@@ -90,19 +90,19 @@ void RefusalLog::add(std::string_view who, Refused r, const RequestNote& note, s
     e.text = fmt::format("{} ({}: {})", r.text, text_of(note), answer.empty() ? "the parameter channel shows it" : answer);
     if (c.axis == r.axis && same_row(c.event, e)) {
         ++c.again;
-        if (now - c.row_told >= row_period) end_row(c, now);
+        if (now - c.row_published >= row_period) end_row(c, now);
         return;
     }
     end_row(c, now);
     c.event = std::move(e);
     c.axis = r.axis;
-    c.row_told = now;
+    c.row_published = now;
     tell(c, {}, now);
 }
 
 void RefusalLog::flush(Instant now) {
     for (auto& c : clients_) {
-        if (c.again > 0 && now - c.row_told >= row_period) end_row(c, now);
+        if (c.again > 0 && now - c.row_published >= row_period) end_row(c, now);
     }
 }
 

@@ -59,13 +59,13 @@ private:
     };
     struct Client {
         std::string host;
-        Bucket told;
+        Bucket published;
         Event event;  ///< of the present row, with its own words
         AxisId axis = no_axis;
-        std::uint64_t again = 0;   ///< further ones of the row that were not told
-        std::uint64_t untold = 0;  ///< others that the rate kept back
-        Instant row_told{};
-        Instant heard{};
+        std::uint64_t again = 0;        ///< further ones of the row that were not told
+        std::uint64_t unpublished = 0;  ///< others that the rate kept back
+        Instant row_published{};
+        Instant received{};
     };
     Client& client_of(std::string_view host, Instant now);
     void tell(Client& c, std::string words, Instant now);

@@ -80,7 +80,7 @@ struct PlannedCommand {
     /// false: the client's answer waits for the Result. true: the map itself takes it, by on_own_result(note, result).
     bool own = false;
     std::uint32_t note = 0;
-    bool told = false;        ///< without `own`: the map hears of the result as well, before the client does
+    bool reported = false;    ///< without `own`: the map hears of the result as well, before the client does
     bool until_done = false;  ///< the result comes when it is done, however long that takes (a day at most)
 };
 /// Commands of one request, in the order in which they are given to the engine; at most `max_commands`.

@@ -38,7 +38,7 @@ RegisterWriter::Begun RegisterWriter::give(const Client& client, std::uint8_t sl
         refused.outcome = Outcome::refused;
         refused.reason = Reason::busy;
         for (const auto& c : plan.commands) {
-            if (c.own || c.told) map.on_own_result(c.note, refused);
+            if (c.own || c.reported) map.on_own_result(c.note, refused);
         }
         return {Verdict::busy, 0};
     }
@@ -47,7 +47,7 @@ RegisterWriter::Begun RegisterWriter::give(const Client& client, std::uint8_t sl
     for (auto& c : plan.commands) {
         TicketTable::Waiting waiting;
         waiting.axis = c.axis;
-        if (c.own || c.told) {
+        if (c.own || c.reported) {
             waiting.map = &map;
             waiting.note = c.note;
             waiting.own = c.own;

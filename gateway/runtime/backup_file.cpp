@@ -193,9 +193,9 @@ private:
         const auto h = head();
         if (!h) return tl::unexpected(h.error());
         if (h->name != sums_member || h->bytes > most_contents) return damaged("its checksums are missing");
-        const auto said = text(h->bytes);
-        if (!said) return tl::unexpected(said.error());
-        std::string_view rest = *said;
+        const auto reported = text(h->bytes);
+        if (!reported) return tl::unexpected(reported.error());
+        std::string_view rest = *reported;
         for (const auto& [name, line] : sums_) {
             if (!rest.starts_with(line)) return damaged(fmt::format("{} in it is not what its checksum says", name));
             rest.remove_prefix(line.size());

@@ -117,8 +117,8 @@ void Hot::announce() {
     if (out_.results) out_.results->announce();
     if (out_.samples) out_.samples->announce();
     if (out_.cold) out_.cold->announce();
-    if (out_.changed && image_.changes() != changes_told_ && change_wanted_.exchange(false, std::memory_order_acq_rel)) {
-        changes_told_ = image_.changes();
+    if (out_.changed && image_.changes() != changes_published_ && change_wanted_.exchange(false, std::memory_order_acq_rel)) {
+        changes_published_ = image_.changes();
         out_.changed();
     }
 }
@@ -192,10 +192,10 @@ void Hot::publish_site(const SiteState& site) {
     }
 }
 
-std::optional<Instant> Hot::heard(const AuthorityClient& who) const {
+std::optional<Instant> Hot::last_received(const AuthorityClient& who) const {
     std::optional<Instant> newest;
     for (const HotDoor* door : doors_) {
-        const auto at = door ? door->heard(who) : std::nullopt;
+        const auto at = door ? door->last_received(who) : std::nullopt;
         if (at && (!newest || *at > *newest)) newest = at;
     }
     return newest;

@@ -107,7 +107,7 @@ public:
     // EngineHost (hot thread)
     std::unique_ptr<Line> make_line(const LineSpec& spec, const LineSetup& setup) override;
     void on_result(const Result& result) override { results_.push_back(result); }
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& who) const override;
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& who) const override;
     void on_event(Event event, Instant at) override;
     void on_sample(const Sample& sample) override;
     void on_store(StoreOrder order) override;
@@ -154,7 +154,7 @@ private:
     bool settled_ = false;
     int turns_unannounced_ = 0;
     std::atomic<bool> change_wanted_{false};
-    std::uint64_t changes_told_ = 0;
+    std::uint64_t changes_published_ = 0;
     std::thread thread_;
 };
 

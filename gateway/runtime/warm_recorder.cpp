@@ -364,11 +364,11 @@ void WarmRecorder::on_event(const Event& e) {
         const std::time_t s = unix_now_ns() / 1'000'000'000;
         freeze_this(fmt::format("alarm-{:%Y%m%d-%H%M%S}", fmt::gmtime(s)), std::move(why), "", true,
                     [this](const RecordingFault& fault, const RecordingInfo& info) {
-                        Event told;
-                        told.kind = "recording";
-                        told.severity = fault.text.empty() ? Severity::info : Severity::warning;
-                        told.text = fault.text.empty() ? fmt::format("recording {} was made: {}", info.name, info.why) : fault.text;
-                        events_.note(std::move(told));
+                        Event published;
+                        published.kind = "recording";
+                        published.severity = fault.text.empty() ? Severity::info : Severity::warning;
+                        published.text = fault.text.empty() ? fmt::format("recording {} was made: {}", info.name, info.why) : fault.text;
+                        events_.note(std::move(published));
                     });
     });
 }

@@ -14,8 +14,8 @@ FrameDecoder::FrameDecoder(const Families& families, const Site& site, std::stri
         if (!entry.family || !entry.catalogue || !entry.family->make_decoder) continue;
         Reader& reader = readers_.emplace_back();
         reader.family = entry;
-        reader.hears_all = entry.family->can_identifiers == nullptr;
-        if (reader.hears_all) continue;
+        reader.receives_all = entry.family->can_identifiers == nullptr;
+        if (reader.receives_all) continue;
         std::vector<std::string> addresses;
         for (const auto& d : site.drives) {
             if (d.line == spec->name && site.family_of(d) == name) addresses.push_back(d.address);
@@ -42,9 +42,9 @@ std::vector<std::string> FrameDecoder::read(const TraceEntry& e) {
         }
     };
     for (auto& reader : readers_) {
-        if (reader.hears_all || any_holds(reader.identifiers, e.frame)) add(reader, false);
+        if (reader.receives_all || any_holds(reader.identifiers, e.frame)) add(reader, false);
     }
-    if (!out.empty() || std::ranges::any_of(readers_, [&](const Reader& r) { return r.hears_all || any_holds(r.identifiers, e.frame); }))
+    if (!out.empty() || std::ranges::any_of(readers_, [&](const Reader& r) { return r.receives_all || any_holds(r.identifiers, e.frame); }))
         return out;
     for (auto& reader : readers_)
         add(reader, true);

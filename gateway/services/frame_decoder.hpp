@@ -26,7 +26,7 @@ public:
 private:
     struct Reader {
         FamilyEntry family;
-        bool hears_all = true;
+        bool receives_all = true;
         std::vector<CanIdentifiers> identifiers{};
         std::array<std::unique_ptr<Decoder>, 4> decoders{};  ///< cable and twin bus, CAN and bytes; made when they are needed
     };

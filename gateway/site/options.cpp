@@ -100,10 +100,10 @@ std::vector<OptionFault> check_options(const Site& site, const Families& familie
             // The gateway's own, of any line with twins: a byte bus of a family that has CAN too, and separate wires for each direction.
             if (name == "kind" || name == "full_duplex") continue;
             // Each family that knows it must take it; where none does, the first one says what it has.
-            const auto told = [&](const Catalogue& c) { return find(c, {OptionOf::line, OptionOf::twin}, name) != nullptr; };
-            const bool known = std::ranges::any_of(catalogues, [&](const Catalogue* c) { return told(*c); });
+            const auto named = [&](const Catalogue& c) { return find(c, {OptionOf::line, OptionOf::twin}, name) != nullptr; };
+            const bool known = std::ranges::any_of(catalogues, [&](const Catalogue* c) { return named(*c); });
             for (const Catalogue* c : catalogues) {
-                if (known && !told(*c)) continue;
+                if (known && !named(*c)) continue;
                 if (auto wrong = check_option(*c, {OptionOf::line, OptionOf::twin}, name, value); !wrong.empty()) {
                     out.push_back(
                         {l.name, "", fmt::format("line {}: option {}", l.name, wrong), find(*c, {OptionOf::line}, name) != nullptr});

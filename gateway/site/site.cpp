@@ -195,7 +195,7 @@ json::object to_json(const Site& site) {
 }
 
 namespace {
-constexpr std::size_t most_mappings_told = 50;  // in one event
+constexpr std::size_t most_mappings_published = 50;  // in one event
 
 /// A value for people: JSON's own writer has 2.5 as 2.5E0.
 std::string shown(const json::value& v) { return v.is_double() ? fmt::format("{}", v.get_double()) : json::serialize(v); }
@@ -242,11 +242,11 @@ void compare_mappings(const json::array& from, const json::array& to, std::vecto
     for (const auto& [id, y] : after) {
         if (!before.contains(id)) out.push_back(fmt::format("mapping {}: added", mapping_text(*y)));
     }
-    const std::size_t told = out.size() - had;
-    if (told == 0) out.push_back("mappings: put into another order");
-    if (told > most_mappings_told) {
-        out.resize(had + most_mappings_told);
-        out.push_back(fmt::format("and {} more changes of mappings", told - most_mappings_told));
+    const std::size_t listed = out.size() - had;
+    if (listed == 0) out.push_back("mappings: put into another order");
+    if (listed > most_mappings_published) {
+        out.resize(had + most_mappings_published);
+        out.push_back(fmt::format("and {} more changes of mappings", listed - most_mappings_published));
     }
 }
 }  // namespace

@@ -104,7 +104,7 @@ void FaultLine::close() {
     inner_->close();
     events_ = nullptr;
     tell_at_ = heal_at_ = never;
-    inner_up_ = told_up_ = false;
+    inner_up_ = published_up_ = false;
     drop_late();
 }
 
@@ -156,8 +156,8 @@ void FaultLine::on_deadline(Instant now) {
 
 void FaultLine::tell() {
     const bool up = inner_up_ && !cut_;
-    if (up == told_up_ && !cut_) return;
-    told_up_ = up;
+    if (up == published_up_ && !cut_) return;
+    published_up_ = up;
     events_->on_line_state(up, cut_ ? cut_why_ : inner_why_);
 }
 
@@ -165,7 +165,7 @@ void FaultLine::on_line_state(bool up, const std::string& why) {
     inner_up_ = up;
     inner_why_ = why;
     if (cut_ || events_ == nullptr) return;
-    told_up_ = up;
+    published_up_ = up;
     events_->on_line_state(up, why);
 }
 

@@ -108,7 +108,7 @@ private:
     Instant heal_at_ = never;  // the end of bus-off
     bool inner_up_ = false;
     bool cut_ = false;
-    bool told_up_ = false;
+    bool published_up_ = false;
     std::string inner_why_ = "not opened yet";
     std::string cut_why_;
     std::uint64_t refused_ = 0;  // frames that send() did not take because the line is cut or too many are late

@@ -106,7 +106,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
 void TwinBus::take(Number number, Instant t, Duration at_least) {
     due_known_ = false;
     Node& node = *nodes_[number];
-    const bool said = !scratch_.frames.empty();
+    const bool reported = !scratch_.frames.empty();
     for (const auto& tx : scratch_.frames) {
         if ((tx.frame.kind == Frame::Kind::can) != (options_.kind == LineKind::can) || tx.frame.kind == Frame::Kind::can_error) {
             ++counters_.foreign;
@@ -115,7 +115,7 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
         }
     }
     scratch_.clear();
-    if (said) note_sender(number);
+    if (reported) note_sender(number);
     if (options_.kind == LineKind::can) {
         if (const Acceptance now = node.twin->acceptance(); now != ears_[node.ear].acceptance) {
             ears_[node.ear].acceptance = now;
@@ -419,7 +419,7 @@ void TwinBus::give_run(Transmission& x) {
 }
 
 /// A change of a twin's own filters while a frame is delivered concerns later frames.
-std::span<const TwinBus::Number> TwinBus::who_hears(std::uint32_t id) {
+std::span<const TwinBus::Number> TwinBus::who_receives(std::uint32_t id) {
     Hearers& h = hearers_[(id * 2654435761u) >> 24];
     if (h.filters == filters_ && h.id == id) return std::span(h.numbers).first(h.count);
     hearing_.clear();
@@ -436,7 +436,7 @@ std::span<const TwinBus::Number> TwinBus::who_hears(std::uint32_t id) {
 }
 
 void TwinBus::deliver_to_twins(Instant t) {
-    for (const Number number : who_hears(done_.frame.id)) {  // twins cannot reach the bus, so the list stays as it is
+    for (const Number number : who_receives(done_.frame.id)) {  // twins cannot reach the bus, so the list stays as it is
         if (number == done_.sender) continue;
         nodes_[number]->twin->on_frame(done_.frame, t, scratch_);
         take(number, t);

@@ -128,7 +128,7 @@ private:
     void garble_overlap(Transmission& a, Transmission& b) noexcept;
     void finish_one();
     void deliver_to_twins(Instant t);
-    [[nodiscard]] std::span<const Number> who_hears(std::uint32_t id);
+    [[nodiscard]] std::span<const Number> who_receives(std::uint32_t id);
     void take(Number number, Instant t, Duration at_least = Duration::zero());
     void place(Number number, Instant due);
     void sift_up(std::size_t i) noexcept;

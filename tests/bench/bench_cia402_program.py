@@ -26,7 +26,7 @@ LOG_FRAMES = 250000  # more than a run's
 def site(axes, lines, poll_period_ms):
     per_line = (axes + lines - 1) // lines
     names = [f"a{i + 1}" for i in range(axes)]
-    return {"lines": [{"name": f"can{i}", "uri": "twin", "family": "cia402", "bitrate": 1000000, "manners": {"poll_period_ms": poll_period_ms}} for i in range(lines)],
+    return {"lines": [{"name": f"can{i}", "uri": "twin", "family": "cia402", "bitrate": 1000000, "timing": {"poll_period_ms": poll_period_ms}} for i in range(lines)],
             "drives": [{"name": n, "line": f"can{i // per_line}", "address": 1 + i % per_line} for i, n in enumerate(names)],
             "axes": [{"name": n, "drive": n, "number": i + 1, "unit": "mm", "increments_per_unit": 100} for i, n in enumerate(names)], "mappings": []}
 

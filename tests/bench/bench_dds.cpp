@@ -255,7 +255,7 @@ Distribution frames_to_samples(const std::string& program_path, int count) {
             (void)here.bus.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) { came = s.position == position ? now : came; });
             (void)drive.pump(everything);
         }
-        if (came != 0 && drive.told() > 1 && found) d.us.push_back(static_cast<double>(came - drive.told()) * 1e-3);
+        if (came != 0 && drive.published() > 1 && found) d.us.push_back(static_cast<double>(came - drive.published()) * 1e-3);
         found = found || came != 0;
         // States of one axis are at least a turn apart: what is measured is the way, and not the waiting for it.
         const std::int64_t next = clock_ns() + 45'000'000;
@@ -300,12 +300,14 @@ int run(const std::string& program) {
             (void)!::write(out, &share, sizeof share);
             ::pause();
         });
-        const double told = other.figure(60'000), heard = listener.figure(60'000);
+        const double published = other.figure(60'000), received = listener.figure(60'000);
         std::printf("256 axes of one gateway, all of which change 50 times a second; shares of one core\n");
-        kept = say("to tell of them", told / cpu_limit_percent, "<=", 1.0, "axisgate", told, "limit", cpu_limit_percent, "%") && kept;
-        kept = say("to hear of them", heard / cpu_limit_percent, "<=", 1.0, "axisgate", heard, "limit", cpu_limit_percent, "%") && kept;
-        std::printf("    %-34s %.2f us told, %.2f us heard (no limit)\n", "a sample", told * 1e4 / (axes * rate_hz),
-                    heard * 1e4 / (axes * rate_hz));
+        kept = say("to tell of them", published / cpu_limit_percent, "<=", 1.0, "axisgate", published, "limit", cpu_limit_percent, "%") &&
+               kept;
+        kept =
+            say("to hear of them", received / cpu_limit_percent, "<=", 1.0, "axisgate", received, "limit", cpu_limit_percent, "%") && kept;
+        std::printf("    %-34s %.2f us told, %.2f us heard (no limit)\n", "a sample", published * 1e4 / (axes * rate_hz),
+                    received * 1e4 / (axes * rate_hz));
     }
     {
         constexpr int members = 12, plant = 50;

@@ -94,7 +94,7 @@ public:
             while (!stop_ && crowd.good())
                 crowd.run(0.1);
             for (const auto& c : crowd.clients())
-                told_ += c.axes + c.others;
+                published_ += c.axes + c.others;
             if (!crowd.good()) fault_ = "a stream was refused or closed";
         });
         begin([this] {
@@ -132,7 +132,7 @@ public:
         end();
         if (const char* f = fault_.load()) give_up(f);
         std::printf("    %-34s %.0f REST requests/s, %.0f parameters written/s, %.0f stream messages/s, %.1f traces/s\n", "meanwhile",
-                    static_cast<double>(asked_) / took, static_cast<double>(written_) / took, static_cast<double>(told_) / took,
+                    static_cast<double>(asked_) / took, static_cast<double>(written_) / took, static_cast<double>(published_) / took,
                     static_cast<double>(traces_) / took);
     }
 
@@ -163,7 +163,7 @@ private:
     double begun_s_ = 0;
     std::atomic<bool> stop_{false};
     std::atomic<const char*> fault_{nullptr};
-    std::atomic<std::uint64_t> asked_{0}, written_{0}, told_{0}, traces_{0};
+    std::atomic<std::uint64_t> asked_{0}, written_{0}, published_{0}, traces_{0};
     std::vector<std::thread> threads_;
 };
 

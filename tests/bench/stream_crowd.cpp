@@ -68,8 +68,8 @@ bool take(Client& c) {
     if (n < 0 && errno == EAGAIN) return true;
     if (n <= 0) return false;
     const double now = now_s();
-    c.gap_s = std::max(c.gap_s, now - c.heard_s);
-    c.heard_s = now;
+    c.gap_s = std::max(c.gap_s, now - c.received_s);
+    c.received_s = now;
     c.bytes += static_cast<std::size_t>(n);
     c.in.append(part.data(), static_cast<std::size_t>(n));
     std::size_t at = 0;
@@ -138,7 +138,7 @@ void Crowd::forget() {
     for (auto& c : clients_) {
         c.axes = c.others = c.bytes = 0;
         c.gap_s = 0;
-        c.heard_s = now_s();
+        c.received_s = now_s();
     }
 }
 

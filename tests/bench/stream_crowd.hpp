@@ -20,7 +20,7 @@ public:
         int fd = -1;
         std::string in;
         std::size_t axes = 0, others = 0, bytes = 0;
-        double heard_s = 0, gap_s = 0;
+        double received_s = 0, gap_s = 0;
     };
     /// All topics that the page watches, or the axes alone.
     enum class Watches { page, axes };

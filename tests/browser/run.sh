@@ -1,15 +1,15 @@
 #!/bin/sh
-# Browser tests: the page of the real program in Debian's Chromium.
-# In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium), AXISGATE_BROWSER_PROCESSES (default 3).
+# Browser tests: the page of the real program in Debian's Chromium without a window.
+# In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium-headless-shell), AXISGATE_BROWSER_PROCESSES (default 3).
 # AXISGATE_PICTURES=1: each part in each language at three widths, light and dark. Out: counts, pictures under build/browser.
 # Arguments are test files; without any, all of them run.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 bin=${AXISGATE_BIN:-$root/build/release/axisgate}
-chromium=${CHROMIUM:-/usr/bin/chromium}
+chromium=${CHROMIUM:-/usr/bin/chromium-headless-shell}
 [ -x "$bin" ] || { echo "browser: there is no program $bin; build it, or name it by AXISGATE_BIN" >&2; exit 2; }
-[ -x "$chromium" ] || { echo "browser: there is no $chromium; apt-get install chromium, or name another by CHROMIUM" >&2; exit 2; }
+[ -x "$chromium" ] || { echo "browser: there is no $chromium; apt-get install chromium-headless-shell, or name another by CHROMIUM" >&2; exit 2; }
 case "$bin" in /*) ;; *) bin="$PWD/$bin" ;; esac
 cd "$here"
 # Installed anew only when the lock file is newer than what is there.

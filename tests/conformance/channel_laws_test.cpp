@@ -61,7 +61,7 @@ TEST_P(ChannelLaws, AStopOfOneLeavesTheOthersAlone) {
         ASSERT_FALSE(HasFatalFailure());
         const auto asked = w.now;
         const Result* r = ask(one, stop);
-        ASSERT_TRUE(r && good(*r)) << by << ": " << told(r);
+        ASSERT_TRUE(r && good(*r)) << by << ": " << published(r);
         EXPECT_LT(w.now - asked, 5s) << by;
         if (std::holds_alternative<Disable>(stop)) {  // its power is away, and so what brakes it
             EXPECT_FALSE(mechanics(one).powered) << by;
@@ -98,7 +98,7 @@ TEST_P(ChannelLaws, StopsOfAllStopAllAndEachIsAnswered) {
             << "an axis goes on " << seconds(w.now - asked) << " s after its stop";
         for (const Ticket t : stops) {
             const Result* r = w.wait(t, 60s);
-            EXPECT_TRUE(r && good(*r)) << told(r);
+            EXPECT_TRUE(r && good(*r)) << published(r);
         }
         w.run_for(1s);
         for (const Ticket t : stops)
@@ -169,7 +169,7 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
             EXPECT_FALSE(r->text.empty());
             able = false;
         } else {
-            ASSERT_TRUE(good(*r)) << told(r);
+            ASSERT_TRUE(good(*r)) << published(r);
         }
     }
     EXPECT_EQ(able, fact("prepared_moves"));
@@ -185,7 +185,7 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
         w.run_for(2s);
         return rest(before, {});
     }
-    ASSERT_TRUE(good(*r)) << told(r);
+    ASSERT_TRUE(good(*r)) << published(r);
     EXPECT_EQ(r->outcome, Outcome::done);
     w.run_for(500ms);
     for (const AxisId axis : all) {
@@ -196,7 +196,7 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
     ASSERT_TRUE(r);
     w.run_for(2s);
     for (const AxisId axis : all)
-        EXPECT_EQ(now(axis).position, 3000) << told(r);
+        EXPECT_EQ(now(axis).position, 3000) << published(r);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, ChannelLaws, testing::ValuesIn(law_subjects()), name_of_subject);

@@ -246,10 +246,10 @@ TEST_P(CommandLaws, AConnectedClientThatIsSilentDoesNotLeaveTheAxisTurning) {
     begin_with();
     enable(cia402::mode_profile_velocity);
     if (!turns(2000)) return;
-    world->heard_at = world->now;
+    world->received_at = world->now;
     for (int i = 0; i < 20; ++i) {
         world->run_for(500ms);
-        world->heard_at = world->now;
+        world->received_at = world->now;
     }
     ASSERT_TRUE(goes()) << "it asks, and so it is there";
     world->run_for(4900ms);

@@ -32,7 +32,7 @@ struct Script {
     AxisFeedback shows;
     bool online = true;
     Outcome answers = Outcome::done;  ///< to everything, at once
-    std::vector<Command> heard;
+    std::vector<Command> received;
     std::vector<Result> later;  ///< told with the next feedback
 };
 Script* script = nullptr;
@@ -46,7 +46,7 @@ public:
     }
     void on_line(bool up, Instant now, Out&) override { next_ = up ? now : never; }
     void on_command(const Command& command, Instant now, Out& out) override {
-        script->heard.push_back(command);
+        script->received.push_back(command);
         if (std::holds_alternative<Move>(command.body) && script->answers != Outcome::refused) {  // an adapter's law
             script->shows.target_reached = false;
             script->shows.at = now;
@@ -183,7 +183,7 @@ TEST_F(Done, WhatAnAdapterCallsDoneIsTheDrivesAcknowledgementUntilTheAxisShowsTh
         EXPECT_EQ(answer(t), "done");
         EXPECT_EQ(world->results[t].size(), 1u);
         if (!std::holds_alternative<Action>(c.body))
-            EXPECT_FALSE(now.heard.back().until_done) << "no adapter is asked to watch what the axis shows";
+            EXPECT_FALSE(now.received.back().until_done) << "no adapter is asked to watch what the axis shows";
     }
 }
 
@@ -235,12 +235,12 @@ TEST_F(Done, AFaultOrSilenceEndsTheWatchAsFailed) {
         start();
         c.before(now.shows);
         world->run_for(100ms);
-        const Ticket unheard = give(c.body);
+        const Ticket unreceived = give(c.body);
         c.meanwhile(now.shows);
         world->run_for(100ms);
         now.online = false;
         world->run_for(1s);
-        EXPECT_EQ(answer(unheard), "failed no_answer");
+        EXPECT_EQ(answer(unreceived), "failed no_answer");
     }
 }
 
@@ -256,10 +256,10 @@ TEST_F(Done, ReportedIsTheAdaptersToSay) {
     start();
     now.answers = Outcome::accepted;
     EXPECT_EQ(answer(give(action("program"), false)), "accepted");
-    EXPECT_FALSE(now.heard.back().until_done);
+    EXPECT_FALSE(now.received.back().until_done);
     now.answers = Outcome::done;
     EXPECT_EQ(answer(give(action("program"))), "done");
-    EXPECT_TRUE(now.heard.back().until_done) << "who is to tell the end must know that somebody waits for it";
+    EXPECT_TRUE(now.received.back().until_done) << "who is to tell the end must know that somebody waits for it";
 }
 
 TEST_F(Done, OnlineAgainIsSilenceAndThenAnAnswer) {

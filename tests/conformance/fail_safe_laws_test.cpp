@@ -40,13 +40,13 @@ protected:
         c.origin.who = std::make_shared<const std::string>("192.0.2.7:50000");
         const Ticket t = c.ticket;
         world->engine.on_command(std::move(c), world->now);
-        world->heard_at = world->now;
+        world->received_at = world->now;
         return world->wait(t, 5s);
     }
     /// By the PLC: a velocity move where the drive has one, else a long way. False: it has none and `endless` is wanted.
     [[nodiscard]] bool set_off(bool endless) {
         const Result* on = tell(Enable{});
-        EXPECT_TRUE(on && good(*on)) << told(on);
+        EXPECT_TRUE(on && good(*on)) << published(on);
         EXPECT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) == PowerState::operation_enabled; }, 5s));
         Move m = endless ? move_to(4000, Move::Kind::velocity) : move_to(400'000, Move::Kind::relative);
         const Result* r = tell(m);
@@ -54,7 +54,7 @@ protected:
             lacks_velocity(*r);
             return false;
         }
-        EXPECT_TRUE(r && good(*r)) << told(r);
+        EXPECT_TRUE(r && good(*r)) << published(r);
         EXPECT_TRUE(world->run_until_true([&] { return moving(a1); }, 5s));
         return true;
     }
@@ -62,7 +62,7 @@ protected:
     void lose(LossCause cause) {
         switch (cause) {
             case LossCause::modbus_silent:
-                world->heard_at = world->now;
+                world->received_at = world->now;
                 return world->run_for(watchdog + 100ms);
             case LossCause::lease_ended:
                 return world->run_for(lease + 100ms);
@@ -155,7 +155,7 @@ TEST_P(FailSafeLaws, AnEnabledAxisAtRestIsSwitchedOffWhereTheSiteSaysDisable) {
         SCOPED_TRACE(name_of(cause));
         begin_with(cause, FailSafeAction::disable);
         const Result* on = tell(Enable{});
-        ASSERT_TRUE(on && good(*on)) << told(on);
+        ASSERT_TRUE(on && good(*on)) << published(on);
         ASSERT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) == PowerState::operation_enabled; }, 5s));
         lose(cause);
         EXPECT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) == PowerState::switch_on_disabled; }, bound));
@@ -186,7 +186,7 @@ TEST_P(FailSafeLaws, ADriveThatHasAWatchdogHasItProgrammedAndStopsWhenItDoesNotH
     at_rest();
     ASSERT_EQ(world->engine.drive_status(d1).watchdog, watchdog) << "and it is armed again";
     const Result* on = tell(Enable{});
-    ASSERT_TRUE(on && good(*on)) << told(on);
+    ASSERT_TRUE(on && good(*on)) << published(on);
 }
 
 TEST_P(FailSafeLaws, ALeaseThatAnotherClientLetsExpireIsNothingToTheMotion) {
@@ -195,11 +195,11 @@ TEST_P(FailSafeLaws, ALeaseThatAnotherClientLetsExpireIsNothingToTheMotion) {
     HoldAxis give;
     give.kind = HoldAxis::Kind::release;
     const Result* r = tell(give);
-    ASSERT_TRUE(r && good(*r)) << told(r);
+    ASSERT_TRUE(r && good(*r)) << published(r);
     HoldAxis take;
     take.lease_s = 1;
     r = ask(a1, take);
-    ASSERT_TRUE(r && good(*r)) << told(r);
+    ASSERT_TRUE(r && good(*r)) << published(r);
     world->run_for(2s);
     EXPECT_EQ(now().fail_safe_cause, 0);
     EXPECT_TRUE(moving(a1));

@@ -48,7 +48,7 @@ protected:
         }
         return list;
     }
-    void expect_told(std::int32_t code, const std::string& by) {
+    void expect_published(std::int32_t code, const std::string& by) {
         EXPECT_NE(code, 0) << by << ": a fault without a number";
         const ErrorCode* known = e.catalogue->error(code);
         ASSERT_TRUE(known) << by << ": " << code << " is not in the catalogue";
@@ -85,7 +85,7 @@ TEST_P(FaultLaws, WhatAHandCanRaiseHasANumberAndAText) {
         for (const std::int64_t code : codes) {
             if (!set(name, Value{code}).empty()) continue;  // the drive has no such error: refused with what it has
             ++taken;
-            expect_told(static_cast<std::int32_t>(code), name);
+            expect_published(static_cast<std::int32_t>(code), name);
             w->run_for(5ms);
         }
         EXPECT_GT(taken, 0) << name;
@@ -116,10 +116,11 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
         const auto raised = [&] { return std::ranges::count(w->events, std::string("fault"), &Event::kind); };
         const auto cleared = [&] { return std::ranges::count(w->events, std::string("fault_cleared"), &Event::kind); };
         EXPECT_EQ(raised(), 1) << by;
-        const auto told = std::ranges::find(w->events, std::string("fault"), &Event::kind);
-        ASSERT_NE(told, w->events.end()) << by;
+        const auto published = std::ranges::find(w->events, std::string("fault"), &Event::kind);
+        ASSERT_NE(published, w->events.end()) << by;
         // A drive may have a fault that it gives no number, such as an emergency stop: it is told so, and no other fault is.
-        if (w->picture(a1).error_code != 0 || told->text.find("no number") == std::string::npos) expect_told(w->picture(a1).error_code, by);
+        if (w->picture(a1).error_code != 0 || published->text.find("no number") == std::string::npos)
+            expect_published(w->picture(a1).error_code, by);
         const auto before = alarms();
         EXPECT_EQ(before.all().size(), 1u) << by;
         for (const auto& [id, alarm] : before.all()) {

@@ -44,14 +44,14 @@ bool Laws::fact(const std::string& name) const {
     const std::string path = std::string(AXISGATE_SOURCE_DIR "/adapters/") + std::string(e.family->name) + "/tests/facts.json";
     std::ifstream file(path);
     const auto facts = boost::json::parse(std::string(std::istreambuf_iterator<char>(file), {})).get_object();
-    const auto* said = facts.if_contains(name);
-    EXPECT_TRUE(said && said->is_bool()) << name << " is missing in " << path;
-    return said && said->is_bool() && said->get_bool();
+    const auto* reported = facts.if_contains(name);
+    EXPECT_TRUE(reported && reported->is_bool()) << name << " is missing in " << path;
+    return reported && reported->is_bool() && reported->get_bool();
 }
 
 void Laws::lacks_velocity(const Result& r) const {
     EXPECT_FALSE(r.text.empty()) << "where a drive cannot follow, it says so";
-    if (e.variant.empty()) EXPECT_FALSE(fact("velocity_mode")) << "by its manual the drive has a velocity mode, and: " << told(&r);
+    if (e.variant.empty()) EXPECT_FALSE(fact("velocity_mode")) << "by its manual the drive has a velocity mode, and: " << published(&r);
 }
 
 const std::vector<Subject>& law_subjects() {

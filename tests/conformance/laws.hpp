@@ -16,7 +16,7 @@ namespace axisgate::test {
 const std::vector<Subject>& law_subjects();
 
 /// "refused no_answer: ..." of a result, or that there is none.
-inline std::string told(const Result* r) {
+inline std::string published(const Result* r) {
     return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
 }
 
@@ -77,7 +77,7 @@ protected:
     void order(AxisId axis, CommandBody body, bool until_done = true) {
         const std::string what(name_of(body));
         const Result* r = ask(axis, std::move(body), until_done);
-        ASSERT_TRUE(r && good(*r)) << what << ": " << told(r);
+        ASSERT_TRUE(r && good(*r)) << what << ": " << published(r);
     }
     [[nodiscard]] static Move move_to(std::int64_t target, Move::Kind kind = Move::Kind::absolute) {
         Move m;
@@ -99,7 +99,7 @@ protected:
             r = ask(axis, m, false);
             ASSERT_TRUE(r);
         }
-        ASSERT_TRUE(good(*r)) << told(r);
+        ASSERT_TRUE(good(*r)) << published(r);
         ASSERT_TRUE(world->run_until_true([&] { return moving(axis) && std::llabs(now(axis).velocity) * 10 > std::llabs(velocity) * 9; },
                                           std::chrono::seconds(20)))
             << "it does not turn";

@@ -27,7 +27,7 @@ protected:
     }
     /// Of the drive behind the cable, whoever serves the axis.
     [[nodiscard]] TwinMechanics device() const { return world->buses.at("line")->twin(d1)->mechanics(1, world->now); }
-    [[nodiscard]] std::ptrdiff_t told(Severity severity, std::string_view part) const {
+    [[nodiscard]] std::ptrdiff_t published(Severity severity, std::string_view part) const {
         return std::ranges::count_if(world->events, [&](const Event& v) {
             return v.kind == "site" && v.axis == "a1" && v.severity == severity && v.text.find(part) != std::string::npos;
         });
@@ -70,8 +70,8 @@ TEST_P(LeaveLaws, WhatASiteChangeTakesAwayInMotionIsStoppedFirst) {
         EXPECT_EQ(r->reason, Reason::busy) << r->text;
         ASSERT_TRUE(world->run_until_true([&] { return in_force != nullptr; }, 10s));
         EXPECT_LT(world->now - asked, 4s) << "by its own ramp, not by the limit of the wait";
-        EXPECT_EQ(told(Severity::warning, "is stopped"), 1);
-        EXPECT_EQ(told(Severity::alarm, ""), 0);
+        EXPECT_EQ(published(Severity::warning, "is stopped"), 1);
+        EXPECT_EQ(published(Severity::alarm, ""), 0);
         const double place = device().position;
         world->run_for(3s);
         EXPECT_EQ(device().velocity, 0);
@@ -109,7 +109,7 @@ TEST_P(LeaveLaws, ADriveThatIsNotHeardIsStoppedAndDoesNotKeepTheSiteFromChanging
     ASSERT_TRUE(world->run_until_true([&] { return !(now().flags & flag_online); }, 20s));
     ASSERT_NE(device().velocity, 0);
     (void)world->change({});
-    EXPECT_EQ(told(Severity::alarm, "not known"), 1);
+    EXPECT_EQ(published(Severity::alarm, "not known"), 1);
     world->run_for(1s);
     EXPECT_EQ(device().velocity, 0) << "it heard the stop";
 }
@@ -129,7 +129,7 @@ TEST_P(LeaveLaws, WhatStandsOrStaysIsChangedAtOnce) {
     const Instant again = world->now;
     (void)world->change(std::move(next));
     EXPECT_EQ(world->now, again);
-    EXPECT_EQ(told(Severity::warning, ""), 0);
+    EXPECT_EQ(published(Severity::warning, ""), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LeaveLaws, testing::ValuesIn(law_subjects()), name_of_subject);

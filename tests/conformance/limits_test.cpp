@@ -30,7 +30,7 @@ protected:
         for (const std::int64_t target : {limit + 100, -limit - 100}) {
             const Result* r = ask(a1, move_to(target));
             ASSERT_TRUE(r);
-            EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
+            EXPECT_EQ(r->reason, Reason::out_of_range) << published(r);
         }
         w.run_for(2s);
         EXPECT_EQ(speed(a1), 0);
@@ -75,7 +75,7 @@ TEST_P(LimitLaws, ARampThatIsTheDrivesOwnIsReckonedWith) {
     Move gentle = move_to(1'000);
     gentle.acceleration = gentle.deceleration = 4'000;
     const Result* r = w.wait(w.command(a1, gentle, true), 30s);
-    ASSERT_TRUE(r && good(*r)) << told(r);
+    ASSERT_TRUE(r && good(*r)) << published(r);
     Move m = move_to(5'000, Move::Kind::velocity);
     m.acceleration.reset();
     m.deceleration.reset();
@@ -149,8 +149,8 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
         SCOPED_TRACE(what);
         const Result* r = ask(a1, body, false);
         ASSERT_TRUE(r);
-        EXPECT_EQ(r->outcome, Outcome::refused) << told(r);
-        EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
+        EXPECT_EQ(r->outcome, Outcome::refused) << published(r);
+        EXPECT_EQ(r->reason, Reason::out_of_range) << published(r);
         EXPECT_NE(r->text.find("position_m"), std::string::npos) << r->text;
     };
     const auto pass = [&](Duration d) {
@@ -190,7 +190,7 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
         go.axes = {a1};
         refused(go, "a group start");
     } else {
-        EXPECT_EQ(r->reason, Reason::not_supported) << told(r);
+        EXPECT_EQ(r->reason, Reason::not_supported) << published(r);
     }
     // A finger that holds it leads no further than others.
     order(a1, move_to(0));
@@ -200,7 +200,7 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
     ASSERT_TRUE(r);
     const bool holds = r->reason != Reason::not_supported;
     if (holds) {
-        ASSERT_TRUE(good(*r)) << told(r);
+        ASSERT_TRUE(good(*r)) << published(r);
     } else {
         lacks_velocity(*r);
     }

@@ -21,9 +21,9 @@ TEST_P(LookLaws, ATwinTellsAThousandTimesASecondWhereItsWireLetsIt) {
     world->engine.set_tap(&tape);
     ASSERT_EQ(world->engine.look_closely({a1}, 1ms, world->now + 20s, world->now), "");
     world->run_for(500ms);
-    const auto before = tape.told[a1];
+    const auto before = tape.published[a1];
     world->run_for(4s);
-    const double rate = static_cast<double>(tape.told[a1] - before) / 4;
+    const double rate = static_cast<double>(tape.published[a1] - before) / 4;
     const auto line = world->engine.line_report(site->line_ids[0], world->now);
     const double load = std::max(line.status.load, line.twin_status.load);
     EXPECT_TRUE(rate >= 990 || load > 0.85) << rate << " Hz, load of the line " << load;

@@ -133,8 +133,8 @@ const Family& text_on_can() {
 /// A node that nobody has in the site: it says something with each frame that it hears.
 class Stranger final : public Twin {
 public:
-    void on_frame(const Frame& heard, Instant, Out& out) override {
-        if (heard.id == 0x123) return;
+    void on_frame(const Frame& received, Instant, Out& out) override {
+        if (received.id == 0x123) return;
         Frame f = Frame::can_extended(0x123, {});
         f.extended = false;
         out.send(f);
@@ -198,7 +198,7 @@ struct MixedLine : testing::Test {
     void order(AxisId a, CommandBody body) {
         const std::string what(name_of(body));
         const Result* r = world.wait(world.command(a, std::move(body), true), 120s);
-        ASSERT_TRUE(r && good(*r)) << what << ": " << told(r);
+        ASSERT_TRUE(r && good(*r)) << what << ": " << published(r);
     }
     static Move move_to(std::int64_t target, std::int64_t velocity = 4000) {
         Move m;
@@ -220,7 +220,7 @@ struct MixedLine : testing::Test {
         for (const std::int64_t target : {std::int64_t{2000}, std::int64_t{-2000}}) {
             const Ticket t = world.command(a, move_to(target), true);
             const Result* r = world.wait(t, 5s);
-            ASSERT_TRUE(r && good(*r)) << told(r);
+            ASSERT_TRUE(r && good(*r)) << published(r);
             EXPECT_NEAR(static_cast<double>(world.picture(a).position), static_cast<double>(target), 20);
         }
     }
@@ -238,7 +238,7 @@ TEST_F(MixedLine, BothAreHomedAndMovedAndEachHasItsCounters) {
     for (const Ticket t : {one, other}) {
         const Result* r = world.wait(t, 20s);
         ASSERT_TRUE(r) << t;
-        EXPECT_EQ(r->outcome, Outcome::done) << told(r);
+        EXPECT_EQ(r->outcome, Outcome::done) << published(r);
     }
     EXPECT_NEAR(static_cast<double>(world.picture(uim).position), 5000, 20);
     EXPECT_EQ(world.picture(text).position, -7000);
@@ -280,11 +280,11 @@ TEST_F(MixedLine, SilenceAndPowerOfOneDoNotTouchTheOther) {
             world.run_for(5s);  // well into its back-off
             const auto status = world.engine.drive_status(site->drive_ids[c.key == 1 ? 0 : 1]);
             EXPECT_GT(status.retry_pause_ms, 0) << "its own pauses grow";
-            const auto told_of =
+            const auto published_of =
                 std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; });
             goes_there_and_back(c.stays);
             EXPECT_EQ(std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == c.stays_name && e.kind == "drive"; }),
-                      told_of);
+                      published_of);
             hand(c.key, what, !off);
             ASSERT_TRUE(world.run_until_true([&] { return online(c.gone); }, 30s)) << what;
             world.run_for(1s);
@@ -301,11 +301,11 @@ TEST_F(MixedLine, AStopOfOneEndsItsOwnMotionAlone) {
     order(uim, QuickStop{});
     const Result* r = world.wait(ends, 5s);
     ASSERT_TRUE(r);
-    EXPECT_EQ(r->reason, Reason::interrupted) << told(r);
+    EXPECT_EQ(r->reason, Reason::interrupted) << published(r);
     EXPECT_TRUE(moving(text));
     r = world.wait(goes, 20s);
     ASSERT_TRUE(r);
-    EXPECT_EQ(r->outcome, Outcome::done) << told(r);
+    EXPECT_EQ(r->outcome, Outcome::done) << published(r);
     EXPECT_EQ(world.picture(text).position, 20000);
 }
 
@@ -392,7 +392,7 @@ TEST_F(MixedLine, AFamilyComesAndGoesWithoutDisturbingTheOther) {
     EXPECT_EQ(report().families.size(), 1u);
     const Result* r = world.wait(t, 20s);
     ASSERT_TRUE(r);
-    EXPECT_EQ(r->outcome, Outcome::done) << told(r);
+    EXPECT_EQ(r->outcome, Outcome::done) << published(r);
     EXPECT_EQ(world.picture(uim).source, source) << "another drive's coming and going is none of its";
 }
 

@@ -74,7 +74,7 @@ TEST_P(Options, ASiteWithAWrongOneIsUsedAndSaysSo) {
     wanted.lines[0].options["modell"] = "1";
     wanted.lines[0].options["full_duplex"] = "false";
     wanted.drives.back().options["such option"] = "2";
-    const auto told = [&](std::string_view text) {
+    const auto published = [&](std::string_view text) {
         return std::ranges::count_if(w.events, [&](const Event& v) {
             return v.kind == "setup" && v.severity == Severity::warning && v.text.find(text) != std::string::npos;
         });
@@ -82,12 +82,12 @@ TEST_P(Options, ASiteWithAWrongOneIsUsedAndSaysSo) {
     const auto state = w.apply(wanted);
     w.run_for(2s);
     EXPECT_NE(w.picture(state->axis_ids.at(0)).flags & flag_online, 0) << "an option that nobody knows stops nobody";
-    EXPECT_EQ(told("modell"), 1);
-    EXPECT_EQ(told("full_duplex"), 0) << "the gateway's own";
-    EXPECT_EQ(told("such option"), 1);
+    EXPECT_EQ(published("modell"), 1);
+    EXPECT_EQ(published("full_duplex"), 0) << "the gateway's own";
+    EXPECT_EQ(published("such option"), 1);
     w.apply(wanted);
     w.run_for(1s);
-    EXPECT_EQ(told("modell"), 1) << "said of what is new, not with every change of the site";
+    EXPECT_EQ(published("modell"), 1) << "said of what is new, not with every change of the site";
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Options, testing::ValuesIn(law_subjects()), name_of_subject);

@@ -64,7 +64,7 @@ TEST_P(OrderLaws, ARefusedHomingIsTheLastOne) {
     for (const std::int16_t unknown : {std::int16_t{99}, std::int16_t{-128}}) {
         const Result* r = ask(a1, Home{unknown});
         ASSERT_TRUE(r);
-        EXPECT_EQ(r->outcome, Outcome::refused) << told(r);
+        EXPECT_EQ(r->outcome, Outcome::refused) << published(r);
         EXPECT_FALSE(r->text.empty());
         w.run_for(1s);
         EXPECT_EQ(now().statusword & cia402::sw_mode_12, 0) << "an older one is not shown as its success";
@@ -83,7 +83,7 @@ TEST_P(OrderLaws, AStopEndsAHoming) {
     const bool began = w.run_until_true([&] { return speed(a1) > 0 || w.result(search) != nullptr; }, 20s);
     ASSERT_TRUE(began) << "neither a search nor a word why not";
     if (const Result* r = w.result(search)) {
-        EXPECT_TRUE(r->outcome == Outcome::done || !r->text.empty()) << told(r);
+        EXPECT_TRUE(r->outcome == Outcome::done || !r->text.empty()) << published(r);
         EXPECT_EQ(speed(a1), 0);
         return;
     }
@@ -91,8 +91,8 @@ TEST_P(OrderLaws, AStopEndsAHoming) {
     EXPECT_EQ(speed(a1), 0);
     const Result* r = w.wait(search, 5s);
     ASSERT_TRUE(r);
-    EXPECT_EQ(r->outcome, Outcome::failed) << told(r);
-    EXPECT_EQ(r->reason, Reason::interrupted) << told(r);
+    EXPECT_EQ(r->outcome, Outcome::failed) << published(r);
+    EXPECT_EQ(r->reason, Reason::interrupted) << published(r);
     const double place = mechanics(a1).position;
     w.run_for(3s);
     EXPECT_EQ(speed(a1), 0);
@@ -119,7 +119,7 @@ TEST_P(OrderLaws, ASetPositionRenamesThePlaceAndMovesNothing) {
             w.run_for(10ms);
             EXPECT_EQ(speed(a1), 0) << "a name was changed, and the shaft moves";
         }
-        EXPECT_EQ(good(*r), name == 0 || fact("set_position")) << "each drive can call its place 0, most by any name: " << told(r);
+        EXPECT_EQ(good(*r), name == 0 || fact("set_position")) << "each drive can call its place 0, most by any name: " << published(r);
         if (!good(*r)) {
             EXPECT_FALSE(r->text.empty()) << "why, in words";
             EXPECT_EQ(now().position, was) << "refused: nothing has changed";
@@ -182,8 +182,8 @@ TEST_P(OrderLaws, EveryActionIsAnsweredOnce) {
             const Result* r = world->wait(t, 60s);
             ASSERT_TRUE(r) << action.name << " \"" << argument << "\": no answer in a minute";
             EXPECT_TRUE(good(*r) || !r->text.empty()) << action.name;
-            EXPECT_EQ(good(*r), r->reason == Reason::none) << action.name << ": " << told(r);
-            EXPECT_NE(r->reason, Reason::internal) << action.name << ": " << told(r);
+            EXPECT_EQ(good(*r), r->reason == Reason::none) << action.name << ": " << published(r);
+            EXPECT_NE(r->reason, Reason::internal) << action.name << ": " << published(r);
             world->run_for(1s);
             EXPECT_EQ(world->results[t].size(), 1u) << action.name;
         }
@@ -222,7 +222,7 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
     // A parameter that was asked for is shown with the value that the drive gave. Some are shown as what they mean: a model, a mask in hex.
     std::size_t asked = 0;
     std::string unsaid;
-    std::size_t said = 0;
+    std::size_t reported = 0;
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
         const Parameter& p = e.catalogue->parameters()[i];
         if (!p.readable()) continue;
@@ -235,13 +235,13 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
         ++asked;
         const std::string text = read();
         if (digits_of(text).find(std::to_string(std::llabs(*number))) != std::string::npos) {
-            ++said;
+            ++reported;
         } else {
             unsaid += p.id + " = " + std::to_string(*number) + ", shown as:\n" + text;
         }
     }
     EXPECT_GT(asked, 10u);
-    EXPECT_GE(said * 10, asked * 9) << unsaid;
+    EXPECT_GE(reported * 10, asked * 9) << unsaid;
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, OrderLaws, testing::ValuesIn(law_subjects()), name_of_subject);

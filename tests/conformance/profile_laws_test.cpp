@@ -62,12 +62,12 @@ protected:
     struct EnipDoor final : HotDoor {
         EnipDoor(DoorPort& port, RegisterImage& image) : values(port, image, 30) {
             values.use_number(port.attach(*this));
-            values.use([this](cip::Token, cip::General g, cip::View) { told = g; });
+            values.use([this](cip::Token, cip::General g, cip::View) { published = g; });
         }
         std::string_view name() const override { return "enip"; }
         void on_result(const Result& r) override { values.on_result(r); }
         enip::AxisValues values;
-        std::optional<cip::General> told;
+        std::optional<cip::General> published;
     };
     enum class Way { modbus, image, attributes };
     static constexpr std::uint8_t unit = 10;
@@ -162,11 +162,11 @@ protected:
             cip::put32(value, get32(data.data(), words));
         }
         bool later = false;
-        scanner->told.reset();
+        scanner->published.reset();
         auto general = scanner->values.set_own({row->object->class_id, 1, row->object->attribute}, value, ++tokens, plc, w.now, later);
         if (later) {
-            EXPECT_TRUE(until([&] { return scanner->told.has_value(); })) << "a write has an answer";
-            general = scanner->told.value_or(cip::General::connection_lost);
+            EXPECT_TRUE(until([&] { return scanner->published.has_value(); })) << "a write has an answer";
+            general = scanner->published.value_or(cip::General::connection_lost);
         }
         return general == cip::General::success ? Verdict::good : Verdict::failed;
     }

@@ -54,7 +54,7 @@ struct SharedAdapter : testing::Test {
     [[nodiscard]] bool online(AxisId a) const { return (world.picture(a).flags & flag_online) && world.picture(a).ever_seen; }
     void order(AxisId a, CommandBody body) {
         const Result* r = world.wait(world.command(a, std::move(body), true), 30s);
-        ASSERT_TRUE(r && good(*r)) << told(r);
+        ASSERT_TRUE(r && good(*r)) << published(r);
     }
     /// When frames with this identifier crossed in the next time, ns.
     std::vector<std::int64_t> crossing(std::uint32_t id, Duration time) {

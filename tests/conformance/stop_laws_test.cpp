@@ -33,7 +33,7 @@ protected:
         ASSERT_TRUE(good(*write(mode)));
         for (const int cw : {0x06, 0x07, 0x0F}) {
             const Result* r = write(word(static_cast<std::uint16_t>(cw)));
-            ASSERT_TRUE(r && good(*r)) << told(r);
+            ASSERT_TRUE(r && good(*r)) << published(r);
         }
         ProcessData go;
         go.target_velocity = 4000;
@@ -45,7 +45,7 @@ protected:
             go.target_position = 400'000;
             r = write(go);
         }
-        ASSERT_TRUE(r && good(*r)) << told(r);
+        ASSERT_TRUE(r && good(*r)) << published(r);
         ASSERT_TRUE(world->run_until_true([&] { return moving(a1) && now().velocity != 0; }, 5s));
         ASSERT_TRUE(world->run_until_true([&] { return speed() > 1000; }, 5s));
         world->run_for(500ms);
@@ -123,7 +123,7 @@ TEST_P(StopLaws, AnEnableThatWaitsIsOverWithADisable) {
             world->run_for(between);
             const Ticket off = world->command(a1, Disable{}, true);
             const Result* r = world->wait(off, 10s);
-            ASSERT_TRUE(r && good(*r)) << told(r);
+            ASSERT_TRUE(r && good(*r)) << published(r);
             r = world->wait(on, 10s);
             ASSERT_TRUE(r) << "it has its answer";
             for (int i = 0; i < 40; ++i) {

@@ -274,7 +274,7 @@ TEST_P(StreamLaws, AnotherClientDoesNotStreamIntoAHeldAxis) {
     c.origin = other;
     world->engine.on_command(c, world->now);
     const Result* r = world->wait(c.ticket, 1s);
-    ASSERT_TRUE(r && good(*r)) << told(r);
+    ASSERT_TRUE(r && good(*r)) << published(r);
     stream(begin + 1000, Mode::position, 500ms);
     EXPECT_FALSE(now().streaming);
     EXPECT_EQ(now().set_point_refusal, Reason::authority);
@@ -330,7 +330,7 @@ TEST_P(StreamLaws, AMoveOfSomebodyElseEndsIt) {
     const Ticket t = world->command(a1, move_to(begin + 3000), true);
     stream(begin + 200, Mode::position, 3s);
     const Result* r = world->wait(t, 5s);
-    ASSERT_TRUE(r && r->outcome == Outcome::done) << told(r);
+    ASSERT_TRUE(r && r->outcome == Outcome::done) << published(r);
     EXPECT_EQ(now().position, begin + 3000);
     EXPECT_EQ(now().mode_display, cia402::mode_profile_position);
 }
@@ -379,7 +379,7 @@ TEST_P(StreamLaws, AModeThatTheDriveHasNotIsRefusedByWord) {
         d.mode = mode;
         const Result* r = ask(a1, d, false);
         ASSERT_TRUE(r);
-        EXPECT_EQ(r->reason, Reason::out_of_range) << told(r);
+        EXPECT_EQ(r->reason, Reason::out_of_range) << published(r);
         EXPECT_NE(r->text.find("1 (profile position)"), std::string::npos) << r->text;
     }
 }
@@ -423,7 +423,7 @@ struct StreamAdapters : testing::Test {
         axis = site->axis_ids.at(0);
         ASSERT_TRUE(world->run_until_true([&] { return (picture().flags & flag_online) != 0; }, 20s));
         const Result* r = world->wait(world->command(axis, Enable{}, true), 20s);
-        ASSERT_TRUE(r && good(*r)) << told(r);
+        ASSERT_TRUE(r && good(*r)) << published(r);
         world->run_for(500ms);
         world->events.clear();
     }

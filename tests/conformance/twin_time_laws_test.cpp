@@ -11,7 +11,7 @@ namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-struct Said {
+struct Reported {
     Instant at;
     std::string bytes;  ///< bytes lines: all of one instant; CAN: identifier and data of one frame
 };
@@ -20,7 +20,7 @@ class TwinTimeLaws : public testing::TestWithParam<FamilyEntry> {
 protected:
     const FamilyEntry& e = GetParam();
     Instant begin{};
-    std::vector<Frame> heard;  ///< frames to the drive, at the instants at which it had them
+    std::vector<Frame> received;  ///< frames to the drive, at the instants at which it had them
     std::string address;
     LineKind kind = LineKind::bytes;
 
@@ -46,15 +46,15 @@ protected:
         ASSERT_EQ(log.missed, 0U);
         for (const auto& entry : log.entries) {
             if (!entry.to_drive) continue;
-            heard.push_back(entry.frame);
-            heard.back().at = at_ns(entry.at_unix_ns);
+            received.push_back(entry.frame);
+            received.back().at = at_ns(entry.at_unix_ns);
         }
-        ASSERT_GT(heard.size(), 5U);
-        kind = heard.front().kind == Frame::Kind::can ? LineKind::can : LineKind::bytes;
+        ASSERT_GT(received.size(), 5U);
+        kind = received.front().kind == Frame::Kind::can ? LineKind::can : LineKind::bytes;
     }
 
     struct Played {
-        std::vector<Said> said;
+        std::vector<Reported> reported;
         std::vector<TwinMechanics> seen;
     };
     /// `step`: how often the twin is called beside frames; zero: never. `punctual`: at each of its deadlines as well.
@@ -70,10 +70,10 @@ protected:
             for (const auto& tx : out.frames) {
                 const Frame& f = tx.frame;
                 std::string bytes(reinterpret_cast<const char*>(f.data().data()), f.size);
-                if (f.kind == Frame::Kind::bytes && !p.said.empty() && p.said.back().at == f.at) {
-                    p.said.back().bytes += bytes;
+                if (f.kind == Frame::Kind::bytes && !p.reported.empty() && p.reported.back().at == f.at) {
+                    p.reported.back().bytes += bytes;
                 } else {
-                    p.said.push_back({f.at, f.kind == Frame::Kind::can ? std::to_string(f.id) + ":" + bytes : bytes});
+                    p.reported.push_back({f.at, f.kind == Frame::Kind::can ? std::to_string(f.id) + ":" + bytes : bytes});
                 }
             }
             out.clear();
@@ -91,7 +91,7 @@ protected:
             }
             now = until;
         };
-        for (const Frame& f : heard) {
+        for (const Frame& f : received) {
             pass(f.at);
             twin->on_frame(f, f.at, out);
             take();
@@ -109,7 +109,7 @@ protected:
         if (twin->deadline() <= now) twin->on_deadline(now, out);
         take();
         p.seen.push_back(twin->mechanics(1, now));
-        Frame again = heard.back();  // the last question once more
+        Frame again = received.back();  // the last question once more
         again.at = now;
         twin->on_frame(again, now, out);
         take();
@@ -124,20 +124,20 @@ protected:
 TEST_P(TwinTimeLaws, WhatItSaysAndDoesStandsAtTheInstantOfItsCause) {
     ASSERT_NO_FATAL_FAILURE(converse());
     const Played fine = play(1ms, true);
-    ASSERT_GT(fine.said.size(), 3U);
+    ASSERT_GT(fine.reported.size(), 3U);
     for (const Duration step : {Duration{10ms}, Duration{86ms}, Duration{1s}, Duration{}}) {
         SCOPED_TRACE(testing::Message() << "called every " << step / 1ms << " ms (0: for frames alone)");
         const Played late = play(step, false);
         std::size_t differ = 0;
-        for (std::size_t i = 0; i < std::max(fine.said.size(), late.said.size()) && differ < 5; ++i) {
-            const bool both = i < fine.said.size() && i < late.said.size();
-            if (both && fine.said[i].at == late.said[i].at && fine.said[i].bytes == late.said[i].bytes) continue;
+        for (std::size_t i = 0; i < std::max(fine.reported.size(), late.reported.size()) && differ < 5; ++i) {
+            const bool both = i < fine.reported.size() && i < late.reported.size();
+            if (both && fine.reported[i].at == late.reported[i].at && fine.reported[i].bytes == late.reported[i].bytes) continue;
             ++differ;
             ADD_FAILURE() << "frame " << i << (both ? "" : " is missing or one too many") << ": "
-                          << (i < fine.said.size() ? testing::PrintToString(fine.said[i].bytes) : "-") << " at "
-                          << (i < fine.said.size() ? (fine.said[i].at - begin) / 1us : 0) << " us, called late "
-                          << (i < late.said.size() ? testing::PrintToString(late.said[i].bytes) : "-") << " at "
-                          << (i < late.said.size() ? (late.said[i].at - begin) / 1us : 0) << " us";
+                          << (i < fine.reported.size() ? testing::PrintToString(fine.reported[i].bytes) : "-") << " at "
+                          << (i < fine.reported.size() ? (fine.reported[i].at - begin) / 1us : 0) << " us, called late "
+                          << (i < late.reported.size() ? testing::PrintToString(late.reported[i].bytes) : "-") << " at "
+                          << (i < late.reported.size() ? (late.reported[i].at - begin) / 1us : 0) << " us";
         }
         for (std::size_t i = 0; i < fine.seen.size(); ++i) {
             EXPECT_NEAR(fine.seen[i].position, late.seen[i].position, 1e-3) << "picture " << i;

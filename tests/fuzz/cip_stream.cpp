@@ -122,7 +122,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             adapter.on_implicit(bytes, from, now);
         } else if (kind == 5) {
             for (const Token t : std::exchange(d.asked_, {}))
-                adapter.told(t, General::success, Bytes(4));
+                adapter.answered(t, General::success, Bytes(4));
         } else {
             now += fuzz::any_step(in);
             adapter.on_deadline(now);

@@ -11,7 +11,7 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/modbus/session.hpp"
 #include "gateway/registers/profiles/profile_map.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace {
 using namespace axisgate;

@@ -8,7 +8,7 @@
 #include "gateway/doors/modbus/rtu_receiver.hpp"
 #include "gateway/doors/modbus/rtu_session.hpp"
 #include "tests/fuzz/fuzz.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace {
 using namespace axisgate;
@@ -36,7 +36,7 @@ struct RtuWorld final : RtuSink {
         asked_address = frame->address;
         session.on_frame(*frame, port.time, overtaken);
     }
-    void hear(std::span<const std::uint8_t> bytes) {
+    void receive(std::span<const std::uint8_t> bytes) {
         if (bytes.empty()) return;
         collided = collided || !pending.empty();
         take(receiver.feed(bytes, port.time), true);
@@ -48,7 +48,7 @@ struct RtuWorld final : RtuSink {
         if (back.empty()) return;
         collided = collided || receiver.busy();  // two have spoken at once: nothing that is heard then says anything about echoes
         if (collided) return;
-        hear(back);
+        receive(back);
         require(!receiver.busy(), "an echo is no request");
     }
     void pass(Duration d) {
@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int i = 0; i < 200 && in.remaining_bytes() > 0; ++i) {
         switch (in.ConsumeIntegralInRange<int>(0, 5)) {
             case 0:
-                w.hear(in.ConsumeBytes<std::uint8_t>(in.ConsumeIntegralInRange<std::size_t>(0, 300)));
+                w.receive(in.ConsumeBytes<std::uint8_t>(in.ConsumeIntegralInRange<std::size_t>(0, 300)));
                 break;
             case 1:
             case 2: {  // a whole frame, so that the fuzzer gets past the checksum
@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 const auto crc = rtu_crc(b);
                 b.push_back(static_cast<std::uint8_t>(crc & 0xFF));
                 b.push_back(static_cast<std::uint8_t>(crc >> 8));
-                w.hear(b);
+                w.receive(b);
                 break;
             }
             case 3:

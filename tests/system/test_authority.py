@@ -162,7 +162,7 @@ def test_a_read_only_door_still_stops(folder):
             for word in (0x06, 0x0F, 0x1F, 0x80, 0x10F, 0x12):
                 assert code_of(lambda: m.write1(32, word)) == 1, hex(word)
             assert code_of(lambda: m.write(32, [2, 1])) == 1 and code_of(lambda: m.write(34, [0, 0])) == 1 and code_of(lambda: m.write1(33, 2)) == 1
-            assert code_of(lambda: m.write1(0, 2, unit=2)) == 1, "an own map is no standard map"
+            assert code_of(lambda: m.write1(0, 2, unit=2)) == 1, "a user map is no standard map"
             assert g.axis()["state"] == "operation_enabled"
             assert code_of(lambda: m.write1(32, 0x02)) == 0
             until(lambda: not g.axis()["moving"], 10, "the quick stop")

@@ -19,12 +19,12 @@ TEST_P(Looked, ItIsAskedMoreOftenAndNobodyLessOften) {
         ASSERT_TRUE(w.run_until_true([&] { return (w.picture(a).flags & flag_online) != 0; }, 20s));
     w.run_for(3s);
     const auto count = [&](Duration d) {
-        const auto before = tape.told;
+        const auto before = tape.published;
         w.run_for(d);
         std::map<AxisId, double> rate;
         for (const AxisId a : state->axis_ids)
             rate[a] =
-                static_cast<double>(tape.told[a] - (before.contains(a) ? before.at(a) : 0)) / std::chrono::duration<double>(d).count();
+                static_cast<double>(tape.published[a] - (before.contains(a) ? before.at(a) : 0)) / std::chrono::duration<double>(d).count();
         return rate;
     };
     auto plain = count(8s);

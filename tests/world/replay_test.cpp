@@ -6,7 +6,7 @@ namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-std::string told(const ReplayReport& r) {
+std::string published(const ReplayReport& r) {
     std::string text = r.fault;
     for (const auto& d : r.listed)
         text += "\n recorded: " + d.recorded + "\n replayed: " + d.replayed;
@@ -48,7 +48,7 @@ TEST_P(Replayed, TwinsDoTheSameAgain) {
     const auto state = w.apply(w.twins(GetParam(), 2));
     live(w, state->axis_ids[0], state->drive_ids[0], true);
     const auto report = tape.play();
-    EXPECT_EQ(report.differences, 0u) << told(report);
+    EXPECT_EQ(report.differences, 0u) << published(report);
     EXPECT_EQ(report.fault, "");
     EXPECT_GT(report.compared, 200u);
     EXPECT_GT(report.inputs, 100u);
@@ -63,7 +63,7 @@ TEST_P(Replayed, WhatCameOverACableIsPlayedAgain) {
     w.plug_in("line", DriveId{900}, s, addresses(s, 1)[0], s.kind());
     live(w, state->axis_ids[0], state->drive_ids[0], false);
     const auto report = tape.play();
-    EXPECT_EQ(report.differences, 0u) << told(report);
+    EXPECT_EQ(report.differences, 0u) << published(report);
     EXPECT_EQ(report.fault, "");
     EXPECT_GT(report.compared, 100u);
 }
@@ -78,7 +78,7 @@ TEST(Replay, OfTheLastStretchAloneIsComparedToo) {
     w.run_for(60s);
     ASSERT_GT(tape.window.gone_outcomes(), 0u);
     const auto report = tape.play();
-    EXPECT_EQ(report.differences, 0u) << told(report);
+    EXPECT_EQ(report.differences, 0u) << published(report);
     EXPECT_GT(report.compared, 100u);
 }
 

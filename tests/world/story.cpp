@@ -386,8 +386,8 @@ private:
         }
         const Instant healed = world_->now;
         // Heard since then: who restarted in the last moment is shown online until its silence is noticed.
-        const auto heard = [&](const Machine& m) { return !m.present || world_->picture(m.axis).at > healed; };
-        EXPECT_TRUE(world_->run_until_true([&] { return all_back() && std::ranges::all_of(machines_, heard); }, 15s))
+        const auto received = [&](const Machine& m) { return !m.present || world_->picture(m.axis).at > healed; };
+        EXPECT_TRUE(world_->run_until_true([&] { return all_back() && std::ranges::all_of(machines_, received); }, 15s))
             << "an axis is not back after " << seconds(world_->now - healed) << " s";
         for (std::size_t n = 0; n < machines_.size(); ++n) {
             if (!machines_[n].present) continue;

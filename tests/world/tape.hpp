@@ -41,7 +41,7 @@ protected:
 
 /// How often each axis was told, by what is said of its age.
 struct Tellings final : Tape {
-    std::map<AxisId, std::uint64_t> told;
+    std::map<AxisId, std::uint64_t> published;
     std::map<AxisId, Instant> last;
 
 private:
@@ -52,7 +52,7 @@ private:
         const AxisId axis{r.index};
         if (!p || !p->current || r.at - p->age == last[axis]) return;
         last[axis] = r.at - p->age;
-        ++told[axis];
+        ++published[axis];
     }
 };
 

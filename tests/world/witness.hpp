@@ -64,7 +64,7 @@ public:
     /// To be called as often as wanted; one fault is told once.
     void look(Instant now) {
         for (Shaft& s : shafts_) {
-            if (s.told) continue;
+            if (s.published) continue;
             const TwinMechanics m = mechanics(s, now);
             if (s.limit && std::fabs(m.position) > *s.limit) tell(s, "is beyond the limit of its axis", m);
             if (m.powered && now >= s.off_from) tell(s, "has power that nobody gave it", m);
@@ -87,14 +87,14 @@ private:
         std::optional<double> place;  // where it rests
         std::optional<double> limit;
         bool starts_with_power = false;  // as some drives do; no other gets it by itself
-        bool told = false;
+        bool published = false;
     };
     static TwinMechanics mechanics(const Shaft& s, Instant now) {
         const Twin* t = s.bus->twin(s.key);
         return t ? t->mechanics(s.channel, now) : TwinMechanics{};
     }
     static void tell(Shaft& s, const char* what, const TwinMechanics& m) {
-        s.told = true;
+        s.published = true;
         ADD_FAILURE() << "the shaft of " << s.name << " " << what << ": at " << m.position << ", speed " << m.velocity
                       << (m.powered ? ", with" : ", without") << " power";
     }

@@ -141,9 +141,9 @@ public:
     std::vector<Event> events;
     std::vector<Sample> samples;
     std::map<std::string, NonVolatile> twin_memories;
-    std::optional<Instant> heard_at;  ///< when a client that commands was heard last on its door; nothing: nobody watches
-    std::string store_fault;          ///< what the store says to every order
-    Duration store_delay{};           ///< and how late
+    std::optional<Instant> received_at;  ///< when a client that commands was heard last on its door; nothing: nobody watches
+    std::string store_fault;             ///< what the store says to every order
+    Duration store_delay{};              ///< and how late
     std::uint64_t next_ticket = 1;
     std::uint64_t steps = 0;
 
@@ -169,7 +169,7 @@ public:
     }
     void on_event(Event event, Instant) override { events.push_back(std::move(event)); }
     void on_sample(const Sample& sample) override { samples.push_back(sample); }
-    std::optional<Instant> heard(const AuthorityClient&) const override { return heard_at; }
+    std::optional<Instant> last_received(const AuthorityClient&) const override { return received_at; }
     void on_store(StoreOrder order) override {
         to_store.emplace_back(std::max(now + store_delay, to_store.empty() ? now : to_store.back().first), order.ticket);
     }

@@ -96,7 +96,7 @@ protected:
     }
     void plug() { w.plug_in("line", d, e, addresses(e, 1)[0], e.kind()); }
     bool serves(Presence p) const { return w.picture(a).presence == p && (w.picture(a).flags & flag_online); }
-    bool told(std::string_view kind, std::string_view part) const {
+    bool published(std::string_view kind, std::string_view part) const {
         for (const auto& ev : w.events) {
             if (ev.kind == kind && ev.text.find(part) != std::string::npos) return true;
         }
@@ -127,7 +127,7 @@ TEST_P(PresenceStory, AutoTakesTheTwinIfNobodyAnswersAndGivesItBackAtRestAfterCo
     start("auto", false);
     ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::twin); }, 5s));
     EXPECT_NE(w.picture(a).flags & flag_simulated, 0);
-    EXPECT_TRUE(told("presence", "simulated"));
+    EXPECT_TRUE(published("presence", "simulated"));
     // A value is written while the twin serves; the device has another one.
     std::optional<Point> point;
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size() && !point; ++i) {
@@ -164,7 +164,7 @@ TEST_P(PresenceStory, AutoTakesTheTwinIfNobodyAnswersAndGivesItBackAtRestAfterCo
     ASSERT_TRUE(r);
     EXPECT_TRUE(good(*r)) << r->text;
     ASSERT_TRUE(w.run_until_true([&] { return serves(Presence::device); }, 12s));
-    if (point) EXPECT_TRUE(told("parameters_differ", e.catalogue->id_of(*point))) << "the difference is told";
+    if (point) EXPECT_TRUE(published("parameters_differ", e.catalogue->id_of(*point))) << "the difference is told";
     w.run_for(1s);
     EXPECT_EQ(w.picture(a).flags & (flag_moving | flag_simulated), 0);
     EXPECT_NE(power_state_of(w.picture(a).statusword), PowerState::operation_enabled) << "nothing is enabled by the change";

@@ -48,12 +48,12 @@ describe('an offline axis', () => {
   it('is told with its line, its silent drive, or by itself, with a reason of its own', () => {
     const answers = { ...drive('device'), name: 'pa', line: 'com1', status: { ...drive('device').status, presence: 'device', online: true, text: 'the drive answers' } } as Drive;
     const silent = { ...drive('offline'), name: 'md', line: 'rs485', status: { ...drive('offline').status, online: false } } as Drive;
-    const wrong = errorsNow(
+    const errors = errorsNow(
       [off('a', { line: 'can0', drive: 'x' }), off('b', { line: 'rs485', drive: 'md' }), off('c', { line: 'com1', drive: 'pa' }), off('d', { line: 'com1', drive: 'pa' }), off('e', { line: 'com1', drive: 'pa' }), axis({ name: 'f' })],
       [line('down')], [silent, answers], 0,
       [alarm({ axis: 'e', text: 'the encoder is gone' }), alarm({ axis: 'e', text: 'older', since: '2025-01-01T00:00:00Z' }), alarm({ axis: 'c', text: 'over', active: false }), alarm({ axis: 'other', drive: 'pa', text: 'of another axis' })],
     );
-    expect(wrong.map((w) => [w.word.text, w.about, w.text, w.axes, w.path])).toEqual([
+    expect(errors.map((w) => [w.word.text, w.about, w.text, w.axes, w.path])).toEqual([
       ['Line down', 'can0', 'no such device', ['a'], '/lines/can0'],
       ['Drive offline', 'md', 'silent', ['b'], '/lines/rs485'],
       ['2 axes offline', 'pa', 'the drive answers, this axis does not', ['c', 'd'], '/lines/com1'],

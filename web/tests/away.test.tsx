@@ -38,15 +38,15 @@ describe('opened while the gateway is away', () => {
     ['/axes/feeder/parameters', 'main', '[data-snapshot]', 'first'],
     ['/users', 'main', '.access-list', 'There are no tokens.'],
     ['/gateway', '[data-field=modbus-door]', '[data-field=modbus-door]', '127.0.0.1:1502'],
-  ])('%s says in %s why, and has %s afterwards', async (path, where, there, words) => {
+  ])('%s says in %s why, and has %s afterwards', async (path, where, there, text) => {
     await leave();
     const before = p.wire.asked.length;
     p.go(path);
     await p.see(where, away);
-    expect(p.text(there)).not.toContain(words);
+    expect(p.text(there)).not.toContain(text);
     expect(p.wire.asked.slice(before).filter((a) => !/\/session$|parameters/.test(a))).toEqual([]); // nothing is asked of nobody
     await comeBack();
-    await p.see(there, words);
+    await p.see(there, text);
     expect(p.text('main')).not.toContain('Not connected:');
   });
   it('a site has its history afterwards, too', async () => {

@@ -92,11 +92,11 @@ describe('problems', () => {
     open[0]?.answer(answer({ status: 409, title: 'Wrong state', detail: 'the axis is in fault: reset it first', code: 8, reason: 'wrong_state', result: 'refused' }, 409, 'application/problem+json'));
     const problem = await p;
     expect(problem).toMatchObject({ kind: 'answered', status: 409, reason: 'wrong_state' });
-    expect(problem.words).toBe("the axis is in fault: reset it first (drive's code 8)");
+    expect(problem.text).toBe("the axis is in fault: reset it first (drive's code 8)");
   });
   it('adds faults that the detail does not say already', async () => {
     const p = new Problem('answered', 'two things are wrong: A', 422, { faults: [{ document: 'body', pointer: '/a', text: 'A', remedy: '' }, { document: 'body', pointer: '/b', text: 'B', remedy: '' }] });
-    expect(p.words).toBe('two things are wrong: A; B');
+    expect(p.text).toBe('two things are wrong: A; B');
   });
   it.each([
     ['half a document', '{"detail":', 'application/problem+json'],
@@ -107,29 +107,29 @@ describe('problems', () => {
     const p = caught(client.about());
     await settle();
     open[0]?.answer(answer(body, 502, type));
-    expect((await p).words).toContain('502');
+    expect((await p).text).toContain('502');
   });
   it('says when nobody answers', async () => {
     const { client, open } = manual();
     const p = caught(client.about());
     await settle();
     open[0]?.fail(new TypeError('fetch failed'));
-    expect(await p).toMatchObject({ kind: 'unreachable', words: 'the gateway cannot be reached' });
+    expect(await p).toMatchObject({ kind: 'unreachable', text: 'the gateway cannot be reached' });
   });
   it('gives up after the time limit, and says it', async () => {
     const { client } = manual();
     const p = caught(client.about());
     await vi.advanceTimersByTimeAsync(15_001);
-    expect(await p).toMatchObject({ kind: 'timed_out', words: 'the gateway did not answer within 15 s' });
+    expect(await p).toMatchObject({ kind: 'timed_out', text: 'the gateway did not answer within 15 s' });
   });
   it('says when an answer cannot be read', async () => {
     const { client, open } = manual();
     const p = caught(client.about());
     await settle();
     open[0]?.answer(answer('{"name":', 200));
-    expect((await p).words).toContain('cannot be read');
+    expect((await p).text).toContain('cannot be read');
   });
-  it('makes a problem of anything', () => expect(asProblem('x').words).toBe('x'));
+  it('makes a problem of anything', () => expect(asProblem('x').text).toBe('x'));
 });
 
 describe('turns', () => {
@@ -158,7 +158,7 @@ describe('turns', () => {
     const read = client.about();
     await settle();
     client.dropWaitingCommands('a stop came first');
-    expect(await move).toMatchObject({ kind: 'cancelled', words: 'a stop came first' });
+    expect(await move).toMatchObject({ kind: 'cancelled', text: 'a stop came first' });
     open[0]?.answer(answer([]));
     await settle();
     open.at(-1)?.answer(answer({ name: 'axisgate' }));

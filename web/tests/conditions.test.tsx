@@ -87,9 +87,9 @@ describe('a role that may not', () => {
     ['viewer', '/events', 'Acknowledging and shelving needs the role operator. Yours is viewer.'],
     ['operator', '/gateway', 'Making the door read-only, or not, needs the role engineer. Yours is operator.'],
     ['engineer', '/users', 'This needs the role administrator. Yours is engineer.'],
-  ] as const)('%s on %s is told why, in sight', async (role, path, words) => {
+  ] as const)('%s on %s is told why, in sight', async (role, path, text) => {
     await as(role, path);
-    await p.see('main', words);
+    await p.see('main', text);
   });
   it('an administrator is told nothing of the kind anywhere', async () => {
     for (const path of ['/axes/feeder', '/axes/feeder/drive', '/site', '/recipes/r', '/gateway', '/events']) {
@@ -192,7 +192,7 @@ describe('what a gateway does not offer is said in words', () => {
     ['/axes/feeder/snapshots', '/axes/feeder/parameters', 'main', 'This gateway does not offer snapshots.'],
     ['/mappings/list', '/mappings', '[data-field=lists]', 'This gateway does not offer generated lists (CSV, PLC structure).'],
     ['/modbus', '/gateway', '[data-field=modbus-door]', 'This gateway does not say more about its Modbus door.'],
-  ])('%s', async (path, page, where, words) => {
+  ])('%s', async (path, page, where, text) => {
     without(path);
     await open(page);
     if (path === '/site/stage') {
@@ -201,13 +201,13 @@ describe('what a gateway does not offer is said in words', () => {
       await p.press('Save to draft');
       await p.press('Check');
     }
-    await p.see(where, words);
+    await p.see(where, text);
     p.close();
     vi.restoreAllMocks();
     await open(page);
     await soon(() => expect(p.text('[data-field=connection]')).toBe('Live'));
     await p.drawn();
-    expect(p.text(where)).not.toContain(words);
+    expect(p.text(where)).not.toContain(text);
   });
   it('a backup, and a registers look of the HMI view', async () => {
     door = new MockDoor({ localRole: 'administrator' });

@@ -26,7 +26,7 @@ const typeUnit = async (unit: string) => {
   await p.press('Save to draft');
   await p.see('[data-diff="axes/feeder"]', `→ ${unit}`);
 };
-const told = '[data-field=stage-told]';
+const reported = '[data-field=stage-told]';
 const mine = '.site-diff[aria-label="What would change"]';
 
 describe('a site that two people change', () => {
@@ -35,12 +35,12 @@ describe('a site that two people change', () => {
     await typeUnit('cm');
     bertStages(91);
     await p.press('Check');
-    await p.see(told, 'Somebody at 10.0.0.9 has staged another change. What you typed is kept.');
+    await p.see(reported, 'Somebody at 10.0.0.9 has staged another change. What you typed is kept.');
     expect(p.text('[data-field=rival]')).toContain('Somebody at 10.0.0.9 has staged this; nothing of it is in force yet. What you typed is kept.');
     expect(p.text('[data-field=rival]')).toContain('lift: velocity max nothing → 91');
     expect(p.button('Apply').disabled).toBe(true);
     await p.press('Check mine instead');
-    await p.see(told, 'Checked: it can be applied.');
+    await p.see(reported, 'Checked: it can be applied.');
     await p.press('Apply');
     await p.see('[data-field=countdown]', 'It is rolled back by itself in');
     expect([axisOf('feeder').unit, axisOf('lift').velocity_max]).toEqual(['cm', undefined]);
@@ -57,7 +57,7 @@ describe('a site that two people change', () => {
     await p.press('Take theirs into view');
     bertStages(92); // not what is in view
     await p.press('Apply theirs');
-    await p.see(told, 'Nothing was applied: somebody at 10.0.0.9 has staged another change.');
+    await p.see(reported, 'Nothing was applied: somebody at 10.0.0.9 has staged another change.');
     await p.press('Take theirs into view');
     await p.press('Apply theirs');
     await p.see('[data-field=countdown]', 'It is rolled back by itself in');
@@ -69,10 +69,10 @@ describe('a site that two people change', () => {
     p = await openPage('/site');
     await typeUnit('cm');
     await p.press('Check');
-    await p.see(told, 'Checked: it can be applied.');
+    await p.see(reported, 'Checked: it can be applied.');
     bertStages(92, true);
     await p.press('Apply');
-    await p.see(told, 'Nothing was applied: somebody at 10.0.0.9 has staged another change. What you typed is kept.');
+    await p.see(reported, 'Nothing was applied: somebody at 10.0.0.9 has staged another change. What you typed is kept.');
     expect(p.text('[data-field=rival]')).toContain('→ 92');
     expect([axisOf('feeder').unit, axisOf('lift').velocity_max]).toEqual(['mm', undefined]);
     expect(p.text(mine)).toContain('unit mm → cm');
@@ -81,13 +81,13 @@ describe('a site that two people change', () => {
     p = await openPage('/site');
     await typeUnit('cm');
     await p.press('Check');
-    await p.see(told, 'Checked: it can be applied.');
+    await p.see(reported, 'Checked: it can be applied.');
     expect(p.other('DELETE', '/site/stage').status).toBe(204);
     await p.press('Apply');
-    await p.see(told, 'Nothing was applied: what you checked is not staged any more. Check it again.');
+    await p.see(reported, 'Nothing was applied: what you checked is not staged any more. Check it again.');
     expect(p.button('Apply').disabled).toBe(true);
     await p.press('Check');
-    await p.see(told, 'Checked: it can be applied.');
+    await p.see(reported, 'Checked: it can be applied.');
   });
   it('shows what somebody else has applied meanwhile; mine goes on top of it, or is dropped', async () => {
     p = await openPage('/site');
@@ -102,12 +102,12 @@ describe('a site that two people change', () => {
     expect(p.text('[data-field=theirs]')).toContain('lift: velocity max nothing → 77');
     expect(p.button('Check').disabled).toBe(true);
     await p.press('Put mine on top');
-    await p.see(told, 'Your changes stand on the newer site now.');
+    await p.see(reported, 'Your changes stand on the newer site now.');
     expect(p.text(mine)).toContain('unit mm → cm');
     applied(78);
     await p.see('[data-field=theirs]', '77 → 78');
     await p.press('Drop mine');
-    await p.see(told, 'Your changes are dropped.');
+    await p.see(reported, 'Your changes are dropped.');
     expect([p.text(mine), axisOf('lift').velocity_max]).toEqual(['', 78]);
   });
   it('shows what another client has staged also to who has typed nothing, and leaves it alone', async () => {
@@ -140,7 +140,7 @@ describe('a site that two people change', () => {
     await p.see('[data-field=countdown]', 'It is rolled back by itself in');
     p.door.configuration.site.stage!.confirm_by = 1;
     p.door.step(0.01, 1);
-    await p.see(told, 'Rolled back by itself: nobody pressed Keep in time.');
+    await p.see(reported, 'Rolled back by itself: nobody pressed Keep in time.');
     expect([axisOf('feeder').unit, p.text(mine)]).toEqual(['mm', '']);
     await p.press('Put it into the draft again');
     await p.see(mine, 'unit mm → cm');
@@ -162,7 +162,7 @@ describe('a site that two people change', () => {
     expect(p.text(mine)).toContain('unit mm → cm');
     await p.press('Restore revision 1');
     await p.press('Drop mine and restore');
-    await p.see(told, 'Revision 1 is staged; nothing has been applied yet.');
+    await p.see(reported, 'Revision 1 is staged; nothing has been applied yet.');
     expect(p.text(mine)).toMatch(/^added axis gantry-y/);
     expect(siteOf().axes).toHaveLength(5);
   });
@@ -279,12 +279,12 @@ describe('a session that has ended', () => {
     p.type(p.field('Name of the new recipe'), 'half-typ');
     door.access.sessions.clear();
   };
-  const words = 'Your session has ended: it was ended elsewhere, it expired, or the gateway was restarted. Sign in again; what you typed is kept.';
+  const text = 'Your session has ended: it was ended elsewhere, it expired, or the gateway was restarted. Sign in again; what you typed is kept.';
 
   it('is told by the first request that is refused: the page waits behind the sign-in with what was typed', async () => {
     await begin(null);
     p.go('/recipes/half');
-    await p.see('[data-field=session-ended]', words);
+    await p.see('[data-field=session-ended]', text);
     expect(p.text('[data-field=strip]')).toContain('Your session has ended: no values are shown until you sign in again.');
     expect(p.text('[data-field=connection]')).toBe('Not signed in');
     expect([...p.root.querySelectorAll('button')].map((b) => b.textContent)).not.toContain('Go on without signing in');
@@ -302,7 +302,7 @@ describe('a session that has ended', () => {
     await begin(null);
     const typed = p.field('Name of the new recipe');
     await p.gateway.client.axes().catch(() => undefined);
-    await p.see('[data-field=session-ended]', words);
+    await p.see('[data-field=session-ended]', text);
     expect(typed.closest('[hidden]')).not.toBeNull();
     p.type(p.field('Name'), 'anna');
     p.type(p.field('Password'), password);
@@ -313,7 +313,7 @@ describe('a session that has ended', () => {
   it('is no local access by itself, but offers it where this machine has one', async () => {
     await begin('engineer');
     await p.gateway.client.axes().catch(() => undefined);
-    await p.see('[data-field=session-ended]', words);
+    await p.see('[data-field=session-ended]', text);
     await p.see('.sign-in .form-foot', 'Go on without signing in');
     expect(p.text('[data-field=connection]')).toBe('Not signed in');
   });

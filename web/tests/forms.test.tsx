@@ -32,21 +32,21 @@ describe('users', () => {
     persisted('typed.user').value = '';
     await open('/');
     await p.see('h1', 'First sign-in');
-    const told = '[data-field=sign-in-told]';
+    const reported = '[data-field=sign-in-told]';
     await p.press('Make the first administrator');
-    await p.see(told, 'The code is missing.');
+    await p.see(reported, 'The code is missing.');
     p.type(p.field('Code'), door.access.code);
     p.type(p.field('Name'), 'Anna');
     await p.press('Make the first administrator');
-    await p.see(told, 'A name has 1 to 64 of');
+    await p.see(reported, 'A name has 1 to 64 of');
     p.type(p.field('Name'), 'anna');
     p.type(p.field('Password'), 'short');
     await p.press('Make the first administrator');
-    await p.see(told, 'at least 12 characters; this one has 5.');
+    await p.see(reported, 'at least 12 characters; this one has 5.');
     p.type(p.field('Password'), password);
     p.type(p.field('Password again'), `${password}!`);
     await p.press('Make the first administrator');
-    await p.see(told, 'The two passwords are not the same.');
+    await p.see(reported, 'The two passwords are not the same.');
     expect(asked('POST /session/first')).toBe(0);
     p.type(p.field('Password again'), password);
     await p.press('Make the first administrator');
@@ -65,17 +65,17 @@ describe('users', () => {
   it('a new password for oneself needs the old one, and ends the session', async () => {
     await asAnna('/users');
     await p.see('[data-field=account]', 'You are anna, administrator.');
-    const told = '[data-field=password-told]';
+    const reported = '[data-field=password-told]';
     await p.press('Change the password');
-    await p.see(told, 'The old password is missing.');
+    await p.see(reported, 'The old password is missing.');
     p.type(p.field('Old password'), 'not this one');
     p.type(p.field('New password'), 'x'.repeat(257));
     p.type(p.field('New password again'), 'x'.repeat(257));
     await p.press('Change the password');
-    await p.see(told, 'A password has at most 256 characters.');
+    await p.see(reported, 'A password has at most 256 characters.');
     for (const f of ['New password', 'New password again']) p.type(p.field(f), 'another long phrase');
     await p.press('Change the password');
-    await p.see(told, 'the old password is wrong');
+    await p.see(reported, 'the old password is wrong');
     p.type(p.field('Old password'), password);
     await p.press('Change the password');
     await p.see('[data-field=session-ended]', 'Your session has ended');
@@ -197,9 +197,9 @@ describe('parameters', () => {
     await open('/axes/feeder/parameters');
     await p.see('main', 'No snapshot is kept.');
     const area = p.root.querySelector<HTMLTextAreaElement>('#transfer-text')!;
-    for (const [text, words] of [['a,b\nAC,1', 'The first line must name the columns: parameter, value.'], ['{"AC":', 'This is not JSON:'], ['parameter,value\nAC,1\nTE,3', '1 of 2 rows must be mended before anything is sent.'], ['parameter,value\nAC,1\nSP,2', '2 will be written; 0 are so already.'], [`parameter,value\n${'AC,1\n'.repeat(5001)}`, 'There are more than 5000 rows.']] as const) {
+    for (const [text, shown] of [['a,b\nAC,1', 'The first line must name the columns: parameter, value.'], ['{"AC":', 'This is not JSON:'], ['parameter,value\nAC,1\nTE,3', '1 of 2 rows must be mended before anything is sent.'], ['parameter,value\nAC,1\nSP,2', '2 will be written; 0 are so already.'], [`parameter,value\n${'AC,1\n'.repeat(5001)}`, 'There are more than 5000 rows.']] as const) {
       p.type(area, text);
-      await p.see('[data-field=transfer-count]', words);
+      await p.see('[data-field=transfer-count]', shown);
     }
     p.type(area, '');
     vi.spyOn(URL, 'createObjectURL').mockImplementation(() => 'blob:x');

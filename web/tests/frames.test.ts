@@ -1,6 +1,6 @@
 // Recorded frames: what is kept, what a filter lets through, and a frame byte by byte.
 import { describe, expect, it } from 'vitest';
-import { bytesOf, idWords, joined, matches, mostFrames, type Frame } from '../src/state/frames';
+import { bytesOf, idText, joined, matches, mostFrames, type Frame } from '../src/state/frames';
 
 const frame = (sequence: number, more: Partial<Frame> = {}): Frame => ({
   sequence,
@@ -46,8 +46,8 @@ describe('frames', () => {
     expect(bytesOf('')).toEqual([]);
   });
   it('tell their identifier', () => {
-    expect(idWords(frame(1))).toBe('04280095 (extended, 29 bits), decimal 69730453');
-    expect(idWords(frame(1, { id: 5, extended: false, remote: true }))).toBe('005 (standard, 11 bits, remote), decimal 5');
-    expect(idWords(frame(1, { id: null }))).toBe('');
+    expect(idText(frame(1))).toBe('04280095 (extended, 29 bits), decimal 69730453');
+    expect(idText(frame(1, { id: 5, extended: false, remote: true }))).toBe('005 (standard, 11 bits, remote), decimal 5');
+    expect(idText(frame(1, { id: null }))).toBe('');
   });
 });

@@ -50,8 +50,8 @@ it('a number typed with figures of full width is the same number; English does n
 
 it('days are written as the language does, the time of today alone', () => {
   const at = new Date(2026, 0, 2, 14, 3, 7);
-  const said = (['en', 'de', 'zh'] as const).map((l) => (speak(l), [day(at), clockTime(at.toISOString(), new Date(2026, 0, 3)), clockTime(at.toISOString(), at)]));
-  expect(said).toEqual([['2026-01-02', '2026-01-02 14:03:07', '14:03:07'], ['02.01.2026', '02.01.2026 14:03:07', '14:03:07'], ['2026年1月2日', '2026年1月2日 14:03:07', '14:03:07']]);
+  const published = (['en', 'de', 'zh'] as const).map((l) => (speak(l), [day(at), clockTime(at.toISOString(), new Date(2026, 0, 3)), clockTime(at.toISOString(), at)]));
+  expect(published).toEqual([['2026-01-02', '2026-01-02 14:03:07', '14:03:07'], ['02.01.2026', '02.01.2026 14:03:07', '14:03:07'], ['2026年1月2日', '2026年1月2日 14:03:07', '14:03:07']]);
 });
 
 describe('the check of the sentences', () => {

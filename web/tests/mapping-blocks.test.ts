@@ -37,10 +37,10 @@ it('a unit with a profile has its language, for as many axes as it has', () => {
 
 it('what is beside each other is read at once, at most 125 places; over unused places only where they can be read', () => {
   const blocks = (list: Mapping[]) => blocksOf(2, 'holding_registers', list, axes);
-  const said = (reads: ReturnType<typeof readsOf>) => reads.map((r) => r.map((b) => b.key).join(''));
-  expect(said(readsOf(blocks([m('c', 8), m('b', 2), m('a', 0)]), false))).toEqual(['ab', 'c']);
-  expect(said(readsOf(blocks([m('c', 8), m('b', 2), m('a', 0)]), true))).toEqual(['abc']);
-  expect(said(readsOf(blocks([m('a', 0), m('b', 124)]), true))).toEqual(['a', 'b']);
+  const published = (reads: ReturnType<typeof readsOf>) => reads.map((r) => r.map((b) => b.key).join(''));
+  expect(published(readsOf(blocks([m('c', 8), m('b', 2), m('a', 0)]), false))).toEqual(['ab', 'c']);
+  expect(published(readsOf(blocks([m('c', 8), m('b', 2), m('a', 0)]), true))).toEqual(['abc']);
+  expect(published(readsOf(blocks([m('a', 0), m('b', 124)]), true))).toEqual(['a', 'b']);
   expect(readsOf(blocks(Array.from({ length: 70 }, (_, i) => m(`m${i}`, i * 2))), false).map((r) => r.length)).toEqual([62, 8]);
 });
 

@@ -8,7 +8,7 @@ import { rowsOf } from '../src/text/table-text';
 
 let rows: Mapping[];
 let revision: number;
-let said: string[];
+let published: string[];
 let book: MappingBook;
 const spec = { unit: 2, address: 0, axis: 'feeder', point: 'position' };
 const whole = (s: Partial<Mapping>): Mapping => ({ id: `m${revision}`, unit: 2, table: 'holding_registers', address: 0, axis: '', point: '', type: 'i32', word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...s });
@@ -17,7 +17,7 @@ const answer = (status: number, body: unknown) => new Response(status === 204 ? 
 const gateway: typeof fetch = async (input, init) => {
   const path = String(input).replace('/api/v1', '');
   const method = init?.method ?? 'GET';
-  said.push(`${method} ${path}`);
+  published.push(`${method} ${path}`);
   if (path === '/mapping-points') return answer(200, []);
   if (method === 'GET') return answer(200, rows);
   const match = (init?.headers as Record<string, string>)['if-match'];
@@ -36,7 +36,7 @@ const gateway: typeof fetch = async (input, init) => {
 };
 
 beforeEach(async () => {
-  [rows, revision, said] = [[], 1, []];
+  [rows, revision, published] = [[], 1, []];
   book = new MappingBook(new MappingDoor(new Client('/api/v1', gateway)));
   await book.load();
 });
@@ -83,11 +83,11 @@ describe('the book', () => {
     await book.add(spec);
     const opened = book.rows.value[0]!;
     rows = [{ ...opened, address: 8 }];
-    said = [];
+    published = [];
     const r = await book.replace(opened.id, { ...spec, scale: 3 }, opened);
     expect(r.good).toBe(false);
     expect(r.good ? undefined : r.clash?.text).toContain('address 0 → 8');
-    expect(said.some((s) => s.startsWith('PUT'))).toBe(false);
+    expect(published.some((s) => s.startsWith('PUT'))).toBe(false);
     expect((await book.replace(opened.id, { ...spec, scale: 3 }, null)).good).toBe(true);
     expect(rows[0]?.scale).toBe(3);
   });

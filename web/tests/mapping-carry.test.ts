@@ -22,11 +22,11 @@ const sent = () => Object.values(book).reduce((n, f) => n + f.mock.calls.length,
 
 it('a point lies free or is said to be taken, by whom, and where the next free place is', async () => {
   hand.pick({ kind: 'new', axis: 'lift', point: 'velocity', type: 'i32' }, 'hand', 1);
-  expect(hand.words()).toBe('velocity of lift at 1–2: taken by a (position of feeder, 0–1). Next free place: 2');
+  expect(hand.text()).toBe('velocity of lift at 1–2: taken by a (position of feeder, 0–1). Next free place: 2');
   expect(await hand.putDown()).toMatchObject({ good: false });
   expect(hand.carry.value).not.toBeNull(); // still in the hand
   hand.over(2);
-  expect(hand.words()).toBe('velocity of lift at 2–3: free');
+  expect(hand.text()).toBe('velocity of lift at 2–3: free');
   expect(await hand.putDown()).toMatchObject({ good: true });
   expect(book.add).toHaveBeenCalledWith({ unit: 2, table: 'holding_registers', address: 2, axis: 'lift', point: 'velocity', type: 'i32' });
   expect(hand.carry.value).toBeNull();
@@ -89,7 +89,7 @@ it('the first Escape puts back, and only then it stops', () => {
 it('where nothing may be changed nothing is', async () => {
   ground.value = { ...ground.peek(), barred: 'Unit 1 is the standard map: it is not changed.' };
   hand.pick({ kind: 'new', axis: 'lift', point: 'velocity', type: 'i32' }, 'hand', 2);
-  expect(hand.words()).toContain('it is not changed');
+  expect(hand.text()).toContain('it is not changed');
   expect(await hand.putDown()).toMatchObject({ good: false });
   expect(sent()).toBe(0);
 });

@@ -106,7 +106,7 @@ export interface MockPage {
   choose(name: string): void;
   go(path: string): void;
   /** Until it is so; fails with what it is. */
-  see(selector: string, words: RegExp | string): Promise<void>;
+  see(selector: string, text: RegExp | string): Promise<void>;
   press(name: string): Promise<void>;
   /** Until what is drawn has had its effects: what would be asked by them has been asked. */
   drawn(): Promise<void>;
@@ -162,10 +162,10 @@ export async function openPage(path: string, { door: made = new MockDoor(), cook
       p.field(name).dispatchEvent(new Event('change', { bubbles: true }));
     },
     go: (to) => (route.value = routeOf(to)),
-    see: (selector, words) =>
+    see: (selector, text) =>
       soon(() => {
         const now = p.text(selector);
-        if (typeof words === 'string' ? !now.includes(words) : !words.test(now)) throw new Error(`${selector} does not say ${words}: ${now}`);
+        if (typeof text === 'string' ? !now.includes(text) : !text.test(now)) throw new Error(`${selector} does not say ${text}: ${now}`);
       }),
     async press(name) {
       await soon(() => {

@@ -113,8 +113,8 @@ describe('recipes', () => {
   it('are kept, listed, run step by step, and report', () => {
     expect(recipes.answer(ask('PUT', '/recipes/r', document))!.status).toBe(201);
     expect(recipes.answer(ask('GET', '/recipes'))!.body).toMatchObject([{ name: 'r', steps: 6, running: null }]);
-    const told: string[] = [];
-    recipes.listeners.push((r) => told.push(`${r.state} ${r.at_step}`));
+    const reported: string[] = [];
+    recipes.listeners.push((r) => reported.push(`${r.state} ${r.at_step}`));
     expect(recipes.answer(ask('POST', '/recipes/r/run', {}))!.status).toBe(202);
     expect(refusal(() => recipes.answer(ask('POST', '/recipes/r/run', {})))).toBe(409);
     go(5);
@@ -122,7 +122,7 @@ describe('recipes', () => {
     expect([r.state, r.text]).toEqual(['done', '']);
     expect(r.steps.map((s: { state: string; times: number }) => `${s.state} ${s.times}`)).toEqual(['done 1', 'done 1', 'done 2', 'done 1', 'done 1', 'done 1']);
     expect(r.steps[4].text).toBe('moved 5');
-    expect(told.at(-1)).toBe('done null');
+    expect(reported.at(-1)).toBe('done null');
   });
   it('fail in words, are cancelled with their axes stopped, and are checked before they are kept', () => {
     recipes.answer(ask('PUT', '/recipes/r', document));
@@ -159,12 +159,12 @@ describe('the door', () => {
   const without = (axis: string) => ({ ...door.world.site, axes: door.world.site.axes.filter((a) => a.name !== axis) });
 
   it('tells a stage as the description of the HTTP door has it, staged and applied', () => {
-    const told = /^ {4}Stage:\n.*\n {6}required: \[(.*)\]/m.exec(readFileSync(new URL('../../schema/openapi.yaml', import.meta.url), 'utf8'))?.[1]?.split(', ').sort();
-    expect(told?.length).toBeGreaterThan(5);
+    const reported = /^ {4}Stage:\n.*\n {6}required: \[(.*)\]/m.exec(readFileSync(new URL('../../schema/openapi.yaml', import.meta.url), 'utf8'))?.[1]?.split(', ').sort();
+    expect(reported?.length).toBeGreaterThan(5);
     const none = say('a', 'GET', '/site/stage');
     const one = say('a', 'POST', '/site/stage', without('gantry-y'));
     const applied = say('a', 'POST', '/site/stage/apply', { confirm_within_s: 60, stage: one.body.id });
-    for (const r of [none, one, applied]) expect(Object.keys(r.body).sort()).toEqual(told);
+    for (const r of [none, one, applied]) expect(Object.keys(r.body).sort()).toEqual(reported);
     expect([none, one, applied].map((r) => [r.body.state, r.body.client, r.body.diff.length, r.body.confirm_by === null])).toEqual([['none', null, 0, true], ['staged', '127.0.0.1 a', 1, true], ['applied', '127.0.0.1 a', 0, false]]);
     expect(applied.head.etag).toBe('"2"');
   });

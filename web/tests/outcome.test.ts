@@ -18,28 +18,28 @@ async function taken(command: Command) {
   const client = { dropWaitingCommands: () => undefined, axes: async () => [], command: async (_: string, c: Command) => answer(c.command) };
   const commander = new Commander(client, () => (connected ? '' : 'no connection'), () => false, () => now, () => t0);
   const look = (ms: number, more: Partial<Axis> = {}) => commander.look((now = axisAt(ms, more)));
-  const told = () => `${commander.note('a').value.tone} ${commander.note('a').value.text}`.trim();
+  const reported = () => `${commander.note('a').value.tone} ${commander.note('a').value.text}`.trim();
   await commander.send('a', command, 'It');
   await settle();
-  return { commander, look, told, connect: (yes: boolean) => void (connected = yes) };
+  return { commander, look, reported, connect: (yes: boolean) => void (connected = yes) };
 }
 const move: Command = { command: 'move_absolute', position: 5 };
 
 describe('a command that was taken', () => {
   it('is done when its axis has moved and arrived', async () => {
-    const { look, told } = await taken(move);
+    const { look, reported: published } = await taken(move);
     look(50, { target_reached: true }); // read before the drive took it
     look(150, { target_reached: true }); // the end of the motion before
-    expect(told()).toBe('good It: accepted');
+    expect(published()).toBe('good It: accepted');
     look(300, { moving: true });
     look(900, { moving: true });
     look(1200, { target_reached: true });
-    expect(told()).toBe('good It: done');
+    expect(published()).toBe('good It: done');
   });
   it('that moved too shortly to be seen is done all the same', async () => {
-    const { look, told } = await taken(move);
+    const { look, reported: published } = await taken(move);
     look(600, { target_reached: true });
-    expect(told()).toBe('good It: done');
+    expect(published()).toBe('good It: done');
   });
   it.each([
     ['a fault', { fault: true, state: 'fault', error: { code: 29, text: 'stall' } }, 'refused It: ended by a fault, 29: stall'],
@@ -47,28 +47,28 @@ describe('a command that was taken', () => {
     ['standing still before its end', {}, 'refused It: interrupted: the axis stopped at 1.00 mm'],
     ['another target', { moving: true, target_position: 9 }, 'refused It: ended: another command took its place'],
     ['silence', { online: false }, 'refused It: the axis went offline; whether it has finished is not known'],
-  ] as [string, Partial<Axis>, string][])('is told as ended by %s', async (_, more, words) => {
-    const { look, told } = await taken(move);
+  ] as [string, Partial<Axis>, string][])('is told as ended by %s', async (_, more, text) => {
+    const { look, reported: published } = await taken(move);
     look(300, { moving: true });
     look(1500, more);
-    expect(told()).toBe(words);
+    expect(published()).toBe(text);
   });
   it('leaves no green word behind when a jog is over, and says when power is there', async () => {
     const jog = await taken({ command: 'move_velocity', velocity: 1 });
     jog.look(300, { moving: true });
     jog.look(900);
-    expect(jog.told()).toBe('none');
+    expect(jog.reported()).toBe('none');
     const power = await taken({ command: 'enable' });
     power.look(200, { state: 'switched_on' });
-    expect(power.told()).toBe('good It: accepted');
+    expect(power.reported()).toBe('good It: accepted');
     power.look(300);
-    expect(power.told()).toBe('good It: done');
+    expect(power.reported()).toBe('good It: done');
   });
   it('is not told of any more when another one was given', async () => {
-    const { commander, look, told } = await taken(move);
+    const { commander, look, reported: published } = await taken(move);
     await commander.stop('a');
     look(1500, { state: 'quick_stop_active' });
-    expect(told()).toBe('good Stop: accepted');
+    expect(published()).toBe('good Stop: accepted');
   });
 });
 
@@ -85,14 +85,14 @@ describe('a refusal', () => {
     expect(commander.note('a').value.tone).toBe('none');
   });
   it('for want of a connection goes when there is one', async () => {
-    const { commander, look, told, connect } = await taken(move);
+    const { commander, look, reported: published, connect } = await taken(move);
     connect(false);
     await commander.send('a', move, 'Move');
     look(500);
-    expect(told()).toBe('refused Move: not sent. no connection');
+    expect(published()).toBe('refused Move: not sent. no connection');
     connect(true);
     look(600);
-    expect(told()).toBe('none');
+    expect(published()).toBe('none');
   });
 });
 

@@ -132,15 +132,15 @@ describe('controls', () => {
   it('Escape takes back what is being typed first, and the button says so; what was sent or only stands there is not being typed', async () => {
     const f = field('Target of feeder');
     const escape = () => f.dispatchEvent(new KeyboardEvent('keydown', { key: 'Escape', bubbles: true }));
-    const said = () => document.querySelector('.stop-all kbd')!.textContent;
+    const published = () => document.querySelector('.stop-all kbd')!.textContent;
     const stops = () => client.command!.mock.calls.filter((c) => (c[1] as { command: string }).command === 'quick_stop').length;
     f.focus();
     type(f, '12');
     await tick();
-    expect(said()).toBe('Esc Esc');
+    expect(published()).toBe('Esc Esc');
     escape();
     await tick();
-    expect([f.value, stops(), said()]).toEqual(['', 0, 'Esc']);
+    expect([f.value, stops(), published()]).toEqual(['', 0, 'Esc']);
     escape();
     expect(stops()).toBe(1);
     type(f, '12');
@@ -275,9 +275,9 @@ describe('what is small', () => {
     expect(line()).toBe('');
     button('Following error').click();
     await vi.waitFor(() => expect(line()).toMatch(/not known now. The axis is off/));
-    for (const [demand_source, words] of [['computed', /computed by the gateway from the order, not measured by the drive/], ['drive', /from the drive\.$/], ['open_loop', /nothing measures whether the shaft follows/]] as const) {
+    for (const [demand_source, shown] of [['computed', /computed by the gateway from the order, not measured by the drive/], ['drive', /from the drive\.$/], ['open_loop', /nothing measures whether the shaft follows/]] as const) {
       tell({ position: 1, demand_known: true, demand_source, position_demand: 2, following_error: 1 });
-      await vi.waitFor(() => expect(line()).toMatch(words));
+      await vi.waitFor(() => expect(line()).toMatch(shown));
     }
     gateway.store.setConnection({ ...live(), phase: 'waiting', retryAt: 1e9, why: 'gone' });
     await vi.waitFor(() => expect(line()).toContain('not known now'));

@@ -41,8 +41,8 @@ it.each([['5', 5], ['-1.5e3', -1500], ['true', true], ['false', false], ['${dist
 
 it('has a form for every step of the schema, and no other', () => {
   const schema = readFileSync(new URL('../../schema/openapi.yaml', import.meta.url), 'utf8').split('    RecipeStep:\n')[1]?.split('    RecipeDocument:')[0] ?? '';
-  const told = [...schema.matchAll(/^ {8}([a-z_]+):/gm)].map((m) => m[1]).filter((w) => w !== 'comment').sort();
-  expect(stepKinds.map((k) => k.word).sort()).toEqual(told);
+  const reported = [...schema.matchAll(/^ {8}([a-z_]+):/gm)].map((m) => m[1]).filter((w) => w !== 'comment').sort();
+  expect(stepKinds.map((k) => k.word).sort()).toEqual(reported);
   for (const k of stepKinds) expect(kindOf(freshStep(k.word, 'feeder'))).toBe(k);
 });
 it('begins a step with the axis that there is', () => expect(freshStep('if', 'feeder')).toEqual({ if: { condition: { axis: 'feeder', point: 'referenced', is: false }, then: [], else: [] } }));

@@ -4,7 +4,7 @@ import { describe, expect, it } from 'vitest';
 import { narrowest_s, panned, readAt, within, zoomed } from '../src/state/plot';
 import { captureParts, joined, trendPart } from '../src/state/recorder';
 import { routeOf, recorderPath } from '../src/router';
-import { bytesWords, freeName, instantText, nameFault, registerWords, sinceText, triggerWords } from '../src/text/recorder';
+import { bytesText, freeName, instantText, nameFault, registerText, sinceText, triggerText } from '../src/text/recorder';
 import { comparedSentence, parameterReport } from '../src/text/report';
 import type { AxisParameter, CaptureWithRows, Trends } from '../src/api/types';
 
@@ -62,21 +62,21 @@ describe('columns put together', () => {
 
 describe('words', () => {
   it('of triggers', () => {
-    expect(triggerWords({ kind: 'level', axis: 'feeder', point: 'velocity', level: 12.5, edge: 'falling' }, 'mm')).toBe('velocity of feeder falls through 12.500 mm/s');
-    expect(triggerWords({ kind: 'state', axis: 'feeder', state: 'fault', edge: 'rising' })).toBe('“fault” of feeder comes');
-    expect(triggerWords({ kind: 'command', axis: 'feeder' })).toBe('a command that moves feeder');
-    expect(triggerWords({ kind: 'at_once' })).toBe('at once');
-    expect(triggerWords(null)).toBe('not known');
+    expect(triggerText({ kind: 'level', axis: 'feeder', point: 'velocity', level: 12.5, edge: 'falling' }, 'mm')).toBe('velocity of feeder falls through 12.500 mm/s');
+    expect(triggerText({ kind: 'state', axis: 'feeder', state: 'fault', edge: 'rising' })).toBe('“fault” of feeder comes');
+    expect(triggerText({ kind: 'command', axis: 'feeder' })).toBe('a command that moves feeder');
+    expect(triggerText({ kind: 'at_once' })).toBe('at once');
+    expect(triggerText(null)).toBe('not known');
   });
   it('of names, sizes, times and registers', () => {
     expect(freeName('capture', ['capture-1', 'capture-3'])).toBe('capture-2');
     expect(nameFault('before-tuning_2.1')).toBe(undefined);
     for (const bad of ['', '.a', 'a b', 'a/b', 'a'.repeat(65)]) expect(nameFault(bad)).not.toBe(undefined);
-    expect(bytesWords(123_456)).toBe('123 kB');
+    expect(bytesText(123_456)).toBe('123 kB');
     expect(sinceText(-0.0123, 0.01)).toBe('−0.0123 s');
     expect(sinceText(-0.00001, 1)).toBe('0.00 s');
     expect(instantText(0.1234, 1)).toBe('00:00:00.123');
-    expect(registerWords({ address: 64, words: [0x1627, 1, 0, 0xffff] })).toBe('64: 1627 0001 0000 FFFF');
+    expect(registerText({ address: 64, words: [0x1627, 1, 0, 0xffff] })).toBe('64: 1627 0001 0000 FFFF');
   });
 });
 

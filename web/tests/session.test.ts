@@ -3,9 +3,9 @@ import { describe, expect, it, vi } from 'vitest';
 import { signal, type Signal } from '@preact/signals';
 import { Client } from '../src/api/client';
 import type { SessionInfo } from '../src/api/types';
-import { passwordFault, Session, signInWords, userFault, whoWords } from '../src/state/session';
+import { passwordFault, Session, signInText, userFault, whoText } from '../src/state/session';
 import { asProblem, Problem } from '../src/api/problem';
-import { handOverChoices, heldBy, heldWords } from '../src/text/authority';
+import { handOverChoices, heldBy, heldText } from '../src/text/authority';
 
 const info = (change: Partial<SessionInfo> = {}): SessionInfo => ({ user: 'anna', role: 'engineer', via: 'cookie', csrf: 'c1', expires_at: null, ended: null, first_sign_in: false, roles: ['viewer', 'operator', 'engineer', 'administrator'], ...change });
 const nobody = info({ user: null, role: null, via: 'none', csrf: null });
@@ -48,15 +48,15 @@ describe('a session that has ended', () => {
   const local = info({ user: null, via: 'local', csrf: null });
   const signedIn = async (then: () => Response, path = '/axes') => {
     let over = false;
-    let told = false;
+    let reported = false;
     const made_ = made((url, init) => {
       if (init.method === 'POST') {
         over = false;
         return answer(info());
       }
       if (!over) return answer(url.endsWith('/session') ? info() : {});
-      if (url.endsWith(path) && !told) {
-        told = true;
+      if (url.endsWith(path) && !reported) {
+        reported = true;
         return then();
       }
       return answer(url.endsWith('/session') ? local : {});
@@ -89,11 +89,11 @@ describe('a session that has ended', () => {
 
 describe('several tabs of one browser', () => {
   const channel = () => {
-    const ends = [0, 1].map(() => ({ onmessage: null as ((e: MessageEvent) => void) | null, said: 0 }));
+    const ends = [0, 1].map(() => ({ onmessage: null as ((e: MessageEvent) => void) | null, published: 0 }));
     return ends.map((own, i) => ({
       get onmessage() { return own.onmessage; },
       set onmessage(f) { own.onmessage = f; },
-      postMessage: (data: unknown) => (own.said += 1, ends[1 - i]!.onmessage?.({ data } as MessageEvent)),
+      postMessage: (data: unknown) => (own.published += 1, ends[1 - i]!.onmessage?.({ data } as MessageEvent)),
     }));
   };
   it('a sign-in and a sign-out in one are known in the others at once, also behind an ended session', async () => {
@@ -147,10 +147,10 @@ describe('session', () => {
   });
   it('says a lockout with the seconds to wait, and a wrong password in the words of the gateway', async () => {
     const locked = made(() => answer({ detail: 'wait' }, 429, { 'retry-after': '8' }));
-    expect(signInWords((await locked.session.signIn('anna', 'x'))!)).toBe('Too many wrong attempts. Try again in 8 s.');
-    const wrong = made(() => answer({ detail: 'the name or the password is wrong' }, 401));
-    expect(signInWords((await wrong.session.signIn('anna', 'x'))!)).toBe('the name or the password is wrong');
-    expect(wrong.asked).toHaveLength(1);
+    expect(signInText((await locked.session.signIn('anna', 'x'))!)).toBe('Too many wrong attempts. Try again in 8 s.');
+    const error = made(() => answer({ detail: 'the name or the password is wrong' }, 401));
+    expect(signInText((await error.session.signIn('anna', 'x'))!)).toBe('the name or the password is wrong');
+    expect(error.asked).toHaveLength(1);
   });
   it('keeps what was known when the gateway does not answer', async () => {
     let up = true;
@@ -176,9 +176,9 @@ describe('session', () => {
     expect(session.mayNot(need)).toBe(why);
   });
   it('says who one is', () => {
-    expect(whoWords(info())).toBe('anna, engineer');
-    expect(whoWords(info({ user: null, via: 'local' }))).toBe('local access, engineer');
-    expect(whoWords(nobody)).toBe('not signed in');
+    expect(whoText(info())).toBe('anna, engineer');
+    expect(whoText(info({ user: null, via: 'local' }))).toBe('local access, engineer');
+    expect(whoText(nobody)).toBe('not signed in');
   });
   it('tells the rules of names and passwords', () => {
     expect(passwordFault('short', 'short')).toContain('at least 12');
@@ -187,7 +187,7 @@ describe('session', () => {
     expect(userFault('Anna')).not.toBe('');
     expect(userFault('anna.b-1@x')).toBe('');
   });
-  it('makes a refusal of anything', () => expect(signInWords(asProblem(new Problem('unreachable', 'gone')))).toBe('gone'));
+  it('makes a refusal of anything', () => expect(signInText(asProblem(new Problem('unreachable', 'gone')))).toBe('gone'));
 });
 
 describe('authority', () => {
@@ -197,9 +197,9 @@ describe('authority', () => {
     ['anna page-abc123', '2026-01-02T03:04:12Z', 'Held by this page, 12 s left', true],
     ['anna page-zzz999', '2026-01-02T03:04:12Z', 'Held by anna, 12 s left', false],
     ['10.0.0.7', '2026-01-02T03:03:59Z', 'Held by 10.0.0.7, about to end', false],
-  ])('of %j is said', (authority_holder, authority_until, words, mine) => {
+  ])('of %j is said', (authority_holder, authority_until, text, mine) => {
     const held = heldBy({ authority_holder, authority_until }, now, 'page-abc123');
-    expect(heldWords(held)).toBe(words);
+    expect(heldText(held)).toBe(text);
     expect(held.mine).toBe(mine);
   });
 });

@@ -107,7 +107,7 @@ describe('a draft', () => {
     faults = [{ pointer: '/drives/0/address', text: 'is taken', remedy: 'choose another', document: 'body' }];
     add();
     expect(await draft.check()).toBe(false);
-    expect(draft.told.value.text).toBe('One fault must be mended.');
+    expect(draft.reported.value.text).toBe('One fault must be mended.');
     expect(draft.faults.value).toHaveLength(1);
     expect(draft.changes.value).toHaveLength(1);
   });
@@ -138,7 +138,7 @@ describe('a draft', () => {
     expect(await draft.check()).toBe(true);
     expect(draft.offersStage.value).toBe(false);
     await draft.apply(60);
-    expect(draft.told.value.text).toContain('does not roll back');
+    expect(draft.reported.value.text).toContain('does not roll back');
     expect(inForce.drives).toHaveLength(1);
   });
   it('of an older state is staged, not applied', async () => {
@@ -155,7 +155,7 @@ describe('two people', () => {
     bert(rs);
     expect(await draft.apply(60)).toBe(false);
     expect(inForce).toBe(first);
-    expect(draft.told.value.text).toBe('Nothing was applied: bert 10.0.0.9 has staged another change. What you typed is kept.');
+    expect(draft.reported.value.text).toBe('Nothing was applied: bert 10.0.0.9 has staged another change. What you typed is kept.');
     expect(draft.stage.value.diff?.[0]?.what).toBe('lines/rs');
     expect(draft.rival.value).toEqual({ inView: false });
     expect(draft.changes.value.map((c) => c.what)).toEqual(['drives/feeder']);
@@ -169,7 +169,7 @@ describe('two people', () => {
     bert(rs);
     await draft.look();
     expect(draft.checked.value).toBeNull();
-    expect(draft.told.value.text).toContain('has staged something else');
+    expect(draft.reported.value.text).toContain('has staged something else');
   });
   it('take theirs into view, apply it, and have their own on top of it', async () => {
     add();
@@ -232,14 +232,14 @@ describe('what is typed', () => {
     await draft.apply(5);
     await door.rollBack();
     await draft.look();
-    expect(draft.told.value.text).toContain('nobody pressed Keep');
+    expect(draft.reported.value.text).toContain('nobody pressed Keep');
     draft.again();
     expect(draft.changes.value.map((c) => c.what)).toEqual(['drives/feeder']);
     await draft.check();
     await draft.apply(5);
     await door.confirm();
     await draft.look();
-    expect(draft.told.value.text).toBe('');
+    expect(draft.reported.value.text).toBe('');
     expect(draft.rolledBack.value).toBeNull();
   });
 });

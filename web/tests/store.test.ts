@@ -153,11 +153,11 @@ describe('events', () => {
   });
   it('are told to listeners one by one, once', () => {
     const s = new Store();
-    const heard = vi.fn();
-    const end = s.onEvent((e) => heard(e.id));
+    const received = vi.fn();
+    const end = s.onEvent((e) => received(e.id));
     s.take({ topic: 'events', at: 1, data: event(1, { severity: 'alarm' }) });
     end();
     s.take({ topic: 'events', at: 1, data: event(2) });
-    expect(heard.mock.calls).toEqual([[1]]);
+    expect(received.mock.calls).toEqual([[1]]);
   });
 });

@@ -170,10 +170,10 @@ describe('losing it', () => {
     live();
     vi.advanceTimersByTime(1500);
     FalseSocket.last.says(site);
-    const heard = Date.now();
+    const received = Date.now();
     vi.advanceTimersByTime(1000);
     FalseSocket.last.ends(1001);
-    expect(state()).toMatchObject({ phase: 'waiting', lastLiveAt: heard, why: 'the gateway has stopped', epoch: 1 });
+    expect(state()).toMatchObject({ phase: 'waiting', lastLiveAt: received, why: 'the gateway has stopped', epoch: 1 });
     vi.advanceTimersByTime(600);
     FalseSocket.last.opens();
     FalseSocket.last.says(site);
@@ -234,16 +234,16 @@ describe('signs of life', () => {
   });
   it('is not live 1.4 s after the last word of a dead cable, and lost after 4 s', () => {
     live();
-    const heard = Date.now();
+    const received = Date.now();
     vi.advanceTimersByTime(1390);
     expect(state().phase).toBe('live');
     vi.advanceTimersByTime(20);
-    expect(state()).toMatchObject({ phase: 'silent', why: 'the gateway has fallen silent', lastLiveAt: heard, epoch: 1 });
+    expect(state()).toMatchObject({ phase: 'silent', why: 'the gateway has fallen silent', lastLiveAt: received, epoch: 1 });
     expect(FalseSocket.last.closed).toBe(false);
     vi.advanceTimersByTime(2580);
     expect(state().phase).toBe('silent');
     vi.advanceTimersByTime(20);
-    expect(state()).toMatchObject({ phase: 'waiting', why: 'the gateway has fallen silent', lastLiveAt: heard });
+    expect(state()).toMatchObject({ phase: 'waiting', why: 'the gateway has fallen silent', lastLiveAt: received });
     expect(FalseSocket.last.closed).toBe(true);
   });
   it('is live again with the next word, on the same connection, and watched as before', () => {

@@ -6,15 +6,15 @@ import { Tab, type TabChannel } from '../src/state/tab';
 /** Channels of one browser: what one says all others hear, when `deliver` is called. */
 function browser() {
   const open: (TabChannel & { asleep?: boolean })[] = [];
-  const said: { from: TabChannel; data: unknown; to: (TabChannel & { asleep?: boolean })[] }[] = [];
+  const published: { from: TabChannel; data: unknown; to: (TabChannel & { asleep?: boolean })[] }[] = [];
   const channel = (): TabChannel & { asleep?: boolean } => {
-    const c: TabChannel & { asleep?: boolean } = { onmessage: null, postMessage: (data) => said.push({ from: c, data, to: open.filter((o) => o !== c) }) };
+    const c: TabChannel & { asleep?: boolean } = { onmessage: null, postMessage: (data) => published.push({ from: c, data, to: open.filter((o) => o !== c) }) };
     open.push(c);
     return c;
   };
   const deliver = () => {
-    for (let i = 0; i < said.length; i += 1) {
-      const m = said[i]!;
+    for (let i = 0; i < published.length; i += 1) {
+      const m = published[i]!;
       m.to = m.to.filter((o) => {
         if (!open.includes(o)) return false;
         if (o.asleep) return true;
@@ -22,7 +22,7 @@ function browser() {
         return false;
       });
     }
-    for (let i = said.length - 1; i >= 0; i -= 1) if (said[i]!.to.length === 0) said.splice(i, 1);
+    for (let i = published.length - 1; i >= 0; i -= 1) if (published[i]!.to.length === 0) published.splice(i, 1);
   };
   const close = (c: TabChannel) => open.splice(open.indexOf(c), 1);
   return { channel, deliver, close };

@@ -1,7 +1,7 @@
 // Parameters as CSV and JSON, out and in, and two sets of values side by side. All pure.
 import { describe, expect, it } from 'vitest';
 import type { AxisParameter } from '../src/api/types';
-import { comparedWords, compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer, leftOut } from '../src/text/transfer';
+import { comparedText, compareWith, csvOfParameters, isMarked, jsonOfParameters, readTransfer, leftOut } from '../src/text/transfer';
 import { world } from './fixtures';
 
 const w = world();
@@ -43,9 +43,9 @@ describe('comparison', () => {
     const rows = compareWith(list, (p) => (p.id === 'AC' ? 1 : p.id === 'DC' ? p.value : null));
     expect(rows.filter((r) => r.known !== false).map((r) => [r.id, r.same])).toEqual([['AC', false], ['DC', true]]);
     expect(rows.filter((r) => r.known === false).every((r) => !r.same && r.other === null)).toBe(true);
-    expect(comparedWords(rows, 9)).toBe('1 of 2 values differ; 7 of 9 cannot be compared, because one side does not know them.');
-    expect(comparedWords(rows.filter((r) => r.known !== false), 2)).toBe('1 of 2 values differ.');
-    expect(comparedWords([], 4)).toBe('None of the 4 values can be compared: no value is known by both sides.');
+    expect(comparedText(rows, 9)).toBe('1 of 2 values differ; 7 of 9 cannot be compared, because one side does not know them.');
+    expect(comparedText(rows.filter((r) => r.known !== false), 2)).toBe('1 of 2 values differ.');
+    expect(comparedText([], 4)).toBe('None of the 4 values can be compared: no value is known by both sides.');
   });
   it.each([
     ['id;value\nTN;1,5', '1.5'], ['id\tvalue\nTN\t1,5', '1.5'], ['id,value\nTN,"1,5"', 'fault'], ['id;value\nTN;1.234,5', 'fault'], ['id;value\nTT;1,5', '1,5'],

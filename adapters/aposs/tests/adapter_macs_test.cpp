@@ -74,13 +74,13 @@ TEST(ApossAdapter, TheEpromIsNotWrittenInACircle) {
     const Result first = b.store();
     ASSERT_TRUE(good(first)) << first.text;
     EXPECT_NE(first.text.find("write 1"), std::string::npos) << first.text;
-    EXPECT_EQ(b.told("eprom"), 1) << "the journal counts them";
+    EXPECT_EQ(b.reported("eprom"), 1) << "the journal counts them";
     const Result second = b.store();
     EXPECT_FALSE(good(second));
     EXPECT_NE(second.text.find("EPROM"), std::string::npos) << second.text;
     b.run(61s);
     EXPECT_TRUE(good(b.store()));
-    EXPECT_EQ(b.told("eprom"), 2);
+    EXPECT_EQ(b.reported("eprom"), 2);
 }
 
 TEST(ApossAdapter, AnErrorNumberOfTheManualIsToldAsThatNumber) {

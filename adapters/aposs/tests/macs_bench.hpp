@@ -44,7 +44,7 @@ struct Macs : cia402_drive::twin::test::Bench {
         (void)write(static_cast<std::uint16_t>(0x6040 + shift), 0, 0x0F, 2);
     }
     /// EMCY of the node with this code since the last transfer.
-    bool told(std::uint16_t code) const {
+    bool reported(std::uint16_t code) const {
         return std::ranges::any_of(out.frames, [&](const auto& tx) {
             return tx.frame.id == 0x80u + node && tx.frame.size >= 2 && (tx.frame.storage[0] | tx.frame.storage[1] << 8) == code;
         });

@@ -245,9 +245,9 @@ TEST(ApossTwin, EachErrorConditionHasItsWay) {  // ERRCOND [L3664-3714], O_BRAKE
         b.pass(1s);
         EXPECT_EQ(seen(b, "outputs"), 0);
         b.hand("inject_error", Value{std::int64_t{89}});
-        const bool told = b.told(0xFF59);
+        const bool reported = b.reported(0xFF59);
         const auto at_once = seen(b, "outputs");
-        EXPECT_TRUE(told);
+        EXPECT_TRUE(reported);
         if (condition == 5) {
             EXPECT_EQ(b.status_of(0) & 0x6F, 0x27) << "the error routine decides";
             continue;

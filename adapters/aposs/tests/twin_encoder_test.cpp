@@ -8,9 +8,9 @@ namespace axisgate::aposs::test {
 namespace {
 
 std::int64_t number_of(Macs& b, const std::string& line) {
-    const std::string said = say(b, line);
-    const auto colon = said.rfind(": ");
-    return colon == std::string::npos ? INT64_MIN : std::strtoll(said.c_str() + colon + 2, nullptr, 10);
+    const std::string reported = say(b, line);
+    const auto colon = reported.rfind(": ");
+    return colon == std::string::npos ? INT64_MIN : std::strtoll(reported.c_str() + colon + 2, nullptr, 10);
 }
 void does(Macs& b, std::initializer_list<const char*> lines) {
     for (const char* line : lines)

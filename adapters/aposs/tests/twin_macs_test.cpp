@@ -151,7 +151,7 @@ TEST(ApossTwin, ErrorConditionFiveLeavesTheControlOn) {
     ASSERT_EQ(b.write(0x607A, 0, 1000, 4), Abort::none);
     b.out.clear();
     b.send(canopen::sdo_frame(0x605, 0x2B, {0x6040, 0}, 0x3F));
-    EXPECT_TRUE(b.told(0xFF06));
+    EXPECT_TRUE(b.reported(0xFF06));
     b.pass(1s);
     EXPECT_EQ(b.status_of(0) & 0x6F, 0x27);
     EXPECT_EQ(b.position_of(0), 0);

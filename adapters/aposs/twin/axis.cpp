@@ -212,7 +212,7 @@ void MacsAxis::raise(std::uint16_t code, Instant now) {
         if (outside(false, place) || at_switch_[0]) violated_ = -1;
     }
     if (value("ERRCOND") == 5) {
-        told_.push_back({now, {code, 0x81, {}}});  // control stays on, the program's error routine has it [L3707]
+        reported_.push_back({now, {code, 0x81, {}}});  // control stays on, the program's error routine has it [L3707]
         return;
     }
     servo_.fail(code, now);
@@ -313,9 +313,9 @@ void MacsAxis::misread(double by, Instant now) {
 /// where it would be, for so many readings; after them, as with any other encoder, it is what it says.
 void MacsAxis::read_encoder(Instant at) {
     const auto code = encoder_of(value("ENCODERTYPE"), false).value_or(EncoderCode{});
-    const bool told = code.source == Encoder::linear_absolute && std::fabs(jump_.by) > real(value("ENCODER")) / 2;
-    if (told) ++jump_.count;
-    if (!told || ++jump_.readings > corrected_readings) return servo_.shaft().misread(jump_.by);
+    const bool reported = code.source == Encoder::linear_absolute && std::fabs(jump_.by) > real(value("ENCODER")) / 2;
+    if (reported) ++jump_.count;
+    if (!reported || ++jump_.readings > corrected_readings) return servo_.shaft().misread(jump_.by);
     const double artificial = jump_.from + jump_.velocity * seconds(at - jump_.since) * 1000;
     servo_.shaft().misread(artificial - servo_.shaft().shaft(at).position);
 }

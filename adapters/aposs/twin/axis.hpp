@@ -64,7 +64,7 @@ public:
     /// What an event of the servo's may have done: brake, homing.
     void after(Instant now);
     void raise(std::uint16_t code, Instant now);
-    [[nodiscard]] std::vector<cia402_drive::twin::Device::Told> take_told() { return std::exchange(told_, {}); }
+    [[nodiscard]] std::vector<cia402_drive::twin::Device::Reported> take_reported() { return std::exchange(reported_, {}); }
 
     [[nodiscard]] bool homing_due() const { return value("HOME_FORCE") != 0 && !homed_; }
     void revoke_homing() { homed_ = false; }
@@ -125,7 +125,7 @@ private:
     double encoder_zero_ = 0;
     int violated_ = 0;  ///< a limit whose error came: -1, 1, until the axis is back inside
     std::array<bool, 2> at_switch_{};
-    std::vector<cia402_drive::twin::Device::Told> told_;
+    std::vector<cia402_drive::twin::Device::Reported> reported_;
 };
 
 }  // namespace axisgate::aposs

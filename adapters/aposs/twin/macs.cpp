@@ -144,15 +144,15 @@ void Macs::connection_lost(Instant now) {
     for (MacsAxis& a : axes_)
         a.servo().connection_lost(now);
 }
-std::vector<Device::Told> Macs::take_told() {
-    std::vector<Told> all;
+std::vector<Device::Reported> Macs::take_reported() {
+    std::vector<Reported> all;
     for (MacsAxis& a : axes_) {
-        for (const Told& t : a.take_told())
+        for (const Reported& t : a.take_reported())
             all.push_back(t);
-        for (const Told& t : a.servo().take_told())
+        for (const Reported& t : a.servo().take_reported())
             all.push_back(t);
     }
-    std::ranges::stable_sort(all, {}, &Told::at);
+    std::ranges::stable_sort(all, {}, &Reported::at);
     return all;
 }
 

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] Instant next_event(Instant now) const override;
     void on_event(Instant at) override;
     void connection_lost(Instant now) override;
-    [[nodiscard]] std::vector<Told> take_told() override;
+    [[nodiscard]] std::vector<Reported> take_reported() override;
     [[nodiscard]] bool keeps(Address address, const canopen::Entry& entry) const override;
     void save(NonVolatile& memory) override;
     void load(const NonVolatile& memory) override;

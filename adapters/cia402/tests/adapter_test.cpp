@@ -43,7 +43,7 @@ TEST(Cia402Adapter, ADriveStopsByItselfWhenNothingOfTheGatewayReachesItAndStands
     ASSERT_TRUE(good(b.ask(run_at(10'000))));
     b.run(5s);
     ASSERT_EQ(b.speed(), 10'000) << "the gateway's heartbeat holds it";
-    EXPECT_EQ(b.told("emergency"), 0);
+    EXPECT_EQ(b.reported("emergency"), 0);
     b.deaf = true;
     const Instant cut = b.now;
     while (b.speed() == 10'000 && b.now < cut + 5s)
@@ -154,7 +154,7 @@ TEST(Cia402Adapter, ADriveThatTakesNoWatchdogIsServedAndSaidToHaveNone) {
     b.run(6s);
     EXPECT_TRUE(b.link.online) << b.link.text;
     EXPECT_EQ(b.link.watchdog.state, DriveWatchdog::State::refused);
-    EXPECT_EQ(b.told("watchdog"), 1);
+    EXPECT_EQ(b.reported("watchdog"), 1);
     const int before = b.heartbeats;
     ASSERT_TRUE(b.enable());
     b.run(1s);
@@ -184,7 +184,7 @@ TEST(Cia402Adapter, AStormOfEmergenciesIsToldInBounds) {
     for (int i = 0; i < 10'000; ++i)
         b.inject(data(0x085, {0x10, 0x23, 0x03, 0, 0, 0, 0, static_cast<std::uint8_t>(i)}));
     EXPECT_LT(b.notices.size(), 50u);
-    EXPECT_GE(b.told("emergency"), 1);
+    EXPECT_GE(b.reported("emergency"), 1);
     b.run(1s);
     EXPECT_TRUE(b.link.online) << "and it is served all the same";
     EXPECT_TRUE(b.enable());
@@ -231,7 +231,7 @@ TEST(Cia402Adapter, TwoNodesOfOneNumberAnswerTwiceAndEachCommandEndsOnce) {
     for (int i = 0; i < 10; ++i)
         (void)b.ask(LineBench::to(1000 * i));
     b.run(1s);
-    EXPECT_EQ(b.told("two_nodes"), 1) << "said once, and not with every question";
+    EXPECT_EQ(b.reported("two_nodes"), 1) << "said once, and not with every question";
     for (const auto& [ticket, list] : b.results)
         EXPECT_EQ(list.size(), 1u);
 }
@@ -239,12 +239,12 @@ TEST(Cia402Adapter, TwoNodesOfOneNumberAnswerTwiceAndEachCommandEndsOnce) {
 TEST(Cia402Adapter, HeartbeatsInTheGapsOfOthersAreASecondNode) {
     LineBench b;
     b.run(3s);
-    EXPECT_EQ(b.told("two_nodes"), 0);
+    EXPECT_EQ(b.reported("two_nodes"), 0);
     for (int i = 0; i < 10; ++i) {  // another one's, at its own phase; its answers would be one with those of the first on a real bus
         b.run(500ms);
         b.inject(data(0x705, {0x05}));
     }
-    EXPECT_EQ(b.told("two_nodes"), 1);
+    EXPECT_EQ(b.reported("two_nodes"), 1);
     EXPECT_TRUE(b.link.online);
 }
 
@@ -256,10 +256,10 @@ TEST(Cia402Adapter, AHeartbeatThatComesEarlyNowAndThenIsNoSecondNode) {
         now += i % 3 == 0 ? 800ms : i % 3 == 1 ? 200ms : 500ms;
         EXPECT_FALSE(watch.beat(now)) << i;
     }
-    int told = 0;
+    int reported = 0;
     for (int i = 0; i < 20; ++i)
-        told += watch.beat(now += i % 2 ? 450ms : 50ms) ? 1 : 0;
-    EXPECT_EQ(told, 1);
+        reported += watch.beat(now += i % 2 ? 450ms : 50ms) ? 1 : 0;
+    EXPECT_EQ(reported, 1);
     watch.begin(Duration::zero());
     for (int i = 0; i < 20; ++i)
         EXPECT_FALSE(watch.beat(now += 1ms)) << "it took no period from us";
@@ -274,7 +274,7 @@ TEST(Cia402Adapter, OneNodeIsNeverTakenForTwo) {
         (void)b.ask(LineBench::to(i));
         b.run(50ms);
     }
-    EXPECT_EQ(b.told("two_nodes"), 0);
+    EXPECT_EQ(b.reported("two_nodes"), 0);
 }
 
 TEST(Cia402Adapter, ReachedIsNotSaidByTheStatusOfTheMotionBefore) {

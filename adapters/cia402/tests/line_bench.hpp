@@ -135,7 +135,7 @@ public:
         EXPECT_EQ(results[t].size(), 1u) << "one command, one result";
         return results[t].empty() ? Result{} : results[t][0];
     }
-    [[nodiscard]] std::ptrdiff_t told(std::string_view kind) const { return std::ranges::count(notices, kind, &Notice::kind); }
+    [[nodiscard]] std::ptrdiff_t reported(std::string_view kind) const { return std::ranges::count(notices, kind, &Notice::kind); }
     [[nodiscard]] bool enable() { return good(ask(Enable{})); }
     static Move to(std::int64_t target) {
         Move m;

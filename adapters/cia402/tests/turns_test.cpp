@@ -147,7 +147,7 @@ TEST(Cia402Turns, ThirtyTwoAxesAtTwoMilliseconds) {
         EXPECT_EQ(b.of_drive[d.id].beats, (DriveBeats{2ms, 16}));
     }
     b.run_all(10'000);
-    EXPECT_EQ(b.told("turns"), 0);
+    EXPECT_EQ(b.reported("turns"), 0);
     b.watch(2s);
     EXPECT_NEAR(static_cast<double>(b.beats.size()), 1000, 3);
     EXPECT_LE(b.longest_gap(), 2ms + wire_time(canopen::most_bits(8), 1'000'000)) << "but for a frame that was on its way";
@@ -245,7 +245,7 @@ struct HardBench : TurnsBench {
     }
     void each_in_its_beats() {
         watch(1s);
-        EXPECT_EQ(told("turns"), 0);
+        EXPECT_EQ(reported("turns"), 0);
         for (std::size_t i = 0; i < beats.size(); ++i) {
             int pictures = 0;
             for (std::uint32_t node = 1; node <= 16; ++node)

@@ -192,7 +192,7 @@ TEST(Cia402Twin, CyclicModesFollowTheirTargetsAtTheSync) {
 }
 
 TEST(Cia402Twin, AHeldShaftIsAFollowingErrorAtTheSameInstantHoweverLateItIsAsked) {
-    std::vector<Instant> told;
+    std::vector<Instant> reported;
     for (const Duration step : {1ms, 5000ms}) {
         Bench b;
         b.send(canopen::nmt_frame(canopen::NmtCommand::start, 5));
@@ -205,7 +205,7 @@ TEST(Cia402Twin, AHeldShaftIsAFollowingErrorAtTheSameInstantHoweverLateItIsAsked
             b.pass(step);
         ASSERT_EQ(b.count(0x85), 1u);
         for (const auto& tx : b.out.frames)
-            if (tx.frame.id == 0x85) told.push_back(tx.frame.at);
+            if (tx.frame.id == 0x85) reported.push_back(tx.frame.at);
         EXPECT_EQ(b.status() & 0x4Fu, 0x08u);
         EXPECT_EQ(b.read(0x603F) & 0xFFFF, 0x8611);
         EXPECT_EQ(b.read(0x1001), 0x11);
@@ -215,7 +215,7 @@ TEST(Cia402Twin, AHeldShaftIsAFollowingErrorAtTheSameInstantHoweverLateItIsAsked
         EXPECT_EQ(b.status() & 0x6Fu, 0x40u);
         EXPECT_EQ(b.read(0x603F), 0);
     }
-    EXPECT_EQ(told[0], told[1]);
+    EXPECT_EQ(reported[0], reported[1]);
 }
 
 TEST(Cia402Twin, HeartbeatBootUpAndMemory) {

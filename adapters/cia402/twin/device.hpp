@@ -14,7 +14,7 @@ namespace axisgate::cia402_drive::twin {
 
 class Device {
 public:
-    struct Told {
+    struct Reported {
         Instant at;
         canopen::Emergency emergency;
     };
@@ -35,7 +35,7 @@ public:
     virtual void on_event(Instant at) = 0;
     /// Communication was lost or stopped (6007h).
     virtual void connection_lost(Instant now) = 0;
-    [[nodiscard]] virtual std::vector<Told> take_told() = 0;
+    [[nodiscard]] virtual std::vector<Reported> take_reported() = 0;
 
     /// Which objects the node itself keeps by 1010h.
     [[nodiscard]] virtual bool keeps(canopen::Address address, const canopen::Entry& entry) const = 0;

@@ -72,7 +72,7 @@ void Node::power_on(const NonVolatile& memory, Instant now, Out& out) {
 }
 void Node::power_off(Instant now) {
     device_->power_off(now);
-    (void)device_->take_told();
+    (void)device_->take_reported();
     powered_ = false;
     state_ = NmtState::boot_up;
     heartbeat_.set_period({}, now);
@@ -349,8 +349,8 @@ void Node::transmit(Pdo& p, Instant at, Out& out) {
 }
 
 void Node::events(Instant at, Out& out) {
-    for (const auto& told : device_->take_told())
-        if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, told.emergency), told.at, out);
+    for (const auto& reported : device_->take_reported())
+        if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, reported.emergency), reported.at, out);
     if (state_ != NmtState::operational) return;
     for (Pdo& p : transmit_) {
         if (!p.valid || p.pdo.settings.transmission < 254) continue;

@@ -99,7 +99,7 @@ void Servo::control(Instant now) {
     if (state_ == State::fault) {
         if ((rising & 0x80u) && cause_ == 0) {
             o_.clear_error();
-            told_.push_back({now, {}});
+            reported_.push_back({now, {}});
             enter(State::switch_on_disabled, now);
         }
         return;
@@ -206,7 +206,7 @@ void Servo::hold(bool held, Instant now) {
 
 void Servo::fail(std::uint16_t code, Instant now) {
     o_.note_error(code, register_of(code));
-    told_.push_back({now, {code, register_of(code), {}}});
+    reported_.push_back({now, {code, register_of(code), {}}});
     if (state_ == State::fault) return;
     orders_.forget();
     if (m_.held()) m_.rest_at(m_.shaft(now).position, now);  // held: there is nothing to brake

@@ -38,7 +38,7 @@ public:
     void on_event(Instant at) override;
     [[nodiscard]] bool keeps(canopen::Address address, const canopen::Entry& entry) const override;
     void connection_lost(Instant now) override;
-    [[nodiscard]] std::vector<Told> take_told() override { return std::exchange(told_, {}); }
+    [[nodiscard]] std::vector<Reported> take_reported() override { return std::exchange(reported_, {}); }
 
     void fail(std::uint16_t code, Instant now);
     void set_cause(std::uint16_t code) { cause_ = code; }  ///< 0: a reset is taken again
@@ -92,7 +92,7 @@ private:
     Duration watch_every_ = std::chrono::milliseconds(1);
     Instant checked_{};
     std::int64_t behind_ = 0;  ///< following errors that were found one after the other
-    std::vector<Told> told_;
+    std::vector<Reported> reported_;
 };
 
 }  // namespace axisgate::cia402_drive::twin

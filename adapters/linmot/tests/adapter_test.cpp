@@ -384,12 +384,12 @@ TEST(LinmotAdapter, AStreamIsNotBegunWhereItsPeriodCannotBeHeld) {
     };
     for (const Case c : {Case{1, 0}, Case{1, 57'600}, Case{2, 115'200}}) {
         SCOPED_TRACE(testing::Message() << c.drives << " at " << c.bit_rate);
-        const auto told = [](const LineBench& of) {
+        const auto reported = [](const LineBench& of) {
             return std::ranges::any_of(of.notices, [](const Notice& n) { return n.text.find("cannot hold") != std::string::npos; });
         };
-        EXPECT_FALSE(told(LineBench(c.drives, c.bit_rate, {{"set_points", "auto"}}))) << "it may be so";
+        EXPECT_FALSE(reported(LineBench(c.drives, c.bit_rate, {{"set_points", "auto"}}))) << "it may be so";
         LineBench b(c.drives, c.bit_rate, {{"set_points", "stream"}});
-        EXPECT_TRUE(told(b));
+        EXPECT_TRUE(reported(b));
         b.run(1s);
         ASSERT_TRUE(b.enable());
         for (int i = 1; i <= 50; ++i) {

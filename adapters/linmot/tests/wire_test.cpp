@@ -15,13 +15,13 @@ namespace axisgate::linmot {
 namespace {
 using test::cases;
 
-struct Heard {
+struct Received {
     std::vector<Telegram> telegrams;
     std::vector<std::string> junk;
     std::size_t junk_bytes = 0;
 };
-Heard frame(std::span<const std::uint8_t> bytes, std::size_t piece, const ChecksumRule& rule = {}) {
-    Heard h;
+Received frame(std::span<const std::uint8_t> bytes, std::size_t piece, const ChecksumRule& rule = {}) {
+    Received h;
     Framer f;
     f.set(rule);
     while (!bytes.empty()) {
@@ -269,10 +269,10 @@ TEST(LinmotDecoder, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
     EXPECT_EQ(d.on_frame(Frame::run(two), true).size(), 1u);
     EXPECT_NE(d.on_frame(Frame::run(test::bytes_of("05 04")), true).at(0).find("unknown: no telegram begins here"), std::string::npos);
     LineDecoder noise(test::page());
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (int i = 0; i < 100; ++i)
-        told += noise.on_frame(Frame::run(test::bytes_of("05 04")), false).size();
-    EXPECT_EQ(told, 100u) << "no telegram is so long: all are strange";
+        reported += noise.on_frame(Frame::run(test::bytes_of("05 04")), false).size();
+    EXPECT_EQ(reported, 100u) << "no telegram is so long: all are strange";
 }
 
 }  // namespace

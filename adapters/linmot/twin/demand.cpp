@@ -99,7 +99,7 @@ Fault Demand::take(std::uint8_t sub, const Bytes& b, Instant now) {
         vai_.rest(here.position, now);
         return fault;
     }
-    vai_.aim(signed32(b, 2));
+    vai_.set_target(signed32(b, 2));
     return 0;
 }
 
@@ -127,7 +127,7 @@ Fault Demand::couple(Coupling::Mode mode, Instant now) {
 void Demand::uncouple(Instant now) {
     leave(now);
     memory_.set_ram(0x1BA9, 0);
-    vai_.aim_at_end();
+    vai_.target_end();
 }
 
 void Demand::step_coupling(Instant now) {
@@ -137,7 +137,7 @@ void Demand::step_coupling(Instant now) {
             return;
         case Coupling::Passed::shot_over:
             if (step.place) vai_.rest(*step.place, now);
-            return vai_.aim_at_end();
+            return vai_.target_end();
         case Coupling::Passed::released:
             return vai_.rest(step.place.value_or(at(now).position), now);
     }

@@ -118,7 +118,7 @@ void Device::look(Instant now, Out& out) {
         at += whole;
         if (rest[1] != setup_.id) continue;  // most of what a full line carries
         const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
-        if (body.size() >= 2) heard(body, now, out);
+        if (body.size() >= 2) received(body, now, out);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(std::min(at, held_.size())));
 }
@@ -156,7 +156,7 @@ void Device::set_error_count() {
     last_error_ = now_in_error ? drive_.error_code() : std::uint16_t{0};
 }
 
-void Device::heard(Data body, Instant now, Out& out) {
+void Device::received(Data body, Instant now, Out& out) {
     at_ = now;
     drive_.advance(now);
     const std::uint8_t sub = body[0], main = body[1];

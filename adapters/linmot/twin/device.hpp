@@ -46,7 +46,7 @@ public:
 private:
     using Data = std::span<const std::uint8_t>;
     void look(Instant now, Out& out);
-    void heard(Data body, Instant now, Out& out);
+    void received(Data body, Instant now, Out& out);
     void answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const;
     void default_response(Out& out, std::span<const std::uint8_t> more = {}) const;
     void config(std::uint8_t sub, std::uint8_t state, std::uint16_t index, std::uint32_t value, Out& out) const;

@@ -206,7 +206,7 @@ bool States::transit_operating(Instant now) {
     if (!cw(4)) {
         brake_to(aborting, now);
         body_.armed = {};
-        body_.demand.vai().aim_at_end();
+        body_.demand.vai().target_end();
         return true;
     }
     if (!cw(5)) return brake_to(freezing, now), true;

@@ -26,8 +26,8 @@ public:
     void rest(double position, Instant now) noexcept { profile_.rest(position, now); }
     /// Stands there, and that is the former target of what comes.
     void stand(double position, Instant now) noexcept { profile_.rest(position, now), target_ = position; }
-    void aim(double target) noexcept { target_ = target; }
-    void aim_at_end() noexcept { target_ = profile_.target(); }
+    void set_target(double target) noexcept { target_ = target; }
+    void target_end() noexcept { target_ = profile_.target(); }
 
     /// The drive's own moves: to a place, or endless.
     void move(Point from, double target, const Ramps& ramps, Instant now) noexcept;

@@ -28,7 +28,7 @@ TEST(McodeAdapter, FindsDrivesInEveryModeAndSetsTheirLink) {
                 EXPECT_TRUE(b.online()) << name << em << ck;
                 EXPECT_EQ(b.drives[0].em, 1) << name << em << ck;
                 EXPECT_EQ(b.drives[0].ck, 1) << name << em << ck;
-                EXPECT_FALSE(has(b.drives[0].heard, "S")) << "nothing is saved unasked";
+                EXPECT_FALSE(has(b.drives[0].received_lines, "S")) << "nothing is saved unasked";
             }
         }
     }
@@ -74,17 +74,17 @@ TEST(McodeAdapter, WhatWouldMoveIsOverWithAStopInWhateverWordsItWaits) {
             b.run(2s);
             const Ticket before = b.command(ReadParameter{*catalogue().find("VM")});
             const Ticket waits = b.command(body);
-            b.drives[0].heard.clear();
+            b.drives[0].received_lines.clear();
             const Ticket stop = b.command(halt ? CommandBody{Halt{}} : CommandBody{Disable{}});
             b.run(3s);
             ASSERT_TRUE(b.result(before) && b.result(waits) && b.result(stop));
             const bool over = by_halt || !halt;
             EXPECT_EQ(b.result(waits)->reason == Reason::interrupted, over) << name_of(body) << " halt " << halt;
-            const bool heard = std::ranges::any_of(b.drives[0].heard, [](const std::string& line) {
+            const bool received_lines = std::ranges::any_of(b.drives[0].received_lines, [](const std::string& line) {
                 return line.starts_with("MA") || line.starts_with("sl") || line.starts_with("MR") || line.starts_with("EX") ||
                        line.starts_with("HM") || line.starts_with("DE=1") || line.starts_with("RS");
             });
-            EXPECT_EQ(heard, !over) << name_of(body) << " halt " << halt;
+            EXPECT_EQ(received_lines, !over) << name_of(body) << " halt " << halt;
         }
     }
 }
@@ -93,7 +93,7 @@ TEST(McodeAdapter, AStartedDriveIsNotEnabledAndNothingMoves) {
     b.up();
     b.run(2s);
     EXPECT_EQ(b.feedback[AxisId{0}].power, AxisFeedback::Power::off);
-    for (const auto& l : b.drives[0].heard)
+    for (const auto& l : b.drives[0].received_lines)
         EXPECT_FALSE(l.starts_with("MA") || l.starts_with("SL") || l.starts_with("DE")) << l;
 }
 TEST(McodeAdapter, MoveSetsItsProfileAndAcceptedComesAfterReachedIsWithdrawn) {
@@ -110,7 +110,7 @@ TEST(McodeAdapter, MoveSetsItsProfileAndAcceptedComesAfterReachedIsWithdrawn) {
     back.velocity = 500;
     ASSERT_EQ(b.wait(back).outcome, Outcome::accepted);
     EXPECT_FALSE(b.reached_at_result.back().second);
-    const auto& h = b.drives[0].heard;
+    const auto& h = b.drives[0].received_lines;
     for (const char* l : {"VM=4000", "A=20000", "D=20000", "MA 500", "VI=499", "VM=500", "MA 400"})
         EXPECT_TRUE(has(h, l)) << l;
     EXPECT_LT(std::ranges::find(h, "VI=499") - h.begin(), std::ranges::find(h, "VM=500") - h.begin()) << "VI stays below VM";
@@ -126,7 +126,7 @@ TEST(McodeAdapter, ARefusedValueEndsTheMoveBeforeItStarts) {
     EXPECT_EQ(r.outcome, Outcome::refused);
     EXPECT_EQ(r.reason, Reason::drive_refused);
     EXPECT_EQ(r.code, 77);
-    EXPECT_FALSE(has(b.drives[0].heard, "MA 500"));
+    EXPECT_FALSE(has(b.drives[0].received_lines, "MA 500"));
 }
 TEST(McodeAdapter, ALostAcknowledgementIsAskedAfter) {
     Bench b;
@@ -179,8 +179,8 @@ TEST(McodeAdapter, HomingMethods) {
         ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
         EXPECT_TRUE(good(b.wait(Home{r.method}))) << r.method;
         b.run(1s);
-        EXPECT_TRUE(has(b.drives[0].heard, r.line)) << r.method;
-        EXPECT_TRUE(has(b.drives[0].heard, "P=0")) << r.method << ": the place that was found is 0";
+        EXPECT_TRUE(has(b.drives[0].received_lines, r.line)) << r.method;
+        EXPECT_TRUE(has(b.drives[0].received_lines, "P=0")) << r.method << ": the place that was found is 0";
         EXPECT_TRUE(b.feedback[AxisId{0}].referenced) << r.method;
         EXPECT_TRUE(b.feedback[AxisId{0}].homing_attained) << r.method;
     }
@@ -208,7 +208,7 @@ TEST(McodeAdapter, FaultsAreReadOnceKeptAndReset) {
     EXPECT_EQ(std::ranges::count_if(b.notices, [](const Notice& n) { return n.code == 86; }), 1);
     EXPECT_EQ(b.wait(ResetFault{}).outcome, Outcome::done);
     b.run(500ms);
-    EXPECT_TRUE(has(b.drives[0].heard, "ST=0"));
+    EXPECT_TRUE(has(b.drives[0].received_lines, "ST=0"));
     EXPECT_FALSE(b.feedback[AxisId{0}].fault);
 }
 TEST(McodeAdapter, NoAxisGetsAnothersLateAnswer) {
@@ -236,7 +236,7 @@ TEST(McodeAdapter, AfterATimeOutALineWaitsUntilALateAcknowledgementIsOver) {
     ASSERT_EQ(b.adapter.counters().timeouts, 1U);
     const Instant asked = b.now;
     (void)b.command(Enable{}, 1);
-    while (!has(b.drives[1].heard, "DE=1") && b.now - asked < 1s)
+    while (!has(b.drives[1].received_lines, "DE=1") && b.now - asked < 1s)
         b.run(1ms);
     EXPECT_GE(b.now - asked, 200ms);
     EXPECT_LE(b.now - asked, 550ms) << "one exchange in progress, and the wait";
@@ -245,7 +245,7 @@ TEST(McodeAdapter, NoiseIsOverWithinOneTimeOut) {
     Bench b;
     b.up();
     b.run(2s);
-    b.hear("\xFF\x00#zz12,3\r\ngarbage >?\x06");
+    b.receive("\xFF\x00#zz12,3\r\ngarbage >?\x06");
     b.drives[0].values["P"] = "77";
     b.run(600ms);
     EXPECT_EQ(b.feedback[AxisId{0}].position, 77);
@@ -277,11 +277,11 @@ TEST(McodeAdapter, NativeLines) {
     b.run(2s);
     EXPECT_EQ(b.wait(native("PR VM")).text, "768000");
     for (const auto& bad : {std::string(65, 'A'), std::string("MA 1\rMA 2"), std::string("PG 1"), std::string("CK=0"), std::string("")}) {
-        const auto before = b.drives[0].heard.size();
+        const auto before = b.drives[0].received_lines.size();
         const Result r = b.wait(native(bad));
         EXPECT_EQ(r.outcome, Outcome::refused) << bad;
-        for (auto i = before; i < b.drives[0].heard.size(); ++i)
-            EXPECT_NE(b.drives[0].heard[i], bad);
+        for (auto i = before; i < b.drives[0].received_lines.size(); ++i)
+            EXPECT_NE(b.drives[0].received_lines[i], bad);
     }
     b.drives[0].refuse["XYZ"] = 60;
     EXPECT_EQ(b.wait(native("XYZ")).code, 60);
@@ -315,15 +315,15 @@ TEST(McodeAdapter, ASlowVelocityTakesViAlong) {
     Move jog;
     jog.kind = Move::Kind::velocity;
     const auto lines = [&](std::int64_t target) {
-        const auto before = b.drives[0].heard.size();
+        const auto before = b.drives[0].received_lines.size();
         jog.target = target;
         EXPECT_TRUE(good(b.wait(jog)));
-        std::string said;
-        for (auto i = before; i < b.drives[0].heard.size(); ++i) {
-            const auto& line = b.drives[0].heard[i];
-            if (line.find("VI=") != std::string::npos || line.find("SL") != std::string::npos) said += line + "; ";
+        std::string reported;
+        for (auto i = before; i < b.drives[0].received_lines.size(); ++i) {
+            const auto& line = b.drives[0].received_lines[i];
+            if (line.find("VI=") != std::string::npos || line.find("SL") != std::string::npos) reported += line + "; ";
         }
-        return said;
+        return reported;
     };
     EXPECT_EQ(lines(5000), "SL 5000; ") << "VI is 1000";
     EXPECT_EQ(lines(-427), "VI=427; SL -427; ") << "the drive refuses a speed below VI";
@@ -337,10 +337,11 @@ TEST(McodeAdapter, ASlowVelocityTakesViAlong) {
     EXPECT_EQ(lines(-3), "VI=3; SL -3; ");
     EXPECT_EQ(lines(0), "SL 0; ");
     b.run(3s);
-    const auto before = b.drives[0].heard.size();
+    const auto before = b.drives[0].received_lines.size();
     (void)b.wait(Home{21});
-    const auto first = std::find(b.drives[0].heard.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].heard.end(), "VI=1000");
-    EXPECT_NE(first, b.drives[0].heard.end()) << "a search creeps with VI";
+    const auto first =
+        std::find(b.drives[0].received_lines.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].received_lines.end(), "VI=1000");
+    EXPECT_NE(first, b.drives[0].received_lines.end()) << "a search creeps with VI";
 }
 TEST(McodeAdapter, Parameters) {
     Bench b;
@@ -350,7 +351,7 @@ TEST(McodeAdapter, Parameters) {
     ASSERT_TRUE(vm);
     EXPECT_EQ(as_integer(b.wait(ReadParameter{*vm}).value), 768000);
     EXPECT_EQ(as_integer(b.wait(WriteParameter{*vm, Value{std::int64_t{5000}}}).value), 5000);
-    EXPECT_TRUE(has(b.drives[0].heard, "VM=5000"));
+    EXPECT_TRUE(has(b.drives[0].received_lines, "VM=5000"));
     const auto ck = catalogue().find("CK");
     ASSERT_TRUE(ck);
     EXPECT_EQ(b.wait(WriteParameter{*ck, Value{std::int64_t{0}}}).outcome, Outcome::refused);
@@ -362,15 +363,15 @@ TEST(McodeAdapter, ProgramsAreCheckedSentVerifiedAndRun) {
     Result r = b.wait(Action{"program.download", "LB AA\nMA 100\nQQ=1\n"});
     EXPECT_EQ(r.outcome, Outcome::refused);
     EXPECT_NE(r.text.find("line 3"), std::string::npos) << r.text;
-    EXPECT_FALSE(has(b.drives[0].heard, "CP 1")) << "the memory is not touched";
+    EXPECT_FALSE(has(b.drives[0].received_lines, "CP 1")) << "the memory is not touched";
     r = b.wait(Action{"program.download", "LB AA\nMA 100\nH\nE\n"});
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     EXPECT_EQ(b.drives[0].program, (std::vector<std::string>{"LB AA", "MA 100", "H", "E"})) << "no poll got into it";
     EXPECT_NE(b.wait(Action{"program.upload", ""}).text.find("MA 100"), std::string::npos);
     EXPECT_EQ(b.wait(Action{"program.start", "AA"}).outcome, Outcome::accepted);
-    EXPECT_TRUE(has(b.drives[0].heard, "EX AA"));
+    EXPECT_TRUE(has(b.drives[0].received_lines, "EX AA"));
     EXPECT_EQ(b.wait(Action{"program.save", ""}).outcome, Outcome::done);
-    EXPECT_TRUE(has(b.drives[0].heard, "S"));
+    EXPECT_TRUE(has(b.drives[0].received_lines, "S"));
     EXPECT_EQ(b.wait(Action{"no.such", ""}).reason, Reason::unknown_point);
 }
 /// A stop at every moment of a download, for every way to write its first line: no stop and no poll is stored, the order is kept.
@@ -383,11 +384,11 @@ TEST(McodeAdapter, AStopDuringADownloadNeverBecomesProgramText) {
                 b.run(2s);
                 ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
                 const std::string framed = *first ? std::string(first) + "LB AA\nMA 100\nH\nE\nPG\n" : "LB AA\nMA 100\nH\nE\n";
-                b.drives[0].heard.clear();
+                b.drives[0].received_lines.clear();
                 const Ticket download = b.command(Action{"program.download", framed});
                 b.run(at * 5ms);
                 if (b.result(download)) break;
-                const auto before = b.drives[0].heard.size();
+                const auto before = b.drives[0].received_lines.size();
                 const Ticket stop = b.command(kind == 0   ? CommandBody{Halt{}}
                                               : kind == 1 ? CommandBody{QuickStop{}}
                                                           : CommandBody{Disable{}});
@@ -400,10 +401,11 @@ TEST(McodeAdapter, AStopDuringADownloadNeverBecomesProgramText) {
                 EXPECT_EQ(b.result(download)->outcome, Outcome::failed) << first << at;
                 ASSERT_TRUE(b.result(stop)) << first << kind << at;
                 EXPECT_TRUE(good(*b.result(stop))) << b.result(stop)->text << first << kind << at;
-                const auto& h = b.drives[0].heard;
-                const auto said = std::ranges::find(h.begin() + static_cast<std::ptrdiff_t>(before), h.end(), kind == 2 ? "DE=0" : "SL 0");
-                ASSERT_NE(said, h.end());
-                EXPECT_LE(said - h.begin() - static_cast<std::ptrdiff_t>(before), 1) << "PG and nothing else goes before it";
+                const auto& h = b.drives[0].received_lines;
+                const auto reported =
+                    std::ranges::find(h.begin() + static_cast<std::ptrdiff_t>(before), h.end(), kind == 2 ? "DE=0" : "SL 0");
+                ASSERT_NE(reported, h.end());
+                EXPECT_LE(reported - h.begin() - static_cast<std::ptrdiff_t>(before), 1) << "PG and nothing else goes before it";
                 b.run(2s);
                 EXPECT_FALSE(b.drives[0].in_program) << first << kind << at;
                 EXPECT_TRUE(b.drives[0].program.empty()) << "the half is removed; " << first << kind << at;
@@ -538,7 +540,7 @@ TEST(McodeAdapter, AStopWhileADriveIsLookedForIsSaidWhenItIsFound) {
         b.run(3s);
         ASSERT_TRUE(b.result(stop)) << again;
         EXPECT_EQ(b.result(stop)->outcome, Outcome::accepted) << b.result(stop)->text;
-        EXPECT_TRUE(has(b.drives[0].heard, "SL 0")) << again;
+        EXPECT_TRUE(has(b.drives[0].received_lines, "SL 0")) << again;
     }
     Bench b;
     b.drives[0].silent = true;
@@ -555,14 +557,14 @@ TEST(McodeAdapter, AnErrorCodeThatIsNoNumberHoldsNobodyUp) {
     ASSERT_EQ(b.wait(Enable{}).outcome, Outcome::done);
     b.drives[0].er = 60;
     b.drives[0].er_text = "many";
-    const auto before = b.drives[0].heard.size();
+    const auto before = b.drives[0].received_lines.size();
     b.run(2s);
     b.drives[0].values["P"] = "55";
     b.run(500ms);
     EXPECT_EQ(b.feedback[AxisId{0}].position, 55) << "polls go on";
-    EXPECT_LT(std::count_if(b.drives[0].heard.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].heard.end(),
+    EXPECT_LT(std::count_if(b.drives[0].received_lines.begin() + static_cast<std::ptrdiff_t>(before), b.drives[0].received_lines.end(),
                             [](const std::string& l) { return l.ends_with(",ER"); }),
-              static_cast<std::ptrdiff_t>(b.drives[0].heard.size() - before) * 4 / 5);
+              static_cast<std::ptrdiff_t>(b.drives[0].received_lines.size() - before) * 4 / 5);
     EXPECT_TRUE(b.result(b.command(Halt{})) == nullptr);
     b.run(3s);
     EXPECT_NE(b.results.back().outcome, Outcome::done);

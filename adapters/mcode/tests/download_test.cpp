@@ -11,7 +11,7 @@ namespace axisgate::mcode::test {
 namespace {
 
 Action download(std::string_view text) { return {"program.download", std::string(text)}; }
-std::size_t told(const std::vector<Notice>& notices, std::string_view text) {
+std::size_t reported(const std::vector<Notice>& notices, std::string_view text) {
     return static_cast<std::size_t>(
         std::ranges::count_if(notices, [&](const Notice& n) { return n.text.find(text) != std::string::npos; }));
 }
@@ -117,8 +117,8 @@ TEST(McodeDownload, AHalfThatABrokenLineHasLeftIsRemoved) {
                 ASSERT_TRUE(b.online()) << what;
                 const auto stored = b.wait(Action{"program.upload", ""}).text;
                 EXPECT_EQ(stored, restarted ? "LB A1\nPR \"old\"\nE\n" : "") << what;
-                EXPECT_EQ(told(b.notices, "was removed (CP)"), restarted ? 0U : 1U) << what;
-                EXPECT_EQ(told(b.notices, "that is left alone"), restarted ? 1U : 0U) << what;
+                EXPECT_EQ(reported(b.notices, "was removed (CP)"), restarted ? 0U : 1U) << what;
+                EXPECT_EQ(reported(b.notices, "that is left alone"), restarted ? 1U : 0U) << what;
             }
         }
     }

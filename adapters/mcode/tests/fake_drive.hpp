@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "adapters/mcode/tests/command_desk.hpp"
+#include "adapters/mcode/tests/bench_commands.hpp"
 
 namespace axisgate::mcode::test {
 using namespace std::chrono_literals;
@@ -31,7 +31,7 @@ struct FakeDrive {
     std::set<std::string> lose;         ///< lines that are executed once and not answered
     std::string er_text;                ///< what ER prints instead of its code, and stays
     std::string deaf_after;             ///< says nothing any more after this line
-    std::vector<std::string> heard, program;
+    std::vector<std::string> received_lines, program;
     std::string buffer;
 
     static char sum(std::string_view s) {
@@ -77,7 +77,7 @@ struct FakeDrive {
             s.pop_back();
         }
         if (name != '!') s.erase(0, 1);
-        heard.push_back(s);
+        received_lines.push_back(s);
         const bool lost = lose.erase(s) > 0;
         if (!deaf_after.empty() && s == deaf_after) silent = true;
         std::string data;
@@ -179,7 +179,7 @@ inline const Catalogue& catalogue() {
 }
 
 /// One adapter with fake drives behind a wire that takes `delay`.
-struct Bench : CommandDesk<Bench> {
+struct Bench : BenchCommands<Bench> {
     LineAdapter adapter{catalogue()};
     std::vector<FakeDrive> drives;
     Instant now = at_ns(1'000'000'000);
@@ -232,7 +232,7 @@ struct Bench : CommandDesk<Bench> {
         }
         out.clear();
     }
-    void hear(std::string_view bytes) {
+    void receive(std::string_view bytes) {
         adapter.on_frame(Frame::run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}), now, out);
         drain();
     }
@@ -247,7 +247,7 @@ struct Bench : CommandDesk<Bench> {
             if (!coming.empty() && coming.front().first <= now) {
                 const std::string bytes = coming.front().second;
                 coming.erase(coming.begin());
-                hear(bytes);
+                receive(bytes);
             } else {
                 adapter.on_deadline(now, out);
                 drain();

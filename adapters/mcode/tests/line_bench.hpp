@@ -12,7 +12,7 @@
 
 namespace axisgate::mcode::test {
 
-struct LineBench : LineEvents, CommandDesk<LineBench> {
+struct LineBench : LineEvents, BenchCommands<LineBench> {
     struct Sent {
         Instant at;
         std::string bytes;
@@ -86,15 +86,15 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
         if (hold > Duration::zero())
             late.push_back({now + hold, bytes});
         else
-            hear(bytes);
+            receive(bytes);
     }
     void on_line_state(bool up, const std::string&) override { adapter.on_line(up, now, out); }
     void on_sent(const Frame& f) override {
         now = std::max(now, f.at);
         bytes_out += f.size;
-        if (echo) hear(std::string(reinterpret_cast<const char*>(f.data().data()), f.size));
+        if (echo) receive(std::string(reinterpret_cast<const char*>(f.data().data()), f.size));
     }
-    void hear(const std::string& bytes) {
+    void receive(const std::string& bytes) {
         if (bytes.empty()) return;
         for_each_run({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, [&](Frame f) {
             f.at = now;
@@ -138,7 +138,7 @@ struct LineBench : LineEvents, CommandDesk<LineBench> {
             } else if (!late.empty() && late.front().at <= now) {
                 const std::string bytes = late.front().bytes;
                 late.erase(late.begin());
-                hear(bytes);
+                receive(bytes);
             } else {
                 adapter.on_deadline(now, out);
             }

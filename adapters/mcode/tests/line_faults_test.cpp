@@ -45,7 +45,7 @@ TEST(McodeLineFaults, NoiseBetweenAndInsideAnswers) {
         Fault b;
         for (int at = 0; at < 30; at += 3) {
             b.run(std::chrono::milliseconds(at));
-            b.hear(noise);
+            b.receive(noise);
             b.drain();
             b.recovers(fmt::format("noise {} at {}", noise, at));
         }

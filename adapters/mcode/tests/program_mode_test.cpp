@@ -25,7 +25,7 @@ struct Typist : LineBench {
         for (const char* text : {"PG 1", "LB AA", "R1=R1+1", "H 100", "R2=R1"})
             type(drive, text, with_sum);
     }
-    std::vector<Notice> told(std::string_view kind) const {
+    std::vector<Notice> reported(std::string_view kind) const {
         std::vector<Notice> some;
         for (const auto& n : notices) {
             if (n.kind == kind) some.push_back(n);
@@ -36,7 +36,7 @@ struct Typist : LineBench {
         ASSERT_TRUE(online(drive)) << what;
         const Result r = wait(Action{"program.upload", ""}, drive);
         EXPECT_EQ(r.text, "LB AA\nR1=R1+1\nH 100\nR2=R1\n") << what;
-        const auto events = told("program_mode");
+        const auto events = reported("program_mode");
         ASSERT_EQ(events.size(), 2U) << what;
         EXPECT_EQ(events[0].severity, Severity::warning);
         EXPECT_NE(events[0].text.find("was in program mode and was led out"), std::string::npos) << events[0].text;
@@ -115,7 +115,7 @@ TEST(McodeProgramMode, AStopIsSaidBehindPgAndDone) {
             for (const auto& s : b.sent)
                 stops += s.bytes.starts_with("aSL 0");
             EXPECT_GE(stops, 1U) << what;
-            EXPECT_GE(b.told("program_mode").size(), 1U) << what;
+            EXPECT_GE(b.reported("program_mode").size(), 1U) << what;
         }
     }
 }
@@ -139,7 +139,7 @@ TEST(McodeProgramMode, ARefusedQuestionIsNoProgramMode) {
             EXPECT_EQ(s.bytes.find("PG"), std::string::npos);
         EXPECT_TRUE(b.online(0));
         EXPECT_TRUE(b.online(1));
-        EXPECT_TRUE(b.told("program_mode").empty());
+        EXPECT_TRUE(b.reported("program_mode").empty());
     }
 }
 
@@ -211,7 +211,7 @@ TEST(McodeProgramMode, OverABadLineADriveIsLedOutToo) {
             b.on_way = nullptr;
             b.run(5s);
             ASSERT_TRUE(b.online()) << what;
-            EXPECT_GE(b.told("program_mode").size(), 1U) << what;
+            EXPECT_GE(b.reported("program_mode").size(), 1U) << what;
             EXPECT_EQ(b.wait(Action{"program.end", ""}).outcome, Outcome::refused) << what << ": it is obeyed again";
         }
     }
@@ -292,10 +292,10 @@ TEST(McodeProgramMode, AProgramThatRunsAtStartIsLeftAloneAndTold) {
         b.drain();
         b.run(6s);
         ASSERT_TRUE(b.online()) << product;
-        const auto told = b.told("program");
-        ASSERT_EQ(told.size(), 1U) << product;
-        EXPECT_EQ(told[0].drive, DriveId{0});
-        EXPECT_NE(told[0].text.find("left alone"), std::string::npos) << told[0].text;
+        const auto reported = b.reported("program");
+        ASSERT_EQ(reported.size(), 1U) << product;
+        EXPECT_EQ(reported[0].drive, DriveId{0});
+        EXPECT_NE(reported[0].text.find("left alone"), std::string::npos) << reported[0].text;
         EXPECT_NE(b.feedback[AxisId{0}].native_status & 32U, 0U) << product << ": told as state";
         for (auto i = before; i < b.sent.size(); ++i) {
             for (const char* word : {"SL", "E\n", "PS", "DE=", "ER", "MA", "EX", "\x1B"})
@@ -305,7 +305,7 @@ TEST(McodeProgramMode, AProgramThatRunsAtStartIsLeftAloneAndTold) {
         const Result first = b.wait(line("PR R1"));
         b.run(1s);
         EXPECT_NE(b.wait(line("PR R1")).text, first.text) << product << ": it runs on";
-        EXPECT_TRUE(b.told("error").empty()) << product;
+        EXPECT_TRUE(b.reported("error").empty()) << product;
     }
 }
 

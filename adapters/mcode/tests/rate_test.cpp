@@ -5,7 +5,7 @@
 namespace axisgate::mcode::test {
 namespace {
 
-std::vector<Notice> told(const LineBench& b, std::string_view kind) {
+std::vector<Notice> reported(const LineBench& b, std::string_view kind) {
     std::vector<Notice> some;
     for (const auto& n : b.notices) {
         if (n.kind == kind) some.push_back(n);
@@ -24,10 +24,10 @@ TEST(McodeRate, FactoryDefaultsAtAnotherRateAreReportedAndRecovered) {
         LineBench b("!", 115200);
         b.run(4s);
         ASSERT_TRUE(b.online());
-        EXPECT_TRUE(told(b, "bit_rate").empty()) << "a drive that is set to its line is no news";
+        EXPECT_TRUE(reported(b, "bit_rate").empty()) << "a drive that is set to its line is no news";
         const Result r = b.wait(Action{"factory_defaults", ""});
         ASSERT_EQ(r.outcome, Outcome::done) << r.text;
-        for (const std::string& text : {r.text, told(b, "bit_rate").empty() ? std::string() : told(b, "bit_rate")[0].text}) {
+        for (const std::string& text : {r.text, reported(b, "bit_rate").empty() ? std::string() : reported(b, "bit_rate")[0].text}) {
             for (const char* part : {"BD=96", "9600", "115200", "line.setup", "not heard"})
                 EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
         }
@@ -74,7 +74,7 @@ TEST(McodeRate, AFreshDriveThatIsNamedGetsTheRateOfTheLineToo) {
     b.run(1s);
     power_cycle(b);
     EXPECT_TRUE(b.online()) << "it has kept its name and the rate of the line";
-    EXPECT_TRUE(told(b, "bit_rate").empty());
+    EXPECT_TRUE(reported(b, "bit_rate").empty());
 }
 
 TEST(McodeRate, FactoryDefaultsAreRefusedWhileItMoves) {

@@ -198,7 +198,7 @@ TEST(McodeStopAll, WhoHasNotHeardItIsToldAlone) {
         EXPECT_TRUE(good(*b.result(first)) && good(*b.result(second)));
         EXPECT_EQ(std::ranges::count_if(b.sent, [](const auto& s) { return s.starts_with("*SL 0"); }), 1);
         for (const auto& d : b.drives) {
-            EXPECT_EQ(std::ranges::count(d.heard, "SL 0"), 1) << d.name;
+            EXPECT_EQ(std::ranges::count(d.received_lines, "SL 0"), 1) << d.name;
             EXPECT_EQ(d.values.at("V"), "0");
         }
     }

@@ -25,7 +25,7 @@ struct Press : LineBench {
         const auto r = wait(Native{{text.begin(), text.end()}}, i);
         return to_text(r.value);
     }
-    std::size_t told() const {
+    std::size_t reported() const {
         return static_cast<std::size_t>(std::ranges::count_if(notices, [](const Notice& n) { return n.kind == "torque"; }));
     }
 };
@@ -45,7 +45,7 @@ TEST(McodeTorque, ItIsSeenAsMovingAndEveryStopEndsIt) {
             b.run(1s);
             EXPECT_EQ(b.speed(), 0) << what;
             EXPECT_FALSE(b.feedback.at(AxisId{0}).moving) << what;
-            EXPECT_EQ(b.told(), kind == 2 ? 0U : 1U) << what;
+            EXPECT_EQ(b.reported(), kind == 2 ? 0U : 1U) << what;
             EXPECT_EQ(b.feedback.at(AxisId{0}).power == AxisFeedback::Power::on, kind != 2) << what;
             // Nothing comes back by itself, and the axis can be used.
             if (kind != 2) {
@@ -69,7 +69,7 @@ TEST(McodeTorque, AStopThatComesBeforeItIsKnownEndsItToo) {
     EXPECT_TRUE(good(b.wait(Halt{})));
     b.run(1s);
     EXPECT_EQ(b.speed(), 0);
-    EXPECT_EQ(b.told(), 1U);
+    EXPECT_EQ(b.reported(), 1U);
 }
 
 TEST(McodeTorque, AStoppedShaftThatPressesIsStoppedAsWell) {

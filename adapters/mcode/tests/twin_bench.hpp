@@ -78,7 +78,7 @@ public:
         rate_ = slewing_ ? std::abs(f[0].as_double()) : values[Word::VM];
         const double seconds = std::abs(to_ - here) / rate_;
         ended_ = now + Duration{static_cast<std::int64_t>(seconds * 1e9)};
-        finished_told_ = false;
+        finished_reported_ = false;
         return 0;
     }
     int arm(Word w, std::span<const Number> f, Instant) override {
@@ -91,7 +91,7 @@ public:
     void stop_at_once(Instant now) override {
         from_ = to_ = position(now);
         began_ = ended_ = now;
-        finished_told_ = true;
+        finished_reported_ = true;
         slewing_ = false;
         ++stops;
     }
@@ -102,13 +102,13 @@ public:
     void tell(bool, bool, Instant) override {}
     void advance(Instant now) override {
         if ((te_seen & 2) != 0 && now >= crossing()) events.push_back({MotorEvent::Kind::trip, 0, Word::TP});
-        if (!finished_told_ && now >= settled()) {
-            finished_told_ = true;
+        if (!finished_reported_ && now >= settled()) {
+            finished_reported_ = true;
             events.push_back({MotorEvent::Kind::finished, 0, {}});
         }
     }
     Instant deadline() const override {
-        Instant t = finished_told_ ? never : settled();
+        Instant t = finished_reported_ ? never : settled();
         if ((te_seen & 2) != 0) t = std::min(t, crossing());
         return t;
     }
@@ -143,7 +143,7 @@ private:
     }
     Word last_ = Word::MR;
     double from_ = 0, to_ = 0, rate_ = 1, trip_position_ = 0;
-    bool slewing_ = false, finished_told_ = true;
+    bool slewing_ = false, finished_reported_ = true;
     Instant began_{}, ended_{};
 };
 

@@ -8,7 +8,7 @@
 namespace axisgate::mcode::twin::test {
 namespace {
 
-struct Said {
+struct Reported {
     const char* line;
     const char* ask;
     const char* answer;
@@ -16,25 +16,25 @@ struct Said {
 
 TEST(TwinLanguage, ValuesAsTheManualPrintsThem) {
     Bench b;
-    for (const Said& s : {Said{"VA Q1=25", "PR Q1", "25"},
-                          {"F1=30/25", "PR F1", "1.200000"},
-                          {"R1=30/25", "PR R1", "1"},
-                          {"R1=-7/2", "PR R1", "-3"},   // cut toward zero [E-11]
-                          {"R1=25&30", "PR R1", "24"},  // [E-14]
-                          {"R1=25|30", "PR R1", "31"},
-                          {"R1=25^30", "PR R1", "7"},
-                          {"R1=!25", "PR R1", "-26"},
-                          {"R1=2+3*4", "PR R1", "20"},                // left to right [E-13]
-                          {"F2=51200*PI", "PR F2", "160849.543885"},  // trap 14
-                          {"Q1=51200", "PR Q1", "51200"},
-                          {"F1=LO Q1", "PR F1", "10.843495"},         // [E-15]
-                          {"F1=AB -51200", "PR F1", "51200.000000"},  // [E-62]
-                          {"F1=SQ 16", "PR F1", "4.000000"},
-                          {"F1=L_ 1000", "PR F1", "3.000000"},
-                          {"F3=2.9", "R2=F3", ""},
-                          {"R3=1", "PR R2", "2"},
-                          {"PF=8,4,1,1", "PR F8", "0.0000E+00"},
-                          {"PF=8,4,1,1", "PR PF", "8,4,1,1"}}) {
+    for (const Reported& s : {Reported{"VA Q1=25", "PR Q1", "25"},
+                              {"F1=30/25", "PR F1", "1.200000"},
+                              {"R1=30/25", "PR R1", "1"},
+                              {"R1=-7/2", "PR R1", "-3"},   // cut toward zero [E-11]
+                              {"R1=25&30", "PR R1", "24"},  // [E-14]
+                              {"R1=25|30", "PR R1", "31"},
+                              {"R1=25^30", "PR R1", "7"},
+                              {"R1=!25", "PR R1", "-26"},
+                              {"R1=2+3*4", "PR R1", "20"},                // left to right [E-13]
+                              {"F2=51200*PI", "PR F2", "160849.543885"},  // trap 14
+                              {"Q1=51200", "PR Q1", "51200"},
+                              {"F1=LO Q1", "PR F1", "10.843495"},         // [E-15]
+                              {"F1=AB -51200", "PR F1", "51200.000000"},  // [E-62]
+                              {"F1=SQ 16", "PR F1", "4.000000"},
+                              {"F1=L_ 1000", "PR F1", "3.000000"},
+                              {"F3=2.9", "R2=F3", ""},
+                              {"R3=1", "PR R2", "2"},
+                              {"PF=8,4,1,1", "PR F8", "0.0000E+00"},
+                              {"PF=8,4,1,1", "PR PF", "8,4,1,1"}}) {
         b.type(s.line);
         EXPECT_EQ(b.prompt, '>') << s.line;
         EXPECT_EQ(b.type(s.ask), s.answer) << s.line;

@@ -59,7 +59,7 @@ public:
         twin_->on_deadline(now_, out_);
         take();
     }
-    std::vector<Bytes> said;
+    std::vector<Bytes> reported;
     Twin& twin() { return *twin_; }
     Instant now() const { return now_; }
 
@@ -67,10 +67,10 @@ private:
     void take() {
         for (const auto& tx : out_.frames) {
             const std::string text(reinterpret_cast<const char*>(tx.frame.storage.data()), tx.frame.size);
-            if (!said.empty() && said.back().at == tx.frame.at) {
-                said.back().text += text;
+            if (!reported.empty() && reported.back().at == tx.frame.at) {
+                reported.back().text += text;
             } else {
-                said.push_back({tx.frame.at, text});
+                reported.push_back({tx.frame.at, text});
             }
         }
         out_.clear();
@@ -108,13 +108,13 @@ std::vector<Bytes> story(Duration step) {
                              "PG",
                              "EX BB"})
         l.type(line);
-    l.said.clear();
+    l.reported.clear();
     l.pass(std::chrono::seconds(6));
     l.call();
     l.type("PR \"last \",P,BY,MV,\" \",ER");
     l.pass(milliseconds(10));
     l.call();
-    return l.said;
+    return l.reported;
 }
 
 TEST(McodeTwinTime, WhatHappensStandsAtTheInstantOfItsCauseHoweverLateTheCall) {
@@ -137,12 +137,12 @@ TEST(McodeTwinTime, AnEndlessProgramAndAVeryLateCallCostABoundedTime) {
         l.pass(std::chrono::minutes(10));
         l.call();
     }
-    l.said.clear();
+    l.reported.clear();
     l.type("PR BY");
     l.pass(milliseconds(5));
     l.call();
-    ASSERT_FALSE(l.said.empty());
-    EXPECT_NE(l.said.back().text.find('1'), std::string::npos);
+    ASSERT_FALSE(l.reported.empty());
+    EXPECT_NE(l.reported.back().text.find('1'), std::string::npos);
 }
 
 TEST(McodeTwinLink, TheSixtyFifthCharacterShowsTheErrorAtThePrompt) {

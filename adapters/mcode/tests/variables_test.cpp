@@ -66,7 +66,7 @@ struct VariableBench : LineBench {
         ASSERT_TRUE(online());
     }
     [[nodiscard]] Point point(std::string_view id) const { return *setup.drives[0].catalogue->find(id); }
-    [[nodiscard]] std::vector<std::string> told() const {
+    [[nodiscard]] std::vector<std::string> reported() const {
         std::vector<std::string> list;
         for (const auto& n : notices)
             if (n.kind == "variables") list.push_back(n.text);
@@ -91,8 +91,8 @@ TEST(McodeVariables, AreReadAndWrittenAsTheDrivesOwn) {
 TEST(McodeVariables, OneThatTheDriveLacksIsRefusedWithASentence) {
     VariableBench b("Q1,K2");
     b.up();
-    ASSERT_EQ(b.told().size(), 1u);
-    EXPECT_NE(b.told()[0].find("Q1, K2"), std::string::npos) << b.told()[0];
+    ASSERT_EQ(b.reported().size(), 1u);
+    EXPECT_NE(b.reported()[0].find("Q1, K2"), std::string::npos) << b.reported()[0];
     for (const CommandBody& body :
          {CommandBody{ReadParameter{b.point("UV.Q1")}}, CommandBody{WriteParameter{b.point("UV.Q1"), Value{std::int64_t{1}}}}}) {
         const Result r = b.wait(body);
@@ -118,8 +118,8 @@ TEST(McodeVariables, WhatTheSiteDoesNotNameIsTold) {
         b.hand(0, "power", Value{true});
         b.run(40s);
         ASSERT_TRUE(b.online());
-        ASSERT_EQ(b.told().size(), 1u) << rate;
-        EXPECT_NE(b.told()[0].find("no parameters of its axis: K2;"), std::string::npos) << b.told()[0];
+        ASSERT_EQ(b.reported().size(), 1u) << rate;
+        EXPECT_NE(b.reported()[0].find("no parameters of its axis: K2;"), std::string::npos) << b.reported()[0];
         const Result r = b.wait(Action{"UV", ""});
         EXPECT_NE(to_text(r.value).find("K2 = G 2"), std::string::npos) << to_text(r.value);
     }

@@ -176,8 +176,9 @@ TEST(Decoder, TheFirstLineOfARecordingCutAnywhereIsNotTakenForAWholeOne) {
             } else {
                 ASSERT_EQ(first.size(), 1u);
                 EXPECT_EQ(first[0].find("unknown"), std::string::npos) << first[0];
-                const bool told = first[0].ends_with(doubt) || first[0].find("the end of a line that began before") != std::string::npos;
-                EXPECT_EQ(told, cut != 0 || !r.proved) << first[0];
+                const bool reported =
+                    first[0].ends_with(doubt) || first[0].find("the end of a line that began before") != std::string::npos;
+                EXPECT_EQ(reported, cut != 0 || !r.proved) << first[0];
                 if (cut == 0) EXPECT_EQ(first[0], r.line + (r.proved ? "" : doubt));
             }
             EXPECT_EQ(decode(d, r.bytes, r.down), std::vector<std::string>{r.line}) << "the second one began in the recording";

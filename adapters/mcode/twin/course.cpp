@@ -18,7 +18,7 @@ constexpr int correction_limit = 3;
 }  // namespace
 
 void Course::restart(Instant now) noexcept {
-    aim = {};
+    demand = {};
     phase_ = Phase::rest;
     phase_end_ = never;
     corrections_ = 0;
@@ -26,21 +26,23 @@ void Course::restart(Instant now) noexcept {
     p_.shaft.restart(touch.held, now);
 }
 
-bool Course::to_position() const noexcept { return !rests() && aim.task == Task::position && (!aim.go_on || aim.passing != never); }
+bool Course::to_position() const noexcept {
+    return !rests() && demand.task == Task::position && (!demand.go_on || demand.passing != never);
+}
 
 int Course::may_move(Word word) const {
     const Settings& s = p_.settings;
     const bool homes = word == Word::HM || word == Word::HI || word == Word::HF;
-    if (aim.task == Task::homing && !rests()) return err::in_homing;
+    if (demand.task == Task::homing && !rests()) return err::in_homing;
     if (steps(Task::calibration)) return err::in_calibration;
     if (homes && steps()) return err::in_homing;  // "HOME not allowed while MOVING"
     if (!p_.power.enabled()) return err::disabled;
     if (!p_.power.good()) return err::no_supply;
     if (s.hmt_mode() == 3) return err::in_homing;  // torque mode has no positions
     if (word != Word::SL) {
-        if (steps() && (aim.task == Task::correction || corrections_ > 0)) return err::correcting;
+        if (steps() && (demand.task == Task::correction || corrections_ > 0)) return err::correcting;
         // After SL 0 motion has to come to a stop first [L5404].
-        if (steps() && aim.braking) return err::in_homing;
+        if (steps() && demand.braking) return err::in_homing;
     }
     const double vi = s[Word::VI], vm = s[Word::VM];
     if (vi < 1 || (word != Word::SL && vm <= vi)) return err::too_low;
@@ -58,10 +60,10 @@ void Course::step_on() noexcept {
 
 void Course::begin(Task task, Instant now) noexcept {
     resync(now);
-    aim.task = task;
-    aim.braking = aim.aborted = aim.go_on = false;
-    aim.second.reset();
-    aim.passing = never;
+    demand.task = task;
+    demand.braking = demand.aborted = demand.go_on = false;
+    demand.second.reset();
+    demand.passing = never;
 }
 
 void Course::command(Profile p, Instant now) {
@@ -69,7 +71,7 @@ void Course::command(Profile p, Instant now) {
     step_on();
     const double v = p_.shaft.commanded(now + Duration{1}).velocity;
     if (v != 0) p_.shaft.set_way(v < 0 ? -1 : 1);
-    if (std::abs(p_.shaft.lag(now)) < p_.settings[Word::SF]) stall_told_ = false;
+    if (std::abs(p_.shaft.lag(now)) < p_.settings[Word::SF]) stall_reported_ = false;
     judge_rotor(now);
     if (p_.shaft.state() == Shaft::Rotor::catching_up) make_up(now);
 }
@@ -84,21 +86,21 @@ void Course::move(double target, bool go_on, Instant now) {
 
 void Course::brake(Instant now) {
     if (!steps()) return;
-    aim.passing = never;
-    aim.go_on = false;
-    aim.second.reset();
+    demand.passing = never;
+    demand.go_on = false;
+    demand.second.reset();
     slew(0, now);
-    aim.braking = true;
+    demand.braking = true;
 }
 
 void Course::freeze(Instant now) {
     if (steps(Task::calibration)) p_.events.raise(err::calibration_lost);
     if (steps() || p_.settings.feedback()) p_.shaft.freeze(now);
-    const bool aborted = aim.aborted;
-    const double target = aim.target;
-    aim = {};
-    aim.aborted = aborted;
-    aim.target = target;
+    const bool aborted = demand.aborted;
+    const double target = demand.target;
+    demand = {};
+    demand.aborted = aborted;
+    demand.target = target;
     phase_ = Phase::rest;
     phase_end_ = never;
     corrections_ = 0;
@@ -107,20 +109,20 @@ void Course::freeze(Instant now) {
 }
 
 void Course::abort(Instant now) {
-    aim.aborted = true;
+    demand.aborted = true;
     freeze(now);
 }
 
 void Course::give_up() noexcept {
-    aim.aborted = true;
-    if (aim.task == Task::homing || aim.task == Task::calibration || aim.task == Task::torque) aim.task = Task::slew;
+    demand.aborted = true;
+    if (demand.task == Task::homing || demand.task == Task::calibration || demand.task == Task::torque) demand.task = Task::slew;
     p_.loop.set_torque(false);
 }
 
 void Course::stand_at(double position, Instant now) noexcept {
     p_.shaft.stand_at(position, now);
-    aim.passing = never;
-    aim.go_on = false;
+    demand.passing = never;
+    demand.go_on = false;
 }
 
 void Course::resync(Instant now) noexcept {
@@ -129,7 +131,7 @@ void Course::resync(Instant now) noexcept {
 }
 
 void Course::settle(Instant now) noexcept {
-    aim.braking = false;
+    demand.braking = false;
     phase_ = Phase::settling;
     phase_end_ = now + std::chrono::milliseconds(p_.settings.whole(Word::MT));
 }
@@ -137,17 +139,17 @@ void Course::settle(Instant now) noexcept {
 bool Course::pass_phase(Instant now) {
     phase_end_ = never;
     if (phase_ == Phase::settling) {
-        const bool checked = p_.settings.encoder_mode() && (aim.task == Task::position || aim.task == Task::correction);
-        if (checked && std::abs(aim.target - p_.shaft.rotor(now).position) > p_.settings[Word::DB]) {
+        const bool checked = p_.settings.encoder_mode() && (demand.task == Task::position || demand.task == Task::correction);
+        if (checked && std::abs(demand.target - p_.shaft.rotor(now).position) > p_.settings[Word::DB]) {
             if (corrections_ < correction_limit) {
                 ++corrections_;
                 correct(now);
                 return false;
             }
             p_.events.raise(err::position_error);
-            aim.aborted = true;
+            demand.aborted = true;
         }
-        if (aim.task != Task::correction) {
+        if (demand.task != Task::correction) {
             phase_ = Phase::holding;
             phase_end_ = now + std::chrono::milliseconds(p_.settings.whole(Word::HT));
             return false;
@@ -155,17 +157,17 @@ bool Course::pass_phase(Instant now) {
     } else if (phase_ != Phase::holding) {
         return false;
     }
-    const bool told = !aim.aborted && (aim.task == Task::position || aim.task == Task::slew || aim.task == Task::homing);
+    const bool reported = !demand.aborted && (demand.task == Task::position || demand.task == Task::slew || demand.task == Task::homing);
     phase_ = Phase::rest;
-    aim.task = Task::none;
+    demand.task = Task::none;
     corrections_ = 0;
-    if (told) p_.events.emit(MotorEvent::Kind::finished);
+    if (reported) p_.events.emit(MotorEvent::Kind::finished);
     return true;
 }
 
 /// Nothing more is given, or with SM = 1 the move goes on; ST stays until ST = 0 [L7354, L5432].
 void Course::stalled(Instant now) {
-    stall_told_ = true;
+    stall_reported_ = true;
     stall_flag_ = true;
     p_.events.raise(err::stall_detected);
     if (p_.settings[Word::SM] == 0) abort(now);
@@ -174,9 +176,9 @@ void Course::stalled(Instant now) {
 /// One attempt, at VI, to bring the rotor to where the move should have ended.
 void Course::correct(Instant now) {
     stand_at(p_.shaft.rotor(now).position, now);
-    p_.shaft.give(Profile::creep(now, p_.shaft.command().end_position(), aim.target, p_.settings.creep_speed()));
+    p_.shaft.give(Profile::creep(now, p_.shaft.command().end_position(), demand.target, p_.settings.creep_speed()));
     step_on();
-    stall_told_ = p_.settings[Word::SM] != 0;
+    stall_reported_ = p_.settings[Word::SM] != 0;
 }
 
 /// PM = 1: a shaft that is pushed out of the dead band at rest is brought back; with SM = 0 only from within SF [L4835-4837].
@@ -185,17 +187,17 @@ void Course::maintain(Instant now) {
     if (!s.encoder_mode() || s[Word::PM] == 0 || !rests() || p_.shaft.state() != Shaft::Rotor::follows || !p_.power.good()) return;
     const double off = std::abs(p_.shaft.lag(now));
     if (off <= s[Word::DB] || (s[Word::SM] == 0 && off > s[Word::SF])) return;
-    aim.target = p_.shaft.command().end_position();
-    aim.task = Task::correction;
+    demand.target = p_.shaft.command().end_position();
+    demand.task = Task::correction;
     corrections_ = 0;
-    aim.aborted = false;
+    demand.aborted = false;
     correct(now);
 }
 
 Instant Course::steps_end() const noexcept { return steps() && !p_.loop.waits_for_rotor() ? p_.shaft.command().end() : never; }
 
 Instant Course::stall_due(Instant now) const noexcept {
-    return p_.settings.encoder_mode() && !stall_told_ ? p_.shaft.lag_crossing(p_.settings[Word::SF], now) : never;
+    return p_.settings.encoder_mode() && !stall_reported_ ? p_.shaft.lag_crossing(p_.settings[Word::SF], now) : never;
 }
 
 }  // namespace axisgate::mcode::twin

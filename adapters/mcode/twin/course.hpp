@@ -11,7 +11,7 @@ class Course {
 public:
     enum class Task : std::uint8_t { none, position, slew, homing, jog, torque, calibration, correction };
     /// What the present motion is for.
-    struct Aim {
+    struct Demand {
         Task task = Task::none;
         bool braking = false;  ///< towards a stop that was asked for, or that a limit made
         bool aborted = false;  ///< stopped by a limit, input or fault: not a completion
@@ -35,12 +35,12 @@ public:
     explicit Course(Parts& parts) : p_(parts) {}
     void restart(Instant now) noexcept;
 
-    Aim aim;
+    Demand demand;
     Touch touch;
 
     [[nodiscard]] bool rests() const noexcept { return phase_ == Phase::rest; }
     [[nodiscard]] bool steps() const noexcept { return phase_ == Phase::steps; }
-    [[nodiscard]] bool steps(Task task) const noexcept { return steps() && aim.task == task; }
+    [[nodiscard]] bool steps(Task task) const noexcept { return steps() && demand.task == task; }
     /// MP.
     [[nodiscard]] bool to_position() const noexcept;
     /// VC.
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] int current(Instant now) const noexcept;
     /// ST.
     [[nodiscard]] bool stall_flag() const noexcept { return stall_flag_; }
-    void clear_stall() noexcept { stall_flag_ = stall_told_ = false; }
+    void clear_stall() noexcept { stall_flag_ = stall_reported_ = false; }
     /// Error of an instruction that moves; 0: it may.
     [[nodiscard]] int may_move(Word word) const;
 
@@ -106,7 +106,7 @@ private:
     Instant phase_end_ = never;
     int corrections_ = 0;
     bool stall_flag_ = false;
-    bool stall_told_ = false;
+    bool stall_reported_ = false;
 };
 
 }  // namespace axisgate::mcode::twin

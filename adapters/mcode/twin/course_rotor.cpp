@@ -16,8 +16,8 @@ void Course::run_torque(Instant now) {
         if (steps(Task::torque)) brake(now);
         return;
     }
-    aim.task = Task::torque;
-    aim.braking = aim.aborted = false;
+    demand.task = Task::torque;
+    demand.braking = demand.aborted = false;
     step_on();
     if (p_.shaft.state() == Shaft::Rotor::held) {
         stand_at(p_.shaft.rotor(now).position, now);
@@ -39,7 +39,7 @@ void Course::judge_rotor(Instant now) {
     if (blocked) {
         p_.loop.disturbed(now);
         p_.shaft.hold_at(p_.shaft.rotor(now).position);
-        stall_told_ = false;
+        stall_reported_ = false;
         if (mode == 3 && p_.loop.torque_runs()) run_torque(now);
         return;
     }
@@ -63,7 +63,7 @@ void Course::judge_rotor(Instant now) {
 void Course::make_up(Instant now) {
     if (!p_.loop.make_up(now) || steps()) return;
     // The shaft was turned at rest: the drive moves without a command.
-    if (rests()) aim.task = Task::correction;
+    if (rests()) demand.task = Task::correction;
     step_on();
 }
 

@@ -59,7 +59,7 @@ void Homing::switched(bool active, Instant now) {
 }
 
 void Homing::mark(bool active, Instant now) {
-    if (!course_.steps(Course::Task::homing) || course_.aim.braking) return;
+    if (!course_.steps(Course::Task::homing) || course_.demand.braking) return;
     if (is_.stage == Stage::seek && active) {
         if (is_.way == is_.creep_way) {
             is_.seen = is_.word == Word::HM;
@@ -88,7 +88,7 @@ void Homing::mark(bool active, Instant now) {
 }
 
 void Homing::leg_over(Instant now) {
-    switch (course_.aim.braking ? Stage::creep : is_.stage) {
+    switch (course_.demand.braking ? Stage::creep : is_.stage) {
         case Stage::turn:
             is_.seen = is_.word == Word::HM && p_.inputs.active(InputType::home);
             creep(now);
@@ -105,7 +105,7 @@ void Homing::leg_over(Instant now) {
 void Homing::homed(Instant now) {
     const double here = std::round(p_.shaft.position(now).position);
     p_.shaft.settle_at(here);
-    course_.aim.target = here;
+    course_.demand.target = here;
     course_.settle(now);
 }
 
@@ -121,7 +121,7 @@ Instant Homing::index_due(Instant now) const noexcept {
 
 bool Homing::answers_limit() const noexcept {
     const std::int64_t mode = p_.settings.whole(Word::LM);
-    return course_.aim.task == Course::Task::homing && is_.word == Word::HM && (mode == 1 || mode == 4) && !course_.aim.braking;
+    return course_.demand.task == Course::Task::homing && is_.word == Word::HM && (mode == 1 || mode == 4) && !course_.demand.braking;
 }
 
 bool Homing::turn_back(bool at_once, Instant now) {

@@ -40,7 +40,7 @@ void Motor::replan(Instant now) {
     }
     p_.trips.plan(course_.steps(), now);
     next_ = std::min({due_.soft, due_.index, p_.trips.deadline(), due_.stall, due_.lag, due_.wrap, due_.cam, p_.inputs.deadline(),
-                      course_.aim.passing, course_.phase_end(), p_.loop.lock_due(), p_.shaft.meeting(), course_.steps_end()});
+                      course_.demand.passing, course_.phase_end(), p_.loop.lock_due(), p_.shaft.meeting(), course_.steps_end()});
 }
 
 /// Everything that is due at `t`, causes before effects.
@@ -50,8 +50,8 @@ void Motor::handle(Instant t) {
     if (due.cam <= t) p_.cams.judge(t);
     while (const auto e = p_.inputs.next_edge(t))
         edge(*e, t);
-    if (course_.aim.passing <= t) {
-        course_.aim.passing = never;
+    if (course_.demand.passing <= t) {
+        course_.demand.passing = never;
         p_.events.emit(MotorEvent::Kind::finished);
     }
     if (p_.shaft.meeting() <= t) p_.loop.caught_up();
@@ -149,15 +149,15 @@ void Motor::judge_supply(Instant now) {
     Supply& supply = p_.power.supply;
     // Both out: 78 first and 79 last [E-33]. An unused aux supply is no error.
     const bool aux_bad = supply.has_aux && !supply.aux_unused() && !supply.aux_good();
-    if (aux_bad && !supply.aux_told) p_.events.raise(err::aux_out);
-    supply.aux_told = aux_bad;
+    if (aux_bad && !supply.aux_reported) p_.events.raise(err::aux_out);
+    supply.aux_reported = aux_bad;
     const bool plus_bad = !supply.plus_v_good();
-    if (plus_bad && !supply.plus_v_told) {
+    if (plus_bad && !supply.plus_v_reported) {
         p_.events.raise(err::plus_v_out);
         if (supply.plus_v < plus_v_low && supply.aux_good()) p_.trips.supply_low(now);
         bridges_off(now);
     }
-    supply.plus_v_told = plus_bad;
+    supply.plus_v_reported = plus_bad;
     const bool is_warm = supply.hottest() > p_.settings[Word::WT];
     if (is_warm && !supply.warned) p_.events.raise(err::warm);
     supply.warned = is_warm;
@@ -206,7 +206,7 @@ void Motor::restart(Instant now) {
     p_.power.off = !p_.power.enable_input;
     error_flag_ = program_running_ = false;
     Supply& supply = p_.power.supply;
-    supply.warned = supply.over_temperature = supply.plus_v_told = supply.aux_told = false;
+    supply.warned = supply.over_temperature = supply.plus_v_reported = supply.aux_reported = false;
     replan(now);
 }
 
@@ -249,7 +249,7 @@ bool Motor::moving(Instant now) {
 bool Motor::busy(bool any, Instant now) {
     using Task = Course::Task;
     if (!moving(now)) return false;
-    const Task task = course_.aim.task;
+    const Task task = course_.demand.task;
     return any || task == Task::position || task == Task::homing || task == Task::calibration || task == Task::correction;
 }
 

@@ -72,17 +72,17 @@ int Moves::start_move(Word word, std::span<const Number> f, Instant now) {
     if (way != 0) last_way_ = way;
     last_ = word;
     position(target, second, go_on, now);
-    if (go_on && target == here) course_.aim.passing = now;
+    if (go_on && target == here) course_.demand.passing = now;
     return 0;
 }
 
 void Moves::position(double target, std::optional<double> second, bool go_on, Instant now) {
     course_.begin(Task::position, now);
-    course_.aim.target = target;
-    course_.aim.second = second;
+    course_.demand.target = target;
+    course_.demand.second = second;
     course_.move(target, go_on, now);
-    course_.aim.go_on = go_on;
-    course_.aim.passing = go_on ? p_.shaft.command().crossing(now, target) : never;
+    course_.demand.go_on = go_on;
+    course_.demand.passing = go_on ? p_.shaft.command().crossing(now, target) : never;
 }
 
 int Moves::start_slew(std::int64_t velocity, Instant now) {
@@ -94,7 +94,7 @@ int Moves::start_slew(std::int64_t velocity, Instant now) {
     if (velocity == 0) {
         last_ = Word::SL;
         if (course_.steps()) {
-            course_.aim.task = Task::slew;
+            course_.demand.task = Task::slew;
             course_.brake(now);
         }
         return 0;
@@ -122,26 +122,26 @@ int Moves::start_calibration(std::span<const Number> f, Instant now) {
 void Moves::steps_over(Instant now) {
     p_.cams.judge(now);
     p_.shaft.set_way(p_.shaft.way(now));
-    Course::Aim& aim = course_.aim;
-    if (aim.task == Task::homing) {
+    Course::Demand& demand = course_.demand;
+    if (demand.task == Task::homing) {
         homing_.leg_over(now);
         return;
     }
-    if (aim.second && !aim.braking) {
-        aim.target = *aim.second;
-        aim.second.reset();
-        course_.move(aim.target, false, now);
+    if (demand.second && !demand.braking) {
+        demand.target = *demand.second;
+        demand.second.reset();
+        course_.move(demand.target, false, now);
         return;
     }
-    if (aim.task == Task::calibration && !aim.braking) {
+    if (demand.task == Task::calibration && !demand.braking) {
         const int fault = std::abs(p_.shaft.lag(now)) > 1 ? err::resolution_wrong
                           : course_.touch.encoder != 0    ? err::resolution_wrong + course_.touch.encoder - 1
                                                           : 0;
         if (fault != 0) p_.events.raise(fault);
         p_.trips.status(1, now);
     }
-    const bool reached = aim.task == Task::position || aim.task == Task::correction;
-    if (aim.braking || !reached) aim.target = p_.shaft.command().end_position();
+    const bool reached = demand.task == Task::position || demand.task == Task::correction;
+    if (demand.braking || !reached) demand.target = p_.shaft.command().end_position();
     course_.settle(now);
 }
 
@@ -157,7 +157,7 @@ void Moves::limit_met(int way, Instant now) {
     const bool at_once = mode >= 4;
     const bool homing = homing_.answers_limit();
     if (homing && homing_.turn_back(at_once, now)) return;
-    if (course_.aim.braking && !at_once) return;
+    if (course_.demand.braking && !at_once) return;
     p_.events.raise(homing && homing_.reversed() ? err::both_limits : way > 0 ? err::plus_limit : err::minus_limit);
     course_.give_up();
     after_pause_.reset();
@@ -183,12 +183,12 @@ void Moves::jog(Instant now) {
     int way = (p_.inputs.active(InputType::jog_plus) ? 1 : 0) - (p_.inputs.active(InputType::jog_minus) ? 1 : 0);
     if (p_.settings[Word::JE] == 0) way = 0;
     if (course_.steps()) {
-        if (course_.aim.task != Task::jog) return;
+        if (course_.demand.task != Task::jog) return;
         if (way == 0) {
-            if (!course_.aim.braking) course_.brake(now);
+            if (!course_.demand.braking) course_.brake(now);
             return;
         }
-        if (!course_.aim.braking && way == way_of(slew_)) return;
+        if (!course_.demand.braking && way == way_of(slew_)) return;
     }
     const double speed = p_.settings[Word::VM];
     if (way == 0 || paused_ || course_.may_move(Word::SL) != 0 || speed < 1 || p_.limits.held(way, now) != 0) return;
@@ -209,21 +209,21 @@ void Moves::follow(double steps, Instant now) {
 void Moves::pause(Instant now) {
     forget_pause();
     paused_ = true;
-    Course::Aim& aim = course_.aim;
-    if (!course_.steps() || aim.braking) return;
-    if (aim.task == Task::position) {
+    Course::Demand& demand = course_.demand;
+    if (!course_.steps() || demand.braking) return;
+    if (demand.task == Task::position) {
         after_pause_ = Word::MA;
-        paused_aim_ = aim;
-    } else if (aim.task == Task::slew) {
+        paused_demand_ = demand;
+    } else if (demand.task == Task::slew) {
         after_pause_ = Word::SL;
         pause_value_ = static_cast<std::int64_t>(slew_);
-    } else if (aim.task == Task::homing) {
+    } else if (demand.task == Task::homing) {
         after_pause_ = homing_.word();  // begins anew
         pause_value_ = homing_.type();
-        aim.task = Task::slew;
+        demand.task = Task::slew;
     }
     if (!after_pause_) return;
-    aim.aborted = true;
+    demand.aborted = true;
     course_.brake(now);
 }
 
@@ -232,9 +232,9 @@ std::optional<int> Moves::resume(Instant now) {
     forget_pause();
     if (!word) return std::nullopt;
     if (*word == Word::MA) {
-        course_.aim.braking = false;  // it may go on before it stands
+        course_.demand.braking = false;  // it may go on before it stands
         const int code = course_.may_move(Word::MA);
-        if (code == 0) position(paused_aim_.target, paused_aim_.second, paused_aim_.go_on, now);
+        if (code == 0) position(paused_demand_.target, paused_demand_.second, paused_demand_.go_on, now);
         return code;
     }
     const Word last = last_;
@@ -255,6 +255,6 @@ void Moves::forget_pause() noexcept {
     after_pause_.reset();
 }
 
-void Moves::shift(double by) noexcept { paused_aim_.shift(by); }
+void Moves::shift(double by) noexcept { paused_demand_.shift(by); }
 
 }  // namespace axisgate::mcode::twin

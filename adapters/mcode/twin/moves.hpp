@@ -52,7 +52,7 @@ private:
     bool paused_ = false;
     std::optional<Word> after_pause_;
     std::int64_t pause_value_ = 0;  ///< velocity of SL, type of a homing
-    Course::Aim paused_aim_;        ///< of MA, MR
+    Course::Demand paused_demand_;  ///< of MA, MR
 };
 
 }  // namespace axisgate::mcode::twin

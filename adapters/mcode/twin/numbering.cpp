@@ -66,7 +66,7 @@ int Numbering::scale(Word word, double value, Instant now) {
 void Numbering::shift(double by) noexcept {
     p_.shaft.shift(by);
     p_.trips.shift(by);
-    course_.aim.shift(by);
+    course_.demand.shift(by);
     moves_.shift(by);
 }
 

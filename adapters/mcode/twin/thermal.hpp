@@ -19,8 +19,8 @@ struct Supply {
     double controller = 27;  ///< deg C
     bool warned = false;
     bool over_temperature = false;
-    bool plus_v_told = false;
-    bool aux_told = false;
+    bool plus_v_reported = false;
+    bool aux_reported = false;
 
     [[nodiscard]] bool plus_v_good() const noexcept { return plus_v >= plus_v_low && plus_v <= plus_v_high; }
     [[nodiscard]] bool aux_good() const noexcept { return has_aux && aux >= aux_low && aux <= aux_high; }

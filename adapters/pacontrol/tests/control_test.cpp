@@ -20,7 +20,7 @@ TEST(PacontrolPresence, FindsTheControlAndReadsEveryAxis) {
         EXPECT_EQ(b.feedback(i).referenced, i != 1);
     }
     EXPECT_EQ(b.feedback(2).position, 12345);
-    EXPECT_TRUE(b.said().size() == 1 && b.said()[0] == "190B;0;0;0") << "nothing is changed by being found";
+    EXPECT_TRUE(b.reported().size() == 1 && b.reported()[0] == "190B;0;0;0") << "nothing is changed by being found";
 }
 
 TEST(PacontrolPresence, AddressIsTheWordCom1) {
@@ -141,7 +141,7 @@ TEST(PacontrolPresence, AnAxisThatIsTakenOutWhileItRunsIsStopped) {
     b.setup.drives[0].axes.pop_back();
     b.configure();
     b.run(300ms);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0"})) << "nobody could stop it any more";
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;2;1;0"})) << "nobody could stop it any more";
 }
 
 // --- ONLINE ----------------------------------------------------------------------------------------------------------------------
@@ -151,19 +151,19 @@ TEST(PacontrolOnline, EnableStartsItOnceAndDisableGivesItBack) {
     b.start();
     b.mark();
     EXPECT_EQ(b.ask(Enable{}, true, 0).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"}));
     EXPECT_EQ(b.feedback(0).power, AxisFeedback::Power::on);
     EXPECT_EQ(b.feedback(1).power, AxisFeedback::Power::off) << "only the axis that was enabled";
     b.mark();
     EXPECT_EQ(b.enable(1).outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0", "0A97;2;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;2;1;0", "0A97;2;0;0"}));
     b.mark();
     EXPECT_EQ(b.ask(Disable{}, false, 0).outcome, Outcome::accepted);
     b.run(1s);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A98;1;0;0"})) << "the other axis still needs ONLINE";
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0", "0A98;1;0;0"})) << "the other axis still needs ONLINE";
     EXPECT_EQ(b.ask(Disable{}, true, 1).outcome, Outcome::done);
     b.run(1s);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A98;1;0;0", "0A9A;2;1;0", "0A98;2;0;0", "0A81;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0", "0A98;1;0;0", "0A9A;2;1;0", "0A98;2;0;0", "0A81;0;0;0"}));
     EXPECT_EQ(b.control.mode, 1);
     EXPECT_EQ(b.notices_of("mode"), 0u) << "what the gateway did itself is no surprise";
 }
@@ -180,7 +180,7 @@ TEST(PacontrolOnline, NothingIsGivenBackThatWouldHavePowerThere) {
         b.run(2s);
         EXPECT_EQ(b.control.mode, enable_mode == 1 ? 31 : 1);
         if (enable_mode != 1) continue;
-        EXPECT_EQ(b.said(), (Lines{"0A9A;2;1;0", "0A98;2;0;0"}));
+        EXPECT_EQ(b.reported(), (Lines{"0A9A;2;1;0", "0A98;2;0;0"}));
         EXPECT_TRUE(good(b.action("online.give_back"))) << "who says so gets it";
         EXPECT_EQ(b.control.mode, 1);
     }
@@ -207,7 +207,7 @@ TEST(PacontrolOnline, TwoAxesEnabledAtOnceShareOneStart) {
     const Ticket x = b.command(Enable{}, true, 0), y = b.command(Enable{}, true, 1);
     EXPECT_EQ(b.answer(x).outcome, Outcome::done);
     EXPECT_EQ(b.answer(y).outcome, Outcome::done);
-    EXPECT_EQ(std::ranges::count(b.said(), "0603;0;0;0"), 1);
+    EXPECT_EQ(std::ranges::count(b.reported(), "0603;0;0;0"), 1);
 }
 
 TEST(PacontrolOnline, WhatWasStartedByHandIsNotGivenBack) {
@@ -235,7 +235,7 @@ TEST(PacontrolOnline, GivingBackAndReleasingAreChosenByOptions) {
     EXPECT_TRUE(b.feedback().referenced);
     EXPECT_EQ(b.ask(Disable{}).outcome, Outcome::accepted);
     b.run(2s);
-    EXPECT_EQ(b.said(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0", "0A83;1;0;0", "0A9A;1;1;0", "0A98;1;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0", "0A83;1;0;0", "0A9A;1;1;0", "0A98;1;0;0"}));
     EXPECT_EQ(b.control.mode, 31);
     Bench keep(1);
     keep.control.axes[0].referenced = false;
@@ -292,7 +292,7 @@ TEST(PacontrolOnline, EnableFromAStoppedOnlineLetsNoInterruptedMotionGoOn) {
     b.start();
     b.mark();
     EXPECT_EQ(b.enable().outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A81;0;0;0", "0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"})) << "0603 from 35 would resume";
+    EXPECT_EQ(b.reported(), (Lines{"0A81;0;0;0", "0603;0;0;0", "0A9A;1;1;0", "0A97;1;0;0"})) << "0603 from 35 would resume";
 }
 
 TEST(PacontrolOnline, ResetGoesTheWayOfTheErrorsClass) {
@@ -305,7 +305,7 @@ TEST(PacontrolOnline, ResetGoesTheWayOfTheErrorsClass) {
     EXPECT_GE(b.notices_of("alarm"), 1u);
     b.mark();
     EXPECT_EQ(b.ask(ResetFault{}, true).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0A81;0;0;0"})) << "class 3 goes on the way home";
+    EXPECT_EQ(b.reported(), (Lines{"0A81;0;0;0"})) << "class 3 goes on the way home";
     EXPECT_FALSE(b.feedback().fault);
 
     b.control.error = 205;
@@ -313,7 +313,7 @@ TEST(PacontrolOnline, ResetGoesTheWayOfTheErrorsClass) {
     b.run(500ms);
     b.mark();
     EXPECT_EQ(b.ask(ResetFault{}).outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0909;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0909;0;0;0"}));
 
     b.control.error = 120;
     b.control.mode = 9;
@@ -338,7 +338,7 @@ TEST(PacontrolOnline, AutomaticIsStartedStoppedAndCancelled) {
     EXPECT_EQ(b.control.mode, 15);
     EXPECT_TRUE(good(b.action("automatic.start"))) << "after a stop it goes on";
     EXPECT_TRUE(good(b.action("automatic.cancel")));
-    EXPECT_EQ(b.said(), (Lines{"0602;0;0;0", "0600;0;0;0", "0602;0;0;0", "0A41;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0602;0;0;0", "0600;0;0;0", "0602;0;0;0", "0A41;0;0;0"}));
     EXPECT_EQ(b.control.mode, 1);
     EXPECT_EQ(b.action("automatic.start", "DRILL").reason, Reason::not_supported);
 }
@@ -349,7 +349,7 @@ TEST(PacontrolMotion, AbsoluteWithSpeedAndAcceleration) {
     Enabled b;
     const Ticket go = b.command(absolute(8000, 4000, 20000, 20000), true);
     b.run(1s);
-    EXPECT_EQ(b.said(), (Lines{"0A8D;1;1;4.0", "0A8E;1;1;20.0", "0A94;1;1;8.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A8D;1;1;4.0", "0A8E;1;1;20.0", "0A94;1;1;8.0"}));
     EXPECT_TRUE(b.feedback().moving);
     EXPECT_FALSE(b.feedback().target_reached);
     EXPECT_GT(b.feedback().position, 2000);
@@ -362,7 +362,7 @@ TEST(PacontrolMotion, AbsoluteWithSpeedAndAcceleration) {
     EXPECT_EQ(b.feedback().velocity, 0);
     b.mark();
     EXPECT_EQ(b.ask(absolute(0, 4000, 20000), true).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0A94;1;1;0.0"})) << "overrides that are in force are not sent again";
+    EXPECT_EQ(b.reported(), (Lines{"0A94;1;1;0.0"})) << "overrides that are in force are not sent again";
 }
 
 TEST(PacontrolMotion, AcceptedComesAfterFeedbackThatTheTargetIsNotReached) {
@@ -400,7 +400,7 @@ TEST(PacontrolMotion, RelativeAndVelocity) {
     jog.kind = Move::Kind::velocity;
     jog.target = -3000;
     EXPECT_EQ(b.ask(jog, true).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0A8D;1;1;3.0", "1913;1;1;0", "0A94;1;1;-500.0"})) << "to the end of the area at that speed";
+    EXPECT_EQ(b.reported(), (Lines{"0A8D;1;1;3.0", "1913;1;1;0", "0A94;1;1;-500.0"})) << "to the end of the area at that speed";
     EXPECT_EQ(b.feedback().velocity, -3000);
     jog.target = 0;
     EXPECT_EQ(b.ask(jog, true).outcome, Outcome::done);
@@ -415,7 +415,7 @@ TEST(PacontrolMotion, ANewTargetStopsTheRunningMotionFirst) {
     const Ticket second = b.command(absolute(1000), true);
     EXPECT_EQ(b.answer(first).reason, Reason::interrupted);
     EXPECT_EQ(b.answer(second).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0A94;1;1;1.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0", "0A94;1;1;1.0"}));
     EXPECT_EQ(b.feedback().position, 1000);
 }
 
@@ -455,7 +455,7 @@ TEST(PacontrolMotion, NothingMovesOutsideOnline) {
         const Result r = b.ask(c);
         EXPECT_EQ(r.reason, Reason::wrong_state) << r.text;
     }
-    EXPECT_TRUE(b.said().empty());
+    EXPECT_TRUE(b.reported().empty());
 }
 
 TEST(PacontrolMotion, ReferenceRunBarsTheLineButForPolls) {
@@ -485,7 +485,7 @@ TEST(PacontrolMotion, HomingMethods) {
     Enabled b;
     b.control.axes[0].position = 7;
     EXPECT_EQ(b.ask(Home{35}, true).outcome, Outcome::done);
-    EXPECT_EQ(b.said(), (Lines{"0A96;1;1;0.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A96;1;1;0.0"}));
     EXPECT_EQ(b.feedback().position, 0);
     EXPECT_TRUE(b.feedback().homing_attained);
     EXPECT_EQ(b.ask(Home{17}).reason, Reason::not_supported);
@@ -511,12 +511,12 @@ TEST(PacontrolMotion, AnEndOfProcessingThatTheFlagContradictsIsNoReference) {
 TEST(PacontrolMotion, SettingThePositionByG29OrG26) {
     Enabled b;
     EXPECT_EQ(b.ask(SetPosition{200000}).outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A86;1;1;200.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A86;1;1;200.0"}));
     EXPECT_EQ(b.feedback().position, 200000);
     Enabled g26(1, {{"set_position", "g26"}});
     EXPECT_TRUE(good(g26.ask(SetPosition{0})));
     EXPECT_TRUE(good(g26.ask(SetPosition{5000})));
-    EXPECT_EQ(g26.said(), (Lines{"0A85;1;0;0", "0A96;1;1;5.0"}));
+    EXPECT_EQ(g26.reported(), (Lines{"0A85;1;0;0", "0A96;1;1;5.0"}));
 }
 
 TEST(PacontrolMotion, PreparedAxesAreStartedOneBehindTheOther) {
@@ -526,12 +526,12 @@ TEST(PacontrolMotion, PreparedAxesAreStartedOneBehindTheOther) {
         m.prepare_only = true;
         EXPECT_EQ(b.ask(m, false, i).outcome, Outcome::accepted);
     }
-    EXPECT_TRUE(b.said().empty()) << "nothing moves because it was prepared";
+    EXPECT_TRUE(b.reported().empty()) << "nothing moves because it was prepared";
     EXPECT_EQ(b.ask(StartTogether{{AxisId{0}, AxisId{2}}}).reason, Reason::wrong_state);
     const Result r = b.ask(StartTogether{{AxisId{0}, AxisId{1}}});
     EXPECT_EQ(r.outcome, Outcome::accepted);
     EXPECT_NE(r.text.find("one behind the other"), std::string::npos);
-    EXPECT_EQ(b.said(), (Lines{"0A94;1;1;5.0", "0A94;2;1;5.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A94;1;1;5.0", "0A94;2;1;5.0"}));
     EXPECT_TRUE(b.feedback(0).moving && b.feedback(1).moving);
 }
 
@@ -559,7 +559,7 @@ TEST(PacontrolMotion, ManualMoveIsRenewedWellWithinASecondAndOnlyWhileItRuns) {
 TEST(PacontrolMotion, TraverseUntilInputSetsTheConditionTheOtherWayRound) {
     Enabled b;
     EXPECT_TRUE(good(b.action("traverse_until_input", "I5=0 to 200.0")));
-    EXPECT_EQ(b.said(), (Lines{"0AA3;1;0;16842757", "0A94;1;1;200.0"})) << "until 5 = 0 is while 5 = 1: 01 01 00 05h";
+    EXPECT_EQ(b.reported(), (Lines{"0AA3;1;0;16842757", "0A94;1;1;200.0"})) << "until 5 = 0 is while 5 = 1: 01 01 00 05h";
     b.run(500ms);
     b.control.axes[0].stop(b.now, 0);  // the condition ends it: in position as far as the control is concerned
     b.run(1s);
@@ -575,12 +575,12 @@ TEST(PacontrolMotion, ReferencesOfSeveralAxesFollowTheirOrder) {
     b.control.reference_time = 500ms;
     const Result r = b.ask(Action{"reference", "all"}, true);
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
-    EXPECT_EQ(b.said(), (Lines{"0A84;3;0;0", "0A84;1;0;0", "0A84;2;0;0", "0A84;4;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A84;3;0;0", "0A84;1;0;0", "0A84;2;0;0", "0A84;4;0;0"}));
     b.mark();
     EXPECT_TRUE(good(b.ask(Action{"reference", "2,4"}, true)));
     EXPECT_TRUE(good(b.ask(Action{"reference", "0x1"}, true)));
     EXPECT_TRUE(good(b.action("reference", "", 3)));
-    EXPECT_EQ(b.said(), (Lines{"0A84;2;0;0", "0A84;4;0;0", "0A84;1;0;0", "0A84;4;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A84;2;0;0", "0A84;4;0;0", "0A84;1;0;0", "0A84;4;0;0"}));
     for (const char* bad : {"7", "0", "0x0", "all of them", "17"})
         EXPECT_EQ(b.action("reference", bad).reason, Reason::out_of_range) << bad;
 }
@@ -589,9 +589,9 @@ TEST(PacontrolMotion, OverridesAndMeasuring) {
     Enabled b;
     EXPECT_TRUE(good(b.action("override.speed", "12.5")));
     EXPECT_TRUE(good(b.action("override.acceleration", "100")));
-    EXPECT_EQ(b.said(), (Lines{"0A8D;1;1;12.5", "0A8E;1;1;100.0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A8D;1;1;12.5", "0A8E;1;1;100.0"}));
     EXPECT_EQ(b.ask(absolute(100, 12500, 100000), true).outcome, Outcome::done);
-    EXPECT_EQ(b.said().back(), "0A94;1;1;0.1") << "known overrides are not sent again";
+    EXPECT_EQ(b.reported().back(), "0A94;1;1;0.1") << "known overrides are not sent again";
     EXPECT_TRUE(good(b.action("measure", "on")));
     b.run(1s);
     EXPECT_EQ(b.feedback().power, AxisFeedback::Power::off);

@@ -430,7 +430,7 @@ public:
         return p.value_or(Point{});
     }
     /// Requests since mark(), polls left out, as their texts.
-    std::vector<std::string> said() const {
+    std::vector<std::string> reported() const {
         std::vector<std::string> list;
         for (std::size_t i = mark_at; i < sent.size(); ++i) {
             const std::string c = sent[i].text.substr(0, 4);

@@ -13,7 +13,7 @@ TEST(PacontrolStop, HaltAndQuickStopEndAMotion) {
         b.mark();
         const Result r = b.ask(body, true);
         EXPECT_EQ(r.outcome, Outcome::done) << r.text;
-        EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0"}));
+        EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0"}));
         EXPECT_EQ(b.answer(go).reason, Reason::interrupted);
         EXPECT_FALSE(b.feedback().moving);
         EXPECT_FALSE(b.feedback().target_reached);
@@ -52,7 +52,7 @@ TEST(PacontrolStop, AStartThatIsOnTheLineIsStoppedBehindItsAnswer) {
     EXPECT_EQ(b.answer(go).reason, Reason::interrupted);
     EXPECT_EQ(b.answer(stop).outcome, Outcome::done);
     EXPECT_FALSE(b.control.axes[0].running);
-    EXPECT_EQ(b.said().back(), "0A9A;1;1;0");
+    EXPECT_EQ(b.reported().back(), "0A9A;1;1;0");
 }
 
 TEST(PacontrolStop, PassesAReferenceRun) {
@@ -62,7 +62,7 @@ TEST(PacontrolStop, PassesAReferenceRun) {
     b.mark();
     const Result r = b.ask(QuickStop{}, true, 0);
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
-    EXPECT_EQ(b.said(), (Lines{"0A93;1;1;0"})) << "0A9A does not pass while a command is being processed";
+    EXPECT_EQ(b.reported(), (Lines{"0A93;1;1;0"})) << "0A9A does not pass while a command is being processed";
     EXPECT_EQ(b.answer(home).reason, Reason::interrupted);
     EXPECT_EQ(b.ask(absolute(1000), true, 1).outcome, Outcome::done) << "the line is free again";
 }
@@ -76,9 +76,9 @@ TEST(PacontrolStop, DisableOfAnotherAxisDuringAReferenceRunStopsAtOnceAndSwitche
     const Ticket off = b.command(Disable{}, false, 1);
     b.run(100ms);
     EXPECT_FALSE(b.control.axes[1].running);
-    EXPECT_EQ(b.said(), (Lines{"0A93;2;1;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A93;2;1;0"}));
     EXPECT_TRUE(good(b.answer(off)));
-    EXPECT_EQ(b.said().at(1), "0A98;2;0;0");
+    EXPECT_EQ(b.reported().at(1), "0A98;2;0;0");
     b.run(5s);
     EXPECT_TRUE(b.results.contains(home)) << "its end is found by the axis' status";
 }
@@ -91,7 +91,7 @@ TEST(PacontrolStop, ARefusedStopBecomesOneOfAllAxes) {
     b.mark();
     const Result r = b.ask(QuickStop{}, false, 0);
     EXPECT_EQ(r.outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0600;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0", "0600;0;0;0"}));
     EXPECT_FALSE(b.control.axes[0].running || b.control.axes[1].running);
     EXPECT_EQ(b.notices_of("stop"), 1u);
 }
@@ -103,7 +103,7 @@ TEST(PacontrolStop, InAutomaticTheProgramIsStopped) {
     b.mark();
     const Result r = b.ask(QuickStop{});
     EXPECT_EQ(r.outcome, Outcome::accepted);
-    EXPECT_EQ(b.said(), (Lines{"0600;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0600;0;0;0"}));
     EXPECT_EQ(b.control.mode, 15);
 }
 
@@ -115,7 +115,7 @@ TEST(PacontrolStop, AtHomeTheControlIsAskedAndNothingIsChanged) {
         const Result r = b.ask(body, true);
         EXPECT_TRUE(good(r)) << r.text;
     }
-    EXPECT_EQ(b.said(), (Lines{"190B;0;0;0", "190B;0;0;0", "190B;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"190B;0;0;0", "190B;0;0;0", "190B;0;0;0"}));
 }
 
 TEST(PacontrolStop, ADisableTakesThePowerThatTheEnableModeGivesAtHome) {
@@ -184,7 +184,7 @@ TEST(PacontrolStop, AnAxisThatRunsOnAfterItsStopIsStoppedWithAllOthers) {
     b.mark();
     EXPECT_EQ(b.ask(Halt{}).outcome, Outcome::accepted);
     b.run(11s);
-    EXPECT_EQ(b.said(), (Lines{"0A9A;1;1;0", "0600;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A9A;1;1;0", "0600;0;0;0"}));
     EXPECT_FALSE(b.control.axes[0].running);
 }
 

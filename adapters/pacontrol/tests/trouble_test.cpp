@@ -70,7 +70,7 @@ TEST(PacontrolTrouble, AFrameThatTheControlCouldNotReadIsSentAgainWhateverItWas)
         };
         const Result r = b.ask(absolute(5000), true);
         EXPECT_EQ(r.outcome, Outcome::done) << r.text;
-        EXPECT_EQ(std::ranges::count(b.said(), "0A94;1;1;5.0"), 3) << "it was not executed: no risk of moving twice";
+        EXPECT_EQ(std::ranges::count(b.reported(), "0A94;1;1;5.0"), 3) << "it was not executed: no risk of moving twice";
     }
 }
 
@@ -165,7 +165,7 @@ TEST(PacontrolTrouble, AnUnansweredStartIsUnknownNotDoneAndThePositionIsReadBack
         EXPECT_EQ(r.reason, Reason::no_answer);
         EXPECT_NE(r.text.find("not known"), std::string::npos) << r.text;
         EXPECT_NE(r.text.find("position read back is"), std::string::npos) << r.text;
-        EXPECT_EQ(std::ranges::count(b.said(), "0A94;1;1;100.0"), 1) << "never sent twice";
+        EXPECT_EQ(std::ranges::count(b.reported(), "0A94;1;1;100.0"), 1) << "never sent twice";
         b.run(500ms);
         EXPECT_EQ(b.feedback().moving, executed) << "what it really does is seen";
         EXPECT_FALSE(b.feedback().target_reached);
@@ -205,12 +205,12 @@ TEST(PacontrolTrouble, AnOperatorWhoSwitchesTheModeIsToldAndObeyed) {
         EXPECT_EQ(b.feedback(0).power, AxisFeedback::Power::off);
         EXPECT_EQ(b.feedback(1).power, AxisFeedback::Power::off);
         b.run(3s);
-        EXPECT_TRUE(b.said().empty()) << "nothing is switched back by itself";
+        EXPECT_TRUE(b.reported().empty()) << "nothing is switched back by itself";
         b.control.mode = 1;
         b.run(500ms);
         EXPECT_EQ(b.enable().outcome, Outcome::accepted) << "no restart";
         EXPECT_EQ(b.ask(absolute(1000, 5000), true).outcome, Outcome::done);
-        EXPECT_EQ(std::ranges::count(b.said(), "0A8D;1;1;5.0"), 1) << "overrides were dropped with ONLINE and are sent anew";
+        EXPECT_EQ(std::ranges::count(b.reported(), "0A8D;1;1;5.0"), 1) << "overrides were dropped with ONLINE and are sent anew";
     }
 }
 

@@ -22,11 +22,11 @@ TEST(TwinErrata, E06_RealsOfEverySizeHaveSevenDigits) {
     const std::vector<std::pair<const char*, const char*>> rows{{"0", "0.000000"},         {"1", "1.000000"},    {"-12.5", "-12.50000"},
                                                                 {"50000", "50000.00"},     {"0.5", "0.5000000"}, {"1234567", "1234567"},
                                                                 {"99999.999", "100000.0"}, {"-640", "-640.0000"}};
-    for (const auto& [asked, said] : rows) {
+    for (const auto& [asked, reported] : rows) {
         const std::string text = b.ask(std::string("0907;1;1;") + asked);
         const std::string got = text.substr(text.rfind(';') + 1);
-        EXPECT_EQ(std::stod(got), std::stod(said)) << asked << " -> " << got;
-        if (std::string_view(asked) != "1234567" && std::string_view(asked) != "0.5") EXPECT_EQ(got, said) << asked;
+        EXPECT_EQ(std::stod(got), std::stod(reported)) << asked << " -> " << got;
+        if (std::string_view(asked) != "1234567" && std::string_view(asked) != "0.5") EXPECT_EQ(got, reported) << asked;
     }
 }
 

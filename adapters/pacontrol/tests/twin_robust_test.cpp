@@ -93,14 +93,14 @@ TEST(TwinRobust, TimeMayComeInAnyPieces) {
         b.online();
         b.good("0A94;1;1;800");
         b.good("0A90;2;1;300");
-        std::vector<std::string> said;
+        std::vector<std::string> reported;
         for (int i = 0; i < 6; ++i) {
             for (Duration t{}; t < 600ms; t += piece)
                 b.pass(piece);
             for (const char* text : {"190C;1;1;0", "190C;2;1;0", "1911;0;0;0", "190B;0;0;0"})
-                said.push_back(b.ask(text));
+                reported.push_back(b.ask(text));
         }
-        return said;
+        return reported;
     };
     const auto once = run(600ms);
     EXPECT_EQ(run(1ms), once);

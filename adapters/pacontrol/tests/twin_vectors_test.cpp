@@ -77,11 +77,11 @@ public:
             if (l.keyword == ">") {
                 const Bytes sent = bytes_follow ? hex(c.lines[i + 1].rest) : frame(l.rest);
                 if (bytes_follow) EXPECT_EQ(sent, frame(l.rest)) << "the vector's own check";
-                said_ = exchange(sent);
+                reported_ = exchange(sent);
             } else if (l.keyword == "wait") {
                 bench_->pass(std::chrono::milliseconds(std::stoi(l.rest)));
             } else if (l.keyword == "poll>") {
-                said_ = exchange({4});
+                reported_ = exchange({4});
             } else if (l.keyword == "<" || l.keyword == "<~") {
                 compare(l.rest, l.keyword == "<~");
                 if (bytes_follow && l.keyword == "<") EXPECT_EQ(bench_->raw.back(), hex(c.lines[i + 1].rest));
@@ -150,17 +150,17 @@ private:
 
     void compare(const std::string& wanted, bool free) {
         if (!free) {
-            EXPECT_EQ(said_, wanted);
+            EXPECT_EQ(reported_, wanted);
             return;
         }
-        const auto want = split(wanted), got = split(said_);
-        ASSERT_EQ(want.size(), got.size()) << said_;
+        const auto want = split(wanted), got = split(reported_);
+        ASSERT_EQ(want.size(), got.size()) << reported_;
         for (std::size_t i = 0; i < want.size(); ++i)
-            if (want[i] != "xx") EXPECT_EQ(got[i], want[i]) << "field " << i + 1 << " of " << said_;
+            if (want[i] != "xx") EXPECT_EQ(got[i], want[i]) << "field " << i + 1 << " of " << reported_;
     }
 
     std::unique_ptr<Bench> bench_;
-    std::string said_;
+    std::string reported_;
 };
 
 TEST(TwinVectors, EveryCase) {

@@ -20,7 +20,7 @@ TEST(PacontrolValues, ElementsOfEveryForm) {
     EXPECT_EQ(write(b, "N[3]", std::int64_t{-333}).value, Value{std::int64_t{-333}});
     EXPECT_EQ(write(b, "R[1]", 640.0).value, Value{640.0});
     EXPECT_EQ(read(b, "R[1]", 1).value, Value{640.0}) << "same point, same value, through any axis";
-    EXPECT_EQ(b.said(), (Lines{"1900;5;0;0", "0902;7;0;1", "0905;17;0;17906", "0906;3;0;-333", "0907;1;1;640.0", "1907;1;1;0"}))
+    EXPECT_EQ(b.reported(), (Lines{"1900;5;0;0", "0902;7;0;1", "0905;17;0;17906", "0906;3;0;-333", "0907;1;1;640.0", "1907;1;1;0"}))
         << "a word is named by an element inside it, a read of a real carries its type";
     const Result t = read(b, "T[1]");
     EXPECT_EQ(t.reason, Reason::not_supported);
@@ -33,10 +33,10 @@ TEST(PacontrolValues, ADriveValueIsToldForEveryAxis) {
     b.start();
     b.samples.clear();
     (void)write(b, "N[3]", std::int64_t{9});
-    std::set<AxisId> told;
+    std::set<AxisId> reported;
     for (const auto& s : b.samples)
-        if (s.point == Bench::point("N[3]")) told.insert(s.axis);
-    EXPECT_EQ(told.size(), 3u);
+        if (s.point == Bench::point("N[3]")) reported.insert(s.axis);
+    EXPECT_EQ(reported.size(), 3u);
 }
 
 TEST(PacontrolValues, AxisParametersAreOneDecimalNumberAndReal) {
@@ -47,7 +47,7 @@ TEST(PacontrolValues, AxisParametersAreOneDecimalNumberAndReal) {
     EXPECT_EQ(read(b, "AP6", 2).value, Value{1234.5});
     EXPECT_TRUE(good(write(b, "AP6", 0.1, 0)));
     EXPECT_TRUE(good(write(b, "SP2", std::int64_t{4}, 1)));
-    EXPECT_EQ(b.said(), (Lines{"1800;774;1;0", "0800;262;1;0.1", "0700;2;0;4"}));
+    EXPECT_EQ(b.reported(), (Lines{"1800;774;1;0", "0800;262;1;0.1", "0700;2;0;4"}));
 }
 
 TEST(PacontrolValues, TheHomePositionRuleRefusesWithItsReason) {
@@ -59,7 +59,7 @@ TEST(PacontrolValues, TheHomePositionRuleRefusesWithItsReason) {
         EXPECT_NE(r.text.find("home position"), std::string::npos) << r.text;
         EXPECT_NE(r.text.find("31 (ONLINE)"), std::string::npos) << r.text;
     }
-    EXPECT_TRUE(b.said().empty());
+    EXPECT_TRUE(b.reported().empty());
     EXPECT_TRUE(good(write(b, "N[1]", std::int64_t{5}))) << "elements are open in every mode";
 }
 
@@ -196,7 +196,7 @@ TEST(PacontrolActions, EveryCommandByItsName) {
     EXPECT_EQ(b.action("cmd_get_int_reg", "17").value, Value{std::int64_t{0}});
     EXPECT_TRUE(good(b.action("cmd_put_int_reg", "17;99")));
     EXPECT_TRUE(good(b.action("put_limit_switch_monitoring_on_off", "0;0")));
-    EXPECT_EQ(b.said(), (Lines{"0A83;2;0;0", "0A8D;2;1;2.5", "1906;17;0;0", "0906;17;0;99", "0AA2;0;0;0"}));
+    EXPECT_EQ(b.reported(), (Lines{"0A83;2;0;0", "0A8D;2;1;2.5", "1906;17;0;0", "0906;17;0;99", "0AA2;0;0;0"}));
     EXPECT_EQ(b.action("cmd_get_int_reg").reason, Reason::out_of_range);
     EXPECT_EQ(b.action("cmd_put_int_reg", "17;1.5").reason, Reason::out_of_range);
     EXPECT_EQ(b.action("0A94", "2;5", 0).reason, Reason::out_of_range) << "an axis is moved through itself";

@@ -50,7 +50,7 @@ private:
         bool refresh;  ///< the acknowledgement is what the command's state is then
         CommandReply reply;
     };
-    void heard(const Heard& h, Instant now, Out& out);
+    void received(const Received& h, Instant now, Out& out);
     void answer(const CommandReply& reply, Instant now, Out& out);
     void send(const CommandReply& reply, Instant now, Out& out) const;
     void pass(Instant now, Out& out);

@@ -20,9 +20,9 @@ std::optional<std::int64_t> decimal(std::string_view text, int base = 10) {
     return n;
 }
 
-Heard fault(std::uint16_t quit) {
-    Heard h;
-    h.kind = Heard::Kind::fault;
+Received fault(std::uint16_t quit) {
+    Received h;
+    h.kind = Received::Kind::fault;
     h.quit = quit;
     return h;
 }
@@ -48,7 +48,7 @@ void FrameReader::begin() noexcept {
     state_ = State::begun;
 }
 
-std::optional<Heard> FrameReader::feed(std::uint8_t byte, Instant at) {
+std::optional<Received> FrameReader::feed(std::uint8_t byte, Instant at) {
     if (state_ != State::idle && at - last_ > silence) reset();
     last_ = at;
     if (byte == soh) {
@@ -57,18 +57,18 @@ std::optional<Heard> FrameReader::feed(std::uint8_t byte, Instant at) {
     }
     if (byte == eot) {
         const State state = state_;
-        std::optional<Heard> heard;
+        std::optional<Received> received;
         if (state == State::idle) {
-            heard = Heard{};
+            received = Received{};
         } else if (state == State::begun || state == State::headless) {
-            heard = fault(quit_beginning);
+            received = fault(quit_beginning);
         } else if (state == State::text) {
-            heard = fault(quit_sequence);  // no ETX
+            received = fault(quit_sequence);  // no ETX
         } else {
-            heard = finish();
+            received = finish();
         }
         reset();
-        return heard;
+        return received;
     }
     switch (state_) {
         case State::idle:
@@ -99,7 +99,7 @@ std::optional<Heard> FrameReader::feed(std::uint8_t byte, Instant at) {
     return std::nullopt;
 }
 
-Heard FrameReader::finish() const {
+Received FrameReader::finish() const {
     if (disorder_) return fault(quit_sequence);
     const auto check = check_.size() <= 3 && !check_.starts_with('-') ? decimal(check_) : std::nullopt;
     const std::uint8_t right = xor_of(text_);
@@ -114,8 +114,8 @@ Heard FrameReader::finish() const {
         field[i] = rest.substr(0, end);
         if (i < 3) rest.remove_prefix(end + 1);
     }
-    Heard h;
-    h.kind = Heard::Kind::request;
+    Received h;
+    h.kind = Received::Kind::request;
     const auto code = field[0].size() == 4 && field[0].front() != '-' ? decimal(field[0], 16) : std::nullopt;
     if (!code) return fault(quit_unknown);
     const auto parameter = decimal(field[1]);

@@ -20,7 +20,7 @@ inline constexpr std::uint16_t quit_sequence = 0x11;
 inline constexpr std::uint16_t quit_beginning = 0x12;
 inline constexpr std::uint16_t quit_unknown = 0x13;
 
-struct Heard {
+struct Received {
     enum class Kind : std::uint8_t { poll, request, fault };
     Kind kind = Kind::poll;
     std::uint16_t quit = 0;      ///< fault
@@ -38,12 +38,12 @@ public:
 
     /// `lenient`: also takes the check of the other direction, text XOR 3 (E-04).
     explicit FrameReader(bool lenient = false) : lenient_(lenient) {}
-    [[nodiscard]] std::optional<Heard> feed(std::uint8_t byte, Instant at);
+    [[nodiscard]] std::optional<Received> feed(std::uint8_t byte, Instant at);
     void reset() noexcept;
 
 private:
     enum class State : std::uint8_t { idle, begun, text, check, headless };
-    [[nodiscard]] Heard finish() const;
+    [[nodiscard]] Received finish() const;
     void begin() noexcept;
 
     bool lenient_;

@@ -171,11 +171,11 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     pass(now, out);
     if (!powered_ || frame.kind != Frame::Kind::bytes) return;
     for (const std::uint8_t byte : frame.data()) {
-        if (const auto h = reader_.feed(byte, now)) heard(*h, now, out);
+        if (const auto h = reader_.feed(byte, now)) received(*h, now, out);
     }
 }
 
-void Device::heard(const Heard& h, Instant now, Out& out) {
+void Device::received(const Received& h, Instant now, Out& out) {
     // The master did not wait: what still waits for an end of processing leaves as it is.
     if (!waiting_.empty() && waiting_.back().refresh) {
         const CommandReply r = control_.progress(now);
@@ -183,12 +183,12 @@ void Device::heard(const Heard& h, Instant now, Out& out) {
         pass(now, out);
     }
     switch (h.kind) {
-        case Heard::Kind::poll:
+        case Received::Kind::poll:
             return answer(control_.progress(now), now, out);
-        case Heard::Kind::fault:
+        case Received::Kind::fault:
             control_.note_frame_error(h.quit);
             return answer({h.quit, true, {}, never}, now, out);
-        case Heard::Kind::request:
+        case Received::Kind::request:
             return answer(control_.execute(h.code, h.parameter, h.data, now), now, out);
     }
 }

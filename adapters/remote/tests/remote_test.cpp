@@ -63,12 +63,12 @@ TEST(RemoteWire, GoldenTelegramsAreReadAndWrittenAgain) {
 TEST(RemoteWire, AStopInTheMiddleOfARequestIsALineOfItsOwn) {
     const std::string request = mirror::text_of({Telegram::Kind::request, 1, "hall-2/feeder", "move_absolute p=5"});
     const std::string stop = "\n" + mirror::text_of({Telegram::Kind::request, 2, "hall-2/feeder", "halt"});
-    std::vector<std::uint64_t> heard;
+    std::vector<std::uint64_t> received;
     mirror::Framer framer;
     framer.push(request.substr(0, 20) + stop + request.substr(20), [&](std::string_view line) {
-        if (const auto t = mirror::telegram_of(line)) heard.push_back(t->number);
+        if (const auto t = mirror::telegram_of(line)) received.push_back(t->number);
     });
-    EXPECT_THAT(heard, ElementsAre(2)) << "the stop is heard, what it cut is not";
+    EXPECT_THAT(received, ElementsAre(2)) << "the stop is heard, what it cut is not";
 }
 
 TEST(RemoteWire, WhatNeverEndsIsDropped) {
@@ -117,7 +117,7 @@ struct Bench : testing::Test {
     std::vector<Result> results;
     std::vector<DriveLink> links;
     AxisFeedback feedback;
-    std::size_t told = 0;
+    std::size_t reported = 0;
 
     void SetUp() override {
         LineSetup line;
@@ -141,7 +141,7 @@ struct Bench : testing::Test {
         links.insert(links.end(), out.links.begin(), out.links.end());
         for (const auto& f : out.feedback) {
             feedback = f.value;
-            ++told;
+            ++reported;
         }
         out.clear();
     }

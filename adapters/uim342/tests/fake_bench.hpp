@@ -86,8 +86,8 @@ struct FakeNode {
     bool instant_motion = false;  ///< PTP ends at its target at once
     bool silent = false;
     Duration latency = 200us;
-    std::vector<Message> heard;  ///< every instruction that reached it, in order
-    std::vector<Instant> heard_at;
+    std::vector<Message> received;  ///< every instruction that reached it, in order
+    std::vector<Instant> received_at;
     int busy = 0, most_busy = 0;  ///< instructions with acknowledgement that were not answered yet (stops apart)
 
     /// What a script wants of one instruction.
@@ -386,9 +386,9 @@ public:
         return ask(n);
     }
     /// What a node heard since mark(), polls (MS[0], MS[1]) left out, as "CW data" lines.
-    std::vector<std::string> heard(std::uint8_t id, bool polls = false) {
+    std::vector<std::string> received(std::uint8_t id, bool polls = false) {
         std::vector<std::string> list;
-        const auto& h = fakes.at(id)->heard;
+        const auto& h = fakes.at(id)->received;
         for (std::size_t i = marks[id]; i < h.size(); ++i) {
             if (!polls && h[i].cw == 0x91 && h[i].dl == 1) continue;
             list.push_back(hex(h[i]));
@@ -397,7 +397,7 @@ public:
     }
     void mark() {
         for (auto& [id, f] : fakes) {
-            if (f) marks[id] = f->heard.size();
+            if (f) marks[id] = f->received.size();
         }
         sent_mark = sent.size();
     }
@@ -509,19 +509,19 @@ private:
             const Waiting w = queue[best];
             queue.erase(queue.begin() + static_cast<std::ptrdiff_t>(best));
             line_free = now + frame_time;
-            if (!lose || !lose(w.frame, true)) hear(w.message);
+            if (!lose || !lose(w.frame, true)) receive(w.message);
             return;
         }
         if (adapter.deadline() <= now) call([&] { adapter.on_deadline(now, out); });
     }
 
-    void hear(const Message& m) {
+    void receive(const Message& m) {
         for (auto& [id, f] : fakes) {
             if (!f || f->silent) continue;
             const auto group = f->values[0x0108][0];
             if (m.id != id && m.id != 0 && m.id != group) continue;
-            f->heard.push_back(m);
-            f->heard_at.push_back(now);
+            f->received.push_back(m);
+            f->received_at.push_back(now);
             FakeNode::Verdict v;
             if (f->script) v = f->script(m);
             const Duration latency = v.latency.value_or(f->latency);

@@ -26,7 +26,7 @@ TEST(Uim342Enable, StopsBeforeAndAfterAndLeavesNoOldTarget) {
     Started s(false);
     const Result r = s.b.ask(Enable{});
     EXPECT_EQ(r.outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"97", "95 01", "97", "9D 00 00 00 00"}));
+    EXPECT_EQ(s.b.received(5), lines({"97", "95 01", "97", "9D 00 00 00 00"}));
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::on);
 }
 
@@ -37,7 +37,7 @@ TEST(Uim342Enable, NothingThatSetsAMotionIsSentWhileTheDriverIsOff) {
         EXPECT_EQ(r.outcome, Outcome::refused);
         EXPECT_EQ(r.reason, Reason::wrong_state);
     }
-    EXPECT_TRUE(s.b.heard(5).empty()) << "a PA kept in the drive would act when it turns on [L1264]";
+    EXPECT_TRUE(s.b.received(5).empty()) << "a PA kept in the drive would act when it turns on [L1264]";
 }
 
 TEST(Uim342Enable, EveryStepMayFail) {
@@ -59,8 +59,8 @@ TEST(Uim342Enable, EveryStepMayFail) {
             EXPECT_NE(r.outcome, Outcome::accepted);
             EXPECT_NE(r.outcome, Outcome::done);
             EXPECT_EQ(r.reason, silent ? Reason::no_answer : Reason::drive_refused);
-            EXPECT_EQ(s.b.heard(5).back(), row.last);
-            if (silent) EXPECT_EQ(std::ranges::count(s.b.heard(5), row.last), 3) << "two repeats";
+            EXPECT_EQ(s.b.received(5).back(), row.last);
+            if (silent) EXPECT_EQ(std::ranges::count(s.b.received(5), row.last), 3) << "two repeats";
         }
     }
 }
@@ -80,13 +80,13 @@ TEST(Uim342Enable, ALockedDriveIsNotEnabled) {
     EXPECT_TRUE(s.b.feedback().fault);
     EXPECT_TRUE(s.b.feedback().quick_stopping);
     EXPECT_EQ(s.b.ask(Enable{}).reason, Reason::wrong_state);
-    EXPECT_TRUE(s.b.heard(5).empty());
+    EXPECT_TRUE(s.b.received(5).empty());
 }
 
 TEST(Uim342Disable, GoesAtOnce) {
     Started s;
     EXPECT_EQ(s.b.ask(Disable{}).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"95 00"}));
+    EXPECT_EQ(s.b.received(5), lines({"95 00"}));
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::off);
     for (const auto& x : s.b.sent) {
         if (x.message == message(5, 0x95, std::array<std::uint8_t, 1>{0})) EXPECT_EQ(x.priority, Priority::urgent);
@@ -98,22 +98,22 @@ TEST(Uim342Disable, GoesAtOnce) {
 TEST(Uim342Move, AbsoluteSendsOnlyWhatDiffers) {
     Started s;
     EXPECT_EQ(s.b.ask(absolute(3200, 1000, 10000, 10000)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"A0 80 0C 00 00", "9E E8 03 00 00", "96"})) << "AC and DC are as wanted already; SP after PA";
+    EXPECT_EQ(s.b.received(5), lines({"A0 80 0C 00 00", "9E E8 03 00 00", "96"})) << "AC and DC are as wanted already; SP after PA";
     s.b.mark();
     EXPECT_EQ(s.b.ask(absolute(-3200, 1000, 5000, 20000)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"9A 20 4E 00 00", "99 88 13 00 00", "A0 80 F3 FF FF", "9E E8 03 00 00", "96"}));
+    EXPECT_EQ(s.b.received(5), lines({"9A 20 4E 00 00", "99 88 13 00 00", "A0 80 F3 FF FF", "9E E8 03 00 00", "96"}));
     s.b.mark();
     EXPECT_EQ(s.b.ask(absolute(0, 1000, 5000, 20000)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5).size(), 3u) << "and now they are known to be set";
+    EXPECT_EQ(s.b.received(5).size(), 3u) << "and now they are known to be set";
 }
 
 TEST(Uim342Move, RelativeAndVelocity) {
     Started s;
     EXPECT_EQ(s.b.ask(relative(-3200, 500)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"9F 80 F3 FF FF", "9E F4 01 00 00", "96"}));
+    EXPECT_EQ(s.b.received(5), lines({"9F 80 F3 FF FF", "9E F4 01 00 00", "96"}));
     s.b.mark();
     EXPECT_EQ(s.b.ask(jog(-1000)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"9D 18 FC FF FF", "96"})) << "four data bytes always: two would be +64536 (E-10)";
+    EXPECT_EQ(s.b.received(5), lines({"9D 18 FC FF FF", "96"})) << "four data bytes always: two would be +64536 (E-10)";
 }
 
 TEST(Uim342Move, SpeedIsSentAgainAfterAJog) {
@@ -126,7 +126,7 @@ TEST(Uim342Move, SpeedIsSentAgainAfterAJog) {
     ASSERT_TRUE(s.b.run_until([&] { return !s.b.feedback().moving; }, 1s));
     s.b.mark();
     EXPECT_EQ(s.b.ask(absolute(200)).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"A0 C8 00 00 00", "9E BC 02 00 00", "96"})) << "the last positioning speed, 700";
+    EXPECT_EQ(s.b.received(5), lines({"A0 C8 00 00 00", "9E BC 02 00 00", "96"})) << "the last positioning speed, 700";
 }
 
 TEST(Uim342Move, WithoutAnySpeedItIsRefused) {
@@ -134,7 +134,7 @@ TEST(Uim342Move, WithoutAnySpeedItIsRefused) {
     const Result r = s.b.ask(absolute(100));
     EXPECT_EQ(r.outcome, Outcome::refused);
     EXPECT_EQ(r.reason, Reason::out_of_range);
-    EXPECT_TRUE(s.b.heard(5).empty());
+    EXPECT_TRUE(s.b.received(5).empty());
 }
 
 TEST(Uim342Move, SpeedOfTheDriveIsUsedIfItHasOne) {
@@ -145,7 +145,7 @@ TEST(Uim342Move, SpeedOfTheDriveIsUsedIfItHasOne) {
     b.start();
     b.mark();
     EXPECT_EQ(b.ask(absolute(100)).outcome, Outcome::accepted);
-    EXPECT_EQ(b.heard(5), lines({"A0 64 00 00 00", "9E 84 03 00 00", "96"}));
+    EXPECT_EQ(b.received(5), lines({"A0 64 00 00 00", "9E 84 03 00 00", "96"}));
 }
 
 TEST(Uim342Move, RangesAreCheckedBeforeTheWire) {
@@ -157,7 +157,7 @@ TEST(Uim342Move, RangesAreCheckedBeforeTheWire) {
         EXPECT_EQ(r.outcome, Outcome::refused);
         EXPECT_EQ(r.reason, Reason::out_of_range) << r.text;
     }
-    EXPECT_TRUE(s.b.heard(5).empty());
+    EXPECT_TRUE(s.b.received(5).empty());
     EXPECT_EQ(s.b.ask(absolute(std::numeric_limits<std::int32_t>::min(), 1)).outcome, Outcome::accepted);
 }
 
@@ -174,17 +174,17 @@ TEST(Uim342Move, RampsAsTimesAreConverted) {
     // (1000 - 200) / 3000 = 266.67 ms, (1000 - 200) / 8000 = 100 ms: that one the drive has.
     const Result r = b.ask(absolute(100, 1000, 3000, 8000));
     EXPECT_EQ(r.outcome, Outcome::accepted);
-    EXPECT_EQ(b.heard(5), lines({"99 0B 01 00 00", "A0 64 00 00 00", "9E E8 03 00 00", "96"}));
+    EXPECT_EQ(b.received(5), lines({"99 0B 01 00 00", "A0 64 00 00 00", "9E E8 03 00 00", "96"}));
     EXPECT_NE(r.text.find("AC = 267 ms"), std::string::npos) << r.text;
     b.mark();
     // Slower than the cut-in speed: no ramp at all, nothing to convert.
     EXPECT_EQ(b.ask(absolute(200, 150, 3000, 3000)).outcome, Outcome::accepted);
-    EXPECT_EQ(b.heard(5).size(), 3u);
+    EXPECT_EQ(b.received(5).size(), 3u);
     b.mark();
     const Result slow = b.ask(absolute(100, 1000000, 10, 10));
     EXPECT_EQ(slow.outcome, Outcome::refused);
     EXPECT_NE(slow.text.find("60000 ms"), std::string::npos) << slow.text;
-    EXPECT_TRUE(b.heard(5).empty());
+    EXPECT_TRUE(b.received(5).empty());
 }
 
 TEST(Uim342Move, AcceptedComesAfterAFeedbackThatIsNotThereYet) {
@@ -305,7 +305,7 @@ TEST(Uim342Move, EveryStepMayBeRefusedAndNothingStarts) {
         EXPECT_EQ(r.reason, Reason::drive_refused);
         EXPECT_EQ(r.code, row.code);
         EXPECT_FALSE(r.text.empty());
-        if (row.cw != 0x96) EXPECT_EQ(std::ranges::count(s.b.heard(5), "96"), 0);
+        if (row.cw != 0x96) EXPECT_EQ(std::ranges::count(s.b.received(5), "96"), 0);
         EXPECT_FALSE(s.b.feedback().moving);
         s.b.run(200ms);
         EXPECT_FALSE(s.b.feedback().fault) << "a refusal of ours is no fault of the axis";
@@ -321,7 +321,7 @@ TEST(Uim342Move, EveryStepMayBeSilent) {
         const Result r = s.b.ask(absolute(100, 100, 111, 222));
         EXPECT_EQ(r.outcome, Outcome::failed);
         EXPECT_EQ(r.reason, Reason::no_answer);
-        const auto h = s.b.heard(5);
+        const auto h = s.b.received(5);
         EXPECT_EQ(std::ranges::count_if(h, [&](const auto& l) { return std::stoul(l.substr(0, 2), nullptr, 16) == cw; }), 3)
             << "two repeats";
         EXPECT_EQ(std::ranges::count(h, "96"), 0) << "nothing starts that could not be set";
@@ -337,7 +337,7 @@ TEST(Uim342Move, BeginIsNeverRepeated) {
         EXPECT_EQ(r.reason, Reason::no_answer);
         EXPECT_NE(r.text.find("not known"), std::string::npos) << r.text;
         s.b.run(100ms);
-        EXPECT_EQ(std::ranges::count(s.b.heard(5), "96"), 1);
+        EXPECT_EQ(std::ranges::count(s.b.received(5), "96"), 1);
         EXPECT_EQ(s.b.feedback().moving, executed) << "the status tells afterwards";
         EXPECT_FALSE(s.b.feedback().target_reached);
         EXPECT_TRUE(s.b.link()->online);
@@ -350,7 +350,7 @@ TEST(Uim342Move, AnAlteredValueStartsNothing) {
     const Result r = s.b.ask(absolute(100, 100));
     EXPECT_EQ(r.outcome, Outcome::failed);
     EXPECT_EQ(r.reason, Reason::drive_refused);
-    EXPECT_EQ(std::ranges::count(s.b.heard(5), "96"), 0);
+    EXPECT_EQ(std::ranges::count(s.b.received(5), "96"), 0);
 }
 
 TEST(Uim342Move, OneLostFrameIsRepeatedAndHeals) {
@@ -368,7 +368,7 @@ TEST(Uim342Move, OneLostFrameIsRepeatedAndHeals) {
         EXPECT_EQ(s.b.ask(absolute(100, 100)).outcome, Outcome::accepted);
         EXPECT_FALSE(once);
         EXPECT_EQ(s.b.adapter.counters().retries, 1u);
-        EXPECT_EQ(std::ranges::count(s.b.heard(5), "96"), 1);
+        EXPECT_EQ(std::ranges::count(s.b.received(5), "96"), 1);
     }
 }
 
@@ -399,7 +399,7 @@ TEST(Uim342Move, CommandsKeepTheirOrder) {
                           s.b.command(WriteParameter{Bench::point("AC"), Value{std::int64_t{12}}}),
                           s.b.command(ReadParameter{Bench::point("BL")})};
     s.b.run(100ms);
-    EXPECT_EQ(s.b.heard(5), lines({"99 0B 00 00 00", "A0 07 00 00 00", "9E 07 00 00 00", "96", "99 0C 00 00 00", "AD"}));
+    EXPECT_EQ(s.b.received(5), lines({"99 0B 00 00 00", "A0 07 00 00 00", "9E 07 00 00 00", "96", "99 0C 00 00 00", "AD"}));
     for (const Ticket x : t)
         EXPECT_TRUE(good(s.b.results[x]));
 }
@@ -412,7 +412,7 @@ TEST(Uim342Home, OriginWhereItStands) {
         s.f.position = 777;
         s.b.run(200ms);
         EXPECT_EQ(s.b.ask(Home{method}).outcome, Outcome::accepted);
-        EXPECT_EQ(s.b.heard(5), lines({"A1"}));
+        EXPECT_EQ(s.b.received(5), lines({"A1"}));
         EXPECT_TRUE(s.b.feedback().referenced);
         EXPECT_TRUE(s.b.feedback().homing_attained);
         EXPECT_EQ(s.b.feedback().position, 0);
@@ -449,7 +449,7 @@ TEST(Uim342Home, MethodsThatTheDriveCannotFollow) {
         EXPECT_EQ(r.reason, Reason::not_supported) << m;
         EXPECT_GT(r.text.size(), 20u) << m;
     }
-    EXPECT_TRUE(s.b.heard(5).empty());
+    EXPECT_TRUE(s.b.received(5).empty());
 }
 
 /// A switch at input 2: what the drive would do at its edge, played by hand.
@@ -487,7 +487,7 @@ TEST(Uim342Home, SearchIntoTheSwitch) {
         const Ticket t = s.b.command(Home{20});
         ASSERT_TRUE(s.b.run_until([&] { return s.f.speed != 0; }, 1s));
         EXPECT_EQ(s.f.speed, 500) << "method 20 enters the switch in the positive direction";
-        const auto h = s.b.heard(5);
+        const auto h = s.b.received(5);
         EXPECT_EQ(std::ranges::count(h, "B4 01 01"), 0);
         EXPECT_NE(std::ranges::find(h, high ? "B4 01 80 86" : "B4 01 86 80"), h.end()) << "d1 falling, d2 rising, FG = 1";
         s.b.run(300ms);
@@ -567,8 +567,8 @@ TEST(Uim342Home, SearchesThatFail) {
         s.b.run(100ms);
         row.then(s);
         ASSERT_TRUE(s.b.run_until([&] { return s.b.notices_of("homing") == 1; }, 10s)) << "whoever waits is told by it";
-        const auto told = std::ranges::find(s.b.notices, "homing", &Notice::kind);
-        EXPECT_NE(told->text.find(row.why), std::string::npos) << told->text;
+        const auto reported = std::ranges::find(s.b.notices, "homing", &Notice::kind);
+        EXPECT_NE(reported->text.find(row.why), std::string::npos) << reported->text;
         EXPECT_TRUE(s.b.feedback().homing_error);
         s.b.run(500ms);
         EXPECT_FALSE(s.b.feedback().homing_attained);
@@ -595,7 +595,7 @@ TEST(Uim342Home, TheInputIsDisarmedBeforeTheNextMotion) {
     s.b.command(Enable{});
     s.b.command(absolute(10, 10));
     s.b.run(300ms);
-    const auto h = s.b.heard(5);
+    const auto h = s.b.received(5);
     const auto disarmed = std::ranges::find(h, "B4 01 80 80"), begun = std::ranges::find(h, "96");
     ASSERT_NE(disarmed, h.end());
     ASSERT_NE(begun, h.end());
@@ -618,7 +618,7 @@ TEST(Uim342Fault, StallIsAFaultUntilItIsReset) {
     EXPECT_TRUE(s.b.feedback().fault);
     s.b.mark();
     EXPECT_EQ(s.b.ask(ResetFault{}).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"91 00 00"}));
+    EXPECT_EQ(s.b.received(5), lines({"91 00 00"}));
     EXPECT_FALSE(s.b.feedback().fault);
     EXPECT_EQ(s.b.feedback().error_code, 0);
 }
@@ -631,7 +631,7 @@ TEST(Uim342Fault, ALockIsLeftByMotorOff) {
     EXPECT_EQ(s.b.ask(absolute(1, 1)).reason, Reason::wrong_state);
     s.b.mark();
     EXPECT_EQ(s.b.ask(ResetFault{}).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"95 00", "91 00 00"}));
+    EXPECT_EQ(s.b.received(5), lines({"95 00", "91 00 00"}));
     EXPECT_FALSE(s.b.feedback().fault);
     EXPECT_EQ(s.b.feedback().power, AxisFeedback::Power::off);
 }
@@ -660,7 +660,7 @@ TEST(Uim342Fault, AnErrorOfUnknownOriginIsAFaultAndItsCodeIsRead) {
     EXPECT_EQ(s.b.feedback().error_code, 0x40) << "codes that the manual leaves free are passed on";
     s.b.mark();
     EXPECT_EQ(s.b.ask(ResetFault{}).outcome, Outcome::accepted);
-    EXPECT_EQ(s.b.heard(5), lines({"91 00 00", "8F 00 00"})) << "and the shown error is taken away";
+    EXPECT_EQ(s.b.received(5), lines({"91 00 00", "8F 00 00"})) << "and the shown error is taken away";
     EXPECT_FALSE(s.b.feedback().fault);
 }
 

@@ -13,7 +13,7 @@ TEST(Uim342Startup, FirstAskedIsTheModelThenEverythingIsReadAndNothingWritten) {
     ASSERT_TRUE(b.link());
     EXPECT_TRUE(b.link()->online);
     EXPECT_NE(b.link()->text.find("UIM342C02"), std::string::npos) << b.link()->text;
-    for (const auto& m : f.heard) {
+    for (const auto& m : f.received) {
         if (m == message(5, 0x98, std::array<std::uint8_t, 1>{0})) continue;  // MF=0 changes no value
         EXPECT_EQ(form_of(m), Form::get) << hex(m);
     }
@@ -191,7 +191,7 @@ TEST(Uim342Poll, RestingAxesAreAskedFourTimesSlower) {
     const auto polls = [&](Duration d) {
         b.mark();
         b.run(d);
-        const auto list = b.heard(5, true);
+        const auto list = b.received(5, true);
         EXPECT_EQ(std::ranges::count(list, "91 00"), std::ranges::count(list, "91 01"));
         return std::ranges::count(list, "91 00");
     };
@@ -216,7 +216,7 @@ TEST(Uim342Poll, PeriodIsASetting) {
     b.start();
     b.mark();
     b.run(10s);
-    EXPECT_NEAR(static_cast<double>(b.heard(5, true).size()), 200, 6);
+    EXPECT_NEAR(static_cast<double>(b.received(5, true).size()), 200, 6);
 }
 
 TEST(Uim342Poll, FeedbackFromStatusAndSpeed) {
@@ -259,7 +259,7 @@ TEST(Uim342Poll, CommandsDoNotStarvePolls) {
         ++reads;
     }
     EXPECT_GT(reads, 500);
-    const auto polls = std::ranges::count(b.heard(5, true), "91 00");
+    const auto polls = std::ranges::count(b.received(5, true), "91 00");
     EXPECT_GE(polls, 15) << "the picture stays alive";
 }
 
@@ -401,13 +401,13 @@ TEST(Uim342Silence, ARestartBetweenTwoPollsIsNoticed) {
 }
 
 TEST(Uim342Silence, AbsoluteEncoderCountsAsReferencedIfTheSiteSaysSo) {
-    for (const bool said : {false, true}) {
+    for (const bool reported : {false, true}) {
         Bench b;
         FakeNode& f =
-            b.add(5, said ? std::map<std::string, std::string>{{"referenced", "absolute"}} : std::map<std::string, std::string>{});
+            b.add(5, reported ? std::map<std::string, std::string>{{"referenced", "absolute"}} : std::map<std::string, std::string>{});
         f.values[0x0605] = le(1, 2);
         b.start();
-        EXPECT_EQ(b.feedback().referenced, said);
+        EXPECT_EQ(b.feedback().referenced, reported);
     }
 }
 
@@ -433,7 +433,7 @@ TEST(Uim342Line, DownFailsEverythingUpBeginsUnseen) {
     b.line(true);
     b.run(300ms);
     EXPECT_TRUE(b.link()->online);
-    EXPECT_EQ(b.heard(5).front(), "8B");
+    EXPECT_EQ(b.received(5).front(), "8B");
     EXPECT_EQ(b.read("AC").outcome, Outcome::done);
 }
 
@@ -453,7 +453,7 @@ TEST(Uim342Line, RemovedDrivesEndTheirCommandsOthersGoOn) {
     b.mark();
     b.run(500ms);
     EXPECT_EQ(b.links.size(), links) << "the other one was not disturbed";
-    for (const auto& s : b.heard(5))
+    for (const auto& s : b.received(5))
         EXPECT_NE(s, "8B");
     EXPECT_EQ(b.ask(Enable{}, false, 1).reason, Reason::line_down);
     EXPECT_EQ(b.read("AC").outcome, Outcome::done);
@@ -540,8 +540,8 @@ TEST(Uim342Bytes, TheWindowIsBounded) {
         b.run(5s);
         std::size_t least = SIZE_MAX, often = 0;
         for (std::uint8_t id = 20; id < 30; ++id) {
-            least = std::min(least, b.heard(id, true).size());
-            often = std::max(often, b.heard(id, true).size());
+            least = std::min(least, b.received(id, true).size());
+            often = std::max(often, b.received(id, true).size());
         }
         EXPECT_GT(least, 20u);
         EXPECT_LE(often - least, 6u);

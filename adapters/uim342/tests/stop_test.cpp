@@ -58,7 +58,7 @@ TEST(Uim342Stop, WaitingMotionsEndInterrupted) {
     }
     r.b.run(1s);
     EXPECT_EQ(r.b.results[p].outcome, Outcome::done) << "a read is not a motion";
-    EXPECT_EQ(std::ranges::count(r.b.heard(5), "96"), 0) << "nothing began after the stop";
+    EXPECT_EQ(std::ranges::count(r.b.received(5), "96"), 0) << "nothing began after the stop";
 }
 
 /// The line lets urgent frames overtake: a BG that waits in its queue must not start the axis after the stop.
@@ -104,7 +104,7 @@ TEST(Uim342Stop, ALostStopIsRepeatedThenTheTruthIsTold) {
     EXPECT_EQ(q.outcome, Outcome::failed);
     EXPECT_EQ(q.reason, Reason::no_answer);
     EXPECT_NE(q.text.find("not known"), std::string::npos);
-    EXPECT_EQ(std::ranges::count(r.b.heard(5), "97"), 3);
+    EXPECT_EQ(std::ranges::count(r.b.received(5), "97"), 3);
     EXPECT_TRUE(r.b.feedback().moving);
 }
 
@@ -152,7 +152,7 @@ TEST(Uim342Halt, DeceleratesWithDcByJogSpeedZero) {
     EXPECT_EQ(r.b.ask(Halt{}).outcome, Outcome::accepted);
     r.b.run(50ms);
     EXPECT_FALSE(r.b.feedback().moving);
-    EXPECT_EQ(r.b.heard(5), lines({"9D 00 00 00 00", "96"}));
+    EXPECT_EQ(r.b.received(5), lines({"9D 00 00 00 00", "96"}));
     for (const auto& s : r.b.sent) {
         if (s.at > r.b.now - 50ms && s.message.cw != 0x91) EXPECT_EQ(s.priority, Priority::urgent) << hex(s.message);
     }
@@ -162,7 +162,7 @@ TEST(Uim342Halt, DeceleratesWithDcByJogSpeedZero) {
 TEST(Uim342Halt, AtRestAndWithRampsAsTimesItIsSt) {
     Running rest(0);
     EXPECT_EQ(rest.b.ask(Halt{}).outcome, Outcome::accepted);
-    EXPECT_EQ(rest.b.heard(5), lines({"97"}));
+    EXPECT_EQ(rest.b.received(5), lines({"97"}));
     EXPECT_FALSE(rest.b.feedback().quick_stopping);
 
     Bench b;
@@ -173,7 +173,7 @@ TEST(Uim342Halt, AtRestAndWithRampsAsTimesItIsSt) {
     b.ask(jog(100));
     b.mark();
     EXPECT_EQ(b.ask(Halt{}).outcome, Outcome::accepted);
-    EXPECT_EQ(b.heard(5), lines({"97"})) << "a ramp in ms to speed 0 is not defined";
+    EXPECT_EQ(b.received(5), lines({"97"})) << "a ramp in ms to speed 0 is not defined";
 }
 
 TEST(Uim342Halt, AnInPositionFlagSurvivesAHaltAtRest) {
@@ -199,10 +199,10 @@ TEST(Uim342Halt, EveryStepMayFailThenStStops) {
             r.script(cw, v);
             const Result h = r.b.ask(Halt{});
             EXPECT_EQ(h.outcome, Outcome::accepted);
-            EXPECT_EQ(std::ranges::count(r.b.heard(5), "97"), cw == 0x96 && silent ? 2 : 1);
+            EXPECT_EQ(std::ranges::count(r.b.received(5), "97"), cw == 0x96 && silent ? 2 : 1);
             EXPECT_TRUE(r.f.stop);
             EXPECT_EQ(r.b.notices_of("stop"), 1u);
-            const auto sent = r.b.heard(5);
+            const auto sent = r.b.received(5);
             EXPECT_LE(std::ranges::count(sent, "96"), 1) << "BG is not repeated, here either";
         }
     }
@@ -218,7 +218,7 @@ TEST(Uim342Halt, WaitsForTheMotionExchangeInProgress) {
     r.b.run(1s);
     EXPECT_EQ(r.b.results[m].reason, Reason::interrupted);
     EXPECT_EQ(r.b.results[h].outcome, Outcome::accepted);
-    const auto sent = r.b.heard(5);
+    const auto sent = r.b.received(5);
     ASSERT_EQ(sent.size(), 3u);
     EXPECT_EQ(sent[0].substr(0, 2), "A0");
     EXPECT_EQ(sent[1], "9D 00 00 00 00");
@@ -232,7 +232,7 @@ TEST(Uim342Halt, NothingGetsBetweenItsTwoInstructions) {
     r.b.command(Halt{});
     r.b.command(absolute(100000, 100));
     r.b.run(2s);
-    const auto h = r.b.heard(5);
+    const auto h = r.b.received(5);
     ASSERT_GE(h.size(), 4u);
     EXPECT_EQ(h[0], "9D 00 00 00 00");
     EXPECT_EQ(h[1], "96");
@@ -252,7 +252,7 @@ TEST(Uim342Halt, DuringAnEmergencyRampItIsSt) {
     r.b.ask(QuickStop{});
     r.b.mark();
     EXPECT_EQ(r.b.ask(Halt{}).outcome, Outcome::accepted);
-    EXPECT_EQ(r.b.heard(5), lines({"97"})) << "BG would be refused with 0x3F";
+    EXPECT_EQ(r.b.received(5), lines({"97"})) << "BG would be refused with 0x3F";
 }
 
 TEST(Uim342Halt, AStopBetweenMfAndItsValueBeginsThePairAnew) {
@@ -267,7 +267,7 @@ TEST(Uim342Halt, AStopBetweenMfAndItsValueBeginsThePairAnew) {
     EXPECT_EQ(r.f.group[0x0319], le(4711, 4));
     EXPECT_EQ(r.f.values[0x19FF], le(10000, 4)) << "group 0 is untouched";
     EXPECT_TRUE(r.f.stop);
-    EXPECT_EQ(r.b.heard(5), lines({"98 03", "97", "98 03", "99 67 12 00 00"}));
+    EXPECT_EQ(r.b.received(5), lines({"98 03", "97", "98 03", "99 67 12 00 00"}));
 }
 
 // --- bounds ----------------------------------------------------------------------------------------------------------------------
@@ -343,11 +343,11 @@ TEST(Uim342Together, OneBeginToTheGroup) {
         EXPECT_TRUE(p.b.feedback(a).moving);
         EXPECT_FALSE(p.b.feedback(a).target_reached);
     }
-    const auto heard = [&](std::uint8_t id) {
+    const auto received = [&](std::uint8_t id) {
         const auto& f = p.b.fake(id);
-        return f.heard_at[static_cast<std::size_t>(std::ranges::find(f.heard, message(10, 0x16)) - f.heard.begin())];
+        return f.received_at[static_cast<std::size_t>(std::ranges::find(f.received, message(10, 0x16)) - f.received.begin())];
     };
-    EXPECT_EQ(heard(5), heard(37)) << "in the same instant";
+    EXPECT_EQ(received(5), received(37)) << "in the same instant";
 }
 
 TEST(Uim342Together, ToAllIfThatIsEverybody) {
@@ -399,8 +399,8 @@ TEST(Uim342Together, MustBePreparedOnAndThere) {
 TEST(Uim342Together, OneAxisAloneIsItsOwnBegin) {
     Pair p{{5, 10}, {6, 10}};
     EXPECT_EQ(p.b.ask(StartTogether{{AxisId{0}}}).outcome, Outcome::accepted);
-    EXPECT_EQ(p.b.heard(5), lines({"96"}));
-    EXPECT_TRUE(p.b.heard(6).empty());
+    EXPECT_EQ(p.b.received(5), lines({"96"}));
+    EXPECT_TRUE(p.b.received(6).empty());
     EXPECT_EQ(p.b.ask(StartTogether{{AxisId{0}}}).reason, Reason::wrong_state) << "used up";
 }
 
@@ -417,7 +417,7 @@ TEST(Uim342Together, WaitsForWhatStandsBefore) {
     p.b.run(200ms);
     EXPECT_EQ(p.b.results[t].outcome, Outcome::accepted) << p.b.results[t].text;
     EXPECT_EQ(p.b.results[after].outcome, Outcome::done);
-    const auto h = p.b.heard(6);
+    const auto h = p.b.received(6);
     EXPECT_LT(std::ranges::find(h, "16") - h.begin(), std::ranges::find(h, "99 63 00 00 00") - h.begin());
 }
 
@@ -502,7 +502,7 @@ TEST(Uim342Together, GlobalStop) {
     EXPECT_EQ(p.b.sent[p.b.sent_mark].priority, Priority::urgent);
     for (const std::uint8_t id : Bytes{5, 6, 7}) {
         EXPECT_TRUE(p.b.fake(id).stop);
-        EXPECT_EQ(std::ranges::count(p.b.heard(id), "97"), 1) << "and each by itself, acknowledged";
+        EXPECT_EQ(std::ranges::count(p.b.received(id), "97"), 1) << "and each by itself, acknowledged";
     }
     p.b.fake(6).silent = true;
     const Result partly = p.b.ask(Action{"global_stop", ""});

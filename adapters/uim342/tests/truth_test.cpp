@@ -107,13 +107,13 @@ TEST(Uim342Truth, PartsOfAnInputsLogicAreWrittenIntoTheWhole) {
     EXPECT_EQ(r.b.write("IL[0].falling_action", 6).value, Value{std::int64_t{6}});
     EXPECT_EQ(r.b.write("IL[0].falling_flag", 1).value, Value{std::int64_t{1}});
     EXPECT_EQ(r.b.write("IL[0].rising_action", 0).value, Value{std::int64_t{0}});
-    EXPECT_EQ(r.b.heard(5), lines({"B4 00", "B4 00 06 8A", "B4 00", "B4 00 86 8A", "B4 00", "B4 00 86 80"}));
+    EXPECT_EQ(r.b.received(5), lines({"B4 00", "B4 00 06 8A", "B4 00", "B4 00 86 8A", "B4 00", "B4 00 86 80"}));
     EXPECT_EQ(r.b.sample("IL[0]"), Value{std::int64_t{0x8086}});
     r.b.mark();
     const Result no = r.b.write("IL[0].rising_action", 12);
     EXPECT_EQ(no.outcome, Outcome::refused);
     EXPECT_NE(no.text.find("0 (no action), 1 (driver off)"), std::string::npos) << no.text;
-    EXPECT_TRUE(r.b.heard(5).empty()) << "before the wire";
+    EXPECT_TRUE(r.b.received(5).empty()) << "before the wire";
 }
 
 TEST(Uim342Truth, ActionCodesAreCheckedWithTheLegalOnesInTheMessage) {
@@ -168,7 +168,7 @@ TEST(Uim342Truth, RampsAreTimesWhileIc4IsOne) {
 TEST(Uim342Truth, TheOutputCanBeWrittenByItsOwnName) {
     Ready r;
     EXPECT_EQ(r.b.write("DI.OP1", 1).outcome, Outcome::done);
-    EXPECT_EQ(r.b.heard(5), lines({"B7 01 01 00 00"}));
+    EXPECT_EQ(r.b.received(5), lines({"B7 01 01 00 00"}));
     EXPECT_EQ(r.b.sample("DI"), Value{std::int64_t{0x100}}) << "within the range of what is read";
     EXPECT_EQ(check_write_now(catalogue(), Bench::point("DI"), Value{std::int64_t{2}}, {}).fault, "DI: 2 is outside 0..1");
     EXPECT_EQ(r.b.write("DI", 2).outcome, Outcome::refused);

@@ -169,8 +169,8 @@ TEST(TwinMechanics, AWrongResolutionEndsInAStall) {
         SCOPED_TRACE(row.what);
         Bench b = with(row.settings);
         b.setup({"9C " + le32(4'000'000'000u), "9F " + le32(3200), "9E " + le32(1000), "96"});
-        const Lines said = b.pass_ms(20000);
-        EXPECT_EQ(std::ranges::count(said, stall), row.stalls ? 1 : 0);
+        const Lines reported = b.pass_ms(20000);
+        EXPECT_EQ(std::ranges::count(reported, stall), row.stalls ? 1 : 0);
         EXPECT_EQ(b.stalled(), row.stalls);
         if (row.stalls) {
             EXPECT_NEAR(b.position(), row.after, 2);

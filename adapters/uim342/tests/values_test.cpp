@@ -71,7 +71,7 @@ TEST(Uim342Values, GetAndSetAreToldApartByLengthAlone) {
     ReadyForValues r;
     r.b.read("AC");
     r.b.write("AC", 500);
-    EXPECT_EQ(r.b.heard(5), lines({"99", "99 F4 01 00 00"}));
+    EXPECT_EQ(r.b.received(5), lines({"99", "99 F4 01 00 00"}));
 }
 
 TEST(Uim342Values, GroupValuesGoAsPairs) {
@@ -79,7 +79,7 @@ TEST(Uim342Values, GroupValuesGoAsPairs) {
     EXPECT_EQ(r.b.read("MF3.AC").value, Value{std::int64_t{503}});
     EXPECT_EQ(r.b.write("MF3.AC", 1000).value, Value{std::int64_t{1000}});
     EXPECT_EQ(r.b.read("AC").value, Value{std::int64_t{10000}}) << "the selection is used up by one message";
-    EXPECT_EQ(r.b.heard(5), lines({"98 03", "99", "98 03", "99 E8 03 00 00", "99"}));
+    EXPECT_EQ(r.b.received(5), lines({"98 03", "99", "98 03", "99 E8 03 00 00", "99"}));
     EXPECT_EQ(r.b.write("MF6.SP", -250).value, Value{std::int64_t{-250}}) << "SP with a group is taken in jog mode too";
 }
 
@@ -97,7 +97,7 @@ TEST(Uim342Values, ALostGroupValueIsRepeatedWithItsSelection) {
             return v;
         };
         EXPECT_EQ(r.b.write("MF3.AC", 1000).outcome, Outcome::done);
-        EXPECT_EQ(r.b.heard(5), lines({"98 03", "99 E8 03 00 00", "98 03", "99 E8 03 00 00"}))
+        EXPECT_EQ(r.b.received(5), lines({"98 03", "99 E8 03 00 00", "98 03", "99 E8 03 00 00"}))
             << "never the value alone: it would hit group 0";
         EXPECT_EQ(r.f.group[0x0319], le(1000, 4));
         EXPECT_EQ(r.f.values[0x19FF], le(10000, 4));
@@ -122,7 +122,7 @@ TEST(Uim342Values, AfterAGroupExchangeWithAnUnknownEndGroupZeroIsSelected) {
         r.f.script = nullptr;
         r.b.mark();
         EXPECT_EQ(r.b.write("DC", 77).outcome, Outcome::done);
-        EXPECT_EQ(r.b.heard(5).front(), "98 00");
+        EXPECT_EQ(r.b.received(5).front(), "98 00");
         EXPECT_EQ(r.f.values[0x1AFF], le(77, 4));
         EXPECT_NE(r.f.group[0x031A], le(77, 4));
     }
@@ -139,11 +139,11 @@ TEST(Uim342Values, FlashIsNotWrittenForNothing) {
     ReadyForValues r;
     const Result same = r.b.write("PP[8]", 10);
     EXPECT_EQ(same.outcome, Outcome::done);
-    EXPECT_EQ(r.b.heard(5), lines({"81 08"}));
+    EXPECT_EQ(r.b.received(5), lines({"81 08"}));
     EXPECT_NE(same.text.find("not written"), std::string::npos) << same.text;
     r.b.mark();
     const Result other = r.b.write("PP[8]", 11);
-    EXPECT_EQ(r.b.heard(5), lines({"81 08", "81 08 0B"}));
+    EXPECT_EQ(r.b.received(5), lines({"81 08", "81 08 0B"}));
     EXPECT_NE(other.text.find("restart"), std::string::npos) << other.text;
 }
 
@@ -158,7 +158,7 @@ TEST(Uim342Values, IdsOfOneNetworkMustDiffer) {
     EXPECT_EQ(b.write("PP[7]", 10).reason, Reason::out_of_range) << "its own group";
     EXPECT_EQ(b.write("PP[8]", 5).reason, Reason::out_of_range) << "its own node ID";
     EXPECT_EQ(b.write("PP[8]", 6).reason, Reason::out_of_range);
-    EXPECT_TRUE(b.heard(5).empty());
+    EXPECT_TRUE(b.received(5).empty());
     EXPECT_EQ(b.write("PP[8]", 20).outcome, Outcome::done) << "a group may have several members";
 }
 
@@ -185,14 +185,14 @@ TEST(Uim342Values, AlternateRangeOfRampsAsTimes) {
         EXPECT_EQ(x.reason, Reason::out_of_range);
         EXPECT_NE(x.text.find("1..60000 ms"), std::string::npos) << x.text;
     }
-    EXPECT_TRUE(r.b.heard(5).empty());
+    EXPECT_TRUE(r.b.received(5).empty());
     EXPECT_EQ(r.b.write("AC", 60000).outcome, Outcome::done);
 }
 
 TEST(Uim342Values, MotorOnAsAParameterStopsFirst) {
     ReadyForValues r;
     EXPECT_EQ(r.b.write("MO", 1).outcome, Outcome::done);
-    EXPECT_EQ(r.b.heard(5), lines({"97", "95 01"}));
+    EXPECT_EQ(r.b.received(5), lines({"97", "95 01"}));
     EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::on);
     EXPECT_EQ(r.b.write("MO", 0).value, Value{std::int64_t{0}});
     EXPECT_EQ(r.b.feedback().power, AxisFeedback::Power::off);
@@ -229,7 +229,7 @@ TEST(Uim342Values, UnknownAndReadOnlyPoints) {
     EXPECT_EQ(r.b.write("MS[0].STOP", 1).reason, Reason::not_writable);
     EXPECT_EQ(r.b.write("DV[2]", 1).reason, Reason::not_writable);
     EXPECT_EQ(r.b.ask(WriteParameter{Bench::point("AC"), Value{std::string("x")}}).reason, Reason::out_of_range);
-    EXPECT_TRUE(r.b.heard(5).empty());
+    EXPECT_TRUE(r.b.received(5).empty());
 }
 
 // --- late answers ----------------------------------------------------------------------------------------------------------------
@@ -380,7 +380,7 @@ TEST(Uim342Native, RefusalsAndWrongText) {
     for (const auto& bytes : {std::vector<std::uint8_t>{}, {0x95}, {0x95, 2, 1}, {0x95, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9}}) {
         EXPECT_EQ(r.b.native_hex(bytes).outcome, Outcome::refused);
     }
-    EXPECT_TRUE(r.b.heard(5).empty());
+    EXPECT_TRUE(r.b.received(5).empty());
 }
 
 TEST(Uim342Native, GroupPairInOneLine) {
@@ -396,7 +396,7 @@ TEST(Uim342Native, WithoutAcknowledgement) {
     EXPECT_EQ(x.outcome, Outcome::done);
     EXPECT_TRUE(x.bytes.empty());
     EXPECT_TRUE(r.f.on);
-    EXPECT_EQ(r.b.heard(5), lines({"15 01"})) << "and a read behind it shows that no refusal came";
+    EXPECT_EQ(r.b.received(5), lines({"15 01"})) << "and a read behind it shows that no refusal came";
     x = r.b.native_hex({0x15, 1, 7});
     EXPECT_EQ(x.outcome, Outcome::done) << "this fake takes it";
     r.f.script = [](const Message& m) { return FakeNode::refuse_if(m.cw == 0x15, 0x33); };
@@ -436,7 +436,7 @@ TEST(Uim342Native, RebootIsSilentAndBeginsAnew) {
     const Ticket waits = r.b.command(ReadParameter{Bench::point("AC")});
     r.f.values[0x19FF] = le(3, 4);
     r.b.run(290ms);
-    EXPECT_EQ(r.b.heard(5), lines({"7E 01"})) << "left alone while it starts";
+    EXPECT_EQ(r.b.received(5), lines({"7E 01"})) << "left alone while it starts";
     r.b.run(1s);
     EXPECT_EQ(r.b.results[waits].value, Value{std::int64_t{3}});
     EXPECT_FALSE(r.b.feedback().referenced);

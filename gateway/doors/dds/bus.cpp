@@ -237,17 +237,17 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
     }
     if (reads) {
         // A filter holds for all of a topic's entity, and would keep commands to others from being written.
-        dds_entity_t heard = topic;
+        dds_entity_t received = topic;
         if (filter_of(t) && !gateway_.empty()) {
-            heard = dds_create_topic(participant_, shape_of(t).type, shape_of(t).name, q.get(), nullptr);
-            const auto set = heard < 0 ? heard : dds_set_topic_filter_and_arg(heard, filter_of(t), &gateway_);
+            received = dds_create_topic(participant_, shape_of(t).type, shape_of(t).name, q.get(), nullptr);
+            const auto set = received < 0 ? received : dds_set_topic_filter_and_arg(received, filter_of(t), &gateway_);
             if (set < 0) return failed(shape_of(t).name, set);
         }
         dds_qset_ignorelocal(q.get(), DDS_IGNORELOCAL_PARTICIPANT);
         dds_listener_t* listener = dds_create_listener(this);
         dds_lset_data_available(listener, &on_data_available);
         if (commands_by(t)) dds_lset_liveliness_changed(listener, &on_liveliness);
-        const auto reader = dds_create_reader(subscriber_, heard, q.get(), listener);
+        const auto reader = dds_create_reader(subscriber_, received, q.get(), listener);
         dds_delete_listener(listener);
         const std::scoped_lock lock(gone_mutex_);
         readers_[i] = reader;

@@ -11,8 +11,8 @@ CommandsSeen::Seen CommandsSeen::begin(const std::string& source, const std::str
     }
     std::string key = key_of(source, id);
     if (const auto it = kept_.find(key); it != kept_.end())
-        return it->second.answered ? Seen{Told::answered, &it->second.result} : Seen{Told::under_way, nullptr};
-    if (kept_.size() >= most) return {Told::no_room, nullptr};
+        return it->second.answered ? Seen{Stage::answered, &it->second.result} : Seen{Stage::under_way, nullptr};
+    if (kept_.size() >= most) return {Stage::no_room, nullptr};
     kept_.emplace(std::move(key), Kept{});
     return {};
 }

@@ -18,9 +18,9 @@ public:
     static constexpr std::size_t most = 4096;
     static constexpr Duration keep_for = std::chrono::minutes(10);  ///< after its result; a command's own lifespan is 2 s
 
-    enum class Told : std::uint8_t { is_new, under_way, answered, no_room };
+    enum class Stage : std::uint8_t { is_new, under_way, answered, no_room };
     struct Seen {
-        Told told = Told::is_new;
+        Stage stage = Stage::is_new;
         const Result* result = nullptr;  ///< of one that was answered; good until the next call
     };
     /// A command has come. `is_new`: it is noted as under way, and end() follows.

@@ -118,7 +118,7 @@ std::string DdsDoor::metrics() const {
 void DdsDoor::on_turn() {
     if (!open_) return;
     const Instant now = clock_();
-    if (!gateway_told_.time_since_epoch().count() || now - gateway_told_ >= told_again) tell_gateway(now);
+    if (!gateway_published_.time_since_epoch().count() || now - gateway_published_ >= published_again) tell_gateway(now);
     tell_axes(now);
     for (auto& event : fleet_.on_turn(now))
         ports_.get<EventPort>().note(std::move(event));
@@ -145,7 +145,7 @@ void DdsDoor::on_change() {
 }
 
 void DdsDoor::tell_gateway(Instant now) {
-    gateway_told_ = now;
+    gateway_published_ = now;
     const auto site = ports_.get<SitePort>().site();
     axisgate_GatewayState s{};
     put_text(s.gateway, settings_.name);
@@ -180,9 +180,9 @@ void DdsDoor::tell_axes(Instant now) {
         site_ = site;
     }
     for (std::size_t i = 0; i < axes_.size() && i < site->axis_ids.size(); ++i) {
-        Told& t = axes_[i];
+        Published& t = axes_[i];
         const auto revision = ports_.get<AxisPort>().picture_revision(site->axis_ids[i]);
-        if (t.ever && now - t.at < (t.revision == revision ? told_again : turn)) continue;
+        if (t.ever && now - t.at < (t.revision == revision ? published_again : turn)) continue;
         axisgate_AxisState s{};
         fill(s, axis_at(ports_.get<SitePort>(), site, i));
         fleet_.on_axis(s, true, true);
@@ -288,8 +288,8 @@ void DdsDoor::read() {
 
 void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) {
     if (s.instance == settings_.instance) return;  // nobody else tells of this one
-    if (auto told = fleet_.on_gateway(s, seen.valid && seen.alive, ports_.get<ClockPort>().now_unix_ns(), clock_()))
-        ports_.get<EventPort>().note(std::move(*told));
+    if (auto published = fleet_.on_gateway(s, seen.valid && seen.alive, ports_.get<ClockPort>().now_unix_ns(), clock_()))
+        ports_.get<EventPort>().note(std::move(*published));
     if (settings_.name != s.gateway) return;
     if (!seen.alive) {
         namesakes_.erase(s.instance);
@@ -318,20 +318,20 @@ bool DdsDoor::to_be_done(const Asked& a) {
         return false;
     }
     const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_());
-    switch (seen.told) {
-        case CommandsSeen::Told::under_way:
+    switch (seen.stage) {
+        case CommandsSeen::Stage::under_way:
             ++counters_.repeated;
             return false;  // its result is still to come
-        case CommandsSeen::Told::answered:
+        case CommandsSeen::Stage::answered:
             ++counters_.repeated;
             tell_again(a.axis);
             answer(a, *seen.result, true);
             return false;
-        case CommandsSeen::Told::no_room:
+        case CommandsSeen::Stage::no_room:
             if (a.stops) return true;
             refuse(a, Reason::busy, "too many commands came over DDS in the last minutes; send it again later");
             return false;
-        case CommandsSeen::Told::is_new:
+        case CommandsSeen::Stage::is_new:
             break;
     }
     const auto no = [this, &a](Outcome outcome, Reason reason, std::string text) {
@@ -427,7 +427,7 @@ void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody 
 
 /// In the next turn, changed or not: who waits for a state that is newer than an answer has it soon.
 void DdsDoor::tell_again(const std::string& axis) {
-    const auto it = std::ranges::find(axes_, axis, &Told::name);
+    const auto it = std::ranges::find(axes_, axis, &Published::name);
     if (it != axes_.end()) it->ever = false;
 }
 

@@ -38,10 +38,10 @@ struct DoorSettings {
 class DdsDoor final : public ServiceDoor, public FleetPort, public EventListener {
 public:
     using Needs = PortSet<AxisPort, ClockPort, EventPort, ParameterPort, SitePort, StatusPort>;
-    static constexpr Duration turn = std::chrono::milliseconds(20);         ///< a state is told at most once in it
-    static constexpr Duration look_again = std::chrono::milliseconds(2);    ///< after a change that was told at once
-    static constexpr Duration told_again = std::chrono::milliseconds(500);  ///< a state that does not change
-    static constexpr std::size_t set_point_clients_most = 1024;             ///< axes that are streamed to, as far as this door knows
+    static constexpr Duration turn = std::chrono::milliseconds(20);              ///< a state is told at most once in it
+    static constexpr Duration look_again = std::chrono::milliseconds(2);         ///< after a change that was told at once
+    static constexpr Duration published_again = std::chrono::milliseconds(500);  ///< a state that does not change
+    static constexpr std::size_t set_point_clients_most = 1024;                  ///< axes that are streamed to, as far as this door knows
 
     DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings);
     ~DdsDoor() override;
@@ -71,7 +71,7 @@ public:
     [[nodiscard]] std::string metrics() const;
 
 private:
-    struct Told {
+    struct Published {
         std::string name;
         std::uint64_t revision = 0;
         Instant at{};
@@ -108,9 +108,9 @@ private:
     boost::asio::steady_timer timer_, look_timer_;
     CommandsSeen seen_;
     Fleet fleet_;
-    std::vector<Told> axes_;
+    std::vector<Published> axes_;
     std::shared_ptr<const SiteState> site_;
-    Instant gateway_told_{};
+    Instant gateway_published_{};
     std::set<std::uint64_t> namesakes_;  // instances of other gateways with this one's name
     Commanders commanders_;
     std::map<std::string, std::string> set_points_;  // who streams, by axis

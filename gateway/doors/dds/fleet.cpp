@@ -71,7 +71,7 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     }
     Known& k = known_[s.instance];
     k.lost_at = never;
-    k.heard_at = now;
+    k.received_at = now;
     FleetGateway& g = k.gateway;
     g.name = s.gateway;
     g.instance = s.instance;
@@ -145,10 +145,10 @@ void Fleet::on_result(const axisgate_CommandResult& s) {
 }
 
 std::vector<Event> Fleet::on_turn(Instant now) {
-    std::vector<Event> told;
+    std::vector<Event> published;
     for (auto& [instance, k] : known_) {
-        if (instance != instance_ && k.gateway.alive && now - k.heard_at > std::chrono::milliseconds(lease_ms))
-            told.push_back(lose(k, now));
+        if (instance != instance_ && k.gateway.alive && now - k.received_at > std::chrono::milliseconds(lease_ms))
+            published.push_back(lose(k, now));
     }
     std::vector<std::string> over;
     for (auto& [id, w] : waiting_) {
@@ -165,7 +165,7 @@ std::vector<Event> Fleet::on_turn(Instant now) {
                           fmt::format("no result from the gateway {} in time; nobody knows whether the command was carried out", gateway)));
     }
     std::erase_if(known_, [now](const auto& k) { return !k.second.gateway.alive && now - k.second.lost_at >= lost_kept; });
-    return told;
+    return published;
 }
 
 std::vector<FleetGateway> Fleet::list(std::int64_t now_unix_ns, Instant now) const {
@@ -175,7 +175,7 @@ std::vector<FleetGateway> Fleet::list(std::int64_t now_unix_ns, Instant now) con
         g.namesake = std::ranges::any_of(known_, [&g](const auto& other) {
             return other.second.gateway.alive && other.second.gateway.name == g.name && other.first != g.instance;
         });
-        g.silent_ms = std::max<std::int64_t>(0, (now - k.heard_at) / std::chrono::milliseconds(1));
+        g.silent_ms = std::max<std::int64_t>(0, (now - k.received_at) / std::chrono::milliseconds(1));
         for (const auto& [name, a] : k.axes) {
             g.axes.push_back(a);
             g.axes.back().age_ms = age_ms(g, a, now_unix_ns);

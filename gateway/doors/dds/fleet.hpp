@@ -69,7 +69,7 @@ private:
     struct Known {
         FleetGateway gateway;
         std::map<std::string, FleetAxis> axes;
-        Instant lost_at = never, heard_at{};
+        Instant lost_at = never, received_at{};
     };
     struct Waiting {
         axisgate_AxisCommand sample{};

@@ -88,7 +88,7 @@ void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, 
     const auto found = seen(address);
     if (number == 0) number = std::exchange(w.waits, 0);
     if (!found.axis) {
-        w.told = false;
+        w.published = false;
         return send_(mirror::text_of({Telegram::Kind::gone, number, address, found.why}));
     }
     const FleetAxis& a = *found.axis;
@@ -112,13 +112,13 @@ void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, 
     s.velocity = a.velocity;
     s.error_code = a.error_code;
     s.age_ms = std::max<std::int64_t>(0, Fleet::age_ms(*found.gateway, a, now_unix_ns));
-    w.told = true;
+    w.published = true;
     send_(mirror::text_of({Telegram::Kind::state, number, address, mirror::body_of(s)}));
 }
 
 void Mirror::on_axis(std::string_view gateway, std::string_view axis, std::int64_t now_unix_ns) {
     const auto it = watched_.find(fmt::format("{}/{}", gateway, axis));
-    if (it == watched_.end() || (!it->second.told && !seen(it->first).axis)) return;
+    if (it == watched_.end() || (!it->second.published && !seen(it->first).axis)) return;
     tell(it->first, it->second, 0, now_unix_ns);
 }
 
@@ -126,7 +126,7 @@ void Mirror::on_turn(std::int64_t now_unix_ns, Instant now) {
     std::erase_if(watched_, [now](const auto& w) { return now - w.second.asked >= watched_for; });
     if (std::exchange(comings_, fleet_.comings()) == fleet_.comings()) return;
     for (auto& [address, w] : watched_) {
-        if (w.told && !seen(address).axis) tell(address, w, 0, now_unix_ns);
+        if (w.published && !seen(address).axis) tell(address, w, 0, now_unix_ns);
     }
 }
 

@@ -32,7 +32,7 @@ private:
     struct Watched {
         Instant asked{};
         std::uint64_t waits = 0;  ///< number of a question that waits for a state that is new enough; 0: none
-        bool told = false;        ///< a state was told last, and not that there is none
+        bool published = false;   ///< a state was told last, and not that there is none
     };
     void request(const mirror::Telegram& telegram, std::int64_t now_unix_ns, Instant now);
     void tell(const std::string& address, Watched& watched, std::uint64_t number, std::int64_t now_unix_ns);

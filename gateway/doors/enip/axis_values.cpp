@@ -372,11 +372,11 @@ void AxisValues::on_result(const Result& result) {
         return;
     }
     --questions_;
-    if (!good(result)) return told_(asked.token, general_of(result.reason == Reason::none ? Reason::internal : result.reason), {});
-    if (!asked.read) return told_(asked.token, General::success, {});
+    if (!good(result)) return answered_(asked.token, general_of(result.reason == Reason::none ? Reason::internal : result.reason), {});
+    if (!asked.read) return answered_(asked.token, General::success, {});
     const auto* const info = layout_.parameter(asked.instance);
     const auto bytes = info && known(result.value) ? to_bytes(result.value, info->type) : std::nullopt;
-    told_(asked.token, bytes ? General::success : General::no_stored_data, bytes ? cip::View(*bytes) : cip::View());
+    answered_(asked.token, bytes ? General::success : General::no_stored_data, bytes ? cip::View(*bytes) : cip::View());
 }
 
 void AxisValues::sweep(Instant now) {

@@ -23,7 +23,7 @@ class AxisValues final : public cip::Values {
 public:
     static constexpr std::size_t most_asked = 1024;
     static constexpr Duration patience = std::chrono::seconds(30), lease_renewal = std::chrono::seconds(5);
-    using Told = std::function<void(cip::Token, cip::General, cip::View)>;
+    using Answered = std::function<void(cip::Token, cip::General, cip::View)>;
     struct Counters {
         Counter commands, set_points, set_points_refused, parameters;
     };
@@ -34,7 +34,7 @@ public:
         number_ = number;
         writer_.use_number(number);
     }
-    void use(Told told) { told_ = std::move(told); }
+    void use(Answered answered) { answered_ = std::move(answered); }
     /// The layout of the site in force. `anew`: it is another one; its connections have been closed.
     void use(Layout layout, bool anew);
     [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
@@ -115,7 +115,7 @@ private:
     registers::RegisterWriter writer_;  // of windows and attributes; its log of refusals and registers 20 and 21 are everybody's
     std::int64_t lease_s_;
     DoorNumber number_ = 0;
-    Told told_;
+    Answered answered_;
     Layout layout_;
     mutable std::map<std::uint16_t, std::vector<registers::MapValue>> shown_;  // by instance
     std::map<std::uint32_t, Owner> owners_;                                    // by output assembly

@@ -124,7 +124,7 @@ void AxisValues::OwnWrite::on_written(std::uint8_t, AxisId, Verdict v) {
     const cip::Token t = token;
     const General g = general_of(verdict);
     of.own_writes_.erase(t);  // this is no more
-    of.told_(t, g, {});
+    of.answered_(t, g, {});
 }
 
 }  // namespace axisgate::enip

@@ -82,7 +82,7 @@ public:
           explicit_(io.get_executor()),
           implicit_(io.get_executor()),
           timer_(io) {
-        values_.use([this](cip::Token token, cip::General general, cip::View value) { adapter_.told(token, general, value); });
+        values_.use([this](cip::Token token, cip::General general, cip::View value) { adapter_.answered(token, general, value); });
         values_.use_number(port_.attach(*this));
     }
     ~Impl() override { port_.detach(*this); }

@@ -115,8 +115,8 @@ Handled import_table(Call& c, SitePort& sites, const StagePort& staging, const T
         std::vector<SiteFault> faults;
         auto site = parse_site(document, sites.families(), faults);
         if (!site || !csv.empty()) return table_refusal(table, merged, csv, faults, before.site, sites.families());
-        const auto told = import_report(table, false, rows.size(), before.site, *site);
-        return Plan{std::move(*site), [told](const std::shared_ptr<const SiteState>& now) { return import_answer(*now, told); }};
+        const auto report = import_report(table, false, rows.size(), before.site, *site);
+        return Plan{std::move(*site), [report](const std::shared_ptr<const SiteState>& now) { return import_answer(*now, report); }};
     };
     if (!dry_run) return change_site(c, sites, staging, false, std::move(plan));
     const auto now = sites.site();

@@ -40,7 +40,7 @@ void WebSocketSession::start(std::span<const std::uint8_t> early) {
         return me->commander_;
     };
     client_->takes_at_once = true;
-    heard_ = pinged_ = looked_ = std::chrono::steady_clock::now();
+    received_ = pinged_ = looked_ = std::chrono::steady_clock::now();
     arm();
     if (!early.empty()) take(early);
     if (host_->stopping) stop();
@@ -56,7 +56,7 @@ void WebSocketSession::read() {
         if (self->closed_) return;
         if (ec) return self->close();
         self->host_->counters.bytes_in += bytes;
-        self->heard_ = std::chrono::steady_clock::now();
+        self->received_ = std::chrono::steady_clock::now();
         self->take(std::span(self->buffer_).first(bytes));
         if (!self->closed_) self->read();
     });
@@ -66,7 +66,7 @@ void WebSocketSession::take(std::span<const std::uint8_t> bytes) {
     std::vector<WebSocketMessage> messages;
     const auto fault = parser_.take(bytes, messages);
     for (auto& m : messages) {
-        if (close_heard_) break;
+        if (close_received_) break;
         switch (m.kind) {
             case WebSocketMessage::Kind::text:
                 if (closing_) break;
@@ -81,7 +81,7 @@ void WebSocketSession::take(std::span<const std::uint8_t> bytes) {
             case WebSocketMessage::Kind::pong:
                 break;
             case WebSocketMessage::Kind::close:
-                close_heard_ = true;
+                close_received_ = true;
                 begin_close(m.code, {});
                 if (closing_ && !writing_ && client_->queue.empty()) finish();
                 break;
@@ -132,7 +132,7 @@ void WebSocketSession::on_written(ErrorCode ec, std::size_t bytes) {
 
 void WebSocketSession::finish() {
     // Our close frame is out. If the client's is here too, the connection ends; else its answer is waited for, but not for long.
-    if (close_heard_) {
+    if (close_received_) {
         finished_ = true;
         socket_.end_sending([self = shared_from_this()] {});  // the read ends when the client's end comes
     }
@@ -149,7 +149,7 @@ void WebSocketSession::arm() {
     if (closed_) return;
     SteadyTime due = closing_ ? close_due()
                               : std::min({pinged_ + host_->settings.ping_period, looked_ + host_->settings.right_period,
-                                          heard_ + host_->settings.silence_limit});
+                                          received_ + host_->settings.silence_limit});
     if (writing_) due = std::min(due, write_began_ + (closing_ ? host_->settings.write_limit : host_->settings.write_limit / 2));
     timer_.expires_at(due);
     timer_.async_wait([self = weak_from_this()](ErrorCode ec) {
@@ -171,7 +171,7 @@ void WebSocketSession::on_timer() {
     }
     if (!closing_ && writing_ && now >= write_began_ + host_->settings.write_limit / 2) {
         begin_close(close_try_later, "not read in time");
-    } else if (!closing_ && now >= heard_ + host_->settings.silence_limit) {
+    } else if (!closing_ && now >= received_ + host_->settings.silence_limit) {
         begin_close(close_policy, "no sign of life");
     } else if (!closing_ && now >= pinged_ + host_->settings.ping_period) {
         // Asked regularly, also of a client that sends much: only a pong shows that it reads.

@@ -25,7 +25,7 @@ public:
 
     /// `early`: bytes that came with the handshake.
     void start(std::span<const std::uint8_t> early);
-    [[nodiscard]] Guest guest() const override { return {holder_, Standing::knowns_work, Instant{heard_.time_since_epoch()}}; }
+    [[nodiscard]] Guest guest() const override { return {holder_, Standing::knowns_work, Instant{received_.time_since_epoch()}}; }
     void stop() override;
     void abort() override;
 
@@ -52,12 +52,12 @@ private:
     WebSocketParser parser_;
     std::array<std::uint8_t, 8192> buffer_{};
     std::vector<SharedFrame> batch_;  ///< being written
-    SteadyTime heard_{}, pinged_{}, looked_{}, write_began_{}, close_began_{};
+    SteadyTime received_{}, pinged_{}, looked_{}, write_began_{}, close_began_{};
     std::optional<Origin> commander_;  ///< who gives set-points by it; nothing: its user may not
     bool commander_known_ = false;
     bool writing_ = false;
     bool closing_ = false;  ///< a close frame is in the queue or was sent
-    bool close_heard_ = false;
+    bool close_received_ = false;
     bool finished_ = false;  ///< our side of the stream is shut
     bool closed_ = false;
 };

@@ -107,10 +107,10 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
     // A refused read is told where its address leads nowhere; a write always, also where the parameter channel alone shows it.
     if (a.exception != Exception::none || write) {
         Refused why = map->take_refused();
-        const bool said = why.reason != Reason::none;
-        if (client.who && (said || (write && a.exception != Exception::none))) {
+        const bool reported = why.reason != Reason::none;
+        if (client.who && (reported || (write && a.exception != Exception::none))) {
             const RequestNote request = note_of(unit, pdu);
-            if (!said) why = in_words(a.exception);
+            if (!reported) why = in_words(a.exception);
             if (why.axis == no_axis) why.axis = axis_of(unit, request);
             refused(*client.who, std::move(why), request, a.exception, now);
         }

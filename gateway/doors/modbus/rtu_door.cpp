@@ -79,8 +79,8 @@ public:
     [[nodiscard]] std::string_view name() const override { return "modbus_rtu"; }
     [[nodiscard]] std::vector<std::string> addresses() const override { return {settings_.text}; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& client) const override {
-        return client == client_ && up() ? session_.heard() : std::nullopt;
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override {
+        return client == client_ && up() ? session_.received() : std::nullopt;
     }
     [[nodiscard]] std::string metrics() const override {
         return rtu_metrics_text(std::as_const(responder_).counters(), session_.counters(), receiver_.counters(), up());

@@ -29,7 +29,7 @@ void RtuSession::on_frame(const RtuFrame& frame, Instant now, bool overtaken) {
     give_up();
     const auto unit = unit_of(frame.address);
     if (!unit) return counters_.foreign.add();
-    heard_ = begun_ = now;
+    received_ = begun_ = now;
     const std::uint8_t f = frame.bytes[0];
     if (is_write(f)) counters_.writes.add();
     late_ = {};

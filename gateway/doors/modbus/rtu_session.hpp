@@ -37,8 +37,8 @@ class RtuSession final : public registers::WriteOwner {
 public:
     static constexpr std::uint8_t broadcast = 0, first_address = 1, last_address = 247;
 
-    /// `address` (1..247): where the standard map stands, or the site's own map of that unit if it has one. The site's other units (2..247)
-    /// stand under their numbers.
+    /// `address` (1..247): where the standard map stands, or the site's user map of that unit if it has one. The site's other units
+    /// (2..247) stand under their numbers.
     RtuSession(Responder& responder, registers::RegisterImage& image, RtuSink& sink, std::uint8_t address,
                std::shared_ptr<const std::string> who)
         : responder_(responder), image_(image), sink_(sink), address_(address), client_{this, std::move(who)} {}
@@ -58,7 +58,7 @@ public:
 
     [[nodiscard]] bool waits() const noexcept { return waits_; }
     /// Of the last request to this gateway.
-    [[nodiscard]] std::optional<Instant> heard() const noexcept { return heard_; }
+    [[nodiscard]] std::optional<Instant> received() const noexcept { return received_; }
     /// A write was carried out on some axis since forget_commands().
     [[nodiscard]] bool has_commanded() const noexcept { return commanded_; }
     void forget_commands() noexcept { commanded_ = false; }
@@ -82,7 +82,7 @@ private:
     Instant begun_{};
     bool waits_ = false;
     bool commanded_ = false;
-    std::optional<Instant> heard_;
+    std::optional<Instant> received_;
     std::array<std::uint8_t, rtu_max_frame> out_{};
 };
 

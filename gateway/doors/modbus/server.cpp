@@ -78,8 +78,8 @@ public:
     // --- HotDoor
     [[nodiscard]] std::string_view name() const override { return "modbus"; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }
-    [[nodiscard]] std::optional<Instant> heard(const AuthorityClient& client) const override {
-        return client.door == Door::modbus ? heard(client.name) : std::nullopt;
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override {
+        return client.door == Door::modbus ? received(client.name) : std::nullopt;
     }
     bool serve_now() override { return poller_.serve_now(); }
     [[nodiscard]] std::string metrics() const override { return metrics_text(std::as_const(responder_).counters()); }
@@ -170,7 +170,7 @@ public:
         times_[i] = {};
         free_.push_back(i);
         counters().connections_open.remove();
-        if (!closing_ && !heard(host)) port_.client_lost({Door::modbus, host}, LossCause::modbus_closed);
+        if (!closing_ && !received(host)) port_.client_lost({Door::modbus, host}, LossCause::modbus_closed);
     }
 
 private:
@@ -309,7 +309,7 @@ private:
     }
 
     /// The newest request of any connection of this host.
-    [[nodiscard]] std::optional<Instant> heard(std::string_view host) const {
+    [[nodiscard]] std::optional<Instant> received(std::string_view host) const {
         std::optional<Instant> newest;
         for (std::size_t i = 0; i < places_.size(); ++i) {
             if (places_[i].connection && places_[i].host == host && (!newest || times_[i].last_request > *newest))

@@ -146,8 +146,8 @@ private:
                     note(k.line, fmt::format("the object {:04X}h is listed twice", *index));
                 }
             }
-            const auto told = whole_in(*s, "supportedobjects", 0xFFFF);
-            if (told && *told != count) note(s->line, fmt::format("[{}] tells {} objects and lists {}", name, *told, count));
+            const auto stated = whole_in(*s, "supportedobjects", 0xFFFF);
+            if (stated && *stated != count) note(s->line, fmt::format("[{}] tells {} objects and lists {}", name, *stated, count));
         }
     }
 
@@ -358,9 +358,9 @@ private:
             for (; it != eds_.entries.end() && it->first.index == index; ++it)
                 ++count;
             if (count == 0 && faults_.empty()) fault(s->line, fmt::format("{:04X}h is an array or a record without subindices", index));
-            const auto told = whole_in(*s, "subnumber", 0xFF);
-            if (told && count != 0 && *told != count && faults_.empty() && whole_in(*s, "compactsubobj", 254).value_or(0) == 0)
-                note(s->line, fmt::format("{:04X}h tells {} subindices and has {}", index, *told, count));
+            const auto stated = whole_in(*s, "subnumber", 0xFF);
+            if (stated && count != 0 && *stated != count && faults_.empty() && whole_in(*s, "compactsubobj", 254).value_or(0) == 0)
+                note(s->line, fmt::format("{:04X}h tells {} subindices and has {}", index, *stated, count));
         }
     }
 

@@ -41,10 +41,10 @@ public:
             seen_ = 0;
         }
         // Where the last one told was an error, its end is told in any case: nothing looks wrong for ever.
-        const bool end_of_errors = emergency.code == 0 && last_told_ != 0;
+        const bool end_of_errors = emergency.code == 0 && last_published_ != 0;
         if (end_of_errors || seen_ < burst_) {
             seen_ += seen_ < burst_ ? 1 : 0;
-            last_told_ = emergency.code;
+            last_published_ = emergency.code;
             return true;
         }
         ++kept_back_;
@@ -58,7 +58,7 @@ private:
     int burst_;
     Duration window_;
     int seen_ = 0;
-    std::uint16_t last_told_ = 0;
+    std::uint16_t last_published_ = 0;
     Instant end_{};
     std::uint64_t kept_back_ = 0, taken_ = 0;
 };

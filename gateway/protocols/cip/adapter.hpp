@@ -43,7 +43,7 @@ public:
     void on_datagram(View bytes, Endpoint from, bool broadcast, Instant now);
     void on_implicit(View datagram, Endpoint from, Instant now) { manager_.on_implicit(datagram, from, now); }
     /// The value that was asked for under this token, or why there is none. Of a written one: no value.
-    void told(Token token, General general, View value);
+    void answered(Token token, General general, View value);
 
     void on_deadline(Instant now);
     [[nodiscard]] Instant deadline() const;
@@ -60,7 +60,7 @@ private:
         Framer framer;
         Endpoint from;
         std::uint32_t handle = 0;  ///< 0: not registered
-        Instant heard{};
+        Instant received_any{};
         bool leaving = false;
     };
     /// Where an answer goes.

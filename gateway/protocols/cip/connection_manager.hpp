@@ -38,7 +38,7 @@ struct Connection {
     std::uint32_t sent = 0;
     std::uint16_t sent_count = 0;
     std::uint64_t sent_revision = 0;
-    bool heard = false, running = false;
+    bool received_any = false, running = false;
     std::uint32_t received = 0;
     std::uint16_t received_count = 0;
     std::uint16_t asked = 0;  ///< class 3: count of the newest request ...

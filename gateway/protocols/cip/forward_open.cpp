@@ -104,7 +104,9 @@ std::optional<Extended> wrong_by_itself(const OpenRequest& q, const Device& devi
     }
     if (q.multiplier > 7) return Extended::timeout_multiplier_not_acceptable;
     const std::uint8_t transport = q.transport_class();
-    if ((transport > 1 && transport != 3) || q.trigger() > Trigger::application) return Extended::class_and_trigger_not_supported;
+    if (transport > 3) return Extended::transport_class_not_supported;
+    if (q.trigger() > Trigger::application) return Extended::trigger_not_supported;
+    if (transport == 2) return Extended::class_and_trigger_not_supported;
     if (q.is_null()) return std::nullopt;
     if (q.ot.type != Half::Type::point_to_point) return Extended::invalid_ot_type;
     if (q.to.type == Half::Type::reserved) return Extended::invalid_to_type;

@@ -13,7 +13,7 @@ void ConnectionManager::on_implicit(View datagram, Endpoint from, Instant now) {
     if (!c || !c->is_io() || c->ot_id != implicit->connection) return counters_.unknown_connection.add();
     if (c->peer.from.address != from.address) return counters_.from_wrong_address.add();
     // Numbers go round: what is not ahead of the newest is older.
-    if (c->heard && static_cast<std::int32_t>(implicit->sequence - c->received) <= 0) return counters_.stale.add();
+    if (c->received_any && static_cast<std::int32_t>(implicit->sequence - c->received) <= 0) return counters_.stale.add();
     const std::size_t count = c->request.transport_class() == 1 ? 2 : 0;
     const std::size_t head = count + (c->plan.header ? 4 : 0);
     const std::size_t right = head + c->plan.consumed_size;
@@ -24,7 +24,7 @@ void ConnectionManager::on_implicit(View datagram, Endpoint from, Instant now) {
     c->received = implicit->sequence;
     c->expires = now + c->request.time_out();
     consume(*c, implicit->data, now);
-    c->heard = true;
+    c->received_any = true;
 }
 
 void ConnectionManager::consume(Connection& c, View bytes, Instant now) {
@@ -32,7 +32,7 @@ void ConnectionManager::consume(Connection& c, View bytes, Instant now) {
     bool fresh = true;
     if (c.request.transport_class() == 1) {
         const std::uint16_t count = r.u16();
-        fresh = !c.heard || count != c.received_count;
+        fresh = !c.received_any || count != c.received_count;
         c.received_count = count;
     }
     const bool run = !c.plan.header || (r.u32() & 1) != 0;

@@ -28,6 +28,7 @@ std::optional<Response> unwrap(View data, View& inside) {
     };
     if (r.bad()) return Response::of(General::not_enough_data);
     if (r.left() > 0) return Response::of(General::too_much_data);
+    if (size < 2) return refuse(Extended::unconnected_parameter_error);  // no service and no path
     const auto path = read_path(route);
     if (!path) return refuse(Extended::invalid_segment);
     if (const auto wrong = wrong_route(*path)) return refuse(*wrong);

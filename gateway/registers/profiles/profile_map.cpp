@@ -231,7 +231,7 @@ std::int64_t ProfileMap::increments(std::size_t i, double counts) const {
 
 void ProfileMap::order(WritePlan& plan, std::size_t i, CommandBody body, std::uint32_t note, Answer answer) const {
     PlannedCommand c{axis(i).id, std::move(body), answer != Answer::client, note};
-    c.told = answer == Answer::client;
+    c.reported = answer == Answer::client;
     c.until_done = answer == Answer::done;
     plan.commands.push_back(std::move(c));
 }

@@ -271,14 +271,14 @@ void AlarmService::keep() {
         const auto me = self.lock();
         if (!me || !me->attached_) return;
         me->saving_ = false;
-        if (!batch->fault.empty() && !std::exchange(me->fault_told_, true)) {
+        if (!batch->fault.empty() && !std::exchange(me->fault_published_, true)) {
             Event e;
             e.severity = Severity::warning;
             e.kind = "store";
             e.text = fmt::format("alarms are not stored: {}; after a restart what was done since is missing", batch->fault);
             me->events_.note(std::move(e));
         }
-        if (batch->fault.empty()) me->fault_told_ = false;
+        if (batch->fault.empty()) me->fault_published_ = false;
         me->keep();
     };
     const auto now = wall_.now_unix_ns();

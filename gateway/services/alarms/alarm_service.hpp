@@ -74,7 +74,7 @@ private:
     std::function<Instant()> clock_;
     AlarmList list_;
     bool attached_ = false;
-    bool saving_ = false, fault_told_ = false;
+    bool saving_ = false, fault_published_ = false;
     std::set<std::uint64_t> unsaved_;
     std::vector<Then> waiting_;
     std::uint64_t seen_ = 0;  ///< newest event that the list knows of

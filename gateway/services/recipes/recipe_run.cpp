@@ -297,17 +297,17 @@ void RecipeRun::take_answer(Instant now) {
 
 /// What the run has in motion after a step: a refused command has begun nothing, and leaves alone what an earlier one has begun.
 void RecipeRun::take_motion(const RecipeStep& s, bool good, RecipeAnswer::Motion motion, Instant now) {
-    using Told = RecipeAnswer::Motion;
+    using Published = RecipeAnswer::Motion;
     if (good && is_stop(s)) {
         in_motion_.erase(s.axis);
         prepared_.erase(s.axis);
     }
-    if (!is_motion(s) || s.axis.empty() || motion == Told::nothing || (!good && motion == Told::by_result)) return;
+    if (!is_motion(s) || s.axis.empty() || motion == Published::nothing || (!good && motion == Published::by_result)) return;
     if (is_prepared(s)) {
         prepared_.insert(s.axis);
         return;
     }
-    const Motion begun{now, ends_itself(s), motion == Told::interrupted};
+    const Motion begun{now, ends_itself(s), motion == Published::interrupted};
     if (good && s.until_done && begun.ends_itself) {
         in_motion_.erase(s.axis);
     } else {

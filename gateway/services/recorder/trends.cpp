@@ -165,8 +165,8 @@ void Trends::append(Axis& a, const TrendRow& row) {
 void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
     if (!p.current && !axes_.contains(id)) return;  // nothing has been said yet
     Axis& a = axes_[id];
-    if (p.current && at - p.age != a.told) {
-        a.told = at - p.age;
+    if (p.current && at - p.age != a.reported) {
+        a.reported = at - p.age;
         ++a.counted;
     }
     if (a.counted_from == Instant{}) a.counted_from = at;

@@ -75,7 +75,7 @@ private:
     };
     struct Axis {
         std::deque<Block> blocks;
-        Instant newest{}, told{};  // of a picture; of a drive's word
+        Instant newest{}, reported{};  // of a picture; of a drive's word
         Instant counted_from{};
         std::uint32_t counted = 0;
         double rate_hz = 0;

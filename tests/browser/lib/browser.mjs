@@ -1,5 +1,5 @@
 // Browser: Debian's Chromium through playwright-core, with a fresh profile, and a watch over everything that a page must not do.
-// In: CHROMIUM (default /usr/bin/chromium). Out: pages that remember console errors, exceptions and requests to other hosts.
+// In: CHROMIUM (default /usr/bin/chromium-headless-shell). Out: pages that remember console errors, exceptions and requests to other hosts.
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -12,7 +12,7 @@ mkdirSync(artefacts, { recursive: true });
 
 const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 
-export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
+export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium-headless-shell', args: flags });
 
 /** A page of its own context. `page.faults()` is what it did wrong so far. */
 export async function open(browser, url, options = {}) {

@@ -109,33 +109,33 @@ TEST(Nmt, CommandsReachOneNodeOrAll) {
 struct Heartbeats : testing::Test {
     HeartbeatWatch watch{5, 100ms};
     Instant now = time_zero + 1s;
-    NodeNews hear(std::string_view text) { return watch.on_frame(frame(text), now); }
+    NodeNews receive(std::string_view text) { return watch.on_frame(frame(text), now); }
 };
 TEST_F(Heartbeats, TheWatchBeginsWithTheFirstAndTellsALossOnce) {
     EXPECT_EQ(watch.deadline(), never);
-    EXPECT_EQ(hear("705#7F"), NodeNews::state);
+    EXPECT_EQ(receive("705#7F"), NodeNews::state);
     EXPECT_EQ(watch.deadline(), now + 100ms);
     EXPECT_EQ(watch.on_deadline(now + 99ms), NodeNews::nothing);
     now += 50ms;
-    EXPECT_EQ(hear("705#7F"), NodeNews::nothing);
+    EXPECT_EQ(receive("705#7F"), NodeNews::nothing);
     EXPECT_EQ(watch.on_deadline(now + 100ms), NodeNews::lost);
     EXPECT_TRUE(watch.lost());
     EXPECT_EQ(watch.on_deadline(now + 300ms), NodeNews::nothing);
-    EXPECT_EQ(hear("705#05"), NodeNews::back);
+    EXPECT_EQ(receive("705#05"), NodeNews::back);
     EXPECT_EQ(watch.state(), NmtState::operational);
     EXPECT_FALSE(watch.lost());
 }
 TEST_F(Heartbeats, ABootUpIsToldEveryTime) {
-    EXPECT_EQ(hear("705#05"), NodeNews::state);
-    EXPECT_EQ(hear("705#00"), NodeNews::started);
-    EXPECT_EQ(hear("705#00"), NodeNews::started);
-    EXPECT_EQ(hear("705#04"), NodeNews::state);
+    EXPECT_EQ(receive("705#05"), NodeNews::state);
+    EXPECT_EQ(receive("705#00"), NodeNews::started);
+    EXPECT_EQ(receive("705#00"), NodeNews::started);
+    EXPECT_EQ(receive("705#04"), NodeNews::state);
 }
 TEST_F(Heartbeats, WhatIsNoStateIsCounted) {
-    EXPECT_EQ(hear("705#03"), NodeNews::nothing);
-    EXPECT_EQ(hear("705#0505"), NodeNews::nothing);
-    EXPECT_EQ(hear("705#"), NodeNews::nothing);
-    EXPECT_EQ(hear("706#05"), NodeNews::nothing);
+    EXPECT_EQ(receive("705#03"), NodeNews::nothing);
+    EXPECT_EQ(receive("705#0505"), NodeNews::nothing);
+    EXPECT_EQ(receive("705#"), NodeNews::nothing);
+    EXPECT_EQ(receive("706#05"), NodeNews::nothing);
     EXPECT_EQ(watch.malformed(), 3u);
     EXPECT_EQ(watch.deadline(), never);
 }
@@ -293,18 +293,18 @@ TEST(Emergencies, AStormIsCountedAndItsEndIsTold) {
     EmergencyGate gate(3, 1s);
     const Instant t = time_zero + 1s;
     const Emergency error{0x2310, 1, {}};
-    int told = 0;
+    int published = 0;
     for (int i = 0; i < 1000; ++i)
-        told += gate.admits(error, t) ? 1 : 0;
-    EXPECT_EQ(told, 3);
+        published += gate.admits(error, t) ? 1 : 0;
+    EXPECT_EQ(published, 3);
     EXPECT_EQ(gate.kept_back(), 997u);
     EXPECT_TRUE(gate.admits(Emergency{}, t));
     EXPECT_FALSE(gate.admits(Emergency{}, t)) << "once";
     EXPECT_TRUE(gate.admits(error, t + 1s));
-    told = 0;
+    published = 0;
     for (int i = 0; i < 1000; ++i)
-        told += gate.admits(i % 2 == 0 ? error : Emergency{}, t + 2s) ? 1 : 0;
-    EXPECT_EQ(told, 4) << "one that comes and goes, too";
+        published += gate.admits(i % 2 == 0 ? error : Emergency{}, t + 2s) ? 1 : 0;
+    EXPECT_EQ(published, 4) << "one that comes and goes, too";
 }
 
 }  // namespace

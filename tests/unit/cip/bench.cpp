@@ -55,16 +55,19 @@ std::optional<AssemblyInfo> TestValues::assembly(std::uint32_t instance) const {
 }
 void TestValues::read(std::uint32_t instance, Instant, Bytes& to) { to.insert(to.end(), assembly(instance)->size, shown); }
 General TestValues::write(std::uint32_t instance, View data, const Peer&, Instant) {
-    said.push_back(fmt::format("write {} {:02x}", instance, fmt::join(data, "")));
+    reported.push_back(fmt::format("write {} {:02x}", instance, fmt::join(data, "")));
     return General::success;
 }
-void TestValues::opened(std::uint32_t output, const Peer&, Duration, Instant) { said.push_back(fmt::format("opened {}", output)); }
+void TestValues::opened(std::uint32_t output, const Peer&, Duration, Instant) { reported.push_back(fmt::format("opened {}", output)); }
 void TestValues::consumed(std::uint32_t output, View data, const Peer&, Instant) {
-    said.push_back(fmt::format("consumed {} {:02x}", output, fmt::join(data.first(4), "")));
+    reported.push_back(fmt::format("consumed {} {:02x}", output, fmt::join(data.first(4), "")));
 }
-void TestValues::idle(std::uint32_t output, const Peer&, Instant) { said.push_back(fmt::format("idle {}", output)); }
+void TestValues::idle(std::uint32_t output, const Peer&, Instant) { reported.push_back(fmt::format("idle {}", output)); }
 void TestValues::ended(std::uint32_t output, const Peer&, End why, Instant) {
-    said.push_back(fmt::format("ended {} {}", output, why == End::closed ? "closed" : why == End::timed_out ? "timed out" : "by gateway"));
+    reported.push_back(fmt::format("ended {} {}", output,
+                                   why == End::closed      ? "closed"
+                                   : why == End::timed_out ? "timed out"
+                                                           : "by gateway"));
 }
 General TestValues::ask(std::uint32_t, Token token, const Peer&, Instant) {
     if (token == 0) return General::resource_unavailable;

@@ -50,8 +50,8 @@ struct TestValues final : Values {
     Device device_;
     bool held = false;
     std::uint64_t changes = 1;
-    std::uint8_t shown = 0x11;      ///< every byte of the inputs
-    std::vector<std::string> said;  ///< "opened 151", "consumed 151 01 02 ..", "idle 151", "ended 151 closed"
+    std::uint8_t shown = 0x11;          ///< every byte of the inputs
+    std::vector<std::string> reported;  ///< "opened 151", "consumed 151 01 02 ..", "idle 151", "ended 151 closed"
     std::vector<Token> asked;
     Bytes set_to;
 

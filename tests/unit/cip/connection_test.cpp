@@ -19,9 +19,9 @@ TEST(CipConnections, ForwardOpenByteForByte) {
     const Answer a = b.open({});
     EXPECT_EQ(a.general, General::success);
     EXPECT_EQ(a.data, hex("01000101 00500000 0100 3412 4D000000 10270000 10270000 00 00"));
-    EXPECT_EQ(b.values.said, std::vector<std::string>{"opened 151"});
+    EXPECT_EQ(b.values.reported, std::vector<std::string>{"opened 151"});
     EXPECT_EQ(b.ask(Open{}.close()).data, hex("0100 3412 4D000000 00 00"));
-    EXPECT_EQ(b.values.said.back(), "ended 151 closed");
+    EXPECT_EQ(b.values.reported.back(), "ended 151 closed");
 }
 
 struct Wrong {
@@ -33,7 +33,10 @@ struct Wrong {
 TEST(CipConnections, EveryExtendedStatus) {
     const Wrong list[] = {
         {"transport class 2", [](Open& o) { o.transport = 2; }, {0x0103}},
-        {"trigger 3", [](Open& o) { o.transport = 0x31; }, {0x0103}},
+        {"transport class 4", [](Open& o) { o.transport = 4; }, {0x011C}},
+        {"transport class 15", [](Open& o) { o.transport = 0x0F; }, {0x011C}},
+        {"trigger 3", [](Open& o) { o.transport = 0x31; }, {0x011D}},
+        {"trigger 7", [](Open& o) { o.transport = 0x73; }, {0x011D}},
         {"RPI under 1 ms", [](Open& o) { o.ot_rpi = 999; }, {0x0111}},
         {"vendor", [](Open& o) { o.path = "34 04 0100 0000 0000 00 00 " + o.path; }, {0x0114}},
         {"product", [](Open& o) { o.path = "34 04 FFFF 0C00 0900 00 00 " + o.path; }, {0x0114}},
@@ -159,7 +162,7 @@ TEST(CipConnections, NullForwardOpenAsksAndOpensNothing) {
     EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0114}) << "a ping of another device";
     null.path = "20 04 24 C7 2C 97 2C 65 80 01 AABB";
     EXPECT_EQ(b.open(null).extended, std::vector<std::uint16_t>{0x0126});
-    EXPECT_EQ(b.values.said, std::vector<std::string>{"opened 151"}) << "what is open does not notice any of it";
+    EXPECT_EQ(b.values.reported, std::vector<std::string>{"opened 151"}) << "what is open does not notice any of it";
 }
 
 TEST(CipConnections, AMatchingForwardOpenIsADuplicateWhateverItsPath) {
@@ -213,15 +216,15 @@ TEST(CipConnections, DataInRunModeFallToIdleAndBack) {
     Bench b;
     const std::uint32_t id = b.opened({});
     b.implicit(id, 1, 1, run + data);
-    EXPECT_EQ(b.values.said.back(), "consumed 151 1f000102");
+    EXPECT_EQ(b.values.reported.back(), "consumed 151 1f000102");
     b.implicit(id, 2, 1, run + data);
-    EXPECT_EQ(b.values.said.size(), 2u) << "the same count: nothing new";
+    EXPECT_EQ(b.values.reported.size(), 2u) << "the same count: nothing new";
     b.implicit(id, 3, 2, idle + data);
-    EXPECT_EQ(b.values.said.back(), "idle 151");
+    EXPECT_EQ(b.values.reported.back(), "idle 151");
     b.implicit(id, 4, 3, idle);
-    EXPECT_EQ(b.values.said.size(), 3u);
+    EXPECT_EQ(b.values.reported.size(), 3u);
     b.implicit(id, 5, 3, run + data);
-    EXPECT_EQ(b.values.said.back(), "consumed 151 1f000102") << "run again, even with the count of before";
+    EXPECT_EQ(b.values.reported.back(), "consumed 151 1f000102") << "run again, even with the count of before";
 }
 
 TEST(CipConnections, WrongDataAreDroppedAndCounted) {
@@ -240,7 +243,7 @@ TEST(CipConnections, WrongDataAreDroppedAndCounted) {
     b.implicit(id + 0x10000, 12, 5, run + data);
     b.adapter.on_implicit(hex("0200 0280"), Bench::plc, b.now);
     EXPECT_EQ(c.unknown_connection.value(), 2u);
-    EXPECT_EQ(b.values.said.size(), 2u);
+    EXPECT_EQ(b.values.reported.size(), 2u);
     b.implicit(id, 0x8000000Au, 6, run + data);
     EXPECT_EQ(c.stale.value(), 3u) << "half way round is behind";
 }
@@ -250,7 +253,7 @@ TEST(CipConnections, SequencesGoRound) {
     const std::uint32_t id = b.opened({});
     b.implicit(id, 0xFFFFFFFF, 1, run + data);
     b.implicit(id, 0, 2, run + data);
-    EXPECT_EQ(b.values.said.size(), 3u);
+    EXPECT_EQ(b.values.reported.size(), 3u);
 }
 
 TEST(CipConnections, DataAreProducedAtTheirInterval) {
@@ -296,9 +299,9 @@ TEST(CipConnections, SilenceEndsAConnectionAfterItsTimeOut) {
     b.implicit(id, 1, 1, run + data);
     const std::size_t sent = b.output.implicits.size();
     b.pass(39ms);
-    EXPECT_EQ(b.values.said.back(), "consumed 151 1f000102");
+    EXPECT_EQ(b.values.reported.back(), "consumed 151 1f000102");
     b.pass(1ms);
-    EXPECT_EQ(b.values.said.back(), "ended 151 timed out");
+    EXPECT_EQ(b.values.reported.back(), "ended 151 timed out");
     b.pass(1s);
     EXPECT_LE(b.output.implicits.size(), sent + 4) << "both halves stop";
     ASSERT_NE(b.opened({}), 0u);
@@ -384,7 +387,7 @@ TEST(CipConnections, TheGatewayClosesThemWhenTheirAssembliesChange) {
     Bench b;
     ASSERT_NE(b.opened({}), 0u);
     b.adapter.close_all(b.now);
-    EXPECT_EQ(b.values.said.back(), "ended 151 by gateway");
+    EXPECT_EQ(b.values.reported.back(), "ended 151 by gateway");
     EXPECT_EQ(b.adapter.connections().open(), 0u);
 }
 }  // namespace

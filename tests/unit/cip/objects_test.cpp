@@ -105,7 +105,7 @@ TEST(CipObjects, AssembliesAreReadAndOutputsWritten) {
     EXPECT_EQ(status_of(b, get(4, 151, 3, service::set_single, Bytes(31))), General::not_enough_data);
     EXPECT_EQ(status_of(b, get(4, 151, 3, service::set_single, Bytes(33))), General::too_much_data);
     EXPECT_EQ(status_of(b, get(4, 151, 3, service::set_single, Bytes(32))), General::success);
-    EXPECT_EQ(b.values.said.size(), 1u) << "only what has the right size is written";
+    EXPECT_EQ(b.values.reported.size(), 1u) << "only what has the right size is written";
     ASSERT_NE(b.opened({}), 0u);
     EXPECT_EQ(status_of(b, get(4, 151, 3, service::set_single, Bytes(32))), General::object_state_conflict) << "a connection owns it";
     EXPECT_EQ(status_of(b, get(4, 152, 3, service::set_single, Bytes(32))), General::success);
@@ -117,11 +117,11 @@ TEST(CipObjects, AParametersValueComesWhenTheDriveHasTold) {
     EXPECT_EQ(none.data, Bytes{});
     ASSERT_EQ(b.values.asked.size(), 1u);
     b.output.streams[1].clear();
-    b.adapter.told(b.values.asked[0], General::success, hex("19"));
+    b.adapter.answered(b.values.asked[0], General::success, hex("19"));
     const Bytes answer = b.output.streams[1];
     ASSERT_GT(answer.size(), header_size);
     EXPECT_EQ(Bytes(answer.end() - 5, answer.end()), hex("8E 00 00 00 19"));
-    b.adapter.told(b.values.asked[0], General::success, hex("19"));
+    b.adapter.answered(b.values.asked[0], General::success, hex("19"));
     EXPECT_EQ(b.output.streams[1], answer) << "told once";
 }
 
@@ -154,13 +154,13 @@ TEST(CipObjects, AnAnswerThatIsTooLargeIsNotCutButRefused) {
     EXPECT_EQ(general(send(get(2, 1, 0, service::multiple, several))), 0x11) << "each fits, all together do not";
     EXPECT_TRUE(send(get(0x0F, 1, 1)).empty());
     ASSERT_FALSE(b.values.asked.empty());
-    b.adapter.told(b.values.asked.back(), General::success, Bytes(40, 0x41));
+    b.adapter.answered(b.values.asked.back(), General::success, Bytes(40, 0x41));
     EXPECT_EQ(general(b.output.streams[1]), 0x11) << "a value that came later";
     EXPECT_EQ(general(send(get(1, 1, 1))), 0) << "the connection goes on";
     Bench c;
     EXPECT_EQ(c.ask(get(0x0F, 1, 1)).data, Bytes{});
     c.output.streams[1].clear();
-    c.adapter.told(c.values.asked.at(0), General::success, Bytes(501, 0x41));
+    c.adapter.answered(c.values.asked.at(0), General::success, Bytes(501, 0x41));
     const Bytes answer = c.output.streams[1];
     ASSERT_GT(answer.size(), 4u);
     EXPECT_EQ(Bytes(answer.end() - 4, answer.end()), hex("8E 00 11 00")) << "504 bytes of an unconnected answer";
@@ -194,7 +194,7 @@ TEST(CipObjects, SeveralRequestsInOneWithAnswersThatComeLater) {
     (void)b.ask(get(2, 1, 0, service::multiple, several));
     ASSERT_EQ(b.values.asked.size(), 1u);
     b.output.streams[1].clear();
-    b.adapter.told(b.values.asked[0], General::success, hex("2A"));
+    b.adapter.answered(b.values.asked[0], General::success, hex("2A"));
     const Bytes a = b.output.streams[1];
     const Bytes wanted = hex("8A 00 1E 00 0300 0800 0E00 1300 8E000000 FFFF 8E000000 2A 8E001400");
     ASSERT_GT(a.size(), wanted.size());
@@ -218,6 +218,9 @@ TEST(CipObjects, UnconnectedSendToItself) {
     const Answer bad = b.ask(get(6, 1, 0, service::unconnected_send, away));
     EXPECT_EQ(bad.general, General::connection_failure);
     EXPECT_EQ(bad.extended, std::vector<std::uint16_t>{0x0312});
+    const Answer empty = b.ask(get(6, 1, 0, service::unconnected_send, hex("0A 0E 0000 01 00 01 00")));
+    EXPECT_EQ(empty.general, General::connection_failure);
+    EXPECT_EQ(empty.extended, std::vector<std::uint16_t>{0x0205}) << "no message inside";
 }
 
 TEST(CipObjects, WaitingMessagesAreBounded) {
@@ -227,7 +230,7 @@ TEST(CipObjects, WaitingMessagesAreBounded) {
     EXPECT_EQ(status_of(b, get(0x0F, 1, 1)), General::resource_unavailable);
     EXPECT_EQ(status_of(b, get(1, 1, 1)), General::success) << "what need not wait is answered";
     b.adapter.on_disconnected(1);
-    b.adapter.told(b.values.asked[0], General::success, hex("01"));
+    b.adapter.answered(b.values.asked[0], General::success, hex("01"));
 }
 
 TEST(CipObjects, ResetEndsConnectionsButNotThoseOfAnotherOwner) {
@@ -238,7 +241,7 @@ TEST(CipObjects, ResetEndsConnectionsButNotThoseOfAnotherOwner) {
     EXPECT_EQ(b.ask(get(1, 1, 0, service::reset), 2).general, General::device_state_conflict);
     EXPECT_EQ(b.ask(get(1, 1, 0, service::reset, hex("01"))).general, General::invalid_parameter);
     EXPECT_EQ(b.ask(get(1, 1, 0, service::reset)).general, General::success);
-    EXPECT_EQ(b.values.said.back(), "ended 151 closed");
+    EXPECT_EQ(b.values.reported.back(), "ended 151 closed");
 }
 }  // namespace
 }  // namespace axisgate::cip

@@ -61,17 +61,17 @@ public:
             "cipio) && _ws.expert.severity >= 0x600000)) && !(_ws.expert.message == \"Unsupported Segment Type\" && !_ws.malformed) && "
             "!(tcp.payload contains d2:00:01:01)' -T fields -e frame.number -e _ws.expert.message -e tcp.payload -e udp.payload 2>&1; "
             "echo \"ended $?\"";
-        std::string said;
+        std::string reported;
         if (FILE* pipe = ::popen(command.c_str(), "r")) {
             std::array<char, 4096> part;
             for (std::size_t n = 0; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;)
-                said.append(part.data(), n);
+                reported.append(part.data(), n);
             (void)::pclose(pipe);
         }
         // Started by root it says so, on a line of its own.
-        if (said.starts_with("Running as user")) said.erase(0, said.find('\n') + 1);
-        EXPECT_EQ(said, "ended 0\n") << packets_ << " packets of the tests; the capture is kept at " << file;
-        if (said == "ended 0\n") std::filesystem::remove_all(folder);
+        if (reported.starts_with("Running as user")) reported.erase(0, reported.find('\n') + 1);
+        EXPECT_EQ(reported, "ended 0\n") << packets_ << " packets of the tests; the capture is kept at " << file;
+        if (reported == "ended 0\n") std::filesystem::remove_all(folder);
     }
 
 private:

@@ -77,9 +77,9 @@ TEST(LineUri, takesTheFamilysDefaultsForASerialLine) {
     ASSERT_TRUE(plain.good());
     EXPECT_EQ(plain.uri.serial.baud, 57600u);
     EXPECT_EQ(plain.uri.serial.format, (SerialFormat{7, Parity::even, 1}));
-    const auto said = parse_line_uri("serial:/dev/ttyS1?baud=9600", 57600, "7E1");
-    EXPECT_EQ(said.uri.serial.baud, 9600u);
-    EXPECT_EQ(said.uri.serial.format, (SerialFormat{7, Parity::even, 1}));
+    const auto reported = parse_line_uri("serial:/dev/ttyS1?baud=9600", 57600, "7E1");
+    EXPECT_EQ(reported.uri.serial.baud, 9600u);
+    EXPECT_EQ(reported.uri.serial.format, (SerialFormat{7, Parity::even, 1}));
     const auto both = parse_line_uri("serial:/dev/ttyS1?format=8N1&baud=250000&rtscts=1", 57600, "7E1");
     EXPECT_EQ(both.uri.serial.baud, 250000u);
     EXPECT_EQ(both.uri.serial.format, (SerialFormat{8, Parity::none, 1}));

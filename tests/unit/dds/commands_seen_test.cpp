@@ -5,7 +5,7 @@
 
 namespace axisgate::dds {
 namespace {
-using Told = CommandsSeen::Told;
+using Stage = CommandsSeen::Stage;
 
 Result result_with(std::string text) {
     Result r;
@@ -16,34 +16,34 @@ Result result_with(std::string text) {
 TEST(CommandsSeen, OneThatIsSentAgainHasTheResultThatItHad) {
     CommandsSeen seen;
     Instant now = at_ns(0);
-    EXPECT_EQ(seen.begin("hall", "1", now).told, Told::is_new);
-    EXPECT_EQ(seen.begin("hall", "1", now).told, Told::under_way);
-    EXPECT_EQ(seen.begin("yard", "1", now).told, Told::is_new) << "ids belong to their source";
+    EXPECT_EQ(seen.begin("hall", "1", now).stage, Stage::is_new);
+    EXPECT_EQ(seen.begin("hall", "1", now).stage, Stage::under_way);
+    EXPECT_EQ(seen.begin("yard", "1", now).stage, Stage::is_new) << "ids belong to their source";
     seen.end("hall", "1", result_with("first"), now);
     seen.end("hall", "1", result_with("second"), now);
     now += CommandsSeen::keep_for - std::chrono::milliseconds(1);
     const auto again = seen.begin("hall", "1", now);
-    ASSERT_EQ(again.told, Told::answered);
+    ASSERT_EQ(again.stage, Stage::answered);
     EXPECT_EQ(again.result->text, "first");
-    EXPECT_EQ(seen.begin("yard", "1", now).told, Told::under_way) << "one without a result is never forgotten";
-    EXPECT_EQ(seen.begin("hall", "1", now + std::chrono::milliseconds(1)).told, Told::is_new);
+    EXPECT_EQ(seen.begin("yard", "1", now).stage, Stage::under_way) << "one without a result is never forgotten";
+    EXPECT_EQ(seen.begin("hall", "1", now + std::chrono::milliseconds(1)).stage, Stage::is_new);
 }
 
 TEST(CommandsSeen, SourceAndIdAreNotMixedUp) {
     CommandsSeen seen;
-    EXPECT_EQ(seen.begin("ab", "c", at_ns(0)).told, Told::is_new);
-    EXPECT_EQ(seen.begin("a", "bc", at_ns(0)).told, Told::is_new);
+    EXPECT_EQ(seen.begin("ab", "c", at_ns(0)).stage, Stage::is_new);
+    EXPECT_EQ(seen.begin("a", "bc", at_ns(0)).stage, Stage::is_new);
 }
 
 TEST(CommandsSeen, TurnsNewOnesAwayRatherThanForgetting) {
     CommandsSeen seen;
     for (std::size_t i = 0; i < CommandsSeen::most; ++i)
-        ASSERT_EQ(seen.begin("s", std::to_string(i), at_ns(0)).told, Told::is_new);
-    EXPECT_EQ(seen.begin("s", "more", at_ns(0)).told, Told::no_room);
-    EXPECT_EQ(seen.begin("s", "0", at_ns(0)).told, Told::under_way);
+        ASSERT_EQ(seen.begin("s", std::to_string(i), at_ns(0)).stage, Stage::is_new);
+    EXPECT_EQ(seen.begin("s", "more", at_ns(0)).stage, Stage::no_room);
+    EXPECT_EQ(seen.begin("s", "0", at_ns(0)).stage, Stage::under_way);
     seen.end("s", "0", result_with("x"), at_ns(0));
-    EXPECT_EQ(seen.begin("s", "more", at_ns(0)).told, Told::no_room);
-    EXPECT_EQ(seen.begin("s", "more", at_ns(0) + CommandsSeen::keep_for).told, Told::is_new);
+    EXPECT_EQ(seen.begin("s", "more", at_ns(0)).stage, Stage::no_room);
+    EXPECT_EQ(seen.begin("s", "more", at_ns(0) + CommandsSeen::keep_for).stage, Stage::is_new);
     EXPECT_EQ(seen.size(), CommandsSeen::most);
 }
 }  // namespace

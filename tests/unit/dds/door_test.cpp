@@ -379,11 +379,11 @@ TEST_F(DdsFleetTest, TellsHowOldItsWordsAreWhateverTheOtherClockSays) {
         }
         return FleetGateway{};
     };
-    const auto told = [&] { return (void)peer.write(g), far().instance == 9; };
-    ASSERT_TRUE(until(told));
+    const auto published = [&] { return (void)peer.write(g), far().instance == 9; };
+    ASSERT_TRUE(until(published));
     Bus writer([] {});
     ASSERT_EQ(writer.open({test::own_domain(2), "plant", "lo"}, {Topic::axis_state}, {}), "");
-    ASSERT_TRUE(until([&] { return (void)writer.write(a), told() && !far().axes.empty(); }));
+    ASSERT_TRUE(until([&] { return (void)writer.write(a), published() && !far().axes.empty(); }));
     EXPECT_EQ(far().clock_ahead_ns, 3 * hour_ns);
     EXPECT_EQ(far().axes[0].age_ms, 700);
     EXPECT_LE(far().silent_ms, 40);

@@ -19,10 +19,10 @@ struct MirrorTest : ::testing::Test {
     Instant now = at_ns(3'600'000'000'000);
     std::vector<axisgate_AxisCommand> sent;
     Fleet fleet{"hall-1", 1, [this](const axisgate_AxisCommand& c) { sent.push_back(c); }};
-    std::vector<Telegram> told;
+    std::vector<Telegram> published;
     Mirror end{fleet, [this](const std::string& text) {
                    ASSERT_TRUE(text.ends_with('\n'));
-                   told.push_back(mirror::telegram_of(text.substr(0, text.size() - 1)).value());
+                   published.push_back(mirror::telegram_of(text.substr(0, text.size() - 1)).value());
                }};
     std::uint64_t next = 1;
 
@@ -85,24 +85,24 @@ struct MirrorTest : ::testing::Test {
 
 TEST_F(MirrorTest, AStateIsToldWhenItIsAskedForAndWhenItComes) {
     axis("hall-2", 2, "feeder", 2);
-    EXPECT_TRUE(told.empty()) << "nobody has asked yet";
+    EXPECT_TRUE(published.empty()) << "nobody has asked yet";
     const auto number = say("hall-2/feeder", "state");
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].kind, Telegram::Kind::state);
-    EXPECT_EQ(told[0].number, number);
-    const auto s = mirror::state_of(told[0].body).value();
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_EQ(published[0].kind, Telegram::Kind::state);
+    EXPECT_EQ(published[0].number, number);
+    const auto s = mirror::state_of(published[0].body).value();
     EXPECT_EQ(s.position, 500);
     EXPECT_EQ(s.demand, 510);
     EXPECT_EQ(s.demand_source, DemandSource::drive);
     EXPECT_EQ(s.statusword, 0x0227);
     EXPECT_EQ(s.age_ms, 40);
     axis("hall-2", 2, "feeder", 3);
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_EQ(told[1].number, 0u) << "unasked";
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_EQ(published[1].number, 0u) << "unasked";
     now += 40s;
     end.on_turn(unix_ns, now);
     axis("hall-2", 2, "feeder", 4);
-    EXPECT_EQ(told.size(), 2u) << "nobody asks any more";
+    EXPECT_EQ(published.size(), 2u) << "nobody asks any more";
     EXPECT_EQ(end.watched(), 0u);
 }
 
@@ -110,15 +110,15 @@ TEST_F(MirrorTest, WhoIsGoneIsToldAndComesBack) {
     say("hall-2/feeder", "state");
     gateway("hall-2", 2, false);
     end.on_turn(unix_ns, now);
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_EQ(told[1].kind, Telegram::Kind::gone);
-    EXPECT_EQ(told[1].body, "the gateway hall-2 is gone");
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_EQ(published[1].kind, Telegram::Kind::gone);
+    EXPECT_EQ(published[1].body, "the gateway hall-2 is gone");
     end.on_turn(unix_ns, now);
-    EXPECT_EQ(told.size(), 2u) << "once";
+    EXPECT_EQ(published.size(), 2u) << "once";
     gateway("hall-2", 5);
     axis("hall-2", 5, "feeder", 1);
-    ASSERT_EQ(told.size(), 3u);
-    EXPECT_EQ(told[2].kind, Telegram::Kind::state);
+    ASSERT_EQ(published.size(), 3u);
+    EXPECT_EQ(published[2].kind, Telegram::Kind::state);
 }
 
 TEST_F(MirrorTest, TheLeaseEndsAGatewayThatIsNotHeard) {
@@ -126,8 +126,8 @@ TEST_F(MirrorTest, TheLeaseEndsAGatewayThatIsNotHeard) {
     now += std::chrono::milliseconds(lease_ms + 1);
     (void)fleet.on_turn(now);
     end.on_turn(unix_ns, now);
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_EQ(told[1].kind, Telegram::Kind::gone);
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_EQ(published[1].kind, Telegram::Kind::gone);
 }
 
 TEST_F(MirrorTest, ADriveThatDoesNotAnswerThereIsGoneAndHearsAStop) {
@@ -135,11 +135,11 @@ TEST_F(MirrorTest, ADriveThatDoesNotAnswerThereIsGoneAndHearsAStop) {
     auto silent = state("hall-2", 2, "feeder", 2);
     silent.online = false;
     take(silent);
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_THAT(told[1].body, HasSubstr("does not answer its own gateway"));
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_THAT(published[1].body, HasSubstr("does not answer its own gateway"));
     say("hall-2/feeder", "enable wait=5000");
-    ASSERT_EQ(told.size(), 3u);
-    EXPECT_EQ(mirror::answer_of(told[2].body)->reason, Reason::line_down);
+    ASSERT_EQ(published.size(), 3u);
+    EXPECT_EQ(mirror::answer_of(published[2].body)->reason, Reason::line_down);
     EXPECT_TRUE(sent.empty());
     say("hall-2/feeder", "halt wait=5000");
     ASSERT_EQ(sent.size(), 1u);
@@ -155,13 +155,13 @@ TEST_F(MirrorTest, NoMirrorOfAMirrorNorOfOnesOwnAxis) {
                                        {"hall-1/own", "is an axis of this gateway"},
                                        {"hall-9/feeder", "there is no gateway hall-9"},
                                        {"hall-2/nobody", "has no such axis"}}) {
-        told.clear();
+        published.clear();
         say(address, "state");
         say(address, "halt wait=5000");
-        ASSERT_EQ(told.size(), 2u) << address;
-        EXPECT_EQ(told[0].kind, Telegram::Kind::gone);
-        EXPECT_THAT(told[0].body, HasSubstr(why));
-        EXPECT_EQ(mirror::answer_of(told[1].body)->outcome, Outcome::refused);
+        ASSERT_EQ(published.size(), 2u) << address;
+        EXPECT_EQ(published[0].kind, Telegram::Kind::gone);
+        EXPECT_THAT(published[0].body, HasSubstr(why));
+        EXPECT_EQ(mirror::answer_of(published[1].body)->outcome, Outcome::refused);
     }
     EXPECT_TRUE(sent.empty());
 }
@@ -176,28 +176,28 @@ TEST_F(MirrorTest, ACommandGoesInTheUnitOfTheAxisAndComesBackWithItsOneResult) {
     EXPECT_EQ(*sent[0].velocity, 10);
     EXPECT_EQ(*sent[0].acceleration, 0.5);
     EXPECT_EQ(sent[0].deceleration, nullptr);
-    EXPECT_TRUE(told.empty());
+    EXPECT_TRUE(published.empty());
     result(sent[0], "accepted", 7);
     result(sent[0], "accepted", 8);
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].number, number);
-    EXPECT_EQ(mirror::answer_of(told[0].body)->outcome, Outcome::accepted);
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_EQ(published[0].number, number);
+    EXPECT_EQ(mirror::answer_of(published[0].body)->outcome, Outcome::accepted);
 }
 
 TEST_F(MirrorTest, AStateFromBeforeAnAnswerIsNotTold) {
     say("hall-2/feeder", "state");
     say("hall-2/feeder", "move_absolute p=0 v=100 wait=5000");
     result(sent.at(0), "accepted", 7);
-    told.clear();
+    published.clear();
     axis("hall-2", 2, "feeder", 7);
-    EXPECT_TRUE(told.empty()) << "it was told before the command was answered, and comes after the answer";
+    EXPECT_TRUE(published.empty()) << "it was told before the command was answered, and comes after the answer";
     const auto number = say("hall-2/feeder", "state");
-    EXPECT_TRUE(told.empty()) << "the question waits for a newer one";
+    EXPECT_TRUE(published.empty()) << "the question waits for a newer one";
     axis("hall-2", 2, "feeder", 8);
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].number, number);
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_EQ(published[0].number, number);
     axis("hall-2", 2, "feeder", 0);
-    EXPECT_EQ(told.size(), 2u) << "an older program does not count: what it says is taken";
+    EXPECT_EQ(published.size(), 2u) << "an older program does not count: what it says is taken";
 }
 
 TEST_F(MirrorTest, NobodyWaitsLongerThanItsRequestSaysAndNothingIsSentAgainThen) {
@@ -208,8 +208,8 @@ TEST_F(MirrorTest, NobodyWaitsLongerThanItsRequestSaysAndNothingIsSentAgainThen)
         (void)fleet.on_turn(now);
     }
     EXPECT_EQ(sent.size(), 2u) << "at once and after 0.6 s; then nobody waits any more";
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(mirror::answer_of(told[0].body)->reason, Reason::no_answer);
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_EQ(mirror::answer_of(published[0].body)->reason, Reason::no_answer);
 }
 
 TEST_F(MirrorTest, AStopEndsWhatWaitsSoThatItIsNotSentAgainAfterIt) {
@@ -217,9 +217,9 @@ TEST_F(MirrorTest, AStopEndsWhatWaitsSoThatItIsNotSentAgainAfterIt) {
     say("hall-2/feeder", "move_absolute p=0 v=100 wait=5000");
     say("hall-2/other", "enable wait=5000");
     say("hall-2/feeder", "halt wait=5000");
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_EQ(told[0].number, 1u);
-    EXPECT_EQ(mirror::answer_of(told[0].body)->reason, Reason::interrupted);
+    ASSERT_EQ(published.size(), 1u);
+    EXPECT_EQ(published[0].number, 1u);
+    EXPECT_EQ(mirror::answer_of(published[0].body)->reason, Reason::interrupted);
     sent.clear();
     now += 600ms;
     gateway("hall-2", 2);
@@ -233,10 +233,10 @@ TEST_F(MirrorTest, AStopEndsWhatWaitsSoThatItIsNotSentAgainAfterIt) {
 TEST_F(MirrorTest, ParametersAreWhatTheFleetKnows) {
     for (const auto& [name, value] :
          {std::pair{"UNIT", "mm"}, {"INCREMENTS_PER_UNIT", "100"}, {"FAMILY", "uim342"}, {"AGE", "40"}, {"HOLDER", "-"}}) {
-        told.clear();
+        published.clear();
         say("hall-2/feeder", std::string("read name=") + name);
-        ASSERT_EQ(told.size(), 1u);
-        EXPECT_EQ(mirror::answer_of(told[0].body)->text, value) << name;
+        ASSERT_EQ(published.size(), 1u);
+        EXPECT_EQ(mirror::answer_of(published[0].body)->text, value) << name;
     }
 }
 

@@ -31,7 +31,7 @@ private:
     [[nodiscard]] Frame frame_of(const Letter& m) const override { return Frame::run(bytes_of(m.text())); }
     [[nodiscard]] Letter mark_of(const Letter& m) const override { return {m.channel, m.what, 0, false}; }
     [[nodiscard]] bool answers(const Letter& q, const Letter& a) const override { return q.what != 'm' || q.value == a.value; }
-    [[nodiscard]] Told told(const Letter& a) const override { return {a.no, a.no ? 7 : 0, std::to_string(a.no ? 7 : a.value)}; }
+    [[nodiscard]] Reported reported(const Letter& a) const override { return {a.no, a.no ? 7 : 0, std::to_string(a.no ? 7 : a.value)}; }
     [[nodiscard]] Letter probe(bool other) const override { return {1, other ? 'j' : 'i', 0, false}; }
     [[nodiscard]] std::string title(const Letter*) const override { return "toy"; }
     [[nodiscard]] Letter poll(int channel) const override { return {channel, 's', 0, false}; }

@@ -74,12 +74,12 @@ struct ToyDrive {
     void answered(std::uint32_t number, Turn& t, AdapterCounters& counters) {
         if (!exchange.active() || exchange.request().number != number) {
             ++counters.unexpected;
-            presence.heard(t.now);
+            presence.received(t.now);
             return;
         }
         const Ask a = exchange.answered(counters);
         turns.ended(slot);
-        turns.heard(t.now);
+        turns.received(t.now);
         presence.answered();
         if (!presence.online()) {
             presence.found();

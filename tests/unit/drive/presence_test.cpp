@@ -70,14 +70,14 @@ TEST_F(PresenceOfOne, OneAnswerUndoesTheBackOff) {
 
 TEST_F(PresenceOfOne, WhoIsHeardIsAskedAtOnceButNotTwice) {
     lose();
-    p.heard(now + 1ms);
+    p.received(now + 1ms);
     EXPECT_TRUE(p.probe_due(now + 1ms));
     p.probe_sent();
-    p.heard(now + 2ms);
+    p.received(now + 2ms);
     EXPECT_EQ(p.deadline(), never) << "a probe is on its way already";
     p.found();
     p.made_ready();
-    p.heard(now + 3ms);
+    p.received(now + 3ms);
     EXPECT_EQ(p.deadline(), never) << "a drive that is there is not looked for";
 }
 

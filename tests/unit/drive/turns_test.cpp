@@ -44,7 +44,7 @@ TEST_F(TurnsOfALine, OnePlaceIsOneExchange) {
 
 TEST_F(TurnsOfALine, ThePauseAfterAnAnswerIsKeptAndIsADeadline) {
     turns.set({.window = 1, .probe_window = 1, .pause = 3ms});
-    turns.heard(now);
+    turns.received(now);
     wish(1, Want::urgent);
     EXPECT_FALSE(next());
     EXPECT_EQ(turns.deadline(), now + 3ms);

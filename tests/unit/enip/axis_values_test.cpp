@@ -28,8 +28,8 @@ struct Port final : modbus::test::FakePort {
     std::vector<SetPoint> points;
 };
 
-struct Desk final : HotDoor {
-    Desk() {
+struct AxisValuesBench final : HotDoor {
+    AxisValuesBench() {
         std::vector<std::string> faults;
         catalogue = Catalogue::parse(page, faults);
         EXPECT_TRUE(catalogue) << (faults.empty() ? "" : faults[0]);
@@ -37,7 +37,7 @@ struct Desk final : HotDoor {
         three = port.add_axis(3, &*catalogue);
         far = port.add_axis(41, &*catalogue);
         values.use_number(port.attach(*this));
-        values.use([this](cip::Token t, General g, cip::View v) { told.push_back({t, g, Bytes(v.begin(), v.end())}); });
+        values.use([this](cip::Token t, General g, cip::View v) { published.push_back({t, g, Bytes(v.begin(), v.end())}); });
         std::vector<LayoutAxis> axes{{41, far, "far", &*catalogue}, {1, one, "feeder", &*catalogue}, {3, three, "slide", &*catalogue}};
         values.use(Layout(std::move(axes), 0x12345678, {}), true);
     }
@@ -49,17 +49,17 @@ struct Desk final : HotDoor {
     registers::RegisterImage image{port, {}};
     AxisValues values{port, image, 30};
     AxisId one{}, three{}, far{};
-    struct Told {
+    struct Published {
         cip::Token token;
         General general;
         Bytes value;
     };
-    std::vector<Told> told;
+    std::vector<Published> published;
     cip::Peer plc{{0xC0000207, 50'000}, 1};
 };
 
 TEST(EnipAxisValues, AssembliesHaveTheNumbersOfTheirAxes) {
-    Desk d;
+    AxisValuesBench d;
     EXPECT_EQ(d.values.assemblies(), (std::vector<std::uint32_t>{100, 101, 103, 150, 151, 153, 197, 198, 199, 1041, 2041}));
     EXPECT_EQ(d.values.assembly(103)->size, 32);
     EXPECT_EQ(d.values.assembly(100)->size, 41 * 32);
@@ -70,7 +70,7 @@ TEST(EnipAxisValues, AssembliesHaveTheNumbersOfTheirAxes) {
 }
 
 TEST(EnipAxisValues, InputsAreTheRegistersLittleEndian) {
-    Desk d;
+    AxisValuesBench d;
     d.port.edit(d.three, [](AxisPicture& p) {
         p.statusword = 0x1637;
         p.mode_display = 3;
@@ -93,7 +93,7 @@ TEST(EnipAxisValues, InputsAreTheRegistersLittleEndian) {
 }
 
 TEST(EnipAxisValues, AnOwnersEdgeIsACommandOfItsClient) {
-    Desk d;
+    AxisValuesBench d;
     d.values.opened(153, d.plc, 40ms, d.port.now());
     Bytes out(32);
     d.values.consumed(153, out, d.plc, d.port.now());
@@ -115,7 +115,7 @@ TEST(EnipAxisValues, AnOwnersEdgeIsACommandOfItsClient) {
 }
 
 TEST(EnipAxisValues, EachEndOfAConnectionHasItsCause) {
-    Desk d;
+    AxisValuesBench d;
     const auto end = [&](auto how) {
         d.values.opened(151, d.plc, 40ms, d.port.now());
         how();
@@ -130,7 +130,7 @@ TEST(EnipAxisValues, EachEndOfAConnectionHasItsCause) {
 }
 
 TEST(EnipAxisValues, WhoHoldsTheAxisKeepsOthersOut) {
-    Desk d;
+    AxisValuesBench d;
     d.port.time += 1s;
     d.port.edit(d.one, [&](AxisPicture& p) {
         p.authority = Door::http;
@@ -154,24 +154,24 @@ TEST(EnipAxisValues, WhoHoldsTheAxisKeepsOthersOut) {
 }
 
 TEST(EnipAxisValues, ParametersAreTheDrives) {
-    Desk d;
+    AxisValuesBench d;
     ASSERT_EQ(d.values.parameters(), 6u);
     EXPECT_EQ(d.values.parameter(3)->name, "acceleration");
     EXPECT_EQ(d.values.parameter(3)->max, (Bytes{0xE8, 0xFD, 0, 0}));
     EXPECT_EQ(d.values.ask(3, 77, d.plc, d.port.now()), General::success);
     ASSERT_EQ(d.port.commands.size(), 1u);
     EXPECT_EQ(d.port.commands.front().axis, d.three);
-    EXPECT_TRUE(d.told.empty());
+    EXPECT_TRUE(d.published.empty());
     d.port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{300}});
-    ASSERT_EQ(d.told.size(), 1u);
-    EXPECT_EQ(d.told[0].value, (Bytes{0x2C, 1, 0, 0}));
+    ASSERT_EQ(d.published.size(), 1u);
+    EXPECT_EQ(d.published[0].value, (Bytes{0x2C, 1, 0, 0}));
     EXPECT_EQ(d.values.set(3, Bytes{0, 0, 0, 0}, 78, d.plc, d.port.now()), General::invalid_attribute_value);
     EXPECT_EQ(d.values.set(3, Bytes{1, 0, 0, 0}, 78, d.plc, d.port.now()), General::success);
     d.port.refuse(Reason::authority);
-    EXPECT_EQ(d.told[1].general, General::privilege_violation);
+    EXPECT_EQ(d.published[1].general, General::privilege_violation);
     EXPECT_EQ(d.values.ask(4, 79, d.plc, d.port.now()), General::success);
     d.values.sweep(d.port.now() + 31s);
-    EXPECT_EQ(d.told[2].general, General::connection_lost) << "no answer in time";
+    EXPECT_EQ(d.published[2].general, General::connection_lost) << "no answer in time";
 }
 
 TEST(EnipAxisValues, EachReasonOfADriveHasItsGeneralStatus) {
@@ -181,17 +181,17 @@ TEST(EnipAxisValues, EachReasonOfADriveHasItsGeneralStatus) {
         {Reason::no_answer, 0x07},     {Reason::interrupted, 0x10},   {Reason::authority, 0x0F},    {Reason::not_stored, 0x19},
         {Reason::internal, 0x1F},
     };
-    Desk d;
+    AxisValuesBench d;
     cip::Token token = 100;
     for (const auto& [reason, status] : list) {
         EXPECT_EQ(d.values.set(3, Bytes{1, 0, 0, 0}, ++token, d.plc, d.port.now()), General::success);
         d.port.refuse(reason);
-        EXPECT_EQ(static_cast<std::uint8_t>(d.told.back().general), status) << name_of(reason);
-        EXPECT_EQ(d.told.size(), token - 100);
+        EXPECT_EQ(static_cast<std::uint8_t>(d.published.back().general), status) << name_of(reason);
+        EXPECT_EQ(d.published.size(), token - 100);
     }
     EXPECT_EQ(d.values.ask(3, ++token, d.plc, d.port.now()), General::success);
     d.port.answer(Outcome::done, Reason::none, 0, Value{std::int64_t{1} << 40});
-    EXPECT_EQ(d.told.back().general, General::no_stored_data) << "what the drive told is no number of the parameter's type";
+    EXPECT_EQ(d.published.back().general, General::no_stored_data) << "what the drive told is no number of the parameter's type";
 }
 
 TEST(EnipAxisValues, AnotherLayoutIsAnotherRevision) {
@@ -248,7 +248,7 @@ struct Nowhere final : cip::Output {
 };
 
 TEST(EnipEds, SaysWhatTheAdapterSays) {
-    Desk d;
+    AxisValuesBench d;
     cip::EdsNames names{"axisgate", "Communications Adapter", "axisgate", [&](auto i) { return d.values.layout().name_of(i); },
                         [&](auto i) { return d.values.layout().place_of(i).axis->name + " " + d.values.parameter(i)->name; }};
     const std::string text = cip::eds_text(d.values.layout(), names);

@@ -3,12 +3,12 @@
 
 #include "gateway/doors/enip/window.hpp"
 #include "gateway/protocols/cip/adapter.hpp"
-#include "tests/unit/enip/window_desk.hpp"
+#include "tests/unit/enip/window_bench.hpp"
 
 namespace axisgate::enip {
 namespace {
 
-struct WindowProfile : WindowDesk {
+struct WindowProfile : WindowBench {
     void speak(ProfileLanguage language, std::uint16_t object = 0) {
         ProfileSpec p;
         p.unit = 50;
@@ -149,9 +149,9 @@ TEST(EnipWindow, TheBlockOfCia402IsAnImageLikeThoseOfTheAxes) {
 }
 
 TEST(EnipWindow, TheImageOfALanguageIsWhatItsPageHas) {
-    const auto pages = WindowDesk::languages();
+    const auto pages = WindowBench::languages();
     for (std::size_t l = 0; l < pages.size(); ++l) {
-        WindowDesk d;
+        WindowBench d;
         ProfileSpec p;
         p.unit = 50;
         p.language = static_cast<ProfileLanguage>(l);
@@ -188,7 +188,7 @@ struct WindowObjects : WindowProfile {
     WindowObjects() {
         speak(ProfileLanguage::lexium, 3);
         values.ended(401, plc, cip::End::closed, port.now());
-        values.use([this](cip::Token t, General g, cip::View v) { adapter.told(t, g, v); });
+        values.use([this](cip::Token t, General g, cip::View v) { adapter.answered(t, g, v); });
         EXPECT_TRUE(adapter.on_connected(1, plc.from, port.now()));
         cip::Header h;
         h.command = 0x65;
@@ -267,7 +267,7 @@ TEST(EnipOwnClasses, WhatIsNotThereHasItsStatus) {
 
 TEST(EnipOwnClasses, NoTwoRegistersHaveOneAttribute) {
     std::set<std::pair<int, int>> seen;
-    const auto page = WindowDesk::languages()[static_cast<std::size_t>(ProfileLanguage::lexium)];
+    const auto page = WindowBench::languages()[static_cast<std::size_t>(ProfileLanguage::lexium)];
     for (const auto& r : page->rows) {
         if (r.object) EXPECT_TRUE(seen.emplace(r.object->class_id, r.object->attribute).second) << r.name;
     }

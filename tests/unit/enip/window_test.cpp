@@ -2,7 +2,7 @@
 // image, what is refused beside what is not, the data sheet.
 #include "gateway/doors/enip/window.hpp"
 
-#include "tests/unit/enip/window_desk.hpp"
+#include "tests/unit/enip/window_bench.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define WINDOW_TEST_COUNTS 1
@@ -22,7 +22,7 @@ namespace {
 std::size_t allocations_of_windows = 0;
 
 TEST(EnipWindow, NothingIsAllocatedForADatagram) {
-    WindowDesk d;
+    WindowBench d;
     for (std::uint16_t i = 0; i < 20; ++i)
         d.add(static_cast<std::uint16_t>(2 * i), i % 2 == 0 ? "feeder" : "slide", "position", MapType::i32);
     d.state.site.assemblies = {d.spec(300, input, 0, 40)};
@@ -49,7 +49,7 @@ TEST(EnipWindow, NothingIsAllocatedForADatagram) {
 #endif
 
 TEST(EnipWindow, EachValueHasItsLowestByteFirstWhateverItsWordOrder) {
-    WindowDesk d;
+    WindowBench d;
     d.add(0, "feeder", "position", MapType::i32);
     d.add(2, "feeder", "position", MapType::i32, MapAccess::read, MapWordOrder::low_first);
     d.add(5, "slide", "statusword", MapType::u16);
@@ -69,7 +69,7 @@ TEST(EnipWindow, EachValueHasItsLowestByteFirstWhateverItsWordOrder) {
 }
 
 TEST(EnipWindow, AValueThatNobodyKnowsSpoilsItselfAlone) {
-    WindowDesk d;
+    WindowBench d;
     d.add(0, "feeder", "position", MapType::i32);
     d.add(2, "slide", "AC", MapType::u32);
     d.add(4, "feeder", "statusword", MapType::u16);
@@ -89,7 +89,7 @@ TEST(EnipWindow, AValueThatNobodyKnowsSpoilsItselfAlone) {
 }
 
 TEST(EnipWindow, AgesAndHeartbeatsAreNoChange) {
-    WindowDesk d;
+    WindowBench d;
     d.add(0, "feeder", "age_ms", MapType::u32);
     d.add(2, "feeder", "heartbeat", MapType::u16);
     d.add(3, "feeder", "position", MapType::i32);
@@ -106,7 +106,7 @@ TEST(EnipWindow, AgesAndHeartbeatsAreNoChange) {
 }
 
 /// feeder's control word, mode and target at 0, 2, 4; slide's AC at 8.
-struct WindowOut : WindowDesk {
+struct WindowOut : WindowBench {
     WindowOut() {
         add(0, "feeder", "controlword", MapType::u16);
         add(1, "feeder", "mode", MapType::i16);
@@ -193,7 +193,7 @@ TEST(EnipWindow, AValueThatIsRefusedDoesNotHoldUpAStop) {
 }
 
 TEST(EnipWindow, ASpeedAloneIsFollowedInTheModeThatTheAxisHas) {
-    WindowDesk d;
+    WindowBench d;
     d.add(0, "feeder", "target_velocity", MapType::i32);
     d.state.site.assemblies = {d.spec(310, output, 0, 2)};
     d.put_site();

@@ -44,15 +44,15 @@ protected:
                 store.erase({r.kind, r.name});
             }
         }
-        AccessRegister desk{AccessSettings{}};
+        AccessRegister access{AccessSettings{}};
         for (const auto& [key, text] : store) {
-            if (key.first == "user") desk.load(*user_of(text));
-            if (key.first == "token") desk.load(*token_of(text));
+            if (key.first == "user") access.load(*user_of(text));
+            if (key.first == "token") access.load(*token_of(text));
         }
         for (const auto& [key, text] : store) {
-            if (key.first == "last_use") desk.load_use(key.second, text);
+            if (key.first == "last_use") access.load_use(key.second, text);
         }
-        return desk;
+        return access;
     }
     std::vector<Response> late;
 };
@@ -84,10 +84,10 @@ TEST_F(AccessQueueTest, AUserWhoSignsInWhileHeIsChangedIsStoredAsHeWasChanged) {
         access->write_one();
         EXPECT_EQ(after_a_crash().user("viewer")->role, Role::operating);
     }
-    const auto desk = after_a_crash();
-    EXPECT_FALSE(desk.user("viewer")->enabled);
-    EXPECT_GT(desk.user("viewer")->last_sign_in_ns, 0) << "he was here all the same";
-    EXPECT_EQ(desk.user("viewer")->last_sign_in_ns, access->own_accounts.user("viewer")->last_sign_in_ns);
+    const auto found = after_a_crash();
+    EXPECT_FALSE(found.user("viewer")->enabled);
+    EXPECT_GT(found.user("viewer")->last_sign_in_ns, 0) << "he was here all the same";
+    EXPECT_EQ(found.user("viewer")->last_sign_in_ns, access->own_accounts.user("viewer")->last_sign_in_ns);
 }
 
 TEST_F(AccessQueueTest, AUserWhoSignsInWhileHeIsRemovedIsGone) {
@@ -121,13 +121,13 @@ TEST_F(AccessQueueTest, UsesOfManyTakeOnePlaceInTheQueue) {
 
 TEST(ChangeQueue, AJobThatThrowsOrForgetsItsEndDoesNotHoldUpTheNext) {
     const auto queue = std::make_shared<ChangeQueue>();
-    std::vector<std::string> said;
-    const auto failed = [&said](const std::string& what) { said.push_back("failed: " + what); };
+    std::vector<std::string> reported;
+    const auto failed = [&reported](const std::string& what) { reported.push_back("failed: " + what); };
     std::function<void()> end_first;
     EXPECT_TRUE(queue->run([&](auto done) { end_first = std::move(done); }, failed));
     EXPECT_TRUE(queue->run([&](auto) { throw std::runtime_error("at once"); }, failed));
     EXPECT_TRUE(queue->run([&](auto) { throw 7; }, failed));
-    EXPECT_TRUE(queue->run([&](auto) { said.push_back("forgets"); }, failed));
+    EXPECT_TRUE(queue->run([&](auto) { reported.push_back("forgets"); }, failed));
     EXPECT_TRUE(queue->run(
         [&](auto done) {
             done();
@@ -137,14 +137,14 @@ TEST(ChangeQueue, AJobThatThrowsOrForgetsItsEndDoesNotHoldUpTheNext) {
     EXPECT_TRUE(queue->run([&](auto) { throw std::runtime_error("nobody listens"); }, nullptr));
     EXPECT_TRUE(queue->run(
         [&](auto done) {
-            said.push_back("runs");
+            reported.push_back("runs");
             done();
             done();
         },
         failed));
-    EXPECT_TRUE(said.empty());
+    EXPECT_TRUE(reported.empty());
     end_first();
-    EXPECT_EQ(said, (std::vector<std::string>{"failed: at once", "failed: unknown", "forgets", "failed: after its end", "runs"}));
+    EXPECT_EQ(reported, (std::vector<std::string>{"failed: at once", "failed: unknown", "forgets", "failed: after its end", "runs"}));
 }
 
 TEST(ChangeQueue, AJobWhoseEndIsLostLaterFreesItsPlaceThen) {

@@ -64,7 +64,7 @@ TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
     using Ids = std::vector<std::uint64_t>;
     for (const auto& [state, wanted] : std::vector<std::pair<std::string, Ids>>{
              {"active", {two, three}}, {"cleared", {one}}, {"unacknowledged", {one}}, {"acknowledged", {two}}, {"shelved", {three}}}) {
-        Ids listed, told;
+        Ids listed, published;
         const auto list = call("GET", "/api/v1/alarms?state=" + state);
         for (const auto& a : list.object().at("alarms").get_array())
             listed.push_back(static_cast<std::uint64_t>(a.at("id").to_number<std::int64_t>()));
@@ -73,8 +73,8 @@ TEST_F(Alarms, ListAndEventsAreNarrowedByState) {
         EXPECT_EQ(list.at("unacknowledged"), "1") << "the counts are of all";
         const auto events = call("GET", "/api/v1/events?state=" + state);
         for (const auto& e : events.array())
-            told.push_back(static_cast<std::uint64_t>(e.at("id").to_number<std::int64_t>()));
-        EXPECT_EQ(told, wanted) << state;
+            published.push_back(static_cast<std::uint64_t>(e.at("id").to_number<std::int64_t>()));
+        EXPECT_EQ(published, wanted) << state;
     }
     EXPECT_EQ(call("GET", "/api/v1/events?state=active&axis=feeder").array().size(), 0u) << "together with the other filters";
     EXPECT_EQ(call("GET", "/api/v1/events?state=active&limit=1").array().at(0).at("id"), three) << "the newest";
@@ -174,15 +174,15 @@ TEST_F(Alarms, WhatCannotBeStoredIsSaid) {
 }
 
 TEST_F(Alarms, TheLiveFeedHasTheListAtMostFiveTimesASecond) {
-    int told = 0;
-    alarms->publish = [&](const json::object&) { ++told; };
+    int published = 0;
+    alarms->publish = [&](const json::object&) { ++published; };
     clock = at_ns(5'000'000'000);
     for (int i = 0; i < 100; ++i) {
         fault(i % 3 + 1);
         alarms->on_deadline(clock += std::chrono::milliseconds(10));
     }
-    EXPECT_LE(told, 6);
-    EXPECT_GE(told, 4);
+    EXPECT_LE(published, 6);
+    EXPECT_GE(published, 4);
 }
 
 TEST_F(Alarms, EventsAsTableAndText) {

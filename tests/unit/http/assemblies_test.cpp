@@ -7,7 +7,7 @@ const std::vector<std::pair<std::string, std::string>> csv_type{{"Content-Type",
 constexpr const char* csv_path = "/api/v1/assemblies.csv";
 constexpr const char* csv_names = "instance,direction,unit,table,address,registers,byte_order,comment\r\n";
 
-std::set<std::pair<std::string, std::string>> told(const Answer& a) {
+std::set<std::pair<std::string, std::string>> published(const Answer& a) {
     std::set<std::pair<std::string, std::string>> out;
     for (const auto& f : a.object().at("faults").get_array())
         out.emplace(f.at("pointer").as_string(), f.at("text").as_string());
@@ -63,7 +63,7 @@ TEST_F(HttpTest, FaultyRowsOfAnAssemblyTableAreNamedByTheirLines) {
                             csv_type);
     EXPECT_EQ(wrong.status, 422u);
     EXPECT_EQ(wrong.at("detail"), "line 2: unit: \"two\" is no number (and 5 more)");
-    const auto all = told(wrong);
+    const auto all = published(wrong);
     const std::pair<const char*, const char*> wanted[] = {{"/2", "unit: \"two\" is no number"},
                                                           {"/3", "\"sideways\" is no direction; use input"},
                                                           {"/4", "nothing is mapped"},

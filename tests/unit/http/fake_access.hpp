@@ -39,7 +39,7 @@ public:
         writing.pop_front();
         write();
     }
-    void note(Event event) override { told.push_back(std::move(event)); }
+    void note(Event event) override { published.push_back(std::move(event)); }
 
     AccessRegister own_accounts;
     bool full = false;
@@ -48,7 +48,7 @@ public:
     int compared = 0;
     std::string store_fault;
     std::vector<AccessRecord> kept;
-    std::vector<Event> told;
+    std::vector<Event> published;
 };
 
 }  // namespace axisgate::http::test

@@ -86,11 +86,11 @@ TEST(OpenApi, RoutesAreThoseOfTheDescriptionInBothDirections) {
     Operations registered;
     for (const auto& r : all_routes())
         EXPECT_TRUE(registered.emplace(std::string(r.path), std::string(name_of(r.method))).second) << r.path << " is registered twice";
-    const auto told = described();
-    EXPECT_GE(told.size(), 40u) << "the description was read";
+    const auto published = described();
+    EXPECT_GE(published.size(), 40u) << "the description was read";
     for (const auto& [path, method] : registered)
-        EXPECT_TRUE(told.contains({path, method})) << method << " " << path << " is not described";
-    for (const auto& [path, method] : told)
+        EXPECT_TRUE(published.contains({path, method})) << method << " " << path << " is not described";
+    for (const auto& [path, method] : published)
         EXPECT_TRUE(registered.contains({path, method})) << method << " " << path << " is described but not served";
 }
 
@@ -114,7 +114,7 @@ TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
 }
 
 /// One value that stands at six spaces below each method, by path and method; empty where it is missing.
-std::map<std::pair<std::string, std::string>, std::string> told_at_each(const std::string& key) {
+std::map<std::pair<std::string, std::string>, std::string> published_at_each(const std::string& key) {
     std::map<std::pair<std::string, std::string>, std::string> out;
     std::pair<std::string, std::string> at;
     bool in_paths = false, in_method = false;
@@ -144,7 +144,7 @@ TEST(OpenApi, QueriesAreThoseOfTheDescriptionInBothDirections) {
     // A parameter is a list entry of an operation: "- name: x" with "in: query" below it, or a reference to one of the components, which
     // stand at four spaces with their name at six.
     std::map<std::string, std::string> shared;
-    std::map<std::pair<std::string, std::string>, std::set<std::string>> told;
+    std::map<std::pair<std::string, std::string>, std::set<std::string>> published;
     std::pair<std::string, std::string> at;
     std::string section, kind, component, name;
     for (const auto& line : lines_of_description()) {
@@ -169,30 +169,30 @@ TEST(OpenApi, QueriesAreThoseOfTheDescriptionInBothDirections) {
         if (indent == 2) at.first = text.substr(0, text.size() - 1);
         if (indent == 4) at.second = text.substr(0, text.size() - 1);
         if (text.starts_with("- name: ")) name = text.substr(8);
-        if (text == "in: query") told[at].insert(name);
+        if (text == "in: query") published[at].insert(name);
         if (constexpr std::string_view head = "- {$ref: '#/components/parameters/"; indent == 8 && text.starts_with(head)) {
             const auto it = shared.find(text.substr(head.size(), text.size() - head.size() - 2));
-            if (it != shared.end()) told[at].insert(it->second);
+            if (it != shared.end()) published[at].insert(it->second);
         }
     }
-    EXPECT_GE(told.size(), 20u) << "the description was read";
+    EXPECT_GE(published.size(), 20u) << "the description was read";
     for (const auto& r : all_routes()) {
         std::set<std::string> taken;
         std::stringstream words{std::string(r.query)};
         for (std::string word; words >> word;)
             EXPECT_TRUE(taken.insert(word).second) << r.path << " has " << word << " twice";
-        EXPECT_EQ(taken, told[place_of(r)]) << name_of(r.method) << " " << r.path;
+        EXPECT_EQ(taken, published[place_of(r)]) << name_of(r.method) << " " << r.path;
     }
 }
 
 TEST(OpenApi, EveryOperationStatesTheRoleThatTheProgramAsksFor) {
-    const auto told = told_at_each("x-role");
-    EXPECT_EQ(told.size(), all_routes().size());
-    for (const auto& [at, role] : told)
+    const auto published = published_at_each("x-role");
+    EXPECT_EQ(published.size(), all_routes().size());
+    for (const auto& [at, role] : published)
         EXPECT_TRUE(role_named(role)) << at.second << " " << at.first << " states no role: " << role;
     for (const auto& r : all_routes()) {
-        const auto it = told.find(place_of(r));
-        ASSERT_NE(it, told.end()) << r.path;
+        const auto it = published.find(place_of(r));
+        ASSERT_NE(it, published.end()) << r.path;
         EXPECT_EQ(it->second, name_of(r.needed())) << it->first.second << " " << r.path;
     }
 }
@@ -203,7 +203,7 @@ TEST(OpenApi, EveryOperationStatesItsSecurity) {
     EXPECT_NE(std::ranges::find(lines, "security: [{session: []}, {token: []}, {}]"), lines.end());
     for (const auto* scheme : {"    session: {type: apiKey,", "    token: {type: http,"})
         EXPECT_TRUE(std::ranges::any_of(lines, [&](const std::string& l) { return l.starts_with(scheme); })) << scheme;
-    const auto stated = told_at_each("security"), roles = told_at_each("x-role");
+    const auto stated = published_at_each("security"), roles = published_at_each("x-role");
     for (const auto& [at, role] : roles) {
         const auto it = stated.find(at);
         EXPECT_EQ(it == stated.end() ? "" : it->second, role == "none" ? "[]" : "") << at.second << " " << at.first;

@@ -396,16 +396,16 @@ TEST_F(Recipes, TwentyReportsAreKeptAndNumbersGoOn) {
 }
 
 TEST_F(Recipes, ProgressIsToldAtMostTenTimesASecond) {
-    std::vector<std::string> told;
-    recipes->publish = [&](const std::string&, const json::object& r) { told.emplace_back(r.at("state").get_string()); };
+    std::vector<std::string> published;
+    recipes->publish = [&](const std::string&, const json::object& r) { published.emplace_back(r.at("state").get_string()); };
     put("steps", R"({"steps":[{"repeat":{"times":50,"steps":[{"wait_s":0.01}]}}]})");
     (void)run("steps");
     for (int i = 0; i < 60; ++i)
         pass(std::chrono::milliseconds(10));
-    ASSERT_FALSE(told.empty());
-    EXPECT_EQ(told.back(), "done");
-    EXPECT_LE(told.size(), 8u);
-    EXPECT_GE(told.size(), 4u);
+    ASSERT_FALSE(published.empty());
+    EXPECT_EQ(published.back(), "done");
+    EXPECT_LE(published.size(), 8u);
+    EXPECT_GE(published.size(), 4u);
 }
 
 TEST_F(Recipes, AnAxisThatIsGoneEndsTheRun) {

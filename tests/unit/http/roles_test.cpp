@@ -315,11 +315,11 @@ TEST_F(AccessTest, WrongUserAndWrongPasswordLookAlikeAndAreCompared) {
     EXPECT_EQ(a.status, 401u);
     EXPECT_EQ(a.text, b.text);
     EXPECT_EQ(access->compared, 2) << "an unknown user costs a hash too";
-    ASSERT_EQ(access->told.size(), 2u);
-    EXPECT_EQ(access->told[0].kind, "access");
-    EXPECT_EQ(access->told[0].text, "sign-in refused: viewer");
+    ASSERT_EQ(access->published.size(), 2u);
+    EXPECT_EQ(access->published[0].kind, "access");
+    EXPECT_EQ(access->published[0].text, "sign-in refused: viewer");
     (void)from("192.0.2.9:1", "POST", "/api/v1/session", R"({"user":"My Secret Password","password":"x"})");
-    EXPECT_EQ(access->told.back().text.find("secret"), std::string::npos) << access->told.back().text;
+    EXPECT_EQ(access->published.back().text.find("secret"), std::string::npos) << access->published.back().text;
 }
 
 TEST_F(AccessTest, LockoutAnswersHowLong) {
@@ -426,7 +426,7 @@ TEST_F(AccessTest, TokensAreShownOnceAndNotAboveTheirOwner) {
     const Fields bearer{{"Authorization", "Bearer " + made.at("token")}};
     const std::string secret = made.at("token").substr(made.at("token").find('.') + 1);
     EXPECT_EQ(access->kept.back().text->find(secret), std::string::npos) << "stored as a digest";
-    for (const auto& e : access->told)
+    for (const auto& e : access->published)
         EXPECT_EQ(e.text.find(secret), std::string::npos);
     EXPECT_EQ(from(faraway_peer, "GET", "/api/v1/session", "", bearer).at("role"), "operator");
     EXPECT_EQ(from(faraway_peer, "POST", "/api/v1/tokens", R"({"name":"x","role":"viewer"})", bearer).status, 403u)

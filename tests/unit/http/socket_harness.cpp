@@ -160,7 +160,7 @@ ErrorCode StreamJudge::say(std::string_view text) {
     return wait([&](auto done) { ws_.async_write(asio::buffer(text), [done](ErrorCode e, std::size_t) { done(e); }); });
 }
 
-boost::json::value StreamJudge::hear() {
+boost::json::value StreamJudge::next_message() {
     beast::flat_buffer buffer;
     ended = wait([&](auto done) { ws_.async_read(buffer, [done](ErrorCode e, std::size_t) { done(e); }); });
     if (ended) return nullptr;

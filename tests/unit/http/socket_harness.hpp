@@ -107,7 +107,7 @@ public:
     ~StreamJudge();
     ErrorCode say(std::string_view text);
     /// The next message's object; null, with `ended` set, if there is none any more.
-    boost::json::value hear();
+    boost::json::value next_message();
     ErrorCode close(std::uint16_t code = 1000);
     ErrorCode ping();
     /// Bytes past the WebSocket layer.

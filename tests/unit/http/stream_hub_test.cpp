@@ -202,15 +202,15 @@ TEST_F(StreamHubTest, OneClientIsToldAtATimeAndAllTheSame) {
         taken(*many.back());
     }
     gateway.set_picture("slide", standing(2));
-    const auto told = [&] { return std::ranges::count_if(many, [](const auto& c) { return !c->queue.empty(); }); };
+    const auto published = [&] { return std::ranges::count_if(many, [](const auto& c) { return !c->queue.empty(); }); };
     now += milliseconds(50);
     hub.on_deadline(now);
-    EXPECT_EQ(told(), 1) << "then others have their turn";
+    EXPECT_EQ(published(), 1) << "then others have their turn";
     EXPECT_EQ(hub.deadline(), time_zero) << "the rest at once";
     gateway.set_picture("slide", standing(3));  // while the period is being told
     for (int i = 2; i <= 9; ++i) {
         hub.on_deadline(now + milliseconds(1));
-        EXPECT_EQ(told(), i);
+        EXPECT_EQ(published(), i);
     }
     many[9]->close(close_policy, "gone meanwhile");
     hub.remove(many[9]);
@@ -640,23 +640,24 @@ TEST_F(StreamHubTest, AFeedThatClosesEndsItsStreamUnlessItsClientGivesSetPointsE
 }
 
 TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
-    const auto told = [&](std::string_view text) {
+    const auto published = [&](std::string_view text) {
         say(text);
         const auto messages = taken(*client);
         EXPECT_EQ(messages.size(), 1u) << text;
         return messages.empty() ? std::string() : messages[0].topic + " " + json::serialize(messages[0].data);
     };
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
     client->commander = [] { return std::optional<Origin>(); };
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
     client->commander = [] { return Origin{axisgate::Door::http, {}, {}}; };
-    EXPECT_NE(told(R"({"set_point":{"axis":"nobody","mode":"position","value":1}})").find("no axis nobody"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":{"mode":"position","value":1}})").find("axis"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"place","value":1}})").find("torque"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position"}})").find("needs value"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"good_for_ms":19}})").find("20..10000"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"speed":2}})").find("speed"), std::string::npos);
-    EXPECT_NE(told(R"({"set_point":5})").find("object"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"nobody","mode":"position","value":1}})").find("no axis nobody"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"mode":"position","value":1}})").find("axis"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"place","value":1}})").find("torque"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position"}})").find("needs value"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"good_for_ms":19}})").find("20..10000"),
+              std::string::npos);
+    EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1,"speed":2}})").find("speed"), std::string::npos);
+    EXPECT_NE(published(R"({"set_point":5})").find("object"), std::string::npos);
     EXPECT_TRUE(gateway.set_points.empty());
 }
 

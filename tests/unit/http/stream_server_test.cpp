@@ -20,18 +20,18 @@ TEST_F(StreamServer, SnapshotChangesAndEvents) {
     StreamJudge judge(door.port);
     ASSERT_FALSE(judge.opened) << judge.opened.message();
     ASSERT_FALSE(judge.say(R"({"subscribe":["axes/slide","events"],"period_ms":10})"));
-    auto m = judge.hear();
+    auto m = judge.next_message();
     EXPECT_EQ(m.at("topic"), "axes/slide");
     EXPECT_EQ(m.at("data").at("position").to_number<int>(), 7);
     EXPECT_EQ(m.at("at").to_number<std::int64_t>(), 1'767'323'045'678'901'234) << "nanoseconds, not rounded";
     door.on([&] { gateway_picture("slide", 8); });
-    EXPECT_EQ(judge.hear().at("data").at("position").to_number<int>(), 8);
+    EXPECT_EQ(judge.next_message().at("data").at("position").to_number<int>(), 8);
     door.on([&] { door.gateway.tell(event("hello", "slide", Severity::warning)); });
-    m = judge.hear();
+    m = judge.next_message();
     EXPECT_EQ(m.at("topic"), "events");
     EXPECT_EQ(m.at("data").at("text"), "hello");
     ASSERT_FALSE(judge.say("no json"));
-    EXPECT_EQ(judge.hear().at("topic"), "error");
+    EXPECT_EQ(judge.next_message().at("topic"), "error");
     EXPECT_FALSE(judge.close()) << "the closing handshake is complete";
     EXPECT_TRUE(door.until([&] { return door.server().counters().connections == 0; }));
     EXPECT_EQ(door.on([&] { return door.server().counters().stream_clients; }), 0u);
@@ -43,13 +43,13 @@ TEST_F(StreamServer, ManyMessagesAtOnceArriveWhole) {
     ASSERT_FALSE(judge.say(R"({"subscribe":["events"]})"));
     // The answer to the second request shows that the first is in force.
     ASSERT_FALSE(judge.say(R"({"subscribe":["site"]})"));
-    EXPECT_EQ(judge.hear().at("topic"), "site");
+    EXPECT_EQ(judge.next_message().at("topic"), "site");
     door.on([&] {
         for (int i = 0; i < 500; ++i)
             door.gateway.tell(event(std::string(static_cast<std::size_t>(i) * 10, 'e')));
     });
     for (int i = 0; i < 500; ++i) {
-        const auto m = judge.hear();
+        const auto m = judge.next_message();
         ASSERT_FALSE(judge.ended) << i << ": " << judge.ended.message();
         ASSERT_EQ(m.at("data").at("text").get_string().size(), static_cast<std::size_t>(i) * 10);
         ASSERT_EQ(m.at("data").at("id").to_number<int>(), i + 1) << "in order, without gaps";
@@ -62,7 +62,7 @@ TEST_F(StreamServer, FragmentedRequests) {
     judge.stream().auto_fragment(true);
     judge.stream().write_buffer_bytes(8);
     ASSERT_FALSE(judge.say(R"({"subscribe":["axes/slide"],"period_ms":10})"));
-    EXPECT_EQ(judge.hear().at("topic"), "axes/slide");
+    EXPECT_EQ(judge.next_message().at("topic"), "axes/slide");
 }
 
 TEST_F(StreamServer, BytesThatComeWithTheHandshake) {
@@ -93,11 +93,11 @@ TEST_F(StreamServer, PingsBothWays) {
     ASSERT_FALSE(judge.ping());
     ASSERT_FALSE(judge.say(R"({"subscribe":["events"]})"));
     ASSERT_FALSE(judge.say(R"({"subscribe":["axes/slide"],"period_ms":10})"));
-    EXPECT_EQ(judge.hear().at("topic"), "axes/slide");
+    EXPECT_EQ(judge.next_message().at("topic"), "axes/slide");
     EXPECT_EQ(judge.pongs, 1) << "answered before what was asked later";
     for (int i = 0; i < 200 && judge.pings < 3; ++i) {
         door.on([&] { gateway_picture("slide", 100 + i); });
-        judge.hear();
+        judge.next_message();
         ASSERT_FALSE(judge.ended);
     }
     EXPECT_GE(judge.pings, 3) << "a client that says much is asked too";
@@ -149,14 +149,14 @@ TEST_F(StreamServer, FaultsAreClosedWithTheirCode) {
         StreamJudge judge(door.port);
         judge.raw(bytes);
         for (int i = 0; i < 5 && !judge.ended; ++i)
-            judge.hear();
+            judge.next_message();
         EXPECT_EQ(judge.ended, beast::websocket::error::closed) << what << ": " << judge.ended.message();
         EXPECT_EQ(judge.close_code(), code) << what;
         EXPECT_FALSE(judge.close_reason().empty()) << what;
     }
     StreamJudge good(door.port);
     ASSERT_FALSE(good.say(R"({"subscribe":["site"]})"));
-    EXPECT_EQ(good.hear().at("topic"), "site") << "nobody else is touched";
+    EXPECT_EQ(good.next_message().at("topic"), "site") << "nobody else is touched";
 }
 
 TEST_F(StreamServer, OriginsOfOtherHosts) {
@@ -175,25 +175,25 @@ TEST_F(StreamServer, AClientThatDoesNotReadItsEvents) {
     for (auto* j : {&slow, &fast}) {
         ASSERT_FALSE(j->say(R"({"subscribe":["events"]})"));
         ASSERT_FALSE(j->say(R"({"subscribe":["site"]})"));
-        ASSERT_EQ(j->hear().at("topic"), "site");
+        ASSERT_EQ(j->next_message().at("topic"), "site");
     }
     const std::string big(20'000, 'e');
-    int told = 0;
-    for (; told < 2000; ++told) {
+    int published = 0;
+    for (; published < 2000; ++published) {
         const bool closed = door.on([&] {
             door.gateway.tell(event(big));
             const auto& by_code = door.server().counters().stream_closed;
             return by_code.contains(1013);
         });
-        EXPECT_EQ(fast.hear().at("data").at("id").to_number<int>(), told + 1) << "the fast one gets every one";
+        EXPECT_EQ(fast.next_message().at("data").at("id").to_number<int>(), published + 1) << "the fast one gets every one";
         if (closed) break;
     }
-    ASSERT_LT(told, 2000) << "the slow one was never closed";
-    EXPECT_GT(told, 20);
+    ASSERT_LT(published, 2000) << "the slow one was never closed";
+    EXPECT_GT(published, 20);
     // When it reads at last, it finds what was on its way, and then the reason.
     int seen = 0;
     while (true) {
-        const auto m = slow.hear();
+        const auto m = slow.next_message();
         if (slow.ended) break;
         EXPECT_EQ(m.at("data").at("id").to_number<int>(), ++seen) << "no hole before the end";
     }
@@ -225,7 +225,7 @@ TEST_F(StreamServer, AClientThatDidNotReadForLongIsToldWhyWhenItGoesOn) {
         door.on([&] { door.gateway.tell(event(std::string(20'000, 'e'))); });
     EXPECT_TRUE(door.until([&] { return door.server().counters().stream_closed.contains(1013); }));
     while (!judge.ended)
-        (void)judge.hear();
+        (void)judge.next_message();
     EXPECT_EQ(judge.ended, beast::websocket::error::closed) << judge.ended.message();
     EXPECT_EQ(judge.close_code(), 1013);
     EXPECT_NE(judge.close_reason().find("not read"), std::string::npos) << judge.close_reason();
@@ -236,7 +236,7 @@ TEST_F(StreamServer, ABrokenConnectionLeavesNothing) {
     {
         StreamJudge judge(door.port);
         ASSERT_FALSE(judge.say(R"({"subscribe":["axes/*","events"],"period_ms":10})"));
-        judge.hear();
+        judge.next_message();
         judge.stream().next_layer().set_option(asio::socket_base::linger(true, 0));  // a reset, not a close
         judge.stream().next_layer().close();
     }
@@ -250,22 +250,22 @@ TEST_F(StreamServer, ManyClientsShareOneFeed) {
     for (int i = 0; i < 50; ++i) {
         judges.push_back(std::make_unique<StreamJudge>(door.port));
         ASSERT_FALSE(judges.back()->say(R"({"subscribe":["axes/slide"],"period_ms":10})"));
-        EXPECT_EQ(judges.back()->hear().at("data").at("position").to_number<int>(), 7);
+        EXPECT_EQ(judges.back()->next_message().at("data").at("position").to_number<int>(), 7);
     }
     EXPECT_EQ(door.on([&] { return door.server().counters().stream_clients; }), 50u);
     door.on([&] { gateway_picture("slide", 99); });
     for (auto& j : judges)
-        EXPECT_EQ(j->hear().at("data").at("position").to_number<int>(), 99);
+        EXPECT_EQ(j->next_message().at("data").at("position").to_number<int>(), 99);
 }
 
 TEST_F(StreamServer, TheEndIsToldWithAReason) {
     open();
     StreamJudge judge(door.port);
     ASSERT_FALSE(judge.say(R"({"subscribe":["site"]})"));
-    judge.hear();
+    judge.next_message();
     bool stopped = false;
     door.on([&] { door.server().stop([&stopped] { stopped = true; }); });
-    judge.hear();
+    judge.next_message();
     EXPECT_EQ(judge.ended, beast::websocket::error::closed);
     EXPECT_EQ(judge.close_code(), 1001);
     EXPECT_EQ(judge.close_reason(), "the gateway stops");

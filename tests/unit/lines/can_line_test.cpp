@@ -492,11 +492,11 @@ TEST_F(CanLineTest, framesOfTheWrongSizeAreCounted) {
 
 TEST_F(CanLineTest, takesManyFramesPerTurnAndLosesNone) {
     open();
-    std::size_t said = 0;
+    std::size_t reported = 0;
     ASSERT_TRUE(until([&] {
-        ::can_frame k = to_kernel(can(static_cast<std::uint32_t>(said)));
-        while (said < 2000 && ::send(kernel.wire.fd, &k, sizeof k, 0) == sizeof k)
-            k = to_kernel(can(static_cast<std::uint32_t>(++said)));
+        ::can_frame k = to_kernel(can(static_cast<std::uint32_t>(reported)));
+        while (reported < 2000 && ::send(kernel.wire.fd, &k, sizeof k, 0) == sizeof k)
+            k = to_kernel(can(static_cast<std::uint32_t>(++reported)));
         return owner.frames.size() == 2000;
     }));
     for (std::uint32_t i = 0; i < 2000; ++i)
@@ -528,7 +528,7 @@ TEST_F(CanLineTest, opensAnewWithOtherFilters) {
 
 TEST_F(CanLineTest, mayBeClosedOrDestroyedFromItsEvents) {
     open();
-    owner.hears = [&](const Frame&) { line->close(); };
+    owner.on_received = [&](const Frame&) { line->close(); };
     kernel.say(can(1));
     kernel.say(can(2));
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
@@ -536,7 +536,7 @@ TEST_F(CanLineTest, mayBeClosedOrDestroyedFromItsEvents) {
     EXPECT_EQ(owner.frames.size(), 1u);
     EXPECT_EQ(status().state, LineStatus::State::closed);
 
-    owner.hears = [&](const Frame&) { line.reset(); };
+    owner.on_received = [&](const Frame&) { line.reset(); };
     owner.frames.clear();
     owner.states.clear();
     ASSERT_TRUE(comes_up(*line));

@@ -37,12 +37,12 @@ struct Owner : LineEvents {
     std::vector<Frame> frames;
     std::vector<Frame> sent;
     std::vector<std::pair<bool, std::string>> states;
-    std::function<void(const Frame&)> hears;
+    std::function<void(const Frame&)> on_received;
     std::function<void(bool)> changes;
 
     void on_frame(const Frame& f) override {
         frames.push_back(f);
-        if (hears) hears(f);
+        if (on_received) on_received(f);
     }
     void on_line_state(bool up, const std::string& why) override {
         states.emplace_back(up, why);
@@ -50,7 +50,7 @@ struct Owner : LineEvents {
     }
     void on_sent(const Frame& f) override { sent.push_back(f); }
     [[nodiscard]] bool up() const { return !states.empty() && states.back().first; }
-    [[nodiscard]] std::string heard() const {
+    [[nodiscard]] std::string received() const {
         std::string s;
         for (const auto& f : frames)
             s += as_text(f);

@@ -65,8 +65,8 @@ TEST_F(MakeLineTest, twoEndsOfOneCable) {
     ASSERT_TRUE(comes_up(*gateway_end));
     // Question and answer a thousand times, each from inside the event of the other.
     int rounds = 0;
-    twin.hears = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
-    owner.hears = [&](const Frame& f) {
+    twin.on_received = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
+    owner.on_received = [&](const Frame& f) {
         if (++rounds < 1000) EXPECT_TRUE(gateway_end->send(f, Priority::command, clock.now()));
     };
     EXPECT_TRUE(gateway_end->send(text("PR P\r"), Priority::command, clock.now()));
@@ -85,8 +85,8 @@ TEST_F(MakeLineTest, twoEndsThatSpeakInDatagrams) {
     const auto gateway_end = make_real_line("udp:127.0.0.1:" + std::to_string(port), {}, io);
     ASSERT_TRUE(comes_up(*gateway_end));
     int rounds = 0;
-    twin.hears = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
-    owner.hears = [&](const Frame& f) {
+    twin.on_received = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
+    owner.on_received = [&](const Frame& f) {
         if (++rounds < 1000) EXPECT_TRUE(gateway_end->send(f, Priority::command, clock.now()));
     };
     EXPECT_TRUE(gateway_end->send(text("PR P\r"), Priority::command, clock.now()));
@@ -106,9 +106,9 @@ TEST_F(MakeLineTest, aSerialLineOpensAPseudoTerminalLine) {
     const auto gateway_end = make_real_line("serial:" + path.string() + "?format=7E1&rs485=auto", setup, io, "8N2");
     ASSERT_TRUE(comes_up(*gateway_end));
     EXPECT_THAT(owner.states[0].second, HasSubstr("57600 bit/s 7E1"));
-    twin.hears = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
+    twin.on_received = [&](const Frame& f) { EXPECT_TRUE(twin_end->send(f, Priority::command, clock.now())); };
     EXPECT_TRUE(gateway_end->send(text(every_byte()), Priority::command, clock.now()));
-    EXPECT_TRUE(until([&] { return owner.heard() == every_byte(); }));
+    EXPECT_TRUE(until([&] { return owner.received() == every_byte(); }));
     twin_end->close();
     EXPECT_TRUE(until([&] { return !owner.up(); }));
     twin_end->open(twin, clock.now());

@@ -66,8 +66,8 @@ TEST_F(PtyLineTest, isASerialPortUnderAChosenName) {
     EXPECT_THAT(status().text, HasSubstr("not opened by anybody"));
     const Fd f = program();
     f.write(every_byte());
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
-    EXPECT_EQ(owner.heard(), every_byte());  // raw: nothing is turned into something else, nothing comes back
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
+    EXPECT_EQ(owner.received(), every_byte());  // raw: nothing is turned into something else, nothing comes back
     EXPECT_TRUE(send(text(every_byte())));
     EXPECT_TRUE(receives(f, every_byte()));
     EXPECT_EQ(owner.sent.size(), 1u);
@@ -80,7 +80,7 @@ TEST_F(PtyLineTest, survivesProgramsThatComeAndGo) {
     for (int i = 0; i < 4; ++i) {
         Fd f = program();
         f.write("in");
-        ASSERT_TRUE(until([&] { return owner.heard().size() == static_cast<std::size_t>(2 * (i + 1)); }));
+        ASSERT_TRUE(until([&] { return owner.received().size() == static_cast<std::size_t>(2 * (i + 1)); }));
         EXPECT_TRUE(send(text("out")));
         EXPECT_TRUE(receives(f, "out"));
         f.close();
@@ -111,7 +111,7 @@ TEST_F(PtyLineTest, theNextProgramMeetsNothingOfTheLastOne) {
         owner.frames.clear();
         const Fd second = program();
         second.write("a\r\n");
-        ASSERT_TRUE(until([&] { return owner.heard() == "a\r\n"; }));
+        ASSERT_TRUE(until([&] { return owner.received() == "a\r\n"; }));
         EXPECT_EQ(second.read(), "");
     }
 }
@@ -123,7 +123,7 @@ TEST_F(PtyLineTest, hearsAProgramThatWritesAndLeavesAtOnce) {
             const Fd f(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
             f.write("ping ");
         }
-        ASSERT_TRUE(until([&] { return owner.heard().size() == static_cast<std::size_t>(5 * i); }));
+        ASSERT_TRUE(until([&] { return owner.received().size() == static_cast<std::size_t>(5 * i); }));
         ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
     }
 }
@@ -178,7 +178,7 @@ TEST_F(PtyLineTest, replacesALinkThatWasLeftOver) {
     EXPECT_NE(fs::read_symlink(path), "/dev/pts/999999");
     const Fd f = program();
     f.write("x");
-    EXPECT_TRUE(until([&] { return owner.heard() == "x"; }));
+    EXPECT_TRUE(until([&] { return owner.received() == "x"; }));
 }
 
 TEST_F(PtyLineTest, aLinkToAnythingElseStays) {
@@ -248,7 +248,7 @@ TEST_F(PtyLineTest, saysThatTheFolderIsMissing) {
 TEST_F(PtyLineTest, mayBeDestroyedFromItsEvents) {
     make();
     const Fd f = program();
-    owner.hears = [&](const Frame&) { line.reset(); };
+    owner.on_received = [&](const Frame&) { line.reset(); };
     f.write("bye");
     ASSERT_TRUE(until([&] { return line == nullptr; }));
     settle();
@@ -278,8 +278,8 @@ TEST_F(PtyLineTest, withAPaceBytesTakeTheirTimeIn) {
     const Fd f = program();
     const Instant begun = clock.now();
     f.write(paced_text);
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= paced_text.size(); }));
-    EXPECT_EQ(owner.heard(), paced_text);
+    ASSERT_TRUE(until([&] { return owner.received().size() >= paced_text.size(); }));
+    EXPECT_EQ(owner.received(), paced_text);
     EXPECT_GE(owner.frames.back().at - begun, paced_time);
     EXPECT_EQ(status().bytes_in, paced_text.size());
     EXPECT_GT(status().load, 0.0);
@@ -292,8 +292,8 @@ TEST_F(PtyLineTest, bytesAreStampedWithTheirTimeOnTheWireHoweverLateTheyAreRead)
     f.write(paced_text);
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
     clock.ahead += milliseconds(500);  // this process was not given the processor, and the writer went on
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= paced_text.size(); }));
-    EXPECT_EQ(owner.heard(), paced_text);
+    ASSERT_TRUE(until([&] { return owner.received().size() >= paced_text.size(); }));
+    EXPECT_EQ(owner.received(), paced_text);
     ASSERT_GT(owner.frames.size(), 10u) << "runs of what has crossed together";
     for (std::size_t i = 1; i < owner.frames.size(); ++i)
         EXPECT_GE(owner.frames[i].at - owner.frames[i - 1].at, byte * owner.frames[i].size - std::chrono::microseconds(1)) << "frame " << i;
@@ -330,10 +330,10 @@ TEST_F(PtyLineTest, whoWritesMoreThanThePaceCarriesIsHeldUpAndLosesNothing) {
             if (n > 0) written += static_cast<std::size_t>(n);
             held = held || n < 0 || written < much.size();
         }
-        return owner.heard().size() >= much.size();
+        return owner.received().size() >= much.size();
     }));
     EXPECT_TRUE(held);
-    EXPECT_EQ(owner.heard(), much);
+    EXPECT_EQ(owner.received(), much);
 }
 
 /// The drive's side says what it has to say, however long a slow line takes for it.

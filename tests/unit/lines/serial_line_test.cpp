@@ -63,8 +63,8 @@ TEST_F(SerialLineTest, carriesEveryByteBothWays) {
     ASSERT_TRUE(owner.up()) << owner.states[0].second;
     EXPECT_EQ(owner.states[0].second, "up on " + cable.slave + " at 57600 bit/s 8N1");
     cable.master.write(every_byte());  // the kernel doubles 377 on this way: see parity_marks.hpp
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
-    EXPECT_EQ(owner.heard(), every_byte());
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
+    EXPECT_EQ(owner.received(), every_byte());
     EXPECT_TRUE(send(text(every_byte())));
     std::string got;
     ASSERT_TRUE(until([&] {
@@ -86,7 +86,7 @@ TEST_F(SerialLineTest, loadOfATwoWirePortIsTheSumOfBothDirections) {
     open(cable.slave, s);
     cable.master.write(every_byte());
     EXPECT_TRUE(send(text(every_byte())));
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256 && !owner.sent.empty(); }));
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 256 && !owner.sent.empty(); }));
     EXPECT_GT(status().load, 0.07);
 }
 
@@ -161,7 +161,7 @@ TEST_F(SerialLineTest, comesBackAfterBeingUnplugged) {
     open(path);
     ASSERT_TRUE(owner.up());
     cable.master.write("before");
-    ASSERT_TRUE(until([&] { return owner.heard() == "before"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "before"; }));
     fs::remove(path);
     cable.master.close();
     ASSERT_TRUE(until([&] { return owner.states.size() == 2; }));
@@ -177,7 +177,7 @@ TEST_F(SerialLineTest, comesBackAfterBeingUnplugged) {
     ASSERT_TRUE(until([&] { return owner.up(); }));
     EXPECT_EQ(status().reopened, 1u);
     again.master.write("after");
-    ASSERT_TRUE(until([&] { return owner.heard() == "beforeafter"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "beforeafter"; }));
 }
 
 TEST_F(SerialLineTest, throwsAwayWhatCameBeforeItWasOpened) {
@@ -192,7 +192,7 @@ TEST_F(SerialLineTest, throwsAwayWhatCameBeforeItWasOpened) {
     ASSERT_TRUE(owner.up());
     cable.master.write("new");
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
-    EXPECT_EQ(owner.heard(), "new");
+    EXPECT_EQ(owner.received(), "new");
 }
 
 TEST_F(SerialLineTest, saysWhatIsWrongWithThePath) {
@@ -258,7 +258,7 @@ TEST_F(SerialLineTest, aPortThatDoesNotTakeBytesCostsABoundedQueue) {
 TEST_F(SerialLineTest, mayBeDestroyedFromItsEvents) {
     Cable cable;
     open(cable.slave);
-    owner.hears = [&](const Frame&) { line.reset(); };
+    owner.on_received = [&](const Frame&) { line.reset(); };
     cable.master.write("bye");
     ASSERT_TRUE(until([&] { return line == nullptr; }));
     settle();

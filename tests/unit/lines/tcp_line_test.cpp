@@ -68,8 +68,8 @@ TEST_F(TcpLineTest, carriesBytesBothWays) {
     connect(server);
     EXPECT_EQ(owner.states.back().second, "up, connected to 127.0.0.1:" + std::to_string(server.port));
     peer.write(every_byte());
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
-    EXPECT_EQ(owner.heard(), every_byte());
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
+    EXPECT_EQ(owner.received(), every_byte());
     EXPECT_TRUE(send(text(every_byte())));
     EXPECT_TRUE(owner.sent.empty());  // never from inside send
     EXPECT_EQ(receive(256), every_byte());
@@ -89,8 +89,8 @@ TEST_F(TcpLineTest, cutsLongRunsIntoFrames) {
     for (int i = 0; i < 20'000; ++i)
         long_text += static_cast<char>('a' + i % 26);
     peer.write(long_text);
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= long_text.size(); }));
-    EXPECT_EQ(owner.heard(), long_text);
+    ASSERT_TRUE(until([&] { return owner.received().size() >= long_text.size(); }));
+    EXPECT_EQ(owner.received(), long_text);
     for (const Frame& f : owner.frames)
         EXPECT_LE(f.size, Frame::capacity);
     EXPECT_EQ(status().frames_in, owner.frames.size());
@@ -132,7 +132,7 @@ TEST_F(TcpLineTest, opensAgainWhenThePeerEnds) {
     peer.write("last words");
     peer.close();
     ASSERT_TRUE(until([&] { return owner.states.size() == 2; }));
-    EXPECT_EQ(owner.heard(), "last words");
+    EXPECT_EQ(owner.received(), "last words");
     EXPECT_FALSE(owner.up());
     EXPECT_THAT(owner.states.back().second, HasSubstr("has closed the connection"));
     EXPECT_FALSE(send(text("nobody there")));
@@ -149,7 +149,7 @@ TEST_F(TcpLineTest, aHalfClosedConnectionIsOver) {
     peer.write("end");
     ASSERT_EQ(::shutdown(peer.fd, SHUT_WR), 0);  // it would still read, but can never answer again
     ASSERT_TRUE(until([&] { return owner.states.size() == 2; }));
-    EXPECT_EQ(owner.heard(), "end");
+    EXPECT_EQ(owner.received(), "end");
     EXPECT_TRUE(until([&] { return owner.up(); }));
 }
 
@@ -281,7 +281,7 @@ TEST_F(TcpLineTest, losesNothingAndKeepsTheOrderAtFullSpeed) {
 TEST_F(TcpLineTest, mayBeClosedOrDestroyedFromItsEvents) {
     const Server server;
     connect(server);
-    owner.hears = [&](const Frame&) { line->close(); };
+    owner.on_received = [&](const Frame&) { line->close(); };
     peer.write(std::string(2000, 'x'));
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
     settle();
@@ -292,7 +292,7 @@ TEST_F(TcpLineTest, mayBeClosedOrDestroyedFromItsEvents) {
 
     owner.frames.clear();
     owner.states.clear();
-    owner.hears = [&](const Frame&) { line.reset(); };
+    owner.on_received = [&](const Frame&) { line.reset(); };
     ASSERT_TRUE(comes_up(*line));
     peer = server.take();
     peer.write(std::string(2000, 'x'));

@@ -70,7 +70,7 @@ TEST_F(TcpListenLineTest, everyClientHearsEverything) {
     const Fd a = client(), b = client(), c = client();
     EXPECT_EQ(line->clients(), 3u);
     a.write("question");
-    ASSERT_TRUE(until([&] { return owner.heard() == "question"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "question"; }));
     EXPECT_TRUE(receives(b, "question"));  // the others hear it as well
     EXPECT_TRUE(receives(c, "question"));
     EXPECT_EQ(a.read(), "");  // but nobody hears himself
@@ -81,8 +81,8 @@ TEST_F(TcpListenLineTest, everyClientHearsEverything) {
         EXPECT_TRUE(receives(*f, "stop answer"));
     EXPECT_EQ(owner.sent.size(), 3u);
     b.write(every_byte());
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 8 + 256; }));
-    EXPECT_EQ(owner.heard().substr(8), every_byte());
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 8 + 256; }));
+    EXPECT_EQ(owner.received().substr(8), every_byte());
 }
 
 TEST_F(TcpListenLineTest, turnsAFifthClientAway) {
@@ -136,7 +136,7 @@ TEST_F(TcpListenLineTest, aClientThatTalksIntoASlowOneIsNotHeldUp) {
         settle();
         return line->counters().slow_closed == 1;
     }));
-    EXPECT_TRUE(until([&] { return owner.heard().size() == wrote; }));
+    EXPECT_TRUE(until([&] { return owner.received().size() == wrote; }));
     EXPECT_EQ(line->clients(), 1u);
 }
 
@@ -154,8 +154,8 @@ TEST_F(TcpListenLineTest, survivesClientsThatGoAsTheyLike) {
         if (i % 5 == 0) settle();
     }
     EXPECT_TRUE(until([&] { return line->clients() == 0; }));
-    EXPECT_GE(owner.heard().size(), 10u);  // of 15; a reset takes what was not read yet with it
-    EXPECT_LE(owner.heard().size(), 15u);
+    EXPECT_GE(owner.received().size(), 10u);  // of 15; a reset takes what was not read yet with it
+    EXPECT_LE(owner.received().size(), 15u);
     EXPECT_TRUE(owner.up());
 }
 
@@ -196,7 +196,7 @@ TEST_F(TcpListenLineTest, knowsOtherFormsOfAnAddress) {
 TEST_F(TcpListenLineTest, mayBeClosedOrDestroyedFromItsEvents) {
     listen();
     Fd a = client(), b = client();
-    owner.hears = [&](const Frame&) { line->close(); };
+    owner.on_received = [&](const Frame&) { line->close(); };
     a.write(std::string(1000, 'x'));
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
     settle();
@@ -205,7 +205,7 @@ TEST_F(TcpListenLineTest, mayBeClosedOrDestroyedFromItsEvents) {
 
     owner.frames.clear();
     owner.states.clear();
-    owner.hears = [&](const Frame&) { line.reset(); };
+    owner.on_received = [&](const Frame&) { line.reset(); };
     ASSERT_TRUE(comes_up(*line));
     a = client();
     b = client();

@@ -87,8 +87,8 @@ TEST_F(UdpLineTest, eachFrameIsOneDatagram) {
     EXPECT_TRUE(send(every_byte()));
     EXPECT_EQ(receive(*drive), every_byte());
     drive->to(drive->speaker, every_byte());
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= 256; }));
-    EXPECT_EQ(owner.heard(), every_byte());
+    ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
+    EXPECT_EQ(owner.received(), every_byte());
     EXPECT_EQ(owner.frames.size(), 1u);
     const LineStatus s = status();
     EXPECT_EQ(s.bytes_out, 266u);
@@ -114,7 +114,7 @@ TEST_F(UdpLineTest, moreThanOneTurnsWorthIsCarriedInOrder) {
     for (int i = 0; i < many; ++i)
         drive->to(drive->speaker, std::to_string(i) + "\n");
     ASSERT_TRUE(until([&] { return owner.frames.size() >= static_cast<std::size_t>(many); }));
-    EXPECT_EQ(owner.heard(), wanted);
+    EXPECT_EQ(owner.received(), wanted);
 }
 
 TEST_F(UdpLineTest, sizesRoundAFramesCapacity) {
@@ -131,8 +131,8 @@ TEST_F(UdpLineTest, sizesRoundAFramesCapacity) {
         for (std::size_t i = 0; i < r.size; ++i)
             datagram += static_cast<char>('a' + i % 26);
         drive->to(drive->speaker, datagram);
-        ASSERT_TRUE(until([&] { return owner.heard().size() >= r.size; })) << r.size;
-        EXPECT_EQ(owner.heard(), datagram);
+        ASSERT_TRUE(until([&] { return owner.received().size() >= r.size; })) << r.size;
+        EXPECT_EQ(owner.received(), datagram);
         EXPECT_EQ(owner.frames.size(), r.frames) << r.size;
     }
 }
@@ -144,8 +144,8 @@ TEST_F(UdpLineTest, aLongDatagramArrivesInPiecesAndAnEmptyOneNotAtAll) {
     drive->to(drive->speaker, "");
     const std::string big(1000, 'b');
     drive->to(drive->speaker, big);
-    ASSERT_TRUE(until([&] { return owner.heard().size() >= big.size(); }));
-    EXPECT_EQ(owner.heard(), big);
+    ASSERT_TRUE(until([&] { return owner.received().size() >= big.size(); }));
+    EXPECT_EQ(owner.received(), big);
     EXPECT_EQ(owner.frames.size(), 4u);
 }
 
@@ -157,7 +157,7 @@ TEST_F(UdpLineTest, strangersAreNotHeard) {
     stranger.to(drive->speaker, "not for you");
     drive->to(drive->speaker, "answer");
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
-    EXPECT_EQ(owner.heard(), "answer");
+    EXPECT_EQ(owner.received(), "answer");
 }
 
 TEST_F(UdpLineTest, aPortWhereNobodyListensEndsTheLineUntilSomebodyDoes) {
@@ -198,7 +198,7 @@ TEST_F(UdpLineTest, resolvesNames) {
         return drive->take().has_value();
     }));
     drive->to(drive->speaker, "answer");
-    EXPECT_TRUE(until([&] { return owner.heard() == "answer"; }));
+    EXPECT_TRUE(until([&] { return owner.received() == "answer"; }));
 }
 
 TEST_F(UdpLineTest, anUnknownNameIsSaid) {
@@ -235,7 +235,7 @@ TEST_F(UdpLineTest, hearsAfterBeingOpenedAgainWhileItsNameIsLookedUp) {
         }
         owner.frames.clear();
         drive->to(line->port(), "answer");
-        ASSERT_TRUE(until([&] { return owner.heard() == "answer"; })) << turns;
+        ASSERT_TRUE(until([&] { return owner.received() == "answer"; })) << turns;
     }
 }
 
@@ -262,11 +262,11 @@ TEST_F(UdpLineTest, listeningAnswersTheLastSpeaker) {
     EXPECT_TRUE(owner.sent.empty());
     Socket a, b;
     a.to(line->port(), "a");
-    ASSERT_TRUE(until([&] { return owner.heard() == "a"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "a"; }));
     EXPECT_TRUE(send("to a"));
     EXPECT_EQ(receive(a), "to a");
     b.to(line->port(), "b");
-    ASSERT_TRUE(until([&] { return owner.heard() == "ab"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "ab"; }));
     EXPECT_TRUE(send("to b"));
     EXPECT_EQ(receive(b), "to b");
     EXPECT_FALSE(a.take());
@@ -278,7 +278,7 @@ TEST_F(UdpLineTest, listeningAnswersTheLastSpeaker) {
         }
         return a.take() == "back to a";
     }));
-    EXPECT_EQ(owner.heard(), "ab");
+    EXPECT_EQ(owner.received(), "ab");
     EXPECT_TRUE(owner.up());
     EXPECT_EQ(owner.states.size(), 1u);
 }
@@ -288,7 +288,7 @@ TEST_F(UdpLineTest, listeningOutlivesASpeakerThatIsGone) {
     {
         Socket gone;
         gone.to(line->port(), "a");
-        ASSERT_TRUE(until([&] { return owner.heard() == "a"; }));
+        ASSERT_TRUE(until([&] { return owner.received() == "a"; }));
     }
     for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(send("nobody is there any more"));
@@ -298,7 +298,7 @@ TEST_F(UdpLineTest, listeningOutlivesASpeakerThatIsGone) {
     EXPECT_EQ(owner.states.size(), 1u);
     Socket b;
     b.to(line->port(), "b");
-    ASSERT_TRUE(until([&] { return owner.heard() == "ab"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "ab"; }));
     EXPECT_TRUE(send("to b"));
     EXPECT_EQ(receive(b), "to b");
 }
@@ -307,7 +307,7 @@ TEST_F(UdpLineTest, whoSpokeBeforeItWasClosedIsForgotten) {
     listen();
     Socket a;
     a.to(line->port(), "a");
-    ASSERT_TRUE(until([&] { return owner.heard() == "a"; }));
+    ASSERT_TRUE(until([&] { return owner.received() == "a"; }));
     line->close();
     owner.states.clear();
     ASSERT_TRUE(comes_up(*line));
@@ -342,12 +342,12 @@ TEST_F(UdpLineTest, mayBeClosedFromInsideItsOwnEvents) {
     connect();
     EXPECT_TRUE(send("x"));
     (void)receive(*drive);
-    owner.hears = [this](const Frame&) { line->close(); };
+    owner.on_received = [this](const Frame&) { line->close(); };
     drive->to(drive->speaker, "one");
     drive->to(drive->speaker, "two");
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
     settle();
-    EXPECT_EQ(owner.heard(), "one");
+    EXPECT_EQ(owner.received(), "one");
     EXPECT_EQ(status().state, LineStatus::State::closed);
     EXPECT_FALSE(send("y"));
 }
@@ -356,7 +356,7 @@ TEST_F(UdpLineTest, mayBeDestroyedFromInsideItsOwnEvents) {
     connect();
     EXPECT_TRUE(send("x"));
     (void)receive(*drive);
-    owner.hears = [this](const Frame&) { line.reset(); };
+    owner.on_received = [this](const Frame&) { line.reset(); };
     drive->to(drive->speaker, std::string(1000, 'b'));  // four frames, of which only the first arrives
     ASSERT_TRUE(until([&] { return line == nullptr; }));
     settle();

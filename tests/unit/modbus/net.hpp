@@ -15,7 +15,7 @@
 #include <string>
 
 #include "gateway/doors/modbus/server.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus::test {
 

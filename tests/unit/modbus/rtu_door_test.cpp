@@ -6,7 +6,7 @@
 
 #include "gateway/core/event.hpp"
 #include "gateway/doors/modbus/rtu_door.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace rtu_door_test {
@@ -99,7 +99,7 @@ TEST_F(RtuSessionTest, UnitsOfTheSiteStandUnderTheirNumbers) {
     EXPECT_EQ(ask(session, "F7 " + reading), "F7 03 02 77 77");
     EXPECT_EQ(ask(session, "F8 " + reading), "") << "addresses above 247 are reserved";
     RtuSession fifth(door.responder, door.image, *this, 5, who);
-    EXPECT_EQ(ask(fifth, "05 " + reading), "05 03 02 77 77") << "the site's own map of that unit goes first";
+    EXPECT_EQ(ask(fifth, "05 " + reading), "05 03 02 77 77") << "the site's user map of that unit goes first";
     for (const std::uint8_t unit : {std::uint8_t{5}, std::uint8_t{247}, std::uint8_t{248}})
         door.image.set_map(unit, nullptr);
 }
@@ -267,8 +267,8 @@ TEST_F(RtuDoorTest, AnswersOnceTheLineIsSilent) {
     EXPECT_EQ(hot().name(), "modbus_rtu");
     EXPECT_EQ(hot().addresses(), std::vector<std::string>{"serial:/dev/ttyUSB0?baud=115200&format=8E1"});
     AuthorityClient master{Door::modbus, "/dev/ttyUSB0"};
-    ASSERT_TRUE(hot().heard(master));
-    EXPECT_FALSE(hot().heard({Door::modbus, "192.0.2.1"}));
+    ASSERT_TRUE(hot().last_received(master));
+    EXPECT_FALSE(hot().last_received({Door::modbus, "192.0.2.1"}));
     EXPECT_NE(hot().metrics().find("axisgate_modbus_rtu_answers_total 1\n"), std::string::npos) << hot().metrics();
 }
 
@@ -306,7 +306,7 @@ TEST_F(RtuDoorTest, APortThatIsPulledOutIsToldAndItsMasterCountsAsLost) {
     io.restart();
     (void)io.run_for(5ms);
     EXPECT_TRUE(line->sent.empty()) << "what waited for its drive has nobody to go to";
-    EXPECT_FALSE(hot().heard({Door::modbus, "/dev/ttyUSB0"}));
+    EXPECT_FALSE(hot().last_received({Door::modbus, "/dev/ttyUSB0"}));
     line->events->on_line_state(true, "up");
     line->events->on_line_state(false, "gone again");
     EXPECT_EQ(port.lost.size(), 1u) << "who has not commanded since is not lost again";

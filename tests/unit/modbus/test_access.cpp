@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/axis/cia402.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus::test {
 namespace {
@@ -111,9 +111,9 @@ struct ReadOnlyRow {
 };
 
 TEST(ModbusAccess, AReadOnlyDoorTakesAStopByItselfAndNoOtherWrite) {
-    Desk desk;
-    desk.port.add_axis(1);
-    desk.responder.set_read_only(true);
+    ResponderBench bench;
+    bench.port.add_axis(1);
+    bench.responder.set_read_only(true);
     for (const auto& [what, pdu, answer, unit] :
          std::vector<ReadOnlyRow>{{"read", "03 00 20 00 01", "03 02 00 00"},
                                   {"quick stop", "06 00 20 00 02", "06 00 20 00 02"},
@@ -136,10 +136,10 @@ TEST(ModbusAccess, AReadOnlyDoorTakesAStopByItselfAndNoOtherWrite) {
                                   {"a coil", "05 00 00 FF 00", "85 01"},
                                   {"a user map's unit", "06 00 20 00 02", "86 01", 2},
                                   {"an axis that is not there", "06 FF E0 00 02", "86 0A"}}) {
-        EXPECT_EQ(desk.ask(pdu, unit), answer) << what;
+        EXPECT_EQ(bench.ask(pdu, unit), answer) << what;
     }
-    desk.responder.set_read_only(false);
-    EXPECT_EQ(desk.ask("06 00 20 00 06"), "06 00 20 00 06");
+    bench.responder.set_read_only(false);
+    EXPECT_EQ(bench.ask("06 00 20 00 06"), "06 00 20 00 06");
 }
 
 TEST(ModbusAccess, AFunctionThatIsLeftOutStaysOut) {

@@ -1,11 +1,11 @@
 // Identification: functions 17 and 43/14, byte for byte, and the paging of answers that do not fit.
 #include <gtest/gtest.h>
 
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
-using test::Desk;
+using test::ResponderBench;
 
 std::string object(std::uint8_t id, std::string_view value) {
     std::vector<std::uint8_t> out{id, static_cast<std::uint8_t>(value.size())};
@@ -16,7 +16,7 @@ const std::string basic = object(0, "axisgate") + object(1, "AXISGATE") + object
 const std::string regular = basic + object(4, "axisgate fieldbus gateway") + object(5, "axisgate");
 
 TEST(Identification, GatewaysOwn) {
-    Desk d;
+    ResponderBench d;
     d.port.set_mapping_revision(0xCAFE0123);
     EXPECT_EQ(d.ask("2B 0E 01 00"), "2B 0E 01 83 00 00 03" + basic);
     EXPECT_EQ(d.ask("2B 0E 02 00"), "2B 0E 02 83 00 00 05" + regular);
@@ -26,11 +26,11 @@ TEST(Identification, GatewaysOwn) {
     EXPECT_EQ(d.ask("2B 0E 04 80"), "2B 0E 04 83 00 00 01" + object(0x80, "cafe0123"));
     d.port.set_mapping_revision(0x0000000A);
     EXPECT_EQ(d.ask("2B 0E 04 80"), "2B 0E 04 83 00 00 01" + object(0x80, "0000000a"));
-    EXPECT_EQ(Desk(WordOrder::low_first).ask("2B 0E 04 81"), "2B 0E 04 83 00 00 01" + object(0x81, "low_first"));
+    EXPECT_EQ(ResponderBench(WordOrder::low_first).ask("2B 0E 04 81"), "2B 0E 04 83 00 00 01" + object(0x81, "low_first"));
 }
 
 TEST(Identification, StreamFromAnObject) {
-    Desk d;
+    ResponderBench d;
     EXPECT_EQ(d.ask("2B 0E 01 01"), "2B 0E 01 83 00 00 02" + object(1, "AXISGATE") + object(2, "1.2.3"));
     EXPECT_EQ(d.ask("2B 0E 02 05"), "2B 0E 02 83 00 00 01" + object(5, "axisgate"));
     EXPECT_EQ(d.ask("2B 0E 01 03"), "2B 0E 01 83 00 00 03" + basic) << "unknown: from the beginning";
@@ -40,7 +40,7 @@ TEST(Identification, StreamFromAnObject) {
 }
 
 TEST(Identification, Faults) {
-    Desk d;
+    ResponderBench d;
     EXPECT_EQ(d.ask("2B 0E 04 03"), "AB 02") << "no vendor URL";
     EXPECT_EQ(d.ask("2B 0E 04 FF"), "AB 02");
     EXPECT_EQ(d.ask("2B 0E 00 00"), "AB 03");

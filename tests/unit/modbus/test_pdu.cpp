@@ -2,15 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
 using namespace registers;
-using test::Desk;
+using test::ResponderBench;
 
-struct Plant : Desk {
-    explicit Plant(WordOrder order = WordOrder::high_first) : Desk(order) {
+struct Plant : ResponderBench {
+    explicit Plant(WordOrder order = WordOrder::high_first) : ResponderBench(order) {
         for (const std::uint16_t n : std::initializer_list<std::uint16_t>{1, 2, 4}) {
             axes[n] = port.add_axis(n, &test::catalogue());
             port.edit(axes[n], [&](AxisPicture& p) {

@@ -1,15 +1,15 @@
 // Refusals: what a refused write leaves behind: an event with its sentence, and two registers of the axis; and how many events at most.
 #include <gtest/gtest.h>
 
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
 using namespace registers;
-using test::Desk;
+using test::ResponderBench;
 using namespace std::chrono_literals;
 
-struct Refusals : testing::Test, Desk {
+struct Refusals : testing::Test, ResponderBench {
     AxisId x = port.add_axis(1, &test::catalogue());
     void refuse_with(Reason reason, std::string text, std::int32_t code = 0) {
         result = [this, reason, text, code] { port.answer(Outcome::refused, reason, code, {}, text); };

@@ -366,10 +366,10 @@ TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
     tool.connect();
     EXPECT_TRUE(serves(panel));
     const Instant asked = net.port.now();
-    ASSERT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), asked);
-    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.2"}), std::nullopt);
+    ASSERT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), asked);
+    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.2"}), std::nullopt);
     net.pass(2s);
-    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), asked) << "an open connection that asks nothing is silent";
+    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), asked) << "an open connection that asks nothing is silent";
     panel.close();
     net.turn();
     EXPECT_TRUE(net.port.lost.empty()) << "another connection of the same host is there";
@@ -377,7 +377,7 @@ TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
     net.turn();
     ASSERT_EQ(net.port.lost.size(), 1u);
     EXPECT_EQ(net.port.lost[0], (std::pair{std::string("modbus 127.0.0.1"), LossCause::modbus_closed}));
-    EXPECT_EQ(net.port.doors.back()->heard({Door::modbus, "127.0.0.1"}), std::nullopt);
+    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), std::nullopt);
     TcpClient again(net);
     EXPECT_TRUE(serves(again.connect()));
     net.server->close();

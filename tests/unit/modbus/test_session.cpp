@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "gateway/doors/modbus/session.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
 using namespace registers;
-using test::Desk;
+using test::ResponderBench;
 
 // Positions in test::catalogue()
 enum : std::uint16_t {
@@ -27,8 +27,10 @@ enum : std::uint16_t {
     par_allowed
 };
 
-struct Channel : Desk {
-    explicit Channel(WordOrder order = WordOrder::high_first) : Desk(order), order_(order) { axis = port.add_axis(1, &test::catalogue()); }
+struct Channel : ResponderBench {
+    explicit Channel(WordOrder order = WordOrder::high_first) : ResponderBench(order), order_(order) {
+        axis = port.add_axis(1, &test::catalogue());
+    }
     static std::string word(std::uint16_t v) {
         std::uint8_t b[2];
         put16(b, v);
@@ -66,10 +68,10 @@ constexpr auto out_of_range_number = static_cast<int>(Reason::out_of_range);
 TEST(ParameterChannel, FractionsGoInTheFloatForm) {
     for (const auto order : {WordOrder::high_first, WordOrder::low_first}) {
         Channel c(order);
-        const auto read_as = [&](std::uint32_t parameter, Value said) {
+        const auto read_as = [&](std::uint32_t parameter, Value reported) {
             c.result = [] {};
             EXPECT_EQ(c.start(parameter | float_form, 1), accepted);
-            c.port.answer(Outcome::done, Reason::none, 0, std::move(said));
+            c.port.answer(Outcome::done, Reason::none, 0, std::move(reported));
             return c.look();
         };
         EXPECT_EQ(read_as(par_f64, Value{-2.5}), (Seen{done, single(-2.5F), 0}));

@@ -8,12 +8,12 @@
 #include "gateway/core/assets.hpp"
 #include "gateway/registers/profiles/cia402_block.hpp"
 #include "gateway/registers/profiles/profile_map.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
 using namespace registers;
-using test::Desk;
+using test::ResponderBench;
 
 std::shared_ptr<const Language> page(std::string_view name) {
     std::string fault;
@@ -22,7 +22,7 @@ std::shared_ptr<const Language> page(std::string_view name) {
     return l;
 }
 
-struct ProfileTest : testing::Test, Desk {
+struct ProfileTest : testing::Test, ResponderBench {
     AxisId x = port.add_axis(1, &test::catalogue()), y = port.add_axis(2, &test::catalogue());
     std::unique_ptr<ProfileMap> map;
 

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "gateway/registers/user_map.hpp"
-#include "tests/unit/modbus/desk.hpp"
+#include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
 namespace {
 using namespace registers;
-using test::Desk;
+using test::ResponderBench;
 using namespace std::chrono_literals;
 
 Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapType type, MapAccess access = MapAccess::read,
@@ -26,7 +26,7 @@ Mapping mapping(std::uint16_t address, std::variant<AxisPoint, Point> what, MapT
     return m;
 }
 
-struct UserMapTest : testing::Test, Desk {
+struct UserMapTest : testing::Test, ResponderBench {
     AxisId x = port.add_axis(1, &test::catalogue());
     std::unique_ptr<UserMap> map;
     MapGaps gaps = MapGaps::zero;

@@ -237,9 +237,9 @@ TEST_F(LaidDown, ASealedOneWaitsAndTakesItsPlaceWithTheCertificateOfOurOwnMaking
     EXPECT_THAT(lay_down_backup(bytes, passphrase + "!", "anna", 5, options_).fault, HasSubstr("passphrase is wrong"));
     std::string wrong = bytes;
     wrong[wrong.size() / 2] = static_cast<char>(wrong[wrong.size() / 2] ^ 4);
-    const auto said = lay_down_backup(wrong, passphrase, "anna", 5, options_);
-    EXPECT_FALSE(said.no_room);
-    EXPECT_THAT(said.fault, HasSubstr("altered"));
+    const auto reported = lay_down_backup(wrong, passphrase, "anna", 5, options_);
+    EXPECT_FALSE(reported.no_room);
+    EXPECT_THAT(reported.fault, HasSubstr("altered"));
     EXPECT_THAT(names_in(dir_.path()), testing::IsEmpty()) << "nothing of what was refused is left";
     const auto good = lay_down_backup(bytes, passphrase, "anna", 5, options_);
     EXPECT_EQ(good.fault, "");

@@ -157,10 +157,10 @@ TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {
     for (const auto* bind : {"0.0.0.0:8080", "[::]:8080", "192.0.2.7:80"}) {
         Config c;
         c.http_bind = bind;
-        const auto said = check_host(c);
-        ASSERT_EQ(said.size(), 1u) << bind;
-        EXPECT_EQ(said[0].place, "http.allowed_hosts");
-        EXPECT_TRUE(said[0].warning);
+        const auto reported = check_host(c);
+        ASSERT_EQ(reported.size(), 1u) << bind;
+        EXPECT_EQ(reported[0].place, "http.allowed_hosts");
+        EXPECT_TRUE(reported[0].warning);
         c.http_allowed_hosts = {"axisgate.example"};
         EXPECT_TRUE(check_host(c).empty()) << bind;
     }

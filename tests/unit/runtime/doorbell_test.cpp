@@ -18,54 +18,54 @@ namespace {
 struct DoorbellTest : ::testing::Test {
     boost::asio::io_context io;
     Doorbell bell{io};
-    std::string heard;
-    Doorbell::Call a{bell, [this] { heard += 'a'; }}, b{bell, [this] { heard += 'b'; }};
+    std::string received;
+    Doorbell::Call a{bell, [this] { received += 'a'; }}, b{bell, [this] { received += 'b'; }};
 };
 
 TEST_F(DoorbellTest, WhatIsRungIsAnsweredOnceAndNothingElse) {
     b.ring();
     b.ring();
-    EXPECT_EQ(heard, "") << "not by who rings";
+    EXPECT_EQ(received, "") << "not by who rings";
     (void)io.poll();
-    EXPECT_EQ(heard, "b");
+    EXPECT_EQ(received, "b");
     a.ring();
     b.ring();
     (void)io.poll();
-    EXPECT_EQ(heard, "bab");
+    EXPECT_EQ(received, "bab");
     (void)io.poll();
-    EXPECT_EQ(heard, "bab");
+    EXPECT_EQ(received, "bab");
 }
 
 TEST_F(DoorbellTest, WhatIsRungFromInsideAnAnswerIsAnsweredToo) {
     int left = 3;
     Doorbell::Call again(bell, [&] {
-        heard += 'c';
+        received += 'c';
         if (--left > 0) again.ring();
         a.ring();  // stands before it in the list
     });
     again.ring();
     (void)io.poll();
-    EXPECT_EQ(std::ranges::count(heard, 'c'), 3);
-    EXPECT_EQ(heard.back(), 'a');
+    EXPECT_EQ(std::ranges::count(received, 'c'), 3);
+    EXPECT_EQ(received.back(), 'a');
 }
 
 TEST_F(DoorbellTest, ACallThatIsGoneIsNotAnswered) {
     {
-        Doorbell::Call gone(bell, [this] { heard += 'x'; });
+        Doorbell::Call gone(bell, [this] { received += 'x'; });
         gone.ring();
     }
     a.ring();
     (void)io.poll();
-    EXPECT_EQ(heard, "a");
+    EXPECT_EQ(received, "a");
 }
 
 TEST_F(DoorbellTest, AnEndedBellKeepsNobodyWaitingAndAnswersWhenItIsAsked) {
     a.ring();
     bell.end();
     io.run();  // returns
-    EXPECT_EQ(heard, "");
+    EXPECT_EQ(received, "");
     bell.answer();
-    EXPECT_EQ(heard, "a");
+    EXPECT_EQ(received, "a");
 }
 
 TEST_F(DoorbellTest, NothingIsLostBetweenThreads) {

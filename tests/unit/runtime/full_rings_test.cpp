@@ -205,22 +205,22 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     b.ports->registers.use(image);
     b.fill_jobs();
     std::map<std::string, int> answered;
-    std::map<std::string, std::string> said;
-    const auto told = [&](const std::string& who, std::string text) {
+    std::map<std::string, std::string> reported;
+    const auto published = [&](const std::string& who, std::string text) {
         ++answered[who];
-        said[who] = std::move(text);
+        reported[who] = std::move(text);
     };
-    b.ports->drives.hand(DriveId{0}, [&](auto items) { told("hand", items ? "items" : "none"); });
-    b.ports->drives.set_hand(DriveId{0}, {}, {}, [&](std::string fault) { told("set_hand", fault); });
-    b.ports->lines.start_scan(LineId{0}, {}, {}, [&](std::string fault) { told("start_scan", fault); });
+    b.ports->drives.hand(DriveId{0}, [&](auto items) { published("hand", items ? "items" : "none"); });
+    b.ports->drives.set_hand(DriveId{0}, {}, {}, [&](std::string fault) { published("set_hand", fault); });
+    b.ports->lines.start_scan(LineId{0}, {}, {}, [&](std::string fault) { published("start_scan", fault); });
     b.ports->lines.cancel_scan(
-        LineId{0}, [&](const ScanReport& r) { told("cancel_scan", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+        LineId{0}, [&](const ScanReport& r) { published("cancel_scan", r.state == ScanReport::State::failed ? r.text : "not failed"); });
     b.ports->lines.scan_report(
-        LineId{0}, [&](const ScanReport& r) { told("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
-    b.ports->modbus.modbus_report([&](auto report) { told("modbus_report", report ? "report" : "none"); });
+        LineId{0}, [&](const ScanReport& r) { published("scan_report", r.state == ScanReport::State::failed ? r.text : "not failed"); });
+    b.ports->modbus.modbus_report([&](auto report) { published("modbus_report", report ? "report" : "none"); });
     b.ports->registers.read_registers(1, registers::Table::holding_registers, 0, 1,
-                                      [&](auto read) { told("read_registers", read ? "answer" : "none"); });
-    b.ports->events.events_settled([&] { told("events_settled", ""); });
+                                      [&](auto read) { published("read_registers", read ? "answer" : "none"); });
+    b.ports->events.events_settled([&] { published("events_settled", ""); });
     b.run_warm();
     b.empty_jobs();
     b.run_warm();
@@ -228,7 +228,7 @@ TEST(FullRings, WhoeverAsksIsAnsweredOnceAlthoughNothingCanBeTaken) {
     const std::map<std::string, std::string> expected{{"hand", "none"},           {"set_hand", later},    {"start_scan", later},
                                                       {"cancel_scan", later},     {"scan_report", later}, {"modbus_report", "none"},
                                                       {"read_registers", "none"}, {"events_settled", ""}};
-    EXPECT_EQ(said, expected);
+    EXPECT_EQ(reported, expected);
     for (const auto& [who, times] : answered)
         EXPECT_EQ(times, 1) << who;
 }

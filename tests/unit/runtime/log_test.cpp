@@ -26,11 +26,11 @@ TEST(LogLimit, OneCauseWritesSoOftenAndIsThenCounted) {
     }
     EXPECT_EQ(written, LogLimit::at_once);
     now += LogLimit::period;
-    const auto told = limit.ended(now);
-    ASSERT_EQ(told.size(), 2u);
-    EXPECT_EQ(told[0].cause, "drive feeder");
-    EXPECT_EQ(told[1].cause, "line can0");
-    EXPECT_EQ(told[1].lines, 1000 - LogLimit::at_once);
+    const auto published = limit.ended(now);
+    ASSERT_EQ(published.size(), 2u);
+    EXPECT_EQ(published[0].cause, "drive feeder");
+    EXPECT_EQ(published[1].cause, "line can0");
+    EXPECT_EQ(published[1].lines, 1000 - LogLimit::at_once);
     EXPECT_TRUE(limit.ended(now + std::chrono::minutes(1)).empty()) << "told once";
     EXPECT_TRUE(limit.allows("line can0", now)) << "a new period";
 }

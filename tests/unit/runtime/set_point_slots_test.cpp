@@ -22,18 +22,18 @@ SetPoint point(std::uint16_t axis, std::int64_t value) {
 TEST(SetPointSlots, TheNewestOfEachAxisCounts) {
     boost::asio::io_context io;
     Doorbell bell(io);
-    std::vector<std::pair<int, std::int64_t>> heard;
-    SetPointSlots slots(bell, [&](const SetPoint& p) { heard.emplace_back(index_of(p.axis), p.value); });
+    std::vector<std::pair<int, std::int64_t>> received;
+    SetPointSlots slots(bell, [&](const SetPoint& p) { received.emplace_back(index_of(p.axis), p.value); });
     for (int i = 0; i < 100; ++i)
         slots.put(point(70, i));
     slots.put(point(3, 7));
     slots.put(point(0xFFFF, 1));  // no axis
     EXPECT_EQ(io.poll(), 1u) << "announced once";
-    EXPECT_EQ(heard, (std::vector<std::pair<int, std::int64_t>>{{3, 7}, {70, 99}}));
+    EXPECT_EQ(received, (std::vector<std::pair<int, std::int64_t>>{{3, 7}, {70, 99}}));
     io.restart();
     slots.put(point(70, 5));
     (void)io.poll();
-    EXPECT_EQ(heard.back(), (std::pair<int, std::int64_t>{70, 5}));
+    EXPECT_EQ(received.back(), (std::pair<int, std::int64_t>{70, 5}));
     slots.put(point(1, 1));  // what nobody fetches any more ends with the slots
 }
 

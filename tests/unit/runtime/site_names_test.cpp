@@ -17,7 +17,7 @@ boost::json::value site(std::string_view drives, std::string_view axes) {
     return boost::json::parse(R"({"lines":[{"name":"l","family":"demo"},{"name":"m","family":"other"}],"drives":[)" + std::string(drives) +
                               R"(],"axes":[)" + std::string(axes) + "]}");
 }
-std::string told(const std::vector<NameChange>& changes) {
+std::string published(const std::vector<NameChange>& changes) {
     std::string out;
     for (const auto& c : changes)
         out += c.from + ">" + c.to + " ";
@@ -29,7 +29,7 @@ constexpr const char* axes = R"({"name":"x","drive":"d","channel":1},{"name":"y"
 
 TEST(SiteNames, AnAxisThatStandsWhereAnotherStoodIsThatOne) {
     const auto before = site(drives, axes);
-    const auto axes_of = [&](const char* d, const char* a) { return told(names_between(before, site(d, a)).renamed_axes); };
+    const auto axes_of = [&](const char* d, const char* a) { return published(names_between(before, site(d, a)).renamed_axes); };
     EXPECT_EQ(axes_of(drives, axes), "");
     EXPECT_EQ(axes_of(drives, R"({"name":"z","drive":"d","channel":1},{"name":"y","drive":"e","channel":1})"), "x>z ");
     EXPECT_EQ(axes_of(drives, R"({"name":"z","drive":"d","channel":2},{"name":"y","drive":"e","channel":1})"), "") << "another channel";
@@ -41,8 +41,8 @@ TEST(SiteNames, AnAxisThatStandsWhereAnotherStoodIsThatOne) {
               "");
     const auto change = names_between(before, site(R"({"name":"D","line":"l","address":5},{"name":"e","line":"l","address":6})",
                                                    R"({"name":"X","drive":"D","channel":1})"));
-    EXPECT_EQ(told(change.renamed_drives), "d>D ");
-    EXPECT_EQ(told(change.renamed_axes), "x>X ") << "also when the drive gets another name along with it";
+    EXPECT_EQ(published(change.renamed_drives), "d>D ");
+    EXPECT_EQ(published(change.renamed_axes), "x>X ") << "also when the drive gets another name along with it";
     ASSERT_EQ(change.axes->size(), 1u);
     EXPECT_EQ(change.axes->at(0).family, "demo");
     EXPECT_TRUE(names_between({}, before).renamed_axes.empty());

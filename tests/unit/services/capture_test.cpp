@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 const AxisId one{1}, two{2}, other{3};
 
-PictureRecord told(std::int64_t position, std::uint16_t flags = 0, std::int64_t behind = 0) {
+PictureRecord published(std::int64_t position, std::uint16_t flags = 0, std::int64_t behind = 0) {
     PictureRecord p;
     p.current = true;
     p.position = position;
@@ -37,9 +37,9 @@ CaptureTrigger level(CapturePoint point, std::int64_t at, bool rising = true) {
 void run(Capture& c, int ms, int from = 0) {
     for (int i = from; i < from + ms; ++i) {
         const Instant at(1s + i * 1ms);
-        c.on_picture(one, told(i * 10), at);
-        c.on_picture(two, told(-i * 10), at + 300us);
-        c.on_picture(other, told(7), at);
+        c.on_picture(one, published(i * 10), at);
+        c.on_picture(two, published(-i * 10), at + 300us);
+        c.on_picture(other, published(7), at);
         c.on_time(at, 0ms);
     }
 }
@@ -64,33 +64,33 @@ TEST(Capture, TheDirectionCounts) {
     Capture rising(wish(level(CapturePoint::position, 100, true)), Instant(1s)),
         falling(wish(level(CapturePoint::position, 100, false)), Instant(1s));
     for (auto* c : {&rising, &falling}) {
-        c->on_picture(one, told(200), Instant(1s));  // already above it: no crossing
-        c->on_picture(one, told(50), Instant(1s + 1ms));
+        c->on_picture(one, published(200), Instant(1s));  // already above it: no crossing
+        c->on_picture(one, published(50), Instant(1s + 1ms));
     }
     EXPECT_EQ(rising.state(), Capture::State::armed);
     EXPECT_EQ(falling.state(), Capture::State::triggered);
-    rising.on_picture(one, told(100), Instant(1s + 2ms));
+    rising.on_picture(one, published(100), Instant(1s + 2ms));
     EXPECT_EQ(rising.state(), Capture::State::triggered);
 }
 
 TEST(Capture, OtherPointsStatesAndCommands) {
     Capture error(wish(level(CapturePoint::following_error, 30)), Instant(1s));
-    error.on_picture(one, told(0), Instant(1s));
-    PictureRecord unknown = told(0, 0, 40);
+    error.on_picture(one, published(0), Instant(1s));
+    PictureRecord unknown = published(0, 0, 40);
     unknown.demand_source = DemandSource::none;
     error.on_picture(one, unknown, Instant(1s + 1ms));
     EXPECT_EQ(error.state(), Capture::State::armed) << "nobody knows its demand";
-    error.on_picture(one, told(0, 0, 10), Instant(1s + 2ms));
-    error.on_picture(one, told(0, 0, 40), Instant(1s + 3ms));
+    error.on_picture(one, published(0, 0, 10), Instant(1s + 2ms));
+    error.on_picture(one, published(0, 0, 40), Instant(1s + 3ms));
     EXPECT_EQ(error.state(), Capture::State::triggered);
 
     Capture state(wish({CaptureTrigger::Kind::state, one, {}, 0, capture_state_named("fault"), true}), Instant(1s));
-    state.on_picture(two, told(0, flag_fault), Instant(1s));
-    state.on_picture(two, told(0), Instant(1s + 1ms));
-    state.on_picture(two, told(0, flag_fault), Instant(1s + 2ms));
-    state.on_picture(one, told(0, flag_moving), Instant(1s + 2ms));
+    state.on_picture(two, published(0, flag_fault), Instant(1s));
+    state.on_picture(two, published(0), Instant(1s + 1ms));
+    state.on_picture(two, published(0, flag_fault), Instant(1s + 2ms));
+    state.on_picture(one, published(0, flag_moving), Instant(1s + 2ms));
     EXPECT_EQ(state.state(), Capture::State::armed) << "another axis, another flag";
-    state.on_picture(one, told(0, flag_fault), Instant(1s + 3ms));
+    state.on_picture(one, published(0, flag_fault), Instant(1s + 3ms));
     EXPECT_EQ(*state.triggered_at(), Instant(1s + 3ms));
 
     Capture command(wish({CaptureTrigger::Kind::command, one, {}, 0, 0, true}), Instant(1s));
@@ -103,17 +103,17 @@ TEST(Capture, OtherPointsStatesAndCommands) {
 
 TEST(Capture, ARowStandsWhereTheDriveHasSaidIt) {
     Capture c(wish({}), Instant(1s));
-    PictureRecord late = told(1);
+    PictureRecord late = published(1);
     late.age = 4ms;
     c.on_picture(one, late, Instant(1s + 10ms));
     c.on_picture(one, late, Instant(1s + 10ms));  // the same word
     ASSERT_EQ(c.rows(0).size(), 1u);
     EXPECT_EQ(c.rows(0)[0].at, Instant(1s + 6ms));
-    PictureRecord old = told(2);
+    PictureRecord old = published(2);
     old.current = false;
     c.on_picture(one, old, Instant(1s + 11ms));
     EXPECT_EQ(c.rows(0).size(), 1u) << "nothing is known of it";
-    c.on_picture(one, told(3), Instant(1s + 400ms));
+    c.on_picture(one, published(3), Instant(1s + 400ms));
     EXPECT_EQ(c.rows(0).size(), 1u) << "behind its end";
     c.on_time(Instant(1s + 300ms), 100ms);
     EXPECT_EQ(c.state(), Capture::State::triggered) << "records come late";
@@ -138,7 +138,7 @@ TEST(Capture, IsBounded) {
     auto w = wish({}, 0s, 120s);
     Capture c(w, Instant(1s));
     for (int i = 0; i < 130'000; ++i)
-        c.on_picture(one, told(i), Instant(1s + i * 500us));
+        c.on_picture(one, published(i), Instant(1s + i * 500us));
     EXPECT_EQ(c.state(), Capture::State::done);
     EXPECT_EQ(c.rows(), Capture::most_rows);
     EXPECT_NE(c.why(), "");
@@ -146,7 +146,7 @@ TEST(Capture, IsBounded) {
     w.before = 120s;
     Capture armed(w, Instant(1s));
     for (int i = 0; i < 130'000; ++i)
-        armed.on_picture(one, told(i), Instant(1s + i * 500us));
+        armed.on_picture(one, published(i), Instant(1s + i * 500us));
     EXPECT_EQ(armed.state(), Capture::State::armed);
     EXPECT_EQ(armed.rows(), Capture::most_rows);
     EXPECT_EQ(armed.rows(0).back().position, 129'999);

@@ -28,7 +28,7 @@ struct World final : RecipeWorld {
         return it == claims.end() ? Claim{} : it->second;
     }
 };
-using Told = RecipeAnswer::Motion;
+using Published = RecipeAnswer::Motion;
 using Whose = RecipeWorld::Claim::Whose;
 
 class Runs : public ::testing::Test {
@@ -53,7 +53,7 @@ protected:
         now += d;
         turn();
     }
-    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Told motion = Told::by_result) {
+    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Published motion = Published::by_result) {
         ASSERT_EQ(requests.size(), 1u);
         run->answer(requests[0].number, {good, std::move(text), std::move(value), motion});
         EXPECT_LE(run->deadline(), now);

@@ -23,7 +23,7 @@ public:
     std::vector<std::pair<Instant, Priority>> how;
     bool good = true;
     std::vector<std::pair<Instant, Frame>> script;  // frames that it will say, in order of time
-    std::size_t said = 0;
+    std::size_t reported = 0;
 
     void open(LineEvents& e, Instant) override { events = &e; }
     void close() override { events = nullptr; }
@@ -32,12 +32,12 @@ public:
         how.emplace_back(now, p);
         return good;
     }
-    [[nodiscard]] Instant deadline() const override { return said < script.size() ? script[said].first : never; }
+    [[nodiscard]] Instant deadline() const override { return reported < script.size() ? script[reported].first : never; }
     void on_deadline(Instant now) override {
-        while (said < script.size() && script[said].first <= now) {
-            Frame f = script[said].second;
-            f.at = script[said].first;
-            ++said;
+        while (reported < script.size() && script[reported].first <= now) {
+            Frame f = script[reported].second;
+            f.at = script[reported].first;
+            ++reported;
             events->on_frame(f);
         }
     }
@@ -213,7 +213,7 @@ TEST(FaultLine, delaysWithinTheBoundAndKeepsTheOrder) {
 TEST(FaultLine, lateCallsKeepTheOrderOfTimeWithTheInnerLine) {
     FaultRates r = rates(&FaultRates::delay, 0.3);
     r.delay_max = ms(5);
-    const auto heard = [&](bool late) {
+    const auto received = [&](bool late) {
         World w({}, r, 99);
         for (int i = 0; i < 100; ++i)
             w.inner->script.emplace_back(t0 + ms(i), can(static_cast<std::uint32_t>(i)));
@@ -227,10 +227,10 @@ TEST(FaultLine, lateCallsKeepTheOrderOfTimeWithTheInnerLine) {
             v.emplace_back(f.id, f.at);
         return v;
     };
-    const auto on_time = heard(false);
+    const auto on_time = received(false);
     ASSERT_EQ(on_time.size(), 100u);
     EXPECT_TRUE(std::ranges::is_sorted(on_time, {}, [](const auto& e) { return e.second; }));
-    EXPECT_EQ(heard(true), on_time);
+    EXPECT_EQ(received(true), on_time);
 }
 
 TEST(FaultLine, letsTheNextFrameOvertakeOnCanAndNeverOnBytes) {
@@ -344,7 +344,7 @@ TEST(FaultLine, isAFunctionOfItsSeed) {
 }
 
 TEST(FaultLine, trafficInOneDirectionLeavesTheOtherAsItWas) {
-    const auto heard = [](bool with_requests) {
+    const auto received = [](bool with_requests) {
         World w(rates(&FaultRates::loss, 0.5), rates(&FaultRates::loss, 0.5), 5);
         for (std::uint32_t i = 0; i < 100; ++i) {
             if (with_requests) w.send(can(i));
@@ -355,9 +355,9 @@ TEST(FaultLine, trafficInOneDirectionLeavesTheOtherAsItWas) {
             v.push_back(f.id);
         return v;
     };
-    EXPECT_EQ(heard(false), heard(true));
-    EXPECT_GT(heard(true).size(), 30u);
-    EXPECT_LT(heard(true).size(), 70u);
+    EXPECT_EQ(received(false), received(true));
+    EXPECT_GT(received(true).size(), 30u);
+    EXPECT_LT(received(true).size(), 70u);
 }
 
 TEST(FaultLine, probabilitiesAreWhatTheySay) {
@@ -451,7 +451,7 @@ TEST(FaultLine, worksAroundATwinBus) {
     plan.from_drive.duplicate = 1;
     FaultLine line(std::move(bus), plan);
     auto twin = std::make_unique<ScriptTwin>();
-    twin->hears = [](const Frame&, Instant, Out& out) { out.send(can(2)); };
+    twin->receives = [](const Frame&, Instant, Out& out) { out.send(can(2)); };
     b.add(DriveId{1}, std::move(twin), {}, t0);
     Owner owner;
     line.open(owner, t0);

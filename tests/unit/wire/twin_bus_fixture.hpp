@@ -25,9 +25,9 @@ inline std::string as_text(const Frame& f) { return {f.data().begin(), f.data().
 /// A twin whose behaviour is a few functions.
 class ScriptTwin final : public Twin {
 public:
-    std::function<void(const Frame&, Instant, Out&)> hears;
+    std::function<void(const Frame&, Instant, Out&)> receives;
     std::function<void(Instant, Out&)> due;
-    std::vector<std::pair<Frame, Instant>> heard;
+    std::vector<std::pair<Frame, Instant>> received;
     std::vector<Instant> dues;
     Instant next = never;
     NonVolatile memory;
@@ -37,8 +37,8 @@ public:
     bool keep = true;  // what was heard
 
     void on_frame(const Frame& f, Instant now, Out& out) override {
-        if (keep) heard.emplace_back(f, now);
-        if (hears) hears(f, now, out);
+        if (keep) received.emplace_back(f, now);
+        if (receives) receives(f, now, out);
     }
     void on_deadline(Instant now, Out& out) override {
         dues.push_back(now);
@@ -68,13 +68,13 @@ struct Owner : LineEvents {
     std::vector<Frame> frames;
     std::vector<Frame> sent;
     std::vector<std::pair<bool, std::string>> states;
-    std::function<void(const Frame&)> hears;
+    std::function<void(const Frame&)> receives;
     std::function<void(const Frame&)> has_sent;
     std::function<void(bool)> changes;
 
     void on_frame(const Frame& f) override {
         frames.push_back(f);
-        if (hears) hears(f);
+        if (receives) receives(f);
     }
     void on_line_state(bool up, const std::string& why) override {
         states.emplace_back(up, why);

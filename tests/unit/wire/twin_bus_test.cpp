@@ -40,7 +40,7 @@ struct Bus {
         return v;
     }
     void keep_order() {
-        owner.hears = [this](const Frame& f) { all.push_back(f); };
+        owner.receives = [this](const Frame& f) { all.push_back(f); };
         owner.has_sent = [this](const Frame& f) { all.push_back(f); };
     }
     Owner owner;
@@ -53,18 +53,18 @@ struct Bus {
 TEST(TwinBusCan, deliversAtTheEndOfTheFrame) {
     Bus b(can_bus());
     ScriptTwin& twin = b.add(1);
-    twin.hears = [](const Frame&, Instant, Out& out) { out.send(can(0x04280095, {1})); };
+    twin.receives = [](const Frame&, Instant, Out& out) { out.send(can(0x04280095, {1})); };
     const Frame request = can(0x18FF1234, {1, 2, 3, 4, 5, 6, 7, 8});  // 140 bits with its stuff bits
     b.send(request);
     EXPECT_EQ(b.bus.deadline(), begin);
     b.run_to(begin + us(139));
-    EXPECT_TRUE(twin.heard.empty());
+    EXPECT_TRUE(twin.received.empty());
     EXPECT_EQ(b.bus.deadline(), begin + us(140));
     b.run_to(begin + ms(1));
-    ASSERT_EQ(twin.heard.size(), 1u);
-    EXPECT_TRUE(twin.heard[0].first.same(request));
-    EXPECT_EQ(twin.heard[0].second, begin + us(140));
-    EXPECT_EQ(twin.heard[0].first.at, begin + us(140));
+    ASSERT_EQ(twin.received.size(), 1u);
+    EXPECT_TRUE(twin.received[0].first.same(request));
+    EXPECT_EQ(twin.received[0].second, begin + us(140));
+    EXPECT_EQ(twin.received[0].first.at, begin + us(140));
     ASSERT_EQ(b.owner.sent.size(), 1u);
     EXPECT_EQ(b.owner.sent[0].at, begin + us(140));
     ASSERT_EQ(b.owner.frames.size(), 1u);
@@ -128,7 +128,7 @@ TEST(TwinBusCan, urgentFramesOfTheHostGoFirstWithinTheHost) {
 TEST(TwinBusCan, hasNoWireTimeAtBitRateZero) {
     Bus b(can_bus(0));
     ScriptTwin& twin = b.add(1);
-    twin.hears = [](const Frame& f, Instant, Out& out) {
+    twin.receives = [](const Frame& f, Instant, Out& out) {
         if (f.id == 1) out.send(can(2));
     };
     b.send(can(1));
@@ -146,10 +146,10 @@ TEST(TwinBusCan, everybodyHearsEverybodyElse) {
     (void)b.bus.set_hand(DriveId{1}, "shout", true, begin);
     b.send(can(12), begin);
     b.run_to(begin + ms(1));
-    ASSERT_EQ(one.heard.size(), 1u);  // not its own
-    EXPECT_EQ(one.heard[0].first.id, 12u);
-    ASSERT_EQ(two.heard.size(), 2u);
-    EXPECT_EQ(two.heard[0].first.id, 11u);
+    ASSERT_EQ(one.received.size(), 1u);  // not its own
+    EXPECT_EQ(one.received[0].first.id, 12u);
+    ASSERT_EQ(two.received.size(), 2u);
+    EXPECT_EQ(two.received[0].first.id, 11u);
     EXPECT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(b.owner.sent.size(), 1u);
 }
@@ -159,7 +159,7 @@ TEST(TwinBusCan, aTwinIsCalledForWhatItsFiltersTake) {
     ScriptTwin& one = b.add(1, {{{{0xFF, 1}}}, 1});
     ScriptTwin& two = b.add(2, {{{{0xFF, 2}, {0xFF, 3}}}, 2});
     ScriptTwin& all = b.add(3);
-    const auto counts = [&] { return std::array{one.heard.size(), two.heard.size(), all.heard.size()}; };
+    const auto counts = [&] { return std::array{one.received.size(), two.received.size(), all.received.size()}; };
     b.send(can(0x101));
     b.send(can(0x202));
     b.send(can(0x203));
@@ -174,8 +174,8 @@ TEST(TwinBusCan, aTwinIsCalledForWhatItsFiltersTake) {
     b.send(can(0x202), begin + ms(1));
     b.send(can(0x204), begin + ms(1));
     b.run_to(begin + ms(2));
-    EXPECT_EQ(two.heard.size(), 4u);
-    EXPECT_EQ(all.heard.size(), 7u);
+    EXPECT_EQ(two.received.size(), 4u);
+    EXPECT_EQ(all.received.size(), 7u);
 }
 
 /// Two twins and a host that answer one another for a while; everything that happens, with its instants.
@@ -188,7 +188,7 @@ std::vector<std::string> conversation(Duration step) {
     for (const int key : {1, 2}) {
         ScriptTwin& t = b.add(key);
         ScriptTwin* p = &t;
-        t.hears = [=](const Frame& f, Instant now, Out& out) {
+        t.receives = [=](const Frame& f, Instant now, Out& out) {
             note("twin" + std::to_string(key), f, now);
             if (f.id % 2 == static_cast<unsigned>(key) % 2) out.send(can(f.id + 3, {static_cast<std::uint8_t>(key)}));
             p->next = now + us(170);
@@ -197,7 +197,7 @@ std::vector<std::string> conversation(Duration step) {
             if (now < begin + ms(5)) out.send(can(static_cast<std::uint32_t>(500 + key)));
         };
     }
-    b.owner.hears = [&](const Frame& f) { note("host", f, f.at); };
+    b.owner.receives = [&](const Frame& f) { note("host", f, f.at); };
     b.owner.has_sent = [&](const Frame& f) { note("sent", f, f.at); };
     b.send(can(1));
     for (Instant t = begin; t <= begin + ms(20); t += step)
@@ -263,14 +263,14 @@ TEST(TwinBusCan, aTwinThatIsAlwaysDueDoesNotStopTheWorld) {
 TEST(TwinBusCan, aCallIsBoundedEvenIfTwinsTalkForEverWithoutWireTime) {
     Bus b(can_bus(0));
     for (const int key : {1, 2}) {
-        b.add(key).hears = [](const Frame&, Instant, Out& out) { out.send(can(5)); };
+        b.add(key).receives = [](const Frame&, Instant, Out& out) { out.send(can(5)); };
     }
-    std::size_t heard = 0;
-    b.owner.hears = [&](const Frame&) { ++heard; };
+    std::size_t received = 0;
+    b.owner.receives = [&](const Frame&) { ++received; };
     b.send(can(1));
     b.bus.on_deadline(begin);
-    EXPECT_LE(heard, TwinBus::max_events_per_call);
-    EXPECT_GT(heard, 100u);
+    EXPECT_LE(received, TwinBus::max_events_per_call);
+    EXPECT_GT(received, 100u);
     EXPECT_LE(b.bus.deadline(), begin);  // it goes on at the next turn
 }
 
@@ -335,11 +335,11 @@ TEST(TwinBusCan, measuresItsLoad) {
 TEST(TwinBusBytes, chargesEachByte) {
     Bus b(wires(9600));
     ScriptTwin& twin = b.add(1);
-    twin.hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
+    twin.receives = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
     b.send(text("PR P\r"));
     b.run_to(begin + ms(100));
-    ASSERT_EQ(twin.heard.size(), 1u);
-    EXPECT_EQ(twin.heard[0].second, begin + Duration(5'208'333));  // 50 bits at 9600 bit/s
+    ASSERT_EQ(twin.received.size(), 1u);
+    EXPECT_EQ(twin.received[0].second, begin + Duration(5'208'333));  // 50 bits at 9600 bit/s
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(b.owner.frames[0].at, begin + Duration(5'208'333) + Duration(10'416'667));
     EXPECT_EQ(as_text(b.owner.frames[0]), "0123456789");
@@ -365,13 +365,13 @@ TEST(TwinBusBytes, twoSendersAtOnceGarbleEachOther) {
     b.send(text("hhhh"), begin + us(45));  // 45..85 us: over bytes 4..7 of the twin, and all of its own that end after 45 us
     b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.frames.size(), 1u);
-    const std::string heard = as_text(b.owner.frames[0]);
-    EXPECT_EQ(heard.substr(0, 4), "1111");
+    const std::string received = as_text(b.owner.frames[0]);
+    EXPECT_EQ(received.substr(0, 4), "1111");
     for (std::size_t i = 4; i < 8; ++i)
-        EXPECT_NE(heard[i], '1') << i;
-    ASSERT_EQ(two.heard.size(), 2u);
-    EXPECT_EQ(as_text(two.heard[0].first), heard);
-    const std::string request = as_text(two.heard[1].first);
+        EXPECT_NE(received[i], '1') << i;
+    ASSERT_EQ(two.received.size(), 2u);
+    EXPECT_EQ(as_text(two.received[0].first), received);
+    const std::string request = as_text(two.received[1].first);
     for (std::size_t i = 0; i < 4; ++i)
         EXPECT_NE(request[i], 'h') << i;
     EXPECT_EQ(b.bus.counters().collisions, 2u);
@@ -397,7 +397,7 @@ TEST(TwinBusBytes, aThirdSenderDoesNotMakeItGoodAgain) {
 TEST(TwinBusBytes, backToBackIsNoCollision) {
     Bus b(wires(1'000'000));
     ScriptTwin& twin = b.add(1);
-    twin.hears = [](const Frame&, Instant, Out& out) { out.send(text("answer")); };  // at once, in the bit after the request's last
+    twin.receives = [](const Frame&, Instant, Out& out) { out.send(text("answer")); };  // at once, in the bit after the request's last
     b.send(text("request"));
     b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().collisions, 0u);
@@ -416,14 +416,14 @@ TEST(TwinBusBytes, fullDuplexHasTwoPairsOfWires) {
     EXPECT_EQ(b.bus.counters().collisions, 0u);
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(as_text(b.owner.frames[0]), "unasked");
-    ASSERT_EQ(two.heard.size(), 1u);  // drives hear the host alone
-    EXPECT_EQ(as_text(two.heard[0].first), "request");
+    ASSERT_EQ(two.received.size(), 1u);  // drives hear the host alone
+    EXPECT_EQ(as_text(two.received[0].first), "request");
 }
 
 TEST(TwinBusBytes, twoDrivesOnTheReturnPairCollideAlsoInFullDuplex) {
     Bus b(wires(1'000'000, true));
     for (const int key : {1, 2})
-        b.add(key).hears = [](const Frame&, Instant, Out& out) { out.send(text("same address")); };
+        b.add(key).receives = [](const Frame&, Instant, Out& out) { out.send(text("same address")); };
     b.send(text("?"));
     b.run_to(begin + ms(1));
     EXPECT_EQ(b.bus.counters().collisions, 2u);
@@ -437,7 +437,7 @@ TEST(TwinBusBytes, aConverterSendsWhatDrivesSayAtOnceOneAfterTheOther) {
     auto& first = b.add(1);
     auto& second = b.add(2);
     for (auto* t : {&first, &second})
-        t->hears = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
+        t->receives = [](const Frame&, Instant, Out& out) { out.send(text("0123456789")); };
     b.send(text("ask"));
     b.run_to(begin + ms(100));
     ASSERT_EQ(b.owner.frames.size(), 2u);
@@ -445,7 +445,7 @@ TEST(TwinBusBytes, aConverterSendsWhatDrivesSayAtOnceOneAfterTheOther) {
         EXPECT_EQ(as_text(f), "0123456789");
     EXPECT_EQ(b.owner.frames[0].at, begin + ms(13));  // three bytes there, ten back
     EXPECT_EQ(b.owner.frames[1].at, begin + ms(23));
-    EXPECT_EQ(first.heard.size(), 1u);  // no drive hears another one's bytes
+    EXPECT_EQ(first.received.size(), 1u);  // no drive hears another one's bytes
     EXPECT_EQ(b.bus.counters().collisions, 0u);
     b.send(text("more"), begin + ms(100));  // the host has a pair of its own
     b.run_to(begin + ms(105));
@@ -457,7 +457,7 @@ TEST(TwinBusBytes, aConverterSendsWhatDrivesSayAtOnceOneAfterTheOther) {
 TEST(TwinBusBytes, withoutABitRateNothingCollides) {
     Bus b(wires(0));
     for (const int key : {1, 2})
-        b.add(key).hears = [](const Frame& f, Instant, Out& out) {
+        b.add(key).receives = [](const Frame& f, Instant, Out& out) {
             if (as_text(f) == "?") out.send(text("here"));
         };
     b.send(text("?"));
@@ -492,7 +492,7 @@ TEST(TwinBus, comesUpFromOnDeadlineAndNotFromOpen) {
 
 TEST(TwinBus, neverCallsItsOwnerFromSend) {
     Bus b(can_bus(0));
-    b.add(1).hears = [](const Frame& f, Instant, Out& out) {
+    b.add(1).receives = [](const Frame& f, Instant, Out& out) {
         if (f.id == 1) out.send(can(2));
     };
     b.send(can(1));
@@ -503,10 +503,10 @@ TEST(TwinBus, neverCallsItsOwnerFromSend) {
 TEST(TwinBus, theOwnerMaySendFromItsEvents) {
     Bus b(can_bus());
     b.keep_order();
-    b.add(1).hears = [](const Frame& f, Instant, Out& out) {
+    b.add(1).receives = [](const Frame& f, Instant, Out& out) {
         if (f.id < 10) out.send(can(f.id + 100));
     };
-    b.owner.hears = [&](const Frame& f) {
+    b.owner.receives = [&](const Frame& f) {
         b.all.push_back(f);
         if (f.id < 105) b.send(can(f.id - 99), f.at);
     };
@@ -518,19 +518,19 @@ TEST(TwinBus, theOwnerMaySendFromItsEvents) {
 TEST(TwinBus, theOwnerMayCloseOrRemoveFromItsEvents) {
     {
         Bus b(can_bus(0));
-        b.add(1).hears = [](const Frame&, Instant, Out& out) { out.send(can(2)); };
-        b.owner.hears = [&](const Frame&) { b.bus.close(); };
+        b.add(1).receives = [](const Frame&, Instant, Out& out) { out.send(can(2)); };
+        b.owner.receives = [&](const Frame&) { b.bus.close(); };
         b.send(can(1));
         b.bus.on_deadline(begin);
         EXPECT_EQ(b.owner.frames.size(), 1u);
     }
     Bus b(can_bus(0));
     for (const int key : {1, 2, 3})
-        b.add(key).hears = [](const Frame& f, Instant, Out& out) {
+        b.add(key).receives = [](const Frame& f, Instant, Out& out) {
             if (f.id == 1) out.send(can(2));
         };
     b.owner.has_sent = [&](const Frame&) { b.bus.remove(DriveId{2}); };
-    b.owner.hears = [&](const Frame&) {
+    b.owner.receives = [&](const Frame&) {
         b.bus.remove(DriveId{1});
         if (b.bus.size() < 3) b.add(9);
     };
@@ -547,9 +547,11 @@ TEST(TwinBusBytes, whatATwinSaysReachesTheHostWhileItIsOnTheWire) {
         Bus b(wires(rate));
         ScriptTwin& other = b.add(2);
         ScriptTwin& twin = b.add(1);
-        const std::string said(200, 'x');
+        const std::string reported(200, 'x');
         twin.next = begin;
-        twin.due = [&](Instant, Out& out) { out.send(Frame::run({reinterpret_cast<const std::uint8_t*>(said.data()), said.size()})); };
+        twin.due = [&](Instant, Out& out) {
+            out.send(Frame::run({reinterpret_cast<const std::uint8_t*>(reported.data()), reported.size()}));
+        };
         (void)b.bus.set_hand(DriveId{1}, "", {}, begin);
         b.run_to(begin + std::chrono::seconds(3));
         const Duration byte = Duration{std::chrono::seconds(1)} * 10 / rate;
@@ -564,8 +566,8 @@ TEST(TwinBusBytes, whatATwinSaysReachesTheHostWhileItIsOnTheWire) {
         }
         EXPECT_EQ(got, 200U);
         EXPECT_EQ(b.bus.status(last).bytes_in, 200U);
-        ASSERT_EQ(other.heard.size(), 1U) << "a twin has it as a whole, at its end";
-        EXPECT_EQ(other.heard[0].second, last);
+        ASSERT_EQ(other.received.size(), 1U) << "a twin has it as a whole, at its end";
+        EXPECT_EQ(other.received[0].second, last);
     }
 }
 
@@ -585,8 +587,8 @@ TEST(TwinBus, aRemovedTwinCompletesTheFrameOnTheWireAndNoOther) {
     b.run_to(begin + ms(1));
     ASSERT_EQ(b.owner.frames.size(), 1u);
     EXPECT_EQ(b.owner.frames[0].id, 1u);
-    EXPECT_EQ(other.heard.size(), 1u);
-    EXPECT_EQ(next.heard.size(), 1u);
+    EXPECT_EQ(other.received.size(), 1u);
+    EXPECT_EQ(next.received.size(), 1u);
     b.bus.remove(DriveId{77});  // nobody: nothing happens
 }
 

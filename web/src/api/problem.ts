@@ -36,15 +36,15 @@ export class Problem extends Error {
   }
 
   /** The gateway's sentence, every fault of a document that is wrong, and the drive's own code. */
-  get words(): string {
+  get text(): string {
     const faults = (this.document.faults ?? []).map((f) => f.text).filter((t) => t && !this.message.includes(t));
     const code = this.document.code;
     const own = [this.message, ...faults.map(plain)].join('; ');
-    const said = this.document.detail || this.document.title ? theirs(own) : own;
+    const published = this.document.detail || this.document.title ? theirs(own) : own;
     // The gateway speaks English; what kind of refusal it is stands before its own words in the reader's language.
     const kind = language() === 'en' || this.kind !== 'answered' ? '' : reasonWord(this.reason);
-    const words = kind ? `${kind}: ${said}` : said;
-    return code !== null && code !== undefined ? t("{words} (drive's code {code})", { words, code }) : words;
+    const text = kind ? `${kind}: ${published}` : published;
+    return code !== null && code !== undefined ? t("{text} (drive's code {code})", { text, code }) : text;
   }
 }
 

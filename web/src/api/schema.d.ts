@@ -4123,7 +4123,7 @@ export interface components {
              */
             action?: Record<string, never>;
             /**
-             * @description unit, address, value, type: a set-point of the standard map or an own mapping, by the same checks as a Modbus write
+             * @description unit, address, value, type: a set-point of the standard map or a user mapping, by the same checks as a Modbus write
              * @example {
              *       "unit": 1,
              *       "address": 36,

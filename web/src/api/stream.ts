@@ -52,7 +52,7 @@ export class Stream {
   private socket: WebSocket | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private wanted = new Map<string, number>();
-  private heardAt = 0;
+  private receivedAt = 0;
   private liveSince = 0;
   private askedAt = 0;
   private dueAt = 0;
@@ -133,23 +133,23 @@ export class Stream {
       this.ask([['site', 1000], ...[...this.wanted].filter(([t]) => t !== 'site')]);
     };
     socket.onmessage = (event: MessageEvent) => {
-      if (socket === this.socket) this.heard(event.data);
+      if (socket === this.socket) this.received(event.data);
     };
     socket.onclose = (event: CloseEvent) => {
-      if (socket === this.socket) this.lost(closeWords(event));
+      if (socket === this.socket) this.lost(closeText(event));
     };
     socket.onerror = () => {
       // The close event follows and says more.
     };
   }
 
-  private heard(text: unknown): void {
-    this.heardAt = this.o.now();
+  private received(text: unknown): void {
+    this.receivedAt = this.o.now();
     this.askedAt = 0;
     if (this.state.phase === 'connecting') {
       clearTimeout(this.timer);
-      this.liveSince = this.heardAt;
-      this.tell({ phase: 'live', epoch: this.state.epoch + 1, why: '', lastLiveAt: this.heardAt });
+      this.liveSince = this.receivedAt;
+      this.tell({ phase: 'live', epoch: this.state.epoch + 1, why: '', lastLiveAt: this.receivedAt });
       this.again(this.o.quiet_ms);
     } else if (this.state.phase === 'silent') {
       this.tell({ phase: 'live', why: '' });
@@ -168,13 +168,13 @@ export class Stream {
   private watch(): void {
     clearTimeout(this.timer);
     const now = this.o.now();
-    const quiet = now - this.heardAt;
+    const quiet = now - this.receivedAt;
     const waited = this.askedAt > 0 ? now - this.askedAt : 0;
     // Only a page that was held up itself comes so late: what has arrived meanwhile waits behind this timer and is heard first.
     const late = this.dueAt > 0 && now - this.dueAt > mostLate_ms;
     if (this.askedAt > 0 && waited >= this.o.answer_ms && !late) {
       if (quiet >= this.o.lost_ms) return this.lost(silence);
-      if (this.state.phase === 'live') this.tell({ phase: 'silent', why: silence, lastLiveAt: this.heardAt });
+      if (this.state.phase === 'live') this.tell({ phase: 'silent', why: silence, lastLiveAt: this.receivedAt });
       return this.again(Math.max(this.o.lost_ms - quiet, 10));
     }
     if (quiet >= this.o.quiet_ms && this.askedAt === 0) {
@@ -218,7 +218,7 @@ export class Stream {
   private lost(why: string): void {
     clearTimeout(this.timer);
     const wasLive = this.state.phase === 'live' || this.state.phase === 'silent';
-    const lastLiveAt = wasLive ? this.heardAt : this.state.lastLiveAt;
+    const lastLiveAt = wasLive ? this.receivedAt : this.state.lastLiveAt;
     this.drop();
     if (this.stopped) return;
     // A gateway that accepts and closes in a circle is not knocked at twice a second for ever.
@@ -232,7 +232,7 @@ export class Stream {
   }
 }
 
-function closeWords(event: CloseEvent): string {
+function closeText(event: CloseEvent): string {
   if (event.reason) return event.reason;
   switch (event.code) {
     case 1001: return t('the gateway has stopped');

@@ -3,27 +3,27 @@ import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { passwordFault, signInWords } from '../state/session';
-import { quiet, Tell, TextField, type Told } from './form';
+import { passwordFault, signInText } from '../state/session';
+import { quiet, Tell, TextField, type Reported } from './form';
 
 export function Account({ user }: { user: string }) {
   const { client, session } = useGateway();
   const [old, setOld] = useState('');
   const [fresh, setFresh] = useState('');
   const [second, setSecond] = useState('');
-  const [told, setTold] = useState<Told>(quiet);
+  const [reported, setReported] = useState<Reported>(quiet);
   const send = async (event: Event) => {
     event.preventDefault();
     const fault = old ? passwordFault(fresh, second) : t('The old password is missing.');
-    if (fault) return setTold({ tone: 'refused', text: fault });
-    setTold({ tone: 'busy', text: t('Changing …') });
+    if (fault) return setReported({ tone: 'refused', text: fault });
+    setReported({ tone: 'busy', text: t('Changing …') });
     try {
       await client.call(`/users/${encodeURIComponent(user)}/password`, { method: 'PUT', body: { old, new: fresh } });
-      setTold({ tone: 'good', text: t('Changed. Sign in with the new password.') });
+      setReported({ tone: 'good', text: t('Changed. Sign in with the new password.') });
       for (const clear of [setOld, setFresh, setSecond]) clear('');
       void session.ask();
     } catch (error) {
-      setTold({ tone: 'refused', text: signInWords(asProblem(error)) });
+      setReported({ tone: 'refused', text: signInText(asProblem(error)) });
     }
   };
   return (
@@ -37,7 +37,7 @@ export function Account({ user }: { user: string }) {
         <button type="submit" class="button">
           {t('Change the password')}
         </button>
-        <Tell told={told} field="password-told" />
+        <Tell reported={reported} field="password-told" />
       </div>
     </form>
   );

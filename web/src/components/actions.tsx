@@ -1,7 +1,7 @@
 // Actions: every command of the axis' family by name, as a form with a field for each argument. In: axis and family. Out: one request when Run is
 // pressed, after a question where the catalogue says what is lost; the answer in words. What was typed stays for the visit, whatever becomes of it.
 // Never sends by itself, nor twice.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
@@ -10,17 +10,17 @@ import { persisted } from '../state/persisted';
 import { plain } from '../text/plain';
 import { bodyOf, nameOf, questionOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../text/action';
 import { Ask } from './ask';
-import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { Gate } from './gate';
 import { useLoaded } from './loaded';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 export function Actions({ axis, family }: { axis: string; family: string }) {
   const { client } = useGateway();
   const commands = useSignal<CatalogueCommand[] | null>(null);
   const sought = persisted(`typed.action.sought.${axis}`);
   const chosen = persisted(`typed.action.name.${axis}`);
-  const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered(t('actions of this family')) : p.words));
+  const why = useLoaded(async () => void (commands.value = await client.familyCommands(family)), [client, family], (p) => (p.status === 404 ? notOffered(t('actions of this family')) : p.text));
   if (commands.value === null) return <p class="where">{marked(why)}</p>;
   const offered = found(commands.value, sought.value);
   const command = commands.value.find((c) => c.id === chosen.value);
@@ -42,7 +42,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
   const { client } = useGateway();
   const typed = persisted(`typed.action.values.${axis}.${command.id}`, '{}');
   const text = persisted(`typed.action.text.${axis}.${command.id}`);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const tried = useSignal(false);
   /** What was asked about: it alone is sent when the answer is yes. */
   const asked = useSignal<ReturnType<typeof bodyOf> | null>(null);
@@ -56,22 +56,22 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
     tried.value = true;
     const now: Record<string, string> = JSON.parse(typed.peek());
     if (Object.keys(faultsOf(command, now)).length > 0) {
-      told.value = { tone: 'refused', text: t('Not sent: see the fields.') };
+      reported.value = { tone: 'refused', text: t('Not sent: see the fields.') };
       return;
     }
     const body = bodyOf(command, now, text.peek());
     if (!command.confirm) return void send(body);
-    told.value = quiet;
+    reported.value = quiet;
     asked.value = body;
   };
   const send = async (body: ReturnType<typeof bodyOf>) => {
     asked.value = null;
-    told.value = { tone: 'busy', text: t('Sent…') };
+    reported.value = { tone: 'busy', text: t('Sent…') };
     try {
       const a = await client.act(axis, body);
-      told.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
+      reported.value = { tone: 'good', text: capital(plain(a.text || `${nameOf(command)}: ${a.result}`)) };
     } catch (error) {
-      told.value = refusal(error);
+      reported.value = refusal(error);
     }
   };
   const asStep = Object.keys(faults).length === 0 ? recipeText(command, values) : '';
@@ -83,7 +83,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
         run();
       }}
     >
-      <p class="where" {...gatewayWords} data-field="action-description">
+      <p class="where" {...gatewayText} data-field="action-description">
         {command.description}
       </p>
       <div class="form-grid">
@@ -113,7 +113,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
       {asked.value && (
         <Ask
           field="action-question"
-          words={questionOf(command, axis)}
+          text={questionOf(command, axis)}
           yes={t('Run {command}', { command: nameOf(command) })}
           onNo={() => (asked.value = null)}
           onYes={() => {
@@ -126,7 +126,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
           {t('In a recipe:')}{' '}<span class="mono" data-field="action-as-text">{`${command.name}: ${asStep}`}</span>
         </p>
       )}
-      <Tell told={told.value} field="action-result" />
+      <Tell reported={reported.value} field="action-result" />
     </form>
   );
 }

@@ -1,6 +1,6 @@
 // Alarms: the list with what can be done about each: acknowledge, shelve for a time with a reason, take back. In: the store. Out: requests.
 // The list is the gateway's; nothing is taken off it here before the gateway has said so.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { RecorderDoor } from '../api/recorder';
@@ -13,18 +13,18 @@ import { alarmWord, canAcknowledge, recordingOf, shelfTimes, subjectOf, withoutS
 import { plain } from '../text/plain';
 import { clockTime } from '../text/time';
 import { ErrorHelp } from './error-help';
-import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { Choice, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { AxisName, DriveName } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 export function AlarmSection() {
   const { store, client } = useGateway();
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const comment = useSignal('');
   const shelving = useSignal<number | null>(null);
   const no = useBarred('operator');
@@ -37,7 +37,7 @@ export function AlarmSection() {
   useLoaded(async () => void (recordings.value = (await door.recordings()).recordings), [door, times.value]);
   const all = list?.alarms ?? [];
   const open = all.filter(canAcknowledge);
-  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done);
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(reported, t('Asking the gateway.'), what, done);
   return (
     <Section
       title={open.length === 0 ? t('Alarms') : t('Alarms, {n} not acknowledged', { n: open.length })}
@@ -89,7 +89,7 @@ export function AlarmSection() {
         )}
         {(list?.dropped ?? 0) > 0 && <p class="empty">{t('{dropped} further alarms found the list full: acknowledge those that are cleared.', { dropped: list?.dropped ?? 0 })}</p>}
       </div>
-      <Tell told={told.value} field="alarm-told" />
+      <Tell reported={reported.value} field="alarm-told" />
     </Section>
   );
 }
@@ -116,7 +116,7 @@ function AlarmRow(p: RowProps) {
       <div class="alarm-line">
         <Pill word={alarmWord(a)} label={t('State')} />
         <span class="alarm-what">
-          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} <span {...gatewayWords}>{plain(withoutSubject(a.text, about))}</span>
+          {a.axis ? <AxisName name={a.axis} /> : a.drive ? <b><DriveName name={a.drive} /></b> : a.line ? <a href={linePath(a.line)}>{about}</a> : <b>{about}</b>} <span {...gatewayText}>{plain(withoutSubject(a.text, about))}</span>
           {a.code !== null && <span class="mono">{' '}{t('(code {code})', { code: a.code })}</span>}
         </span>
         <span class="alarm-buttons">

@@ -3,12 +3,12 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { t } from '../language';
 
-export function Ask({ words, yes, field, onYes, onNo }: { words: string; yes: string; field: string; onYes: () => void; onNo: () => void }) {
+export function Ask({ text: shown, yes, field, onYes, onNo }: { text: string; yes: string; field: string; onYes: () => void; onNo: () => void }) {
   const no = useRef<HTMLButtonElement>(null);
   useEffect(() => no.current?.focus({ preventScroll: true }), []);
   return (
-    <p class="form-foot ask" role="group" aria-label={words} data-field={field}>
-      <span>{words}</span>
+    <p class="form-foot ask" role="group" aria-label={shown} data-field={field}>
+      <span>{shown}</span>
       <button type="button" class="button small" onClick={onYes}>
         {yes}
       </button>

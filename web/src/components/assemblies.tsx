@@ -6,15 +6,15 @@ import { useMemo } from 'preact/hooks';
 import { AssemblyDoor, type Assemblies as Listed, type Assembly } from '../api/assemblies';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { assemblyWords, bytesWords, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
+import { assemblyText, bytesText, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
 import { Ask } from './ask';
 import { AssemblyTable } from './assembly-table';
-import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 export function Assemblies({ revision }: { revision: unknown }) {
   const { client } = useGateway();
@@ -22,16 +22,16 @@ export function Assemblies({ revision }: { revision: unknown }) {
   const listed = useSignal<Listed | null>(null);
   const draft = useSignal<AssemblyDraft>(emptyAssembly);
   const editing = useSignal<number | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const faults = useSignal<AssemblyFaults>({});
   const asking = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('assemblies')) : p.words));
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('assemblies')) : p.text));
   if (!listed.value) return why ? <Section title={t('EtherNet/IP assemblies')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { assemblies, most } = listed.value;
 
-  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(told, what, how, good, load);
+  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(reported, what, how, good, load);
   const put = (key: keyof AssemblyDraft) => (value: string) => (draft.value = { ...draft.value, [key]: value });
   const leave = () => {
     editing.value = null;
@@ -42,13 +42,13 @@ export function Assemblies({ revision }: { revision: unknown }) {
     const read = readAssembly(draft.value);
     faults.value = 'faults' in read ? read.faults : {};
     if ('faults' in read) {
-      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
+      reported.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
     const was = editing.value;
     if (was === null && assemblies.some((a) => a.instance === read.instance)) {
       faults.value = { instance: t('Instance {n} is there: change it, or choose another.', { n: read.instance }) };
-      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
+      reported.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
     const good = was === null ? t('Instance {n} is served now.', { n: read.instance }) : t('Instance {n} is changed.', { n: read.instance });
@@ -62,7 +62,7 @@ export function Assemblies({ revision }: { revision: unknown }) {
       {assemblies.map((a) => (
         <details key={a.instance} class="card profile" data-assembly={a.instance}>
           <summary>
-            {t('Instance {n}:', { n: a.instance })} <strong>{a.name}</strong>, {assemblyWords(a)}
+            {t('Instance {n}:', { n: a.instance })} <strong>{a.name}</strong>, {assemblyText(a)}
           </summary>
           <ByteList assembly={a} />
           <div class="form-foot">
@@ -70,7 +70,7 @@ export function Assemblies({ revision }: { revision: unknown }) {
               <span class="where">{t('It comes with the profile of unit {unit} and goes with it.', { unit: a.unit })}</span>
             ) : asking.value === a.instance ? (
               <Ask
-                words={t('Take instance {n} away? Connections that are open are closed.', { n: a.instance })}
+                text={t('Take instance {n} away? Connections that are open are closed.', { n: a.instance })}
                 yes={t('Take it away')}
                 field="assembly-ask"
                 onYes={() => {
@@ -157,7 +157,7 @@ export function Assemblies({ revision }: { revision: unknown }) {
               {t('Leave it as it was')}
             </button>
           )}
-          <Tell told={told.value} field="assembly-told" />
+          <Tell reported={reported.value} field="assembly-told" />
         </div>
       </form>
       <AssemblyTable door={door} taken={load} />
@@ -181,7 +181,7 @@ function ByteList({ assembly }: { assembly: Assembly }) {
         <tbody>
           {assembly.values.map((v) => (
             <tr key={v.offset}>
-              <td class="mono">{bytesWords(v.offset, v.bytes)}</td>
+              <td class="mono">{bytesText(v.offset, v.bytes)}</td>
               <th scope="row">{v.name}</th>
               <td>{v.axis ? named(v.axis) : ''}</td>
               <td class="mono">{v.type}</td>

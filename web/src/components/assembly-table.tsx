@@ -4,9 +4,9 @@ import { useSignal } from '@preact/signals';
 import { marked } from './marked';
 import { assembliesAddress, type AssemblyDoor } from '../api/assemblies';
 import { asProblem, type Problem } from '../api/problem';
-import { gatewayWords, t, theirs } from '../language';
+import { gatewayText, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
-import { quiet, Tell, type Told } from './form';
+import { quiet, Tell, type Reported } from './form';
 import { useBarred } from './gate';
 
 const text = persisted('assemblies.table');
@@ -16,13 +16,13 @@ interface Report {
   /** What was tried, with the choice: another text or choice is to be tried again. */
   of: string;
   differences: string[];
-  faults: { line: string; words: string }[];
+  faults: { line: string; text: string }[];
 }
-const faultsOf = (p: Problem) => (p.document.faults ?? []).map((f) => ({ line: /^\/(\d+)/.exec(f.pointer)?.[1] ?? '', words: theirs(f.text) }));
+const faultsOf = (p: Problem) => (p.document.faults ?? []).map((f) => ({ line: /^\/(\d+)/.exec(f.pointer)?.[1] ?? '', text: theirs(f.text) }));
 
 export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () => Promise<void> }) {
   const replace = useSignal(false);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const report = useSignal<Report | null>(null);
   const no = useBarred('engineer');
   const what = `${replace.value}\n${text.value}`;
@@ -32,30 +32,30 @@ export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () =
   const take = async (file: File | undefined) => {
     if (!file) return;
     if (file.size > largest) {
-      told.value = { tone: 'refused', text: t('{file} has {n} bytes; at most {most} are read.', { file: file.name, n: file.size, most: largest }) };
+      reported.value = { tone: 'refused', text: t('{file} has {n} bytes; at most {most} are read.', { file: file.name, n: file.size, most: largest }) };
       return;
     }
     text.value = await file.text();
-    told.value = { tone: 'good', text: t('{file} is in the field below. Nothing has been sent.', { file: file.name }) };
+    reported.value = { tone: 'good', text: t('{file} is in the field below. Nothing has been sent.', { file: file.name }) };
   };
   const send = async (dryRun: boolean) => {
     const sent = text.value;
-    told.value = { tone: 'busy', text: dryRun ? t('The gateway checks …') : t('Sending …') };
+    reported.value = { tone: 'busy', text: dryRun ? t('The gateway checks …') : t('Sending …') };
     try {
       const answer = await door.table(sent, { replace: replace.value, dryRun });
       if (dryRun) {
         report.value = { of: what, differences: answer.differences, faults: [] };
-        told.value = { tone: 'good', text: t('The gateway would take the table: {n} of its assemblies afterwards.', { n: answer.assemblies }) };
+        reported.value = { tone: 'good', text: t('The gateway would take the table: {n} of its assemblies afterwards.', { n: answer.assemblies }) };
         return;
       }
-      told.value = { tone: 'good', text: t('The table is taken: {n} of its assemblies now.', { n: answer.assemblies }) };
+      reported.value = { tone: 'good', text: t('The table is taken: {n} of its assemblies now.', { n: answer.assemblies }) };
       emptied(text, sent);
       report.value = null;
       await taken();
     } catch (error) {
       const problem = asProblem(error);
       report.value = { of: what, differences: [], faults: faultsOf(problem) };
-      told.value = { tone: 'refused', text: problem.words };
+      reported.value = { tone: 'refused', text: problem.text };
     }
   };
   return (
@@ -80,18 +80,18 @@ export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () =
           <button type="button" class="button" {...no} disabled={no.disabled || empty} onClick={() => void send(true)}>
             {t('Check with the gateway')}
           </button>
-          <button type="button" class="button primary" {...no} disabled={no.disabled || empty || !shown || shown.faults.length > 0 || told.value.tone !== 'good'} onClick={() => void send(false)}>
+          <button type="button" class="button primary" {...no} disabled={no.disabled || empty || !shown || shown.faults.length > 0 || reported.value.tone !== 'good'} onClick={() => void send(false)}>
             {t('Take the table')}
           </button>
           <a class="button" href={assembliesAddress} download="assemblies.csv">
             {t('Export CSV')}
           </a>
-          <Tell told={told.value} field="assembly-table-told" />
+          <Tell reported={reported.value} field="assembly-table-told" />
         </div>
         {shown && shown.differences.length > 0 && (
           <ul class="differences" aria-label={t('What would change')}>
             {shown.differences.map((d) => (
-              <li key={d} {...gatewayWords}>{d}</li>
+              <li key={d} {...gatewayText}>{d}</li>
             ))}
           </ul>
         )}
@@ -99,7 +99,7 @@ export function AssemblyTable({ door, taken }: { door: AssemblyDoor; taken: () =
           <ul class="differences" aria-label={t('What is wrong with the table')}>
             {shown.faults.map((f, i) => (
               <li key={i} class="fault-text" data-line={f.line}>
-                {marked(f.line === '' ? f.words : t('Line {n}: {words}', { n: f.line, words: f.words }))}
+                {marked(f.line === '' ? f.text : t('Line {n}: {text}', { n: f.line, text: f.text }))}
               </li>
             ))}
           </ul>

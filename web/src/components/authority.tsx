@@ -9,8 +9,8 @@ import { t } from '../language';
 import { tick } from '../state/clock';
 import { barred } from '../state/session';
 import type { AxisEntry } from '../state/store';
-import { handOverChoices, heldBy, heldWords, holderName } from '../text/authority';
-import { quiet, Tell, TextField, type Told } from './form';
+import { handOverChoices, heldBy, heldText, holderName } from '../text/authority';
+import { quiet, Tell, TextField, type Reported } from './form';
 
 const ttl_s = 30;
 const renew_ms = 10_000;
@@ -25,8 +25,8 @@ const useHeld = (entry: AxisEntry) => {
 export function HolderLine({ entry }: { entry: AxisEntry }) {
   const held = useHeld(entry);
   return (
-    <p class="holder" data-field="authority" title={held.holder ? heldWords(held) : undefined}>
-      {held.holder ? heldWords(held) : ''}
+    <p class="holder" data-field="authority" title={held.holder ? heldText(held) : undefined}>
+      {held.holder ? heldText(held) : ''}
     </p>
   );
 }
@@ -34,24 +34,24 @@ export function HolderLine({ entry }: { entry: AxisEntry }) {
 export function AuthorityBar({ entry }: { entry: AxisEntry }) {
   const { client, session, store } = useGateway();
   const held = useHeld(entry);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const name = entry.data.name;
   const path = `/axes/${encodeURIComponent(name)}/authority`;
-  const act = async (words: string, work: () => Promise<unknown>) => {
+  const act = async (text: string, work: () => Promise<unknown>) => {
     try {
       await work();
-      told.value = { tone: 'good', text: `${words}.` };
+      reported.value = { tone: 'good', text: `${text}.` };
     } catch (error) {
-      told.value = { tone: 'refused', text: t('{what}: refused. {why}', { what: words, why: asProblem(error).words }) };
+      reported.value = { tone: 'refused', text: t('{what}: refused. {why}', { what: text, why: asProblem(error).text }) };
     }
   };
   const take = (take_over: boolean) => client.call<Authority>(path, { method: 'PUT', body: { ttl_s, take_over } });
   const mine = held.mine;
   const was = useRef(false);
-  const taken = useRef<Told | null>(null);
+  const taken = useRef<Reported | null>(null);
   useEffect(() => {
     // "Taken." is true only as long as nobody else has taken it.
-    if (was.current && !mine && told.peek().tone === 'good' && taken.current === told.peek()) told.value = held.holder ? { tone: 'refused', text: t('{holder} has it now.', { holder: holderName(held.holder) }) } : quiet;
+    if (was.current && !mine && reported.peek().tone === 'good' && taken.current === reported.peek()) reported.value = held.holder ? { tone: 'refused', text: t('{holder} has it now.', { holder: holderName(held.holder) }) } : quiet;
     was.current = mine;
   }, [mine, held.holder]);
   const giving = useSignal(false);
@@ -59,16 +59,16 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
     if (!mine) return;
     const timer = setInterval(() => {
       if (document.hidden || !store.connected.peek()) return;
-      take(false).catch((error) => (told.value = { tone: 'refused', text: t('Not renewed: {why}', { why: asProblem(error).words }) }));
+      take(false).catch((error) => (reported.value = { tone: 'refused', text: t('Not renewed: {why}', { why: asProblem(error).text }) }));
     }, renew_ms);
     return () => clearInterval(timer);
   }, [mine, name]);
 
   return (
     <div class="authority" role="group" aria-label={t('Authority over {name}', { name })}>
-      <span data-field="authority">{heldWords(held)}</span>
+      <span data-field="authority">{heldText(held)}</span>
       {!held.holder && (
-        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act(t('Taken'), () => take(false)).then(() => (taken.current = told.peek()))}>
+        <button type="button" class="button small" {...barred(session.mayNot('operator'))} onClick={() => void act(t('Taken'), () => take(false)).then(() => (taken.current = reported.peek()))}>
           {t('Take')}
         </button>
       )}
@@ -83,17 +83,17 @@ export function AuthorityBar({ entry }: { entry: AxisEntry }) {
         </button>
       )}
       {held.holder !== '' && !mine && (
-        <button type="button" class="button small" {...barred(session.mayNot('engineer'))} onClick={() => void act(t('Taken over'), () => take(true)).then(() => (taken.current = told.peek()))}>
+        <button type="button" class="button small" {...barred(session.mayNot('engineer'))} onClick={() => void act(t('Taken over'), () => take(true)).then(() => (taken.current = reported.peek()))}>
           {t('Take over')}
         </button>
       )}
-      <Tell told={told.value} field="authority-told" />
+      <Tell reported={reported.value} field="authority-told" />
       {mine && giving.value && (
         <HandOver
           name={name}
           give={async (to) => {
             await act(t('Handed over to {to}', { to }), () => client.call(`${path}/hand-over`, { method: 'POST', body: { to } }));
-            if (told.peek().tone === 'good') giving.value = false;
+            if (reported.peek().tone === 'good') giving.value = false;
           }}
         />
       )}

@@ -8,7 +8,7 @@ import { useGateway } from '../gateway';
 import { t } from '../language';
 import type { Commander } from '../state/commander';
 import { persisted } from '../state/persisted';
-import { setPositionWords, unitOf } from '../text/axis';
+import { setPositionText, unitOf } from '../text/axis';
 import { parseQuantity, typedNumber } from '../text/number';
 import { Ask } from './ask';
 import { Field } from './field';
@@ -29,32 +29,32 @@ export function useControls(axis: Axis) {
     const f = (w: Which, first = '') => persisted(`typed.${name}.${w}`, first);
     return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero') };
   }, [name]);
-  const wrong: Signal<Which | ''> = useMemo(() => signal(''), [name]);
+  const error: Signal<Which | ''> = useMemo(() => signal(''), [name]);
   const unit = unitOf(axis);
 
   /** Until the field has another text. */
   const tellWrong = (which: Which, text: string) => {
     commander.tell(name, 'refused', text);
-    const told = commander.note(name).peek();
+    const reported = commander.note(name).peek();
     const typed = fields[which].peek();
     const end = fields[which].subscribe((now) => {
       if (now === typed) return;
       queueMicrotask(() => end());
-      if (wrong.peek() === which) wrong.value = '';
-      commander.forget(name, told);
+      if (error.peek() === which) error.value = '';
+      commander.forget(name, reported);
     });
   };
-  const read = (which: Which, words: string, need: 'any' | 'positive'): number | null => {
+  const read = (which: Which, text: string, need: 'any' | 'positive'): number | null => {
     const parsed = parseQuantity(fields[which].value);
     let why = parsed.good ? '' : parsed.why;
     if (parsed.good && need === 'positive' && parsed.value <= 0) why = t('It must be greater than 0; the buttons give the direction.');
-    wrong.value = why ? which : '';
-    if (why) tellWrong(which, `${words}: ${why}`);
+    error.value = why ? which : '';
+    if (why) tellWrong(which, `${text}: ${why}`);
     return why || !parsed.good ? null : parsed.value;
   };
   /** An empty field: as the drive has it. undefined: wrong, and it has been said. */
-  const optional = (which: Which, words: string): number | null | undefined =>
-    fields[which].value.trim() === '' ? null : (read(which, words, 'positive') ?? undefined);
+  const optional = (which: Which, text: string): number | null | undefined =>
+    fields[which].value.trim() === '' ? null : (read(which, text, 'positive') ?? undefined);
 
   const move = (kind: 'move_absolute' | 'move_relative', sign = 1) => {
     const which = kind === 'move_absolute' ? 'target' : 'distance';
@@ -69,12 +69,12 @@ export function useControls(axis: Axis) {
     void commander.send(name, command, kind === 'move_absolute' ? t('Move to {position} {unit}', { position: command.position, unit }) : t('Move by {position} {unit}', { position: command.position, unit }));
   };
   const jogSpeed = () => read('speed', t('Speed'), 'positive');
-  const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', words: string) => () =>
-    void commander.send(name, { command } as Command, words);
+  const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', text: string) => () =>
+    void commander.send(name, { command } as Command, text);
   /** What the present position shall be called, as it is typed; null: it is no number, and that has been said. */
   const newPosition = () => read('zero', t('Position'), 'any');
   const setPosition = (position: number) => void commander.send(name, { command: 'set_position', position }, t('Call this place {position} {unit}', { position, unit }));
-  return { fields, wrong, unit, move, jogSpeed, simple, newPosition, setPosition };
+  return { fields, error, unit, move, jogSpeed, simple, newPosition, setPosition };
 }
 
 export const resultId = (axis: string): string => `result-${axis}`;
@@ -96,17 +96,17 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
   const c = useControls(axis);
   const no = useBarred('operator');
   const name = axis.name;
-  const wrong = c.wrong.value;
+  const error = c.error.value;
   const result = resultId(name);
   return (
     <div class="controls">
       {!bare && (
         <div class="control-rows">
-          <Field label={t('Target')} longLabel={t('Target of {name}', { name })} unit={c.unit} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+          <Field label={t('Target')} longLabel={t('Target of {name}', { name })} unit={c.unit} text={c.fields.target} invalid={error === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
           <button type="button" class="button tinted" aria-label={t('Move to target of {name}', { name })} {...no} onClick={() => c.move('move_absolute')}>{t('Move to')}</button>
-          <Field label={t('Distance')} longLabel={t('Distance of {name}', { name })} unit={c.unit} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+          <Field label={t('Distance')} longLabel={t('Distance of {name}', { name })} unit={c.unit} text={c.fields.distance} invalid={error === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
           <button type="button" class="button" aria-label={t('Move by distance of {name}', { name })} {...no} onClick={() => c.move('move_relative')}>{t('Move by')}</button>
-          <Field label={t('Speed')} longLabel={t('Speed of {name}', { name })} unit={`${c.unit}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder={t('as is')} />
+          <Field label={t('Speed')} longLabel={t('Speed of {name}', { name })} unit={`${c.unit}/s`} text={c.fields.speed} invalid={error === 'speed'} describedBy={result} placeholder={t('as is')} />
           <span class="pair">
             <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={c.unit} />
             <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={c.unit} />
@@ -132,17 +132,17 @@ function SetPosition({ name, c, describedBy }: { name: string; c: ReturnType<typ
   const asked = useSignal<number | null>(null);
   const ask = () => void (asked.value = c.newPosition());
   const now = asked.value === null ? undefined : store.axis(name)?.value.data;
-  const words = now ? setPositionWords(now, asked.value as number) : '';
+  const text = now ? setPositionText(now, asked.value as number) : '';
   return (
     <>
       <div class="control-rows">
-        <Field label={t('Position')} longLabel={t('What the present position shall be called')} unit={c.unit} text={c.fields.zero} wrong={c.wrong.value === 'zero'} describedBy={describedBy} placeholder={t('new value')} onEnter={ask} />
+        <Field label={t('Position')} longLabel={t('What the present position shall be called')} unit={c.unit} text={c.fields.zero} invalid={c.error.value === 'zero'} describedBy={describedBy} placeholder={t('new value')} onEnter={ask} />
         <button type="button" class="button" title={t('Calls the present position this, after a question; nothing moves')} {...no} onClick={ask}>{t('Set position …')}</button>
       </div>
       {now && (
         <Ask
           field="set-position"
-          words={words}
+          text={text}
           yes={t('Set position')}
           onNo={() => (asked.value = null)}
           onYes={() => {
@@ -161,7 +161,7 @@ export function FullControls({ axis }: { axis: Axis }) {
   const no = useBarred('operator');
   const result = useId();
   const name = axis.name;
-  const wrong = c.wrong.value;
+  const error = c.error.value;
   const u = c.unit;
   return (
     <div class="controls controls-full">
@@ -183,22 +183,22 @@ export function FullControls({ axis }: { axis: Axis }) {
         </HelpButton>
       </p>
       <div class="control-rows">
-        <Field label={t('Target')} unit={u} text={c.fields.target} wrong={wrong === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
+        <Field label={t('Target')} unit={u} text={c.fields.target} invalid={error === 'target'} describedBy={result} onEnter={() => c.move('move_absolute')} />
         <button type="button" class="button primary" {...no} onClick={() => c.move('move_absolute')}>{t('Move to')}</button>
-        <Field label={t('Distance')} unit={u} text={c.fields.distance} wrong={wrong === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
+        <Field label={t('Distance')} unit={u} text={c.fields.distance} invalid={error === 'distance'} describedBy={result} onEnter={() => c.move('move_relative')} />
         <span class="pair">
           <button type="button" class="button" aria-label={t('Move back by distance')} {...no} onClick={() => c.move('move_relative', -1)}>{t('− by')}</button>
           <button type="button" class="button" aria-label={t('Move forward by distance')} {...no} onClick={() => c.move('move_relative')}>{t('+ by')}</button>
         </span>
-        <Field label={t('Speed')} unit={`${u}/s`} text={c.fields.speed} wrong={wrong === 'speed'} describedBy={result} placeholder={t('as is')} />
+        <Field label={t('Speed')} unit={`${u}/s`} text={c.fields.speed} invalid={error === 'speed'} describedBy={result} placeholder={t('as is')} />
         <span class="pair">
           <JogButton axis={name} direction={-1} speed={c.jogSpeed} unit={u} />
           <JogButton axis={name} direction={1} speed={c.jogSpeed} unit={u} />
         </span>
       </div>
       <div class="control-ramps">
-        <Field label={t('Accel.')} longLabel={t('Acceleration')} unit={`${u}/s²`} text={c.fields.acceleration} wrong={wrong === 'acceleration'} describedBy={result} placeholder={t('as is')} />
-        <Field label={t('Decel.')} longLabel={t('Deceleration')} unit={`${u}/s²`} text={c.fields.deceleration} wrong={wrong === 'deceleration'} describedBy={result} placeholder={t('as is')} />
+        <Field label={t('Accel.')} longLabel={t('Acceleration')} unit={`${u}/s²`} text={c.fields.acceleration} invalid={error === 'acceleration'} describedBy={result} placeholder={t('as is')} />
+        <Field label={t('Decel.')} longLabel={t('Deceleration')} unit={`${u}/s²`} text={c.fields.deceleration} invalid={error === 'deceleration'} describedBy={result} placeholder={t('as is')} />
       </div>
       <SetPosition name={name} c={c} describedBy={result} />
       <ResultLine axis={name} id={result} />

@@ -31,7 +31,7 @@ export function SelectBox({ names, label }: { names: readonly string[]; label: s
 }
 
 interface Given {
-  words: string;
+  text: string;
   axes: string[];
 }
 
@@ -43,12 +43,12 @@ export function SelectionBar() {
   const names = selectedOf(store.axisNames.value);
   const none = names.length === 0;
   const off = none ? { disabled: true } : no;
-  const all = (axes: string[], command: Command['command'], words: string) => {
-    given.value = { words, axes };
-    for (const a of axes) void commander.send(a, { command } as Command, words);
+  const all = (axes: string[], command: Command['command'], text: string) => {
+    given.value = { text, axes };
+    for (const a of axes) void commander.send(a, { command } as Command, text);
   };
   const stop = () => {
-    given.value = { words: t('Stop'), axes: names };
+    given.value = { text: t('Stop'), axes: names };
     asked.value = null;
     for (const a of names) void commander.stop(a);
   };
@@ -77,7 +77,7 @@ export function SelectionBar() {
       {asked.value && (
         <Ask
           field="selection-home"
-          words={t('Home {axes}? Each of them moves, by the method of its drive, until it has found its zero.', { axes: asked.value.join(', ') })}
+          text={t('Home {axes}? Each of them moves, by the method of its drive, until it has found its zero.', { axes: asked.value.join(', ') })}
           yes={t('Home them')}
           onNo={() => (asked.value = null)}
           onYes={() => {
@@ -104,11 +104,11 @@ function Answers({ of }: { of: Given }) {
   const { commander } = useGateway();
   const notes = of.axes.map((axis) => ({ axis, note: commander.note(axis).value }));
   const count = (tone: NoteTone) => notes.filter((n) => n.note.tone === tone).length;
-  const said = (['refused', 'partly', 'busy', 'good'] as const).filter((tone) => count(tone) > 0).map((tone) => counted[tone](count(tone)));
+  const published = (['refused', 'partly', 'busy', 'good'] as const).filter((tone) => count(tone) > 0).map((tone) => counted[tone](count(tone)));
   const bad = count('refused') + count('partly') > 0;
   return (
     <details class="selection-answers" open={bad || undefined} data-field="selection-answers">
-      <summary class={bad ? 'is-fault' : ''}>{said.length > 0 ? t('{command}: {counts}', { command: of.words, counts: said.join(', ') }) : of.words}</summary>
+      <summary class={bad ? 'is-fault' : ''}>{published.length > 0 ? t('{command}: {counts}', { command: of.text, counts: published.join(', ') }) : of.text}</summary>
       <ul aria-label={t('Answers of the axes')}>
         {notes.map(({ axis, note }) => (
           <li key={axis} class={`result-${note.tone}`} data-answer={axis}>

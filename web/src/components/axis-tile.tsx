@@ -23,7 +23,7 @@ import { StopButton } from './stop';
 type EntrySignal = ReadonlySignal<AxisEntry>;
 
 /** How long ago the connection was last live, in words; ticks only while it is lost. */
-export function lastKnownWords(store: ReturnType<typeof useGateway>['store']): string {
+export function lastKnownText(store: ReturnType<typeof useGateway>['store']): string {
   const c = store.connection.value;
   if (c.phase === 'live' || c.lastLiveAt === 0) return '';
   return duration(tick.value - c.lastLiveAt);
@@ -35,7 +35,7 @@ export function Notice({ entry }: { entry: EntrySignal }) {
     const axis = entry.value.data;
     const trust = store.trustOf(entry.value);
     const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
-    return noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownWords(store) || t('some time') : '');
+    return noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownText(store) || t('some time') : '');
   });
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">

@@ -1,6 +1,6 @@
 // Console: one line in the drive's own language, and its reply. In: what is typed (text or hex pairs). Out: a log, newest last.
 // Keeps the last 200 exchanges of the visit; arrow up and down bring back what was sent. Never sends by itself.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
@@ -53,7 +53,7 @@ export function Console({ drive }: { drive: string }) {
       const r = await client.native(drive, asHex.peek() ? { send_hex: text } : { send: text });
       put({ reply: r.reply === '' ? t('(no text)') : r.reply, hex: r.reply_hex, took_ms: r.took_ms, tone: 'good' });
     } catch (error) {
-      put({ reply: capital(asProblem(error).words), tone: 'refused' });
+      put({ reply: capital(asProblem(error).text), tone: 'refused' });
       if (typed.peek() === '') typed.value = text; // what was typed stays when it was refused
     }
   };
@@ -73,7 +73,7 @@ export function Console({ drive }: { drive: string }) {
         {log.value.map((x) => (
           <li key={x.id} class={`result-${x.tone}`}>
             <span class="sent">{x.sent}</span>
-            <span class="reply" {...gatewayWords} title={x.hex ? x.hex.replace(/(..)/g, '$1 ') : ''}>
+            <span class="reply" {...gatewayText} title={x.hex ? x.hex.replace(/(..)/g, '$1 ') : ''}>
               {x.reply}
             </span>
             <span class="took">{x.took_ms === null ? '' : t('{took_ms} ms', { took_ms: x.took_ms })}</span>

@@ -1,6 +1,6 @@
 // Error help: what a drive's own error code means and what to do about it, from the catalogue of its family. In: an axis or a drive, a code. Out: the
 // maker's words, as the catalogue has them; nothing where the code is none of the family's. Each family's list is asked for once.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Client } from '../api/client';
@@ -39,13 +39,13 @@ export function ErrorHelp({ axis, drive, code }: { axis?: string | null | undefi
     <p class="error-help" data-field="error-help" data-code={e.code}>
       {e.remedy && (
         <>
-          <b>{t('What to do:')}</b> <span {...gatewayWords}>{e.remedy}</span>
+          <b>{t('What to do:')}</b> <span {...gatewayText}>{e.remedy}</span>
         </>
       )}
       {e.cause && (
         <span class="error-cause">
           {' '}
-          <b>{t('Cause:')}</b> <span {...gatewayWords}>{e.cause}</span>
+          <b>{t('Cause:')}</b> <span {...gatewayText}>{e.cause}</span>
         </span>
       )}
     </p>

@@ -2,7 +2,7 @@
 // Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
 import { errorsNow, type ErrorEntry } from '../text/errors';
@@ -42,7 +42,7 @@ export function ErrorList() {
                   <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
                 </b>
               )}
-              <span class="wrong-text" {...gatewayWords}>{plain(withoutSubject(w.text, w.about))}</span>
+              <span class="wrong-text" {...gatewayText}>{plain(withoutSubject(w.text, w.about))}</span>
             </a>
             {w.axes.length > 0 && <ErrorAxes of={w} />}
           </li>

@@ -1,6 +1,6 @@
 // Events, newest first: severity in words and icon, what happened, to what, by whom. In: events. Out: a list.
 // Severity is a word and a shape before it is a colour.
-import { gatewayWords, t, theirs } from '../language';
+import { gatewayText, t, theirs } from '../language';
 import { marked } from './marked';
 import type { GatewayEvent, Severity } from '../api/types';
 import { withoutSubject } from '../text/alarm';
@@ -41,7 +41,7 @@ function ItemView({ event, scale }: { event: GatewayEvent; scale?: Scale | undef
       </time>
       <span class="event-what">
         {about && <b>{about} </b>}
-        {text ? <span {...gatewayWords}>{text}</span> : <span>{change || plainWord(event.kind)}</span>}
+        {text ? <span {...gatewayText}>{text}</span> : <span>{change || plainWord(event.kind)}</span>}
         {event.text && change && <span class="event-change mono"> {change}</span>}
         {event.code ? <span class="mono">{' '}{t('(code {code})', { code: event.code })}</span> : null}
         {event.code && event.severity !== 'info' ? (
@@ -91,8 +91,8 @@ function EventGroup({ events, scale }: { events: GatewayEvent[]; scale?: Scale |
 export function EventList({ events, limit }: { events: GatewayEvent[]; limit: number }) {
   const { store } = useGateway();
   // As text: it is another only when a unit is, not with every reading.
-  const told = useComputed(() => JSON.stringify(store.axisNames.value.map((n) => { const a = store.axis(n)?.value.data; return [n, { unit: a?.unit ?? '', increments_per_unit: a?.increments_per_unit ?? 0 }]; })));
-  const scales = new Map(JSON.parse(told.value) as [string, Scale][]);
+  const reported = useComputed(() => JSON.stringify(store.axisNames.value.map((n) => { const a = store.axis(n)?.value.data; return [n, { unit: a?.unit ?? '', increments_per_unit: a?.increments_per_unit ?? 0 }]; })));
+  const scales = new Map(JSON.parse(reported.value) as [string, Scale][]);
   if (events.length === 0) return <p class="empty"><Icon name="info" />{' '}{t('Nothing has happened yet.')}</p>;
   return (
     <ol class="events">

@@ -6,13 +6,13 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog, watchdogWords } from '../text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedText, readWatchdog, watchdogText } from '../text/fail-safe';
 import { dateTime } from '../text/time';
-import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { Section } from './section';
-import { refusal, tellOf } from './told';
+import { refusal, tellOf } from './reported';
 
 const look_ms = 1_000;
 
@@ -28,23 +28,23 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const { client } = useGateway();
   const door = useMemo(() => new FailSafeDoor(client), [client]);
   const matrix = useSignal<Matrix | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const no = useBarred('engineer');
   const load = async () => void (matrix.value = await door.matrix());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.words));
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.text));
   if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
-  const put = (row: FailSafeRow, choice: Wish, what: string) => tellOf(told, t('Changing …'), () => door.put(row.axis, choice).then(load), t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }));
+  const put = (row: FailSafeRow, choice: Wish, what: string) => tellOf(reported, t('Changing …'), () => door.put(row.axis, choice).then(load), t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }));
   return (
     <Section title={t('When who commands is lost')} class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
         {t('What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.')}
       </p>
-      <Tell told={told.value} field="fail-safe-told" />
+      <Tell reported={reported.value} field="fail-safe-told" />
       {axes.map((row) => (
         <details key={row.axis} class="card profile" data-fail-safe={row.axis}>
           <summary>
-            <strong>{row.axis}</strong>: {namedWords(row)}
+            <strong>{row.axis}</strong>: {namedText(row)}
             {row.last_cause && <span class="where">{' '}{t('stopped last: {n}', { n: midSentence(causeText(row.last_cause)) })}</span>}
           </summary>
           <div class="form-grid">
@@ -53,7 +53,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
             ))}
           </div>
           <p class="where" data-field="drive-watchdog">
-            {marked(watchdogWords(row))}
+            {marked(watchdogText(row))}
           </p>
           <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, t('the time of a silent Modbus client'))} />
         </details>
@@ -104,7 +104,7 @@ function Watchdog({ row, put }: { row: FailSafeRow; put: (value: number | null) 
 function RehearsalPart({ door }: { door: FailSafeDoor }) {
   const { store } = useGateway();
   const now = useSignal<Rehearsal | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const no = useBarred('engineer');
   useLoaded(async () => void (now.value = await door.rehearsal()), [door], () => '');
   const running = now.value?.state === 'running';
@@ -114,11 +114,11 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
     return () => clearInterval(timer);
   }, [door, running]);
   const start = async () => {
-    told.value = quiet;
+    reported.value = quiet;
     try {
       now.value = await door.rehearse();
     } catch (error) {
-      told.value = refusal(error);
+      reported.value = refusal(error);
     }
   };
   const report = now.value?.report ?? null;
@@ -137,7 +137,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
             {t('Print the report')}
           </button>
         )}
-        <Tell told={told.value} field="rehearsal-told" />
+        <Tell reported={reported.value} field="rehearsal-told" />
       </div>
       {report && (
         <>

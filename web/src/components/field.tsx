@@ -10,18 +10,18 @@ export interface FieldProps {
   longLabel?: string;
   unit: string;
   text: Signal<string>;
-  wrong?: boolean;
+  invalid?: boolean;
   describedBy?: string;
   placeholder?: string;
   onEnter?: () => void;
 }
 
-export function Field({ label, longLabel, unit, text, wrong, describedBy, placeholder, onEnter }: FieldProps) {
+export function Field({ label, longLabel, unit, text, invalid: refused, describedBy, placeholder, onEnter }: FieldProps) {
   const id = useId();
   return (
     <div class="field">
       <label for={id}>{label}</label>
-      <span class={`field-box${wrong ? ' is-wrong' : ''}`}>
+      <span class={`field-box${refused ? ' is-wrong' : ''}`}>
         <input
           id={id}
           type="text"
@@ -32,7 +32,7 @@ export function Field({ label, longLabel, unit, text, wrong, describedBy, placeh
           placeholder={placeholder}
           title={placeholder === t('as is') ? t('Empty: as the drive has it') : undefined}
           aria-label={longLabel}
-          aria-invalid={wrong || undefined}
+          aria-invalid={refused || undefined}
           aria-describedby={describedBy}
           onInput={(e) => (text.value = e.currentTarget.value)}
           onKeyDown={(e) => {

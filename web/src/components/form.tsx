@@ -30,7 +30,7 @@ export interface TextFieldProps extends Common {
 
 export function TextField(p: TextFieldProps) {
   const id = useId();
-  const told = Boolean(p.fault) || p.hint !== undefined;
+  const reported = Boolean(p.fault) || p.hint !== undefined;
   return (
     <div class={`form-field ${p.class ?? ''}`}>
       <label for={id}>{p.label}</label>
@@ -47,7 +47,7 @@ export function TextField(p: TextFieldProps) {
         disabled={p.disabled}
         list={p.offers ? `${id}-offers` : undefined}
         aria-invalid={p.fault ? true : undefined}
-        aria-describedby={told ? `${id}-told` : undefined}
+        aria-describedby={reported ? `${id}-told` : undefined}
         onInput={(e) => p.onText(e.currentTarget.value)}
         onBlur={p.onLeave}
       />
@@ -60,7 +60,7 @@ export function TextField(p: TextFieldProps) {
           ))}
         </datalist>
       )}
-      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+      <FieldNote id={`${id}-told`} fault={p.fault} hint={p.hint} />
     </div>
   );
 }
@@ -80,13 +80,13 @@ export function choiceRoom(choices: readonly { text: string }[]): '' | 'takes-so
 
 export function Choice(p: ChoiceProps) {
   const id = useId();
-  const told = Boolean(p.fault) || p.hint !== undefined;
+  const reported = Boolean(p.fault) || p.hint !== undefined;
   const room = choiceRoom(p.choices);
   const known = p.choices.some((c) => c.value === p.value);
   return (
     <div class={`form-field ${room} ${p.class ?? ''}`}>
       <label for={id}>{p.label}</label>
-      <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={told ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
+      <select id={id} class={p.fault ? 'is-wrong' : ''} value={p.value} disabled={p.disabled} aria-invalid={p.fault ? true : undefined} aria-describedby={reported ? `${id}-told` : undefined} onChange={(e) => p.onChoice(e.currentTarget.value)}>
         {!known && <option value={p.value}>{p.value || t('choose')}</option>}
         {p.choices.map((c) => (
           <option key={c.value} value={c.value} disabled={c.disabled} lang={c.lang}>
@@ -99,7 +99,7 @@ export function Choice(p: ChoiceProps) {
           {p.choices.find((c) => c.value === p.value)?.text}
         </p>
       )}
-      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+      <FieldNote id={`${id}-told`} fault={p.fault} hint={p.hint} />
     </div>
   );
 }
@@ -111,12 +111,12 @@ export function Switch(p: Common & { on: boolean; onSwitch: (on: boolean) => voi
       <label class="check">
         <input type="checkbox" checked={p.on} aria-describedby={`${id}-told`} onChange={(e) => p.onSwitch(e.currentTarget.checked)} /> {p.label}
       </label>
-      <Told id={`${id}-told`} fault={p.fault} hint={p.hint} />
+      <FieldNote id={`${id}-told`} fault={p.fault} hint={p.hint} />
     </div>
   );
 }
 
-function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint: ComponentChildren }) {
+function FieldNote({ id, fault, hint }: { id: string; fault: string | undefined; hint: ComponentChildren }) {
   if (fault) {
     return (
       <p class="form-told is-fault" id={id}>
@@ -131,19 +131,19 @@ function Told({ id, fault, hint }: { id: string; fault: string | undefined; hint
   );
 }
 
-export interface Told {
+export interface Reported {
   tone: 'none' | 'busy' | 'good' | 'refused';
   text: string;
 }
-export const quiet: Told = { tone: 'none', text: '' };
-export const toldOf = (o: Outcome): Told => ({ tone: o.good ? 'good' : 'refused', text: capital(o.text) });
+export const quiet: Reported = { tone: 'none', text: '' };
+export const reportedOf = (o: Outcome): Reported => ({ tone: o.good ? 'good' : 'refused', text: capital(o.text) });
 const capital = (s: string) => s.charAt(0).toUpperCase() + s.slice(1);
 
 /** How it went, spoken when it changes. Keeps its place. */
-export function Tell({ told, field }: { told: Told; field?: string }) {
+export function Tell({ reported, field }: { reported: Reported; field?: string }) {
   return (
-    <p class={`tell result-${told.tone}`} role="status" data-field={field}>
-      {marked(told.text)}
+    <p class={`tell result-${reported.tone}`} role="status" data-field={field}>
+      {marked(reported.text)}
     </p>
   );
 }

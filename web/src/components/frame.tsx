@@ -13,7 +13,7 @@ import { helpOfPage } from '../text/help';
 import { duration } from '../text/time';
 import { Icon, type IconName } from './icon';
 import { LanguageChoice } from './language';
-import { lastKnownWords } from './axis-tile';
+import { lastKnownText } from './axis-tile';
 import { StopAll } from './stop';
 import { Trial } from './trial';
 import { Who } from './who';
@@ -63,11 +63,11 @@ function Connection() {
   const { store, session } = useGateway();
   const out = session.needed.value;
   const phase = out ? 'connecting' : store.connection.value.phase;
-  const words = out ? t('Not signed in') : phase === 'live' ? t('Live') : phase === 'connecting' ? t('Connecting') : phase === 'silent' ? t('No answer') : t('Not connected');
+  const text = out ? t('Not signed in') : phase === 'live' ? t('Live') : phase === 'connecting' ? t('Connecting') : phase === 'silent' ? t('No answer') : t('Not connected');
   return (
-    <span class={`connection is-${phase}`} role="status" aria-label={t('Connection to the gateway: {words}', { words })} data-field="connection">
+    <span class={`connection is-${phase}`} role="status" aria-label={t('Connection to the gateway: {text}', { text })} data-field="connection">
       <Icon name={phase === 'live' ? 'check' : phase === 'connecting' ? 'clock' : 'unplugged'} size={14} />
-      <span>{words}</span>
+      <span>{text}</span>
     </span>
   );
 }
@@ -111,14 +111,14 @@ export function Head() {
 }
 
 /** `filter`: what the axes are filtered by when the count is pressed; nothing to show, nothing to press. */
-function Counted({ n, words: what, tone, filter }: { n: number; words: string; tone?: string; filter: string }) {
+function Counted({ n, text: what, tone, filter }: { n: number; text: string; tone?: string; filter: string }) {
   const look = `counted${n > 0 && tone ? ` tone-${tone}` : ''}`;
-  const words = (
+  const text = (
     <>
       <b>{n}</b> {what}
     </>
   );
-  if (n === 0) return <span class={look}>{words}</span>;
+  if (n === 0) return <span class={look}>{text}</span>;
   const show = () => {
     axesFilter.value = filter;
     // After the page that the link leads to is drawn.
@@ -126,7 +126,7 @@ function Counted({ n, words: what, tone, filter }: { n: number; words: string; t
   };
   return (
     <a class={look} href="/" title={filter ? t('Show the axes that match “{filter}”', { filter }) : t('Show all axes')} onClick={show}>
-      {words}
+      {text}
     </a>
   );
 }
@@ -135,11 +135,11 @@ export function Strip() {
   const gateway = useGateway();
   const { store, commander } = gateway;
   if (gateway.session.needed.value) {
-    const said = commander.stopReport.value;
+    const published = commander.stopReport.value;
     return (
       <div class="strip" data-field="strip">
         <span class="strip-text">{gateway.session.stopBarred.value && <b data-field="stop-barred">{gateway.session.stopBarred.value}</b>} {gateway.session.ended.value ? t('Your session has ended: no values are shown until you sign in again.') : t('Not signed in: no values are shown. This gateway serves nobody without a sign-in.')}</span>
-        <span class={`strip-stop result-${said.tone}`}>{marked(said.text)}</span>
+        <span class={`strip-stop result-${published.tone}`}>{marked(published.text)}</span>
         <HelpLink />
       </div>
     );
@@ -147,7 +147,7 @@ export function Strip() {
   const c = store.connection.value;
   const stop = commander.stopReport.value;
   if (c.phase !== 'live') {
-    const since = lastKnownWords(store);
+    const since = lastKnownText(store);
     const first = c.lastLiveAt === 0;
     const silent = c.phase === 'silent';
     const next = silent ? t('Waiting for its next word.') : c.phase === 'waiting' ? t('Next try in {time}.', { time: duration(Math.max(0, c.retryAt - tick.value)) }) : t('Trying now.');
@@ -176,11 +176,11 @@ export function Strip() {
   return (
     <div class="strip" data-field="strip">
       <span class="strip-text">
-        <Counted n={n.axes} words={n.axes === 1 ? t('axis') : t('axes')} filter="" />
-        <Counted n={n.moving} words={t('moving')} tone="active" filter={t('moving')} />
-        <Counted n={n.fault} words={t('in fault')} tone="fault" filter={t('in fault')} />
-        <Counted n={n.simulated} words={t('simulated')} filter={t('simulated')} />
-        <Counted n={n.offline} words={t('offline')} tone="warning" filter={t('offline')} />
+        <Counted n={n.axes} text={n.axes === 1 ? t('axis') : t('axes')} filter="" />
+        <Counted n={n.moving} text={t('moving')} tone="active" filter={t('moving')} />
+        <Counted n={n.fault} text={t('in fault')} tone="fault" filter={t('in fault')} />
+        <Counted n={n.simulated} text={t('simulated')} filter={t('simulated')} />
+        <Counted n={n.offline} text={t('offline')} tone="warning" filter={t('offline')} />
       </span>
       <span class={`strip-stop result-${stop.tone}`}>{marked(stop.text)}</span>
       <Trial />

@@ -1,7 +1,7 @@
 // Hand: the outside conditions of a simulated drive, as switches and numbers: power, stall, limits, inputs, injected errors.
 // In: what the twin offers, asked again every 2 s while shown; the axis whose page it is. Out: changes of one condition at a time. Only where a
 // twin answers. What belongs to another axis than this one stands folded under that one's name, so that nobody takes the wrong one in hand.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useId } from 'preact/hooks';
@@ -13,7 +13,7 @@ import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } 
 import { editText } from '../text/parameter';
 import { parseNumber } from '../text/number';
 import { Empty } from './lines';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const period_ms = 2_000;
 
@@ -63,7 +63,7 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
       note.value = { tone: 'good', text: t('{what}: set to {value}', { what: whose(name) + handLabel(name), value: typeof value === 'boolean' ? (value ? t('on') : t('off')) : editText(now[name] ?? value) }) };
       return '';
     } catch (error) {
-      const why = capital(asProblem(error).words);
+      const why = capital(asProblem(error).text);
       note.value = { tone: 'refused', text: t('{what}: refused. {why}', { what: whose(name) + handLabel(name), why }) };
       return why;
     }
@@ -123,7 +123,7 @@ interface RowProps {
 
 function HandRow({ item, label: short, of, axis, set }: RowProps) {
   const typed = useSignal<string | null>(null);
-  const wrong = useSignal('');
+  const error = useSignal('');
   const label = of ? `${short}, ${of}` : short;
   const isPosition = /(^|\.)position$/.test(item.name);
   const typedNumber = typed.value === null ? null : parseNumber(typed.value);
@@ -135,12 +135,12 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
     let value: Value = text;
     if (typeof item.value !== 'string') {
       const parsed = parseNumber(text);
-      wrong.value = parsed.good ? '' : parsed.why;
+      error.value = parsed.good ? '' : parsed.why;
       if (!parsed.good) return;
       value = parsed.value;
     }
     const refused = await set(item.name, value);
-    wrong.value = refused;
+    error.value = refused;
     // What was refused stays, to be mended; so does what was typed meanwhile.
     if (!refused && typed.peek() === text) typed.value = null;
   };
@@ -155,12 +155,12 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
               {item.writable && typeof item.value !== 'boolean' ? t('What may be entered') : t('What it is')}
               <span class="visually-hidden">: {label}</span>
             </summary>
-            <span class="where" {...gatewayWords}>{item.description}</span>
+            <span class="where" {...gatewayText}>{item.description}</span>
           </details>
         )}
       </span>
       {typeof item.value === 'boolean' ? (
-        <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => void set(item.name, !item.value).then((w) => (wrong.value = w))}>
+        <button type="button" class="switch" role="switch" aria-checked={item.value} aria-label={label} disabled={!item.writable} onClick={() => void set(item.name, !item.value).then((w) => (error.value = w))}>
           <span class="switch-thumb" aria-hidden="true" />
           <span class="switch-text">{item.value ? t('on') : t('off')}</span>
         </button>
@@ -171,9 +171,9 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
             inputMode="decimal"
             autocomplete="off"
             aria-label={label}
-            class={wrong.value ? 'is-wrong' : ''}
-            aria-invalid={wrong.value ? true : undefined}
-            aria-describedby={wrong.value ? why : undefined}
+            class={error.value ? 'is-wrong' : ''}
+            aria-invalid={error.value ? true : undefined}
+            aria-describedby={error.value ? why : undefined}
             value={typed.value ?? editText(item.value)}
             onInput={(e) => (typed.value = e.currentTarget.value)}
             onKeyDown={(e) => {
@@ -192,9 +192,9 @@ function HandRow({ item, label: short, of, axis, set }: RowProps) {
       ) : (
         <span class="mono">{editText(item.value)}</span>
       )}
-      {wrong.value && (
+      {error.value && (
         <span class="hand-wrong" id={why} role="alert" data-field="hand-wrong">
-          {marked(wrong.value)}
+          {marked(error.value)}
         </span>
       )}
     </li>

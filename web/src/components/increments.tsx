@@ -16,7 +16,7 @@ export function Increments({ unit, onTake }: { unit: string; onTake: (text: stri
       value={m.value[key]}
       onText={(text) => (m.value = { ...m.peek(), [key]: text })}
       hint={hint}
-      fault={m.value[key].trim() !== '' && !reckoned.good && reckoned.wrong.includes(key) ? t('A number above 0.') : undefined}
+      fault={m.value[key].trim() !== '' && !reckoned.good && reckoned.errors.includes(key) ? t('A number above 0.') : undefined}
     />
   );
   return (

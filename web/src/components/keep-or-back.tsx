@@ -10,7 +10,7 @@ import { keepBarred } from './trial';
 
 export function KeepOrBack({ draft, primary }: { draft: SiteDraft; primary: boolean }) {
   const { session, tab } = useGateway();
-  const busy = draft.told.value.tone === 'busy';
+  const busy = draft.reported.value.tone === 'busy';
   return (
     <>
       <button type="button" class={`button${primary ? ' primary' : ''}`} disabled={busy} {...barred(keepBarred(draft, session, tab.name.value))} onClick={() => void draft.confirm()}>
@@ -19,7 +19,7 @@ export function KeepOrBack({ draft, primary }: { draft: SiteDraft; primary: bool
       <button type="button" class="button" disabled={busy} {...useBarred('engineer')} onClick={() => void draft.rollBack()}>
         {t('Roll back now')}
       </button>
-      <Tell told={draft.told.value} field="stage-told" />
+      <Tell reported={draft.reported.value} field="stage-told" />
     </>
   );
 }

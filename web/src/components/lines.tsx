@@ -1,6 +1,6 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
-import { gatewayWords, midSentence, t, theirs } from '../language';
+import { gatewayText, midSentence, t, theirs } from '../language';
 import { marked } from './marked';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
@@ -106,7 +106,7 @@ function DriveCard({ name }: { name: string }) {
       <p class="where">
         {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {presenceText(drive.presence)}
       </p>
-      <p class="why" {...gatewayWords}>{s.text || '\u00a0'}</p>
+      <p class="why" {...gatewayText}>{s.text || '\u00a0'}</p>
       <p class="where">
         {drive.axes.length === 0 ? t('no axis') : <>{t('Axes:')} </>}
         {drive.axes.map((a, i) => (

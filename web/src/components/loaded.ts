@@ -13,12 +13,12 @@ const again_ms = 2_000;
 export const waiting = t('Waiting for the gateway.');
 
 /** Why nothing can be asked now; empty: it can, or the first connection is still being made. */
-export function awayWords({ phase, attempts, why }: Pick<StreamState, 'phase' | 'attempts' | 'why'>): string {
+export function awayText({ phase, attempts, why }: Pick<StreamState, 'phase' | 'attempts' | 'why'>): string {
   if (phase === 'live' || (phase === 'connecting' && attempts === 0)) return '';
   return t('Not connected: {why}. This is loaded by itself when the gateway is back.', { why: why || t('the gateway cannot be reached') });
 }
 
-export function useLoaded(load: () => Promise<unknown>, when: readonly unknown[] = [], words: (p: Problem) => string = (p) => p.words): string {
+export function useLoaded(load: () => Promise<unknown>, when: readonly unknown[] = [], text: (p: Problem) => string = (p) => p.text): string {
   const { store } = useGateway();
   const connection = store.connection.value;
   const live = connection.phase === 'live';
@@ -33,7 +33,7 @@ export function useLoaded(load: () => Promise<unknown>, when: readonly unknown[]
         (error: unknown) => {
           if (!here) return;
           const p = asProblem(error);
-          if (state.peek() !== 'there') state.value = capital(words(p));
+          if (state.peek() !== 'there') state.value = capital(text(p));
           if (p.status === 0 || p.status >= 500) timer = setTimeout(() => void ask(), again_ms);
         },
       );
@@ -44,5 +44,5 @@ export function useLoaded(load: () => Promise<unknown>, when: readonly unknown[]
     };
   }, [live, connection.epoch, ...when]);
   if (state.value === 'there') return '';
-  return awayWords(connection) || (state.value === 'asking' ? waiting : state.value);
+  return awayText(connection) || (state.value === 'asking' ? waiting : state.value);
 }

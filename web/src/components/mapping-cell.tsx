@@ -8,17 +8,17 @@ import { t } from '../language';
 import { pointUnit, pointValue, tableOf, type Mapping } from '../text/mapping';
 import type { Block } from '../text/mapping-blocks';
 import { formatExact } from '../text/number';
-import type { Heard } from '../state/register-look';
+import type { Received } from '../state/register-look';
 import type { Store } from '../state/store';
 import { SimulatedMark } from './name';
 
-export const accessWords: Record<Mapping['access'], string> = { R: t('read'), W: t('write'), RW: t('read and write') };
+export const accessText: Record<Mapping['access'], string> = { R: t('read'), W: t('write'), RW: t('read and write') };
 export const valueWords = (v: number | string | boolean): string => (typeof v === 'number' ? formatExact(Number.isInteger(v) ? v : Number(v.toPrecision(7))) : typeof v === 'boolean' ? (v ? t('on') : t('off')) : v);
 export const hexWords = (words: readonly number[]): string => words.map((w) => w.toString(16).toUpperCase().padStart(4, '0')).join(' ');
-const trustWords = { live: '', stale: t('stale'), offline: t('offline'), disconnected: t('disconnected') } as const;
+const trustText = { live: '', stale: t('stale'), offline: t('offline'), disconnected: t('disconnected') } as const;
 
 /** What is known of a block now. `text` is empty where nobody says it, whatever stands in the register. */
-export interface Said {
+export interface Published {
   text: string;
   unit: string;
   live: boolean;
@@ -28,12 +28,12 @@ export interface Said {
   why: string;
 }
 
-export function saidOf(b: Block, store: Store, heard: ReadonlyMap<string, Heard>): Said {
+export function publishedOf(b: Block, store: Store, received: ReadonlyMap<string, Received>): Published {
   const entry = b.axis ? store.axis(b.axis)?.value : undefined;
   const axis = entry?.data;
   const trust = entry ? store.trustOf(entry) : 'offline';
   const fromAxis = axis && b.point ? pointValue(axis, b.point) : undefined;
-  const h = heard.get(b.key);
+  const h = received.get(b.key);
   const bits = tableOf(b.table).bits;
   const inWord = b.width === 1 && !b.mapping && h?.words?.length === 1 ? (b.type === 'bool' ? h.words[0] === 1 : h.words[0]) : undefined;
   const value = fromAxis === undefined ? (h?.value ?? inWord) : fromAxis;
@@ -43,61 +43,61 @@ export function saidOf(b: Block, store: Store, heard: ReadonlyMap<string, Heard>
     text: known ? valueWords(value) : '',
     unit: known && axis && b.point ? pointUnit(axis, b.point) : '',
     live,
-    note: live || !known ? '' : trust === 'live' ? t('not live') : trustWords[trust],
+    note: live || !known ? '' : trust === 'live' ? t('not live') : trustText[trust],
     raw: h?.words ? (bits ? h.words.join(' ') : hexWords(h.words)) : '',
     why: h?.words ? '' : h?.text || (b.access === 'W' ? t('written only') : t('not read yet')),
   };
 }
 
 /** Follows one block; changes only when one of its texts does. */
-export function useSaid(b: Block, heard: ReadonlySignal<ReadonlyMap<string, Heard>>): Said {
+export function usePublished(b: Block, received: ReadonlySignal<ReadonlyMap<string, Received>>): Published {
   const { store } = useGateway();
-  const said = useMemo(() => {
-    let last: Said | null = null;
+  const published = useMemo(() => {
+    let last: Published | null = null;
     return computed(() => {
-      const now = saidOf(b, store, heard.value);
-      if (last && (Object.keys(now) as (keyof Said)[]).every((k) => last![k] === now[k])) return last;
+      const now = publishedOf(b, store, received.value);
+      if (last && (Object.keys(now) as (keyof Published)[]).every((k) => last![k] === now[k])) return last;
       return (last = now);
     });
-  }, [b, heard]);
-  return said.value;
+  }, [b, received]);
+  return published.value;
 }
 
-export function ValueOf({ said }: { said: Said }) {
+export function ValueOf({ published }: { published: Published }) {
   return (
-    <span class="map-value" data-field="value" data-live={said.live}>
-      {said.text === '' ? (
+    <span class="map-value" data-field="value" data-live={published.live}>
+      {published.text === '' ? (
         <span class="where">{t('not known')}</span>
       ) : (
-        <span class={said.live ? '' : 'is-old-value'}>
-          <span class="mono">{said.text}</span> <span class="unit">{said.unit}</span>
-          {said.note && <span class="flag"> {said.note}</span>}
+        <span class={published.live ? '' : 'is-old-value'}>
+          <span class="mono">{published.text}</span> <span class="unit">{published.unit}</span>
+          {published.note && <span class="flag"> {published.note}</span>}
         </span>
       )}
     </span>
   );
 }
 /** What the Modbus door itself has said, and nothing that is reckoned from elsewhere. */
-export function RawOf({ said }: { said: Said }) {
+export function RawOf({ published }: { published: Published }) {
   return (
     <span class="map-raw" data-field="in-register">
-      {said.raw ? <span class="mono">{said.raw}</span> : <span class="where">{said.why}</span>}
+      {published.raw ? <span class="mono">{published.raw}</span> : <span class="where">{published.why}</span>}
     </span>
   );
 }
 
-export function BlockCell({ block: b, heard }: { block: Block; heard: ReadonlySignal<ReadonlyMap<string, Heard>> }) {
-  const said = useSaid(b, heard);
+export function BlockCell({ block: b, received }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>> }) {
+  const published = usePublished(b, received);
   return (
     <>
       <span class="map-name mono" title={b.name}>{b.name}</span>
       <span class="map-axis">
         {b.axis} {b.axis && <SimulatedMark of={b.axis} />}
       </span>
-      <ValueOf said={said} />
+      <ValueOf published={published} />
       <span class="map-foot">
-        <RawOf said={said} />{' '}
-        <span class="map-type mono" title={accessWords[b.access]}>
+        <RawOf published={published} />{' '}
+        <span class="map-type mono" title={accessText[b.access]}>
           {b.type} {b.access}
         </span>
       </span>

@@ -4,7 +4,7 @@
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
-import { gatewayWords, t, theirs } from '../language';
+import { gatewayText, t, theirs } from '../language';
 import { addressBase, addressField, forgetAddressField } from '../state/address-base';
 import { narrow } from '../state/narrow';
 import { emptied, persisted } from '../state/persisted';
@@ -12,7 +12,7 @@ import type { Clash, MappingBook } from '../state/mappings';
 import { checkTexts, conflictsOf, emptyTexts, fields, neighbourText, nextFree, placeText, signWarning, tables, textsOf, types, widthOf, type Field, type Known, type Mapping, type Table, type Texts } from '../text/mapping';
 import { addressText, doubtText, otherText, readAddress, spanText } from '../text/address';
 import { naturalType } from '../text/mapping-type';
-import { Choice, quiet, Tell, TextField, toldOf, type Told } from './form';
+import { Choice, quiet, Tell, TextField, reportedOf, type Reported } from './form';
 import { useNamed } from './name';
 import { Section } from './section';
 
@@ -74,13 +74,13 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   if (editing && !byHand.has(d)) byHand.set(d, signal(naturalType('', editing.point, known) === editing.type ? '' : 'yes'));
   const hand = byHand.get(d) as Signal<string>;
   const touched = useSignal(false);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const clash = useSignal<Clash | null>(null);
   const form = useRef<HTMLFormElement>(null);
   useEffect(() => {
     touched.value = false;
     clash.value = null;
-    told.value = quiet;
+    reported.value = quiet;
     if (editing && focus) form.current?.querySelector<HTMLElement>('input, select')?.focus();
   }, [editing?.id, focus]);
 
@@ -103,7 +103,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   const set = (f: Field) => (text: string) => {
     d[f].value = text;
     if (f === 'type') hand.value = 'yes';
-    told.value = quiet;
+    reported.value = quiet;
     if (f === 'address') {
       // A number that carries its table chooses it.
       const now = readAddress(text, d.table.peek() as Table, base);
@@ -120,14 +120,14 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   const send = async (opened: Mapping | null) => {
     touched.value = true;
     if (!spec || conflicts.length > 0) {
-      told.value = { tone: 'refused', text: taken ?? t('Mend the fields that are marked.') };
+      reported.value = { tone: 'refused', text: taken ?? t('Mend the fields that are marked.') };
       requestAnimationFrame(() => form.current?.querySelector<HTMLElement>('.is-wrong')?.focus());
       return;
     }
-    told.value = { tone: 'busy', text: editing ? t('Changing …') : t('Adding …') };
+    reported.value = { tone: 'busy', text: editing ? t('Changing …') : t('Adding …') };
     const sent = { ...texts };
     const outcome = editing ? await book.replace(editing.id, spec, opened) : await book.add(spec);
-    told.value = toldOf(outcome);
+    reported.value = reportedOf(outcome);
     clash.value = outcome.good ? null : (outcome.clash ?? null);
     if (!outcome.good) return;
     touched.value = false;
@@ -145,7 +145,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
     }
   };
   const names = known.parameters(texts.axis) ?? [];
-  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description, ...gatewayWords })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
+  const offers = [...known.points.map((p) => ({ value: p.point, text: p.description, ...gatewayText })), ...names.map((n) => ({ value: n, text: t('parameter') }))];
   return (
     <Section title={editing ? t('Change {id}', { id: editing.id }) : t('Add a mapping')} class="mapping-form" fold={!editing} unfolded={addingOpen}>
       <form
@@ -209,7 +209,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
               {t('Leave it as it is')}
             </button>
           )}
-          <Tell told={told.value} field="mapping-told" />
+          <Tell reported={reported.value} field="mapping-told" />
         </div>
       </form>
     </Section>

@@ -12,7 +12,7 @@ import { midSentence, t } from '../language';
 import { addressBase, addressField } from '../state/address-base';
 import { persisted } from '../state/persisted';
 import { addressText, otherText, readAddress } from '../text/address';
-import { decodeWords, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../text/mapping';
+import { decodeText, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../text/mapping';
 import type { Block } from '../text/mapping-blocks';
 import { formatExact, parseNumber } from '../text/number';
 import { bitAxis, bitName, isStandard, notMapped } from '../text/register-map';
@@ -70,7 +70,7 @@ export function MappingHmi({ door, rows }: { door: MappingDoor; rows: readonly M
     } catch (error) {
       if (end?.aborted) return;
       const p = asProblem(error);
-      why.value = p.status === 404 || p.status === 501 ? notOffered(t('a look at its registers')) : p.words;
+      why.value = p.status === 404 || p.status === 501 ? notOffered(t('a look at its registers')) : p.text;
       answer.value = null;
       following.value = false;
     } finally {
@@ -151,9 +151,9 @@ function sourceOf(d: { name?: string; mapping?: string }, rows: readonly Mapping
 }
 
 /** In words: a bare number beside "position" could be anything. */
-function decodedUnit(told: string | null | undefined, source: { axis: string; point: string } | null, axes: readonly Axis[]): string {
-  const words = told || (source ? pointUnit(axes.find((x) => x.name === source.axis) ?? { unit: '' }, source.point) : '');
-  return words.replace(/^inc\b/, t('increments'));
+function decodedUnit(reported: string | null | undefined, source: { axis: string; point: string } | null, axes: readonly Axis[]): string {
+  const text = reported || (source ? pointUnit(axes.find((x) => x.name === source.axis) ?? { unit: '' }, source.point) : '');
+  return text.replace(/^inc\b/, t('increments'));
 }
 
 type Decoded = NonNullable<Registers['decoded']>[number];
@@ -176,7 +176,7 @@ function AnswerMap({ a, axes, rows, former }: { a: Registers; axes: readonly Axi
       const i = b.address - a.address;
       const w = raw[i] ?? 0;
       const d = named.get(b.address);
-      const read = bits ? null : decodeWords(type === 'string' ? raw.slice(i) : raw.slice(i, i + widthOf(type)), type, wordOrder);
+      const read = bits ? null : decodeText(type === 'string' ? raw.slice(i) : raw.slice(i, i + widthOf(type)), type, wordOrder);
       return (
         <>
           <span class="map-name mono">{addressText(a.table, b.address, base)} {bits ? '' : w.toString(16).toUpperCase().padStart(4, '0')}</span>
@@ -199,7 +199,7 @@ function AnswerMap({ a, axes, rows, former }: { a: Registers; axes: readonly Axi
         lifted={nobody}
         ghost={nothing}
         draw={draw}
-        gapWords={notAsked}
+        gapText={notAsked}
         freeWord={t('not asked')}
         canResize={never}
         handle={handle}

@@ -152,7 +152,7 @@ function StandardList() {
 }
 
 export function ListLinks({ door }: { door: MappingDoor }) {
-  const why = useLoaded(door.hasLists, [door], (p) => (p.status === 404 || p.status === 501 ? notOffered(t('generated lists (CSV, PLC structure)')) : p.words));
+  const why = useLoaded(door.hasLists, [door], (p) => (p.status === 404 || p.status === 501 ? notOffered(t('generated lists (CSV, PLC structure)')) : p.text));
   return (
     <div class="list-links" data-field="lists">
       <a class="button" href="/api/v1/mappings.csv" download="mappings.csv">

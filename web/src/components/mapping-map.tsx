@@ -42,7 +42,7 @@ export interface MapProps {
   ghost: ReadonlySignal<Ghost | null>;
   draw: (b: Block) => ComponentChildren;
   /** What a run of places without anything is, and what one of them is. */
-  gapWords: (place: string, count: number) => string;
+  gapText: (place: string, count: number) => string;
   freeWord: string;
   canResize: (b: Block) => boolean;
   handle: { current: MapHandle | null };
@@ -58,7 +58,7 @@ export interface MapProps {
   seen: (blocks: readonly Block[]) => void;
 }
 
-interface RowContext extends Pick<MapProps, 'table' | 'base' | 'selected' | 'lifted' | 'draw' | 'gapWords' | 'freeWord' | 'canResize'> {
+interface RowContext extends Pick<MapProps, 'table' | 'base' | 'selected' | 'lifted' | 'draw' | 'gapText' | 'freeWord' | 'canResize'> {
   id: string;
   conflicts: ReadonlySet<string>;
 }
@@ -82,7 +82,7 @@ export function RegisterMap(p: MapProps) {
   const rows = useMemo(() => rowsOf(p.blocks, perRow, p.open), [p.blocks, perRow, p.open]);
   const pieces = useMemo(() => piecesOf(p.blocks, perRow), [p.blocks, perRow]);
   const conflicts = useMemo(() => overlapping(p.blocks), [p.blocks]);
-  const context = useMemo<RowContext>(() => ({ id, conflicts, table: p.table, base: p.base, selected: p.selected, lifted: p.lifted, draw: p.draw, gapWords: p.gapWords, freeWord: p.freeWord, canResize: p.canResize }), [id, conflicts, p.table, p.base, p.selected, p.lifted, p.draw, p.gapWords, p.freeWord, p.canResize]);
+  const context = useMemo<RowContext>(() => ({ id, conflicts, table: p.table, base: p.base, selected: p.selected, lifted: p.lifted, draw: p.draw, gapText: p.gapText, freeWord: p.freeWord, canResize: p.canResize }), [id, conflicts, p.table, p.base, p.selected, p.lifted, p.draw, p.gapText, p.freeWord, p.canResize]);
   const now = useRef({ rows, perRow, blocks: p.blocks });
   now.current = { rows, perRow, blocks: p.blocks };
   const blockAt = (address: number) => p.blocks.find((b) => b.address <= address && lastOf(b) >= address) ?? null;
@@ -223,7 +223,7 @@ function RowView({ row, index, perRow, pieces, cursor, context: c }: RowProps) {
       <div role="row" aria-rowindex={index + 1} class="map-row" style={place} data-columns={perRow}>
         {head}
         <div role="gridcell" id={`${c.id}-${row.first}`} aria-colindex={2} aria-colspan={perRow} class={`map-gap${cursor === row.first ? ' is-cursor' : ''}`} data-place={row.first} data-gap={row.last - row.first + 1}>
-          {c.gapWords(spanText(c.table, row.first, row.last, c.base), row.last - row.first + 1)}
+          {c.gapText(spanText(c.table, row.first, row.last, c.base), row.last - row.first + 1)}
         </div>
       </div>
     );

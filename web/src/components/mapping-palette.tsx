@@ -38,10 +38,10 @@ export function MappingPalette({ known, table, axis, press, pick }: PaletteProps
   const names = store.axisNames.value;
   const chosen = names.includes(axis.value) ? axis.value : (names[0] ?? '');
   const bits = tableOf(table).bits;
-  const words = wanted.value.trim().toLowerCase();
+  const text = wanted.value.trim().toLowerCase();
   const points = known.points.map((p) => ({ name: p.point, access: p.access as string, text: p.description }));
   const parameters = chosen === '' || !later.value ? [] : (known.parameters(chosen) ?? []).map((name) => ({ name, access: '', text: t('parameter of the drive') }));
-  const all = [...points, ...parameters].filter((p) => words === '' || p.name.toLowerCase().includes(words) || p.text.toLowerCase().includes(words));
+  const all = [...points, ...parameters].filter((p) => text === '' || p.name.toLowerCase().includes(text) || p.text.toLowerCase().includes(text));
   // One place for the Tab key; the arrows go from one to the next.
   const here = Math.max(0, all.slice(0, most).findIndex((p) => p.name === current.value));
   const walk = (e: KeyboardEvent & { currentTarget: HTMLElement }) => {

@@ -5,17 +5,17 @@ import type { ComponentChildren } from 'preact';
 import { t } from '../language';
 import { otherText } from '../text/address';
 import { addressBase } from '../state/address-base';
-import type { Heard } from '../state/register-look';
+import type { Received } from '../state/register-look';
 import { placeText } from '../text/mapping';
 import { bitsOf, type Block } from '../text/mapping-blocks';
 import { formatExact } from '../text/number';
 import { useBarred } from './gate';
-import { accessWords, RawOf, useSaid, ValueOf } from './mapping-cell';
+import { accessText, RawOf, usePublished, ValueOf } from './mapping-cell';
 import { AxisName } from './name';
 
 export interface PanelProps {
   chosen: readonly Block[];
-  heard: ReadonlySignal<ReadonlyMap<string, Heard>>;
+  received: ReadonlySignal<ReadonlyMap<string, Received>>;
   copyTo: string;
   remove: () => void;
   move: () => void;
@@ -24,14 +24,14 @@ export interface PanelProps {
   children: ComponentChildren;
 }
 
-export function MappingPanel({ chosen, heard, copyTo, remove, move, copy, whole, children }: PanelProps) {
+export function MappingPanel({ chosen, received, copyTo, remove, move, copy, whole, children }: PanelProps) {
   const no = useBarred('engineer');
   const own = chosen.filter((b) => b.mapping);
   const [one] = chosen;
   const ids = own.length === 1 ? own[0]!.key : t('{n} mappings', { n: own.length });
   return (
     <aside class="map-panel" aria-label={t('Chosen place')}>
-      {one && chosen.length === 1 && <BlockFacts block={one} heard={heard} />}
+      {one && chosen.length === 1 && <BlockFacts block={one} received={received} />}
       {chosen.length > 1 && <p data-field="chosen">{t('{n} entries are chosen.', { n: chosen.length })}</p>}
       {own.length > 0 && (
         <div class="form-foot">
@@ -63,10 +63,10 @@ export function scaleText(m: { scale: number; offset: number }): string {
   return [scale, offset].filter(Boolean).join(' ') || '1 : 1';
 }
 
-function BlockFacts({ block: b, heard }: { block: Block; heard: ReadonlySignal<ReadonlyMap<string, Heard>> }) {
+function BlockFacts({ block: b, received }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>> }) {
   const base = addressBase();
-  const said = useSaid(b, heard);
-  const words = heard.value.get(b.key)?.words;
+  const published = usePublished(b, received);
+  const words = received.value.get(b.key)?.words;
   const bits = words?.length === 1 ? bitsOf(b.point, words[0]!) : [];
   const m = b.mapping;
   return (
@@ -76,9 +76,9 @@ function BlockFacts({ block: b, heard }: { block: Block; heard: ReadonlySignal<R
       </h3>
       <dl class="facts">
         <div><dt>{t('Register place')}</dt><dd><span class="mono">{placeText(b, base)}</span> <span class="where">{otherText(b.table, b.address, base)}</span></dd></div>
-        <div><dt>{t('Type')}</dt><dd><span class="mono">{b.type}</span>{m && b.width > 1 && b.type !== 'string' ? ` ${m.word_order === 'low_first' ? t('low word first') : t('high word first')}` : ''}, {accessWords[b.access]}</dd></div>
-        <div><dt>{t('Value')}</dt><dd><ValueOf said={said} /></dd></div>
-        <div><dt>{t('In the register')}</dt><dd><RawOf said={said} /></dd></div>
+        <div><dt>{t('Type')}</dt><dd><span class="mono">{b.type}</span>{m && b.width > 1 && b.type !== 'string' ? ` ${m.word_order === 'low_first' ? t('low word first') : t('high word first')}` : ''}, {accessText[b.access]}</dd></div>
+        <div><dt>{t('Value')}</dt><dd><ValueOf published={published} /></dd></div>
+        <div><dt>{t('In the register')}</dt><dd><RawOf published={published} /></dd></div>
         {m && (m.scale !== 1 || m.offset !== 0) && <div><dt>{t('Scaling')}</dt><dd class="mono">{scaleText(m)}</dd></div>}
         {m?.comment && <div><dt>{t('Comment')}</dt><dd>{m.comment}</dd></div>}
       </dl>

@@ -5,12 +5,12 @@ import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { Problem } from '../api/problem';
 import { useGateway } from '../gateway';
-import { gatewayWords, midSentence, t, theirs } from '../language';
+import { gatewayText, midSentence, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
 import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
 import { placeText, tableOf, type Known } from '../text/mapping';
-import { quiet, Tell, toldOf, type Told } from './form';
+import { quiet, Tell, reportedOf, type Reported } from './form';
 
 const text = persisted('mappings.paste');
 const mostShown = 200;
@@ -19,7 +19,7 @@ const largest = 2_000_000;
 export function MappingPaste({ book, known }: { book: MappingBook; known: Known }) {
   useGateway();
   const replace = useSignal(false);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const report = useSignal<{ for: string; differences: string[]; lines: Map<number, string> } | null>(null);
   const rows = book.rows.value;
   const read = useMemo(() => readTable(text.value, known, replace.value ? [] : rows), [text.value, known, replace.value, rows]);
@@ -32,28 +32,28 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
   const take = async (file: File | undefined) => {
     if (!file) return;
     if (file.size > largest) {
-      told.value = { tone: 'refused', text: t('{file} has {n} bytes; at most {most} are read.', { file: file.name, n: file.size, most: largest }) };
+      reported.value = { tone: 'refused', text: t('{file} has {n} bytes; at most {most} are read.', { file: file.name, n: file.size, most: largest }) };
       return;
     }
     text.value = await file.text();
-    told.value = { tone: 'good', text: t('{file} is in the field below. Nothing has been sent.', { file: file.name }) };
+    reported.value = { tone: 'good', text: t('{file} is in the field below. Nothing has been sent.', { file: file.name }) };
   };
   const dryRun = async () => {
-    told.value = { tone: 'busy', text: t('The gateway checks …') };
+    reported.value = { tone: 'busy', text: t('The gateway checks …') };
     const answer = await book.dryRun(csvOfSpecs(specs), replace.value);
     if (answer instanceof Problem) {
       report.value = { for: text.value, differences: [], lines: linesOf(answer, specs.length, read.rows.map((r) => r.line)) };
-      told.value = { tone: 'refused', text: answer.words };
+      reported.value = { tone: 'refused', text: answer.text };
     } else {
       report.value = { for: text.value, differences: answer.differences, lines: new Map() };
-      told.value = { tone: 'good', text: t('The gateway would take {rows}: {mappings} afterwards.', { rows: rowsWords(specs.length), mappings: answer.mappings === 1 ? t('1 mapping') : t('{n} mappings', { n: answer.mappings }) }) };
+      reported.value = { tone: 'good', text: t('The gateway would take {rows}: {mappings} afterwards.', { rows: rowsText(specs.length), mappings: answer.mappings === 1 ? t('1 mapping') : t('{n} mappings', { n: answer.mappings }) }) };
     }
   };
   const send = async () => {
-    told.value = { tone: 'busy', text: t('Sending …') };
+    reported.value = { tone: 'busy', text: t('Sending …') };
     const sent = text.value;
     const outcome = await book.table(csvOfSpecs(specs), replace.value);
-    told.value = toldOf(outcome);
+    reported.value = reportedOf(outcome);
     if (!outcome.good) return;
     emptied(text, sent);
     report.value = null;
@@ -77,7 +77,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
           value={text.value}
           onInput={(e) => {
             text.value = e.currentTarget.value;
-            told.value = quiet;
+            reported.value = quiet;
           }}
         />
         <div class="form-foot">
@@ -92,19 +92,19 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
             {t('Check with the gateway')}
           </button>
           <button type="button" class="button primary" disabled={specs.length === 0 || bad > 0 || waits !== '' || !checked} onClick={() => void send()}>
-            {replace.value ? t('Replace all by {rows}', { rows: rowsWords(specs.length) }) : t('Add {rows}', { rows: rowsWords(specs.length) })}
+            {replace.value ? t('Replace all by {rows}', { rows: rowsText(specs.length) }) : t('Add {rows}', { rows: rowsText(specs.length) })}
           </button>
-          <Tell told={told.value} field="table-told" />
+          <Tell reported={reported.value} field="table-told" />
         </div>
         {read.rows.length > 0 && (
           <p class={`form-told${bad > 0 || read.problem ? ' is-fault' : ''}`} role="status" data-field="table-count">
-            {read.problem || waits || (bad > 0 ? t('{bad} of {rows} must be mended before anything is sent.', { bad, rows: rowsWords(read.rows.length) }) : t('{rows}, none of them with a fault that this page can see.', { rows: rowsWords(read.rows.length) }))}
+            {read.problem || waits || (bad > 0 ? t('{bad} of {rows} must be mended before anything is sent.', { bad, rows: rowsText(read.rows.length) }) : t('{rows}, none of them with a fault that this page can see.', { rows: rowsText(read.rows.length) }))}
           </p>
         )}
         {report.value && report.value.for === text.value && report.value.differences.length > 0 && (
           <ul class="differences" aria-label={t('What would change')}>
             {report.value.differences.slice(0, mostShown).map((d) => (
-              <li key={d} {...gatewayWords}>{d}</li>
+              <li key={d} {...gatewayText}>{d}</li>
             ))}
           </ul>
         )}
@@ -142,7 +142,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
   );
 }
 
-const rowsWords = (n: number) => (n === 1 ? t('1 row') : t('{n} rows', { n }));
+const rowsText = (n: number) => (n === 1 ? t('1 row') : t('{n} rows', { n }));
 
 /** The gateway names lines of the table that was sent: a head line and then one per row. */
 function linesOf(problem: Problem, rows: number, lines: readonly number[]): Map<number, string> {
@@ -152,6 +152,6 @@ function linesOf(problem: Problem, rows: number, lines: readonly number[]): Map<
     const line = lines[at - 2];
     if (Number.isFinite(at) && at >= 2 && at - 2 < rows && line !== undefined) found.set(line, theirs(`${f.text}; ${f.remedy}`));
   }
-  if (found.size === 0) found.set(-1, problem.words);
+  if (found.size === 0) found.set(-1, problem.text);
   return found;
 }

@@ -11,8 +11,8 @@ import type { MappingBook } from '../state/mappings';
 import { addressText, readAddress, spanText } from '../text/address';
 import { freeBlock, placeText, type Mapping } from '../text/mapping';
 import { parseNumber } from '../text/number';
-import { Choice, notOffered, quiet, Tell, TextField, toldOf, type Told } from './form';
-import { accessWords } from './mapping-cell';
+import { Choice, notOffered, quiet, Tell, TextField, reportedOf, type Reported } from './form';
+import { accessText } from './mapping-cell';
 import { useNamed } from './name';
 
 const axis = persisted('template.axis');
@@ -24,7 +24,7 @@ const blockWidth = 64;
 export function MappingTemplates({ book, door }: { book: MappingBook; door: MappingDoor }) {
   const { store } = useGateway();
   const named = useNamed();
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const differences = useSignal<string[]>([]);
   const whole = (text: string, min: number, max: number) => {
     const p = parseNumber(text);
@@ -35,32 +35,32 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
   const text = (n: number) => addressText('holding_registers', n, base);
   const free = u === null ? null : freeBlock(book.rows.value, u, blockWidth);
   const typed = readAddress(address.value, 'holding_registers', base);
-  const wrong = address.value.trim() === '' ? '' : !typed.good ? typed.why : typed.table !== 'holding_registers' ? t('The block lies in the holding registers.') : '';
-  const at = address.value.trim() === '' ? free : typed.good && wrong === '' ? typed.address : null;
+  const fault = address.value.trim() === '' ? '' : !typed.good ? typed.why : typed.table !== 'holding_registers' ? t('The block lies in the holding registers.') : '';
+  const at = address.value.trim() === '' ? free : typed.good && fault === '' ? typed.address : null;
 
   const run = async (dry: boolean) => {
     if (axis.value === '' || u === null || at === null) {
-      told.value = { tone: 'refused', text: axis.value === '' ? t('Choose an axis.') : t('Mend the fields that are marked.') };
+      reported.value = { tone: 'refused', text: axis.value === '' ? t('Choose an axis.') : t('Mend the fields that are marked.') };
       return;
     }
-    told.value = { tone: 'busy', text: dry ? t('The gateway checks …') : t('Adding …') };
+    reported.value = { tone: 'busy', text: dry ? t('The gateway checks …') : t('Adding …') };
     try {
       if (dry) {
         const r = await door.template({ template: 'standard_map', axis: axis.value, unit: u, address: at, dry_run: true });
         // A gateway says the block entry by entry, or as sentences.
-        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => t('{place}: {point} of {axis}, {type}, {access}', { place: placeText(m, base), point: m.point, axis: m.axis, type: m.type, access: accessWords[m.access] })) : (r.differences ?? []);
-        told.value = { tone: 'good', text: t('{n} mappings at {place} of unit {unit}. Nothing has been changed.', { n: differences.value.length, place: spanText('holding_registers', at, at + blockWidth - 1, base), unit: u }) };
+        differences.value = Array.isArray(r.mappings) ? (r.mappings as Mapping[]).map((m) => t('{place}: {point} of {axis}, {type}, {access}', { place: placeText(m, base), point: m.point, axis: m.axis, type: m.type, access: accessText[m.access] })) : (r.differences ?? []);
+        reported.value = { tone: 'good', text: t('{n} mappings at {place} of unit {unit}. Nothing has been changed.', { n: differences.value.length, place: spanText('holding_registers', at, at + blockWidth - 1, base), unit: u }) };
         return;
       }
     } catch (error) {
       const p = asProblem(error);
-      told.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered(t('templates')) : p.words };
+      reported.value = { tone: 'refused', text: p.status === 404 || p.status === 405 || p.status === 501 ? notOffered(t('templates')) : p.text };
       return;
     }
     const sent = address.value;
     const outcome = await book.template(axis.value, u, at);
     differences.value = [];
-    told.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered(t('templates')) } : toldOf(outcome);
+    reported.value = !outcome.good && (outcome.problem?.status === 404 || outcome.problem?.status === 405) ? { tone: 'refused', text: notOffered(t('templates')) } : reportedOf(outcome);
     if (outcome.good) emptied(address, sent);
   };
   return (
@@ -84,7 +84,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
             value={address.value}
             onText={(x) => (address.value = x)}
             placeholder={free === null ? t('none is free') : t('next free block: {address}', { address: text(free) })}
-            fault={wrong || undefined}
+            fault={fault || undefined}
             hint={t('{n} registers, as in unit 1, where each axis begins at a multiple of {n}', { n: blockWidth })}
           />
         </div>
@@ -95,7 +95,7 @@ export function MappingTemplates({ book, door }: { book: MappingBook; door: Mapp
           <button type="submit" class="button primary">
             {t('Add the block')}
           </button>
-          <Tell told={told.value} field="template-told" />
+          <Tell reported={reported.value} field="template-told" />
         </div>
         {differences.value.length > 0 && (
           <ul class="differences" aria-label={t('What would be added')}>

@@ -6,31 +6,31 @@ import type { MappingDoor, ModbusUnit } from '../api/mappings';
 import { t } from '../language';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
-import { quiet, Tell, type Told } from './form';
-import { tellOf } from './told';
+import { quiet, Tell, type Reported } from './form';
+import { tellOf } from './reported';
 
-const words: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: t('read 0'), refuse: t('are refused') };
+const text: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: t('read 0'), refuse: t('are refused') };
 
 export function MappingUnit({ door, unit, revision }: { door: MappingDoor; unit: number; revision: unknown }) {
   const units = useSignal<ModbusUnit[] | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const no = useBarred('engineer');
   const load = useCallback(async () => void (units.value = await door.units()), [door]);
-  const why = useLoaded(load, [door, revision], (p) => p.words);
+  const why = useLoaded(load, [door, revision], (p) => p.text);
   if (why || !units.value) return null;
   const here = units.value.find((u) => u.unit === unit);
-  const set = (gaps: ModbusUnit['gaps']) => tellOf(told, t('Changing …'), () => door.setGaps(unit, gaps), (now) => (now.shown === 'zero' ? t('Gaps of unit {unit} read 0 now.', { unit }) : t('Gaps of unit {unit} are refused now.', { unit })), load);
+  const set = (gaps: ModbusUnit['gaps']) => tellOf(reported, t('Changing …'), () => door.setGaps(unit, gaps), (now) => (now.shown === 'zero' ? t('Gaps of unit {unit} read 0 now.', { unit }) : t('Gaps of unit {unit} are refused now.', { unit })), load);
   return (
     <>
       <label class="select" title={t('What a client gets for addresses between and around what is mapped. Panels that read in blocks need 0; a client that must never read a wrong address wants a refusal.')}>
         <span>{t('Gaps')}</span>
         <select data-field="gaps" value={here?.gaps ?? ''} {...no} onChange={(e) => void set((e.currentTarget.value || null) as ModbusUnit['gaps'])}>
-          <option value="">{here && !here.gaps ? t('as the host has it: {how}', { how: words[here.shown] }) : t('as the host has it')}</option>
-          <option value="zero">{words.zero}</option>
-          <option value="refuse">{words.refuse}</option>
+          <option value="">{here && !here.gaps ? t('as the host has it: {how}', { how: text[here.shown] }) : t('as the host has it')}</option>
+          <option value="zero">{text.zero}</option>
+          <option value="refuse">{text.refuse}</option>
         </select>
       </label>
-      <Tell told={told.value} field="gaps-told" />
+      <Tell reported={reported.value} field="gaps-told" />
     </>
   );
 }

@@ -6,7 +6,7 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 import type { MappingBook } from '../state/mappings';
 import { followPointer } from '../state/mapping-drag';
 import { MapHand, type Carried, type Ground } from '../state/mapping-carry';
-import type { Heard } from '../state/register-look';
+import type { Received } from '../state/register-look';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import type { Base } from '../text/address';
@@ -14,7 +14,7 @@ import { sameMapping, tableOf, widthOf, type Known, type Mapping, type Table } f
 import type { Block } from '../text/mapping-blocks';
 import { lastOf, nextSize } from '../text/mapping-geometry';
 import { isStandard } from '../text/register-map';
-import { Tell, toldOf, type Told } from './form';
+import { Tell, reportedOf, type Reported } from './form';
 import { BlockCell } from './mapping-cell';
 import { addAt, isUntouched, MappingForm, type Draft } from './mapping-form';
 import { RegisterMap, type Ghost, type MapHandle } from './mapping-map';
@@ -31,8 +31,8 @@ export interface WorkspaceProps {
   base: Base;
   /** Addresses that are shown though nothing stands there. */
   open: readonly number[];
-  heard: ReadonlySignal<ReadonlyMap<string, Heard>>;
-  told: Signal<Told>;
+  received: ReadonlySignal<ReadonlyMap<string, Received>>;
+  reported: Signal<Reported>;
   seen: (blocks: readonly Block[]) => void;
   handle: { current: MapHandle | null };
   paletteAxis: Signal<string>;
@@ -41,7 +41,7 @@ export interface WorkspaceProps {
 }
 const empty: ReadonlySet<string> = new Set();
 
-export function MappingWorkspace({ book, known, blocks, unit, table, base, open, heard, told, seen, handle, paletteAxis, fixed }: WorkspaceProps) {
+export function MappingWorkspace({ book, known, blocks, unit, table, base, open, received, reported, seen, handle, paletteAxis, fixed }: WorkspaceProps) {
   const { store } = useGateway();
   const no = useBarred('engineer');
   const ground = useMemo(() => signal<Ground>({ unit, table, blocks, base, barred: fixed }), []);
@@ -92,16 +92,16 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
   const groupOf = (b: Block): Mapping[] => (selected.peek().has(b.key) ? owned(last.current.blocks.filter((x) => selected.peek().has(x.key))) : owned([b]));
   const putDown = async () => {
     const outcome = await hand.putDown();
-    if (outcome) told.value = toldOf(outcome);
+    if (outcome) reported.value = reportedOf(outcome);
   };
   const remove = async (gone: readonly Mapping[]) => {
     if (gone.length === 0 || no.disabled) return;
-    told.value = { tone: 'busy', text: t('Removing …') };
+    reported.value = { tone: 'busy', text: t('Removing …') };
     if (gone.some((m) => m.id === editing.peek()?.of.id)) editing.value = null;
-    told.value = toldOf(await book.removeAll(gone));
+    reported.value = reportedOf(await book.removeAll(gone));
   };
   const pickUp = (what: Carried, from = cursor.peek()) => {
-    if (ground.peek().barred) return void (told.value = { tone: 'refused', text: ground.peek().barred });
+    if (ground.peek().barred) return void (reported.value = { tone: 'refused', text: ground.peek().barred });
     hand.pickAtFit(what, from);
     const at = hand.carry.peek()?.at ?? 0;
     cursor.value = at;
@@ -166,7 +166,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
   const fromPalette = (e: PointerEvent, what: Carried) => {
     followPointer(e, {
       start: () => {
-        if (ground.peek().barred) told.value = { tone: 'refused', text: ground.peek().barred };
+        if (ground.peek().barred) reported.value = { tone: 'refused', text: ground.peek().barred };
         else hand.pick(what, 'pointer');
         return ground.peek().barred === '';
       },
@@ -197,7 +197,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
         if (carries) void putDown();
         else if (b?.mapping) {
           const own = groupOf(b);
-          if (ground.peek().barred) told.value = { tone: 'refused', text: ground.peek().barred };
+          if (ground.peek().barred) reported.value = { tone: 'refused', text: ground.peek().barred };
           else hand.pick({ kind: 'move', own }, 'hand', Math.min(...own.map((m) => m.address)));
           cursor.value = hand.carry.peek()?.at ?? address;
         }
@@ -223,15 +223,15 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
     if (!withShift) choose(b, false);
     else if (b && !selected.peek().has(b.key)) choose(b, true);
   };
-  const draw = useMemo(() => (b: Block) => <BlockCell block={b} heard={heard} />, [heard]);
+  const draw = useMemo(() => (b: Block) => <BlockCell block={b} received={received} />, [received]);
   const canResize = useMemo(() => (b: Block) => b.mapping !== undefined && !tableOf(b.table).bits && b.type !== 'bool', []);
-  const carryWords = hand.words();
+  const carryText = hand.text();
   return (
     <>
       <p class="where with-keys" id="map-keys">
         {t('Arrow keys walk, Enter opens the form, Space picks up and puts down, + and − make wider and narrower, C copies, Delete removes, Shift chooses several, Escape puts back.')}
       </p>
-      <Tell told={carryWords ? { tone: hand.fit.value && (hand.fit.value.taken.length > 0 || hand.fit.value.beyond) ? 'refused' : 'busy', text: carryWords } : told.value} field="grid-told" />
+      <Tell reported={carryText ? { tone: hand.fit.value && (hand.fit.value.taken.length > 0 || hand.fit.value.beyond) ? 'refused' : 'busy', text: carryText } : reported.value} field="grid-told" />
       <div
         class={`map-workspace${hand.carry.value ? ' is-carrying' : ''}`}
         onPointerMove={(e) => {
@@ -253,7 +253,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
           lifted={lifted}
           ghost={ghost}
           draw={draw}
-          gapWords={isStandard(unit) ? unusedWords : freeWords}
+          gapText={isStandard(unit) ? unusedText : freeText}
           freeWord={isStandard(unit) ? t('not used') : t('free')}
           canResize={canResize}
           handle={handle}
@@ -266,7 +266,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
         />
         <MappingPanel
           chosen={chosen}
-          heard={heard}
+          received={received}
           copyTo={copyTo}
           remove={() => void remove(owned(chosen))}
           move={() => pickUp({ kind: 'move', own: owned(chosen) }, Math.min(...owned(chosen).map((m) => m.address)))}
@@ -281,5 +281,5 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
     </>
   );
 }
-const freeWords = (place: string, n: number) => t('{place} free ({n})', { place, n });
-const unusedWords = (place: string, n: number) => t('{place} not used ({n})', { place, n });
+const freeText = (place: string, n: number) => t('{place} free ({n})', { place, n });
+const unusedText = (place: string, n: number) => t('{place} not used ({n})', { place, n });

@@ -4,21 +4,21 @@ import { useSignal } from '@preact/signals';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { allowedWords, functionWords } from '../text/register-map';
-import { quiet, Tell, type Told } from './form';
+import { allowedText, functionText } from '../text/register-map';
+import { quiet, Tell, type Reported } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 export function ModbusDoor() {
   const { client } = useGateway();
   const no = useBarred('engineer');
   const door = useSignal<Door | null>(null);
-  const told = useSignal<Told>(quiet);
-  const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? t('This gateway does not say more about its Modbus door.') : p.words));
-  const change = (read_only: boolean) => tellOf(told, t('Changing …'), async () => (door.value = await client.setModbus(read_only)), read_only ? t('Read-only now: writes are refused, a quick stop and switching off are not.') : t('Writing is allowed now.'));
+  const reported = useSignal<Reported>(quiet);
+  const why = useLoaded(async () => void (door.value = await client.modbus()), [client], (p) => (p.status === 404 ? t('This gateway does not say more about its Modbus door.') : p.text));
+  const change = (read_only: boolean) => tellOf(reported, t('Changing …'), async () => (door.value = await client.setModbus(read_only)), read_only ? t('Read-only now: writes are refused, a quick stop and switching off are not.') : t('Writing is allowed now.'));
   const d = door.value;
   return (
     <Section title={t('Modbus door')} help="door-modbus-tcp">
@@ -27,13 +27,13 @@ export function ModbusDoor() {
         {d && (
           <dl class="facts">
             <div><dt>{t('Address')}</dt><dd class="mono">{d.bind}</dd></div>
-            <div><dt>{t('Allowed from')}</dt><dd><span class="mono" data-field="modbus-allow">{allowedWords(d.allow, d.bind)}</span></dd></div>
-            <div><dt>{t('Functions')}</dt><dd data-field="modbus-functions">{functionWords(d.functions)}</dd></div>
+            <div><dt>{t('Allowed from')}</dt><dd><span class="mono" data-field="modbus-allow">{allowedText(d.allow, d.bind)}</span></dd></div>
+            <div><dt>{t('Functions')}</dt><dd data-field="modbus-functions">{functionText(d.functions)}</dd></div>
             <div>
               <dt>{t('Writing')}</dt>
               <dd>
                 <span data-field="modbus-writing">{d.read_only ? t('read-only: no write is taken but a quick stop or switching off by the control word alone') : t('allowed')}</span>{' '}
-                <button type="button" class="button small" aria-pressed={d.read_only} disabled={told.value.tone === 'busy'} {...no} onClick={() => void change(!d.read_only)}>
+                <button type="button" class="button small" aria-pressed={d.read_only} disabled={reported.value.tone === 'busy'} {...no} onClick={() => void change(!d.read_only)}>
                   {d.read_only ? t('Allow writing') : t('Make it read-only')}
                 </button>
               </dd>
@@ -59,7 +59,7 @@ export function ModbusDoor() {
           </p>
         )}
         {d && <Why need="engineer" what={t('Making the door read-only, or not,')} />}
-        <Tell told={told.value} field="modbus-told" />
+        <Tell reported={reported.value} field="modbus-told" />
       </div>
     </Section>
   );

@@ -18,7 +18,7 @@ interface Props {
 
 export function OptionFields({ room, family, specs, texts, onText, fault }: Props) {
   const name = useSignal('');
-  const wrong = useSignal('');
+  const error = useSignal('');
   const others = unknownOptions(texts, specs);
   const faultOf = (o: OptionSpec) => optionFault(o, texts[optionPrefix + o.name] ?? '') || fault(optionPrefix + o.name);
   // Opened once it stays: a fault that is mended while one types must not shut it.
@@ -26,8 +26,8 @@ export function OptionFields({ room, family, specs, texts, onText, fault }: Prop
   open.current ||= specs.some((o) => faultOf(o)) || others.length > 0;
   const add = () => {
     const n = name.value.trim();
-    wrong.value = n === '' ? t('What is it called?') : optionPrefix + n in texts || specs.some((o) => o.name === n) ? t('{n} is here already.', { n }) : '';
-    if (wrong.value) return;
+    error.value = n === '' ? t('What is it called?') : optionPrefix + n in texts || specs.some((o) => o.name === n) ? t('{n} is here already.', { n }) : '';
+    if (error.value) return;
     onText(optionPrefix + n, '');
     name.value = '';
   };
@@ -60,7 +60,7 @@ export function OptionFields({ room, family, specs, texts, onText, fault }: Prop
       </div>
       {specs.length === 0 && family && (
         <div class="form-foot">
-          <TextField label={t('Another option')} value={name.value} onText={(t) => (name.value = t)} fault={wrong.value || undefined} />
+          <TextField label={t('Another option')} value={name.value} onText={(t) => (name.value = t)} fault={error.value || undefined} />
           <button type="button" class="button" onClick={add}>
             {t('Add the option')}
           </button>

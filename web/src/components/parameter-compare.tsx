@@ -9,14 +9,14 @@ import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { readMissing } from '../state/read-missing';
-import { steppedText, unitWords, valueText } from '../text/parameter';
+import { steppedText, unitText, valueText } from '../text/parameter';
 import { axisChoice, differentFamilies, snapshotChoice } from '../text/snapshot';
-import { comparedWords, compareWith, type Compared } from '../text/transfer';
-import { Choice, quiet, Tell, type Told } from './form';
+import { comparedText, compareWith, type Compared } from '../text/transfer';
+import { Choice, quiet, Tell, type Reported } from './form';
 import { Empty } from './lines';
 import { SimulatedMark, useNamed } from './name';
 import { Section } from './section';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const plain = { allowed: null };
 
@@ -26,7 +26,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   const base = useSignal('now');
   const other = useSignal('default');
   const all = useSignal(false);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const result = useSignal<{ title: string; rows: Compared[] } | null>(null);
   const others = store.axisNames.value.filter((n) => n !== axis);
   const fromSnapshot = base.value !== 'now';
@@ -43,7 +43,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
   const reading = useRef<AbortController | null>(null);
   useEffect(() => () => reading.current?.abort(), []);
   const busy = useSignal(false);
-  const valuesOf = (of: string, end: AbortSignal) => readMissing(client, of, end, (done, n) => (told.value = { tone: 'busy', text: t('Reading {of}: {done} of {n} …', { of, done, n }) }));
+  const valuesOf = (of: string, end: AbortSignal) => readMissing(client, of, end, (done, n) => (reported.value = { tone: 'busy', text: t('Reading {of}: {done} of {n} …', { of, done, n }) }));
   const comparable = (list: readonly AxisParameter[]) => list.filter((p) => p.access !== 'W' && !p.count).length;
 
   const compare = async () => {
@@ -57,10 +57,10 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
     const theirs = other.value.startsWith('axis:') ? familyOfAxis(other.value.slice('axis:'.length)) : family;
     if (theirs !== family) {
       result.value = null;
-      told.value = { tone: 'refused', text: differentFamilies(axis, family, other.value.slice('axis:'.length), theirs, store.familyTitles.peek()) };
+      reported.value = { tone: 'refused', text: differentFamilies(axis, family, other.value.slice('axis:'.length), theirs, store.familyTitles.peek()) };
       return;
     }
-    told.value = { tone: 'busy', text: t('Comparing …') };
+    reported.value = { tone: 'busy', text: t('Comparing …') };
     result.value = null;
     try {
       const title = choices.find((c) => c.value === other.value)?.text ?? other.value;
@@ -84,9 +84,9 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         }
       }
       result.value = { title, rows };
-      told.value = { tone: 'good', text: `${comparedWords(rows, of)}${missing ? ` ${capital(missing)}.` : ''}` };
+      reported.value = { tone: 'good', text: `${comparedText(rows, of)}${missing ? ` ${capital(missing)}.` : ''}` };
     } catch (error) {
-      told.value = refusal(error);
+      reported.value = refusal(error);
     }
   };
   const rows = (result.value?.rows ?? []).filter((r) => all.value || (!r.same && (r.known !== false || fromSnapshot)));
@@ -102,8 +102,8 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         }}
       >
         <div class="form-grid">
-          <Choice label={t('Compare')} class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; told.value = quiet; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: t('the values known now') }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
-          <Choice label={t('with')} class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; told.value = quiet; }} choices={choices} />
+          <Choice label={t('Compare')} class="wide" value={base.value} onChoice={(v) => { base.value = v; result.value = null; reported.value = quiet; if (v === 'now' && other.value === 'device') other.value = 'default'; }} choices={[{ value: 'now', text: t('the values known now') }, ...snapshots.map((s) => snapshotChoice(s, String(s.n), family))]} />
+          <Choice label={t('with')} class="wide" value={other.value} onChoice={(v) => { other.value = v; result.value = null; reported.value = quiet; }} choices={choices} />
         </div>
         <div class="form-foot">
           {busy.value ? (
@@ -118,7 +118,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
           <label class="check">
             <input type="checkbox" checked={all.value} onChange={(e) => (all.value = e.currentTarget.checked)} />{' '}{t('equal ones too')}
           </label>
-          <Tell told={told.value} field="compare-told" />
+          <Tell reported={reported.value} field="compare-told" />
         </div>
         {result.value && result.value.rows.length > 0 && rows.length === 0 && <Empty text={t('Nothing differs.')} />}
         {result.value && rows.length > 0 && (
@@ -141,8 +141,8 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
                         <span class="name">{r.name.replaceAll('_', ' ')}</span>
                       </span>
                     </th>
-                    <td class="num mono" data-label={fromSnapshot ? t('Snapshot') : t('Now')}>{valueText(r.mine, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
-                    <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitWords(r.unit)} {steppedText(r.other, r.unit)}</span></td>
+                    <td class="num mono" data-label={fromSnapshot ? t('Snapshot') : t('Now')}>{valueText(r.mine, plain)} <span class="unit">{unitText(r.unit)} {steppedText(r.mine, r.unit)}</span></td>
+                    <td class="num mono" data-label={capital(result.value?.title ?? '')}>{valueText(r.other, plain)} <span class="unit">{unitText(r.unit)} {steppedText(r.other, r.unit)}</span></td>
                     <td data-label={t('Verdict')}>{r.same ? t('equal') : r.known === false ? t('not known') : <span class="flag">{r.writable ? t('differs') : t('differs, read only')}</span>}</td>
                   </tr>
                 ))}

@@ -25,7 +25,7 @@ export function Written({ axis, p }: { axis: string; p: AxisParameter }) {
     try {
       history.value = (await client.parameter(axis, p.id, { cached: true, history: most })).history ?? [];
     } catch (error) {
-      why.value = capital(asProblem(error).words);
+      why.value = capital(asProblem(error).text);
     }
   };
   if (!p.written_at) return <span class="where">{t('never here')}</span>;

@@ -12,13 +12,13 @@ import { clockTime, duration } from '../text/time';
 
 /** What was read before this is old: a command, or a lost connection, has come since. The gateway's clock. */
 export type Since = ReadonlySignal<number>;
-export const heardAt = (p: AxisParameter): number | null => (p.at === null ? null : Date.parse(p.at));
+export const receivedAt = (p: AxisParameter): number | null => (p.at === null ? null : Date.parse(p.at));
 
 /** Grey where it is not live: read before the connection was lost, before the last command, or long ago. */
 export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Since; differs: boolean }) {
   const { store } = useGateway();
   void tick.value;
-  const live = store.connected.value && isLive(heardAt(p), store.gatewayNow_ms(), since.value);
+  const live = store.connected.value && isLive(receivedAt(p), store.gatewayNow_ms(), since.value);
   return (
     <span class={`mono value${differs ? ' differs' : ''}${live ? '' : ' is-old-value'}`} data-live={live} title={p.at ? t('{value}, as the drive said at {at}', { value: valueText(p.value, p), at: clockTime(p.at) }) : t('Not read yet')}>
       {valueText(p.value, p)}
@@ -28,7 +28,7 @@ export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Sinc
 export function Age({ p }: { p: AxisParameter }) {
   const { store } = useGateway();
   void tick.value;
-  const at_ms = heardAt(p);
+  const at_ms = receivedAt(p);
   if (at_ms === null) return null;
   return (
     <span class="age" data-field="age">

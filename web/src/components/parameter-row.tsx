@@ -1,12 +1,12 @@
 // Parameter row: one parameter of an axis in the table: live, stored and default value, range, a field for a new one, who wrote last.
 // In: the row's signals. Out: a row that keeps its height: each cell is drawn for itself, has room for the longest text that its value can have, and
 // what has the keyboard is not drawn anew by a value that comes. Never asks the gateway: reading and writing are handed in.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useId, useRef } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
-import { addressingWords, editText, fieldLines, fieldValue, helpText, longestText, rangeText, readValue, steppedText, unitWords, valueText, withField } from '../text/parameter';
+import { addressingText, editText, fieldLines, fieldValue, helpText, longestText, rangeText, readValue, steppedText, unitText, valueText, withField } from '../text/parameter';
 import { isApart, isChanged } from '../text/transfer';
 import { Ask } from './ask';
 import { useBarred } from './gate';
@@ -47,7 +47,7 @@ function RowView({ axis, row, since, read, write, open }: RowProps) {
         <span class="both">
           <span class="mono id">{p.id}</span>
           <span class="name">
-            <span {...gatewayWords}>{p.name.replaceAll('_', ' ')}</span> <HelpButton of={p.id}>{helpText(p)}</HelpButton>
+            <span {...gatewayText}>{p.name.replaceAll('_', ' ')}</span> <HelpButton of={p.id}>{helpText(p)}</HelpButton>
           </span>
         </span>
       </th>
@@ -77,7 +77,7 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
       <span class={longest ? 'roomy' : 'one-line'} data-longest={longest || undefined}>
         <span>
           <LiveValue p={p} since={since} differs={differs} />{' '}
-          <span class="unit">{p.value !== null && !p.allowed ? `${unitWords(p.unit)} ${steppedText(p.value, p.unit)}`.trim() : ''}</span>
+          <span class="unit">{p.value !== null && !p.allowed ? `${unitText(p.unit)} ${steppedText(p.value, p.unit)}`.trim() : ''}</span>
         </span>
       </span>
       <span class="one-line about">
@@ -91,7 +91,7 @@ function LiveCell({ row, since }: { row: Row; since: Since }) {
       </span>
       {(p.fields ?? []).map((f, i) => (
         <span key={f.name} class="part roomy" data-longest={`${f.name.replaceAll('_', ' ')}: ${longestOf(f.allowed?.map((a) => a.meaning) ?? [])}`}>
-          <span {...gatewayWords}>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
+          <span {...gatewayText}>{fieldLines(p.value, p)[i] ?? `${f.name.replaceAll('_', ' ')}: –`}</span>
         </span>
       ))}
     </td>
@@ -122,7 +122,7 @@ function RangeCells({ row }: { row: Row }) {
         {valueText(p.default, p)}
       </td>
       <td class="range" data-label={t('Range')}>
-        <span class="mono">{rangeText(p)}</span> <span class="unit">{unitWords(p.unit)}</span>
+        <span class="mono">{rangeText(p)}</span> <span class="unit">{unitText(p.unit)}</span>
       </td>
     </>
   );
@@ -162,7 +162,7 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
       {row.asked.value !== null && (
         <Ask
           field="addressing-question"
-          words={addressingWords(axis, row.data.peek(), row.asked.value)}
+          text={addressingText(axis, row.data.peek(), row.asked.value)}
           yes={t('Write {id}', { id: p.id })}
           onNo={() => (row.asked.value = null)}
           onYes={() => {
@@ -182,7 +182,7 @@ function EditCell({ axis, row, read, write, open }: Omit<RowProps, 'since'>) {
 function typedText(typed: string | null, p: AxisParameter): string {
   const value = typed === null || typed.trim() === '' || p.allowed ? null : readValue(typed, p);
   const text = value?.good ? steppedText(value.value, p.unit) : '';
-  return text && `${typed?.trim()} ${unitWords(p.unit)} ${text}`;
+  return text && `${typed?.trim()} ${unitText(p.unit)} ${text}`;
 }
 
 function Editor({ row, describedBy, write }: { row: Row; describedBy: string; write: () => void }) {
@@ -192,7 +192,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
   const held = useRef(row.data.peek());
   if (!has.value) held.current = row.data.value;
   const p = held.current;
-  const wrong = row.note.value.tone === 'refused' && row.typed.value !== null;
+  const invalid = row.note.value.tone === 'refused' && row.typed.value !== null;
   const text = row.typed.value ?? '';
   const parts = p.access === 'RW' && p.fields?.every((f) => f.allowed) ? p.fields : null;
   const choices = p.type === 'bool' ? [{ value: 0, meaning: 'off' }, { value: 1, meaning: 'on' }] : p.allowed && p.allowed.length > 0 ? p.allowed : null;
@@ -205,7 +205,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             const whole = typeof p.value === 'number' && text === '' ? p.value : Number(text || 0);
             return (
               <label key={f.name}>
-                <span {...gatewayWords}>{f.name.replaceAll('_', ' ')}</span>
+                <span {...gatewayText}>{f.name.replaceAll('_', ' ')}</span>
                 <select
                   {...keyboard}
                   aria-label={t('New {part} of {id}', { part: f.name.replaceAll('_', ' '), id: p.id })}
@@ -214,7 +214,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
                   onChange={(e) => (row.typed.value = String(withField(whole, f, Number(e.currentTarget.value))))}
                 >
                   {f.allowed?.map((c) => (
-                    <option key={c.value} value={String(c.value)} {...gatewayWords}>
+                    <option key={c.value} value={String(c.value)} {...gatewayText}>
                       {c.value} {c.meaning}
                     </option>
                   ))}
@@ -229,7 +229,7 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
             {t('choose')}
           </option>
           {choices.map((c) => (
-            <option key={c.value} value={String(c.value)} {...gatewayWords}>
+            <option key={c.value} value={String(c.value)} {...gatewayText}>
               {c.value} {c.meaning}
             </option>
           ))}
@@ -238,13 +238,13 @@ function Editor({ row, describedBy, write }: { row: Row; describedBy: string; wr
         <input
           {...keyboard}
           type="text"
-          class={wrong ? 'is-wrong' : ''}
+          class={invalid ? 'is-wrong' : ''}
           inputMode={p.type === 'text' || p.type === 'bytes' ? 'text' : 'decimal'}
           autocomplete="off"
           spellcheck={false}
           aria-label={t('New value of {id}', { id: p.id })}
           aria-describedby={describedBy}
-          aria-invalid={wrong || undefined}
+          aria-invalid={invalid || undefined}
           placeholder={editText(p.value)}
           value={text}
           onInput={(e) => (row.typed.value = e.currentTarget.value)}

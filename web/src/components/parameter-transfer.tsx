@@ -8,12 +8,12 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { emptied, persisted } from '../state/persisted';
-import { editText, steppedText, unitWords, valueText } from '../text/parameter';
-import { csvOfParameters, jsonOfParameters, parametersWords, readTransfer } from '../text/transfer';
-import { quiet, Tell, type Told } from './form';
+import { editText, steppedText, unitText, valueText } from '../text/parameter';
+import { csvOfParameters, jsonOfParameters, parametersText, readTransfer } from '../text/transfer';
+import { quiet, Tell, type Reported } from './form';
 import { saveText } from './save';
 import { Section } from './section';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const largest = 2_000_000;
 
@@ -22,7 +22,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
   const no = useBarred('engineer');
   const text = persisted(`transfer.${axis}`);
   const list = useSignal<AxisParameter[]>([]);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const sending = useRef<{ stop: boolean } | null>(null);
   const busy = useSignal(false);
   const epoch = store.connection.value.epoch;
@@ -44,15 +44,15 @@ export function ParameterTransfer({ axis }: { axis: string }) {
       const known = all.filter((p) => p.value !== null).length;
       if (kind === 'csv') saveText(`${axis}-parameters.csv`, 'text/csv', csvOfParameters(all));
       else saveText(`${axis}-parameters.json`, 'application/json', jsonOfParameters(axis, all));
-      told.value = { tone: known === 0 ? 'refused' : 'good', text: known < all.length ? t('{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.', { known, n: all.length }) : t('{known} of {n} values are known and in the file.', { known, n: all.length }) };
+      reported.value = { tone: known === 0 ? 'refused' : 'good', text: known < all.length ? t('{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.', { known, n: all.length }) : t('{known} of {n} values are known and in the file.', { known, n: all.length }) };
     } catch (error) {
-      told.value = refusal(error);
+      reported.value = refusal(error);
     }
   };
   const take = async (file: File | undefined) => {
     if (!file) return;
     if (file.size > largest) {
-      told.value = { tone: 'refused', text: t('{name} has {size} bytes; at most {largest} are read.', { name: file.name, size: file.size, largest }) };
+      reported.value = { tone: 'refused', text: t('{name} has {size} bytes; at most {largest} are read.', { name: file.name, size: file.size, largest }) };
       return;
     }
     text.value = await file.text();
@@ -65,19 +65,19 @@ export function ParameterTransfer({ axis }: { axis: string }) {
     let done = 0;
     for (const row of wanted) {
       if (run.stop) break;
-      told.value = { tone: 'busy', text: t('Writing {id}: {done} of {n} …', { id: row.id, done: done + 1, n: wanted.length }) };
+      reported.value = { tone: 'busy', text: t('Writing {id}: {done} of {n} …', { id: row.id, done: done + 1, n: wanted.length }) };
       try {
         await client.writeParameter(axis, row.id, row.value!);
         done += 1;
       } catch (error) {
-        told.value = { tone: 'refused', text: t('{id}: {words}. {done} were written before it; {left} behind it were not sent.', { id: row.id, words: asProblem(error).words, done, left: wanted.length - done - 1 }) };
+        reported.value = { tone: 'refused', text: t('{id}: {text}. {done} were written before it; {left} behind it were not sent.', { id: row.id, text: asProblem(error).text, done, left: wanted.length - done - 1 }) };
         run.stop = true;
       }
     }
     if (done === wanted.length) {
       emptied(text, sent);
-      told.value = { tone: 'good', text: t('{done} written.', { done: parametersWords(done) }) };
-    } else if (told.peek().tone === 'busy') told.value = { tone: 'refused', text: t('Ended: {done} of {n} were written.', { done, n: wanted.length }) };
+      reported.value = { tone: 'good', text: t('{done} written.', { done: parametersText(done) }) };
+    } else if (reported.peek().tone === 'busy') reported.value = { tone: 'refused', text: t('Ended: {done} of {n} were written.', { done, n: wanted.length }) };
     busy.value = false;
     sending.current = null;
     await load().catch(() => undefined);
@@ -117,7 +117,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
               {wanted.length === 1 ? t('Write 1 value to the drive') : t('Write {n} values to the drive', { n: wanted.length })}
             </button>
           )}
-          <Tell told={told.value} field="transfer-told" />
+          <Tell reported={reported.value} field="transfer-told" />
         </div>
         {(read.problem || read.rows.length > 0) && (
           <p class={`form-told${read.problem || bad > 0 ? ' is-fault' : ''}`} role="status" data-field="transfer-count">
@@ -129,7 +129,7 @@ export function ParameterTransfer({ axis }: { axis: string }) {
             {read.rows.filter((r) => !r.same).slice(0, 300).map((r) => (
               <li key={r.line} data-line={r.line}>
                 <span class="mono">{r.id}</span>{' '}
-                {r.fault ? <span class="fault-text">{r.fault}</span> : <span class="mono">{valueText(byId.get(r.id)?.value ?? null, byId.get(r.id) ?? { allowed: null })} → {editText(r.value)} {unitWords(byId.get(r.id)?.unit ?? null)} {steppedText(r.value, byId.get(r.id)?.unit ?? null)}</span>}
+                {r.fault ? <span class="fault-text">{r.fault}</span> : <span class="mono">{valueText(byId.get(r.id)?.value ?? null, byId.get(r.id) ?? { allowed: null })} → {editText(r.value)} {unitText(byId.get(r.id)?.unit ?? null)} {steppedText(r.value, byId.get(r.id)?.unit ?? null)}</span>}
               </li>
             ))}
           </ul>

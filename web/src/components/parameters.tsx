@@ -14,10 +14,10 @@ import { readValue, sameValue, searchRank, valueText } from '../text/parameter';
 import { isMarked, marks, type Marked } from '../text/transfer';
 import { Why } from './gate';
 import { Empty } from './lines';
-import { heardAt, useOnScreen } from './parameter-live';
+import { receivedAt, useOnScreen } from './parameter-live';
 import { isLongArray, newRow, ParameterRow, type Row } from './parameter-row';
 import { Section } from './section';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const rowsAtOnce = 100;
 const idle_ms = 400;
@@ -51,7 +51,7 @@ export function Parameters({ axis }: { axis: string }) {
       });
       loaded.value = 'there';
     } catch (error) {
-      if (!signalOfEnd.aborted && rows.peek().length === 0) loaded.value = asProblem(error).words;
+      if (!signalOfEnd.aborted && rows.peek().length === 0) loaded.value = asProblem(error).text;
     }
   };
 
@@ -110,7 +110,7 @@ export function Parameters({ axis }: { axis: string }) {
       const now_ms = store.gatewayNow_ms();
       const away = document.hidden || !store.connected.peek() || reading.current !== null || store.axis(axis)?.peek().data.online !== true;
       const wanted = away ? [] : rows.peek().filter((r) => onScreen.has(r.data.peek().id) && r.data.peek().access !== 'W' && !isLongArray(r.data.peek()) && r.note.peek().tone !== 'busy');
-      const next = dueNext(wanted.map((row) => ({ row, at_ms: heardAt(row.data.peek()), refused_ms: row.refused_ms })), now_ms, since.peek());
+      const next = dueNext(wanted.map((row) => ({ row, at_ms: receivedAt(row.data.peek()), refused_ms: row.refused_ms })), now_ms, since.peek());
       const began = performance.now();
       if (next) await reread(next.row, end.signal);
       if (!end.signal.aborted) timer = setTimeout(() => void turn(), next ? pauseAfter(performance.now() - began) : idle_ms);

@@ -14,7 +14,7 @@ import { readAt } from '../state/plot';
 import { joined, trendPart } from '../state/recorder';
 import { formatNumber } from '../text/number';
 import { plainWord } from '../text/plain';
-import { instantText, registerWords } from '../text/recorder';
+import { instantText, registerText } from '../text/recorder';
 import { CursorTable, Plot, PlotButtons, PlotView } from './plot';
 import { trendCurves } from './recorder-trends';
 import { Section } from './section';
@@ -54,7 +54,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
   const view = useRef<PlotView>(null as unknown as PlotView);
   view.current ??= new PlotView();
   const v = view.current;
-  const told = (error: unknown) => (fault.value = capital(asProblem(error).words));
+  const reported = (error: unknown) => (fault.value = capital(asProblem(error).text));
 
   useEffect(() => {
     let here = true;
@@ -67,7 +67,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
       moment.value = doc;
       whole.value = doc;
       axis.value = doc.curves[0]?.axis ?? '';
-    }, told);
+    }, reported);
     return () => void (here = false);
   }, [name, door]);
   useEffect(() => {
@@ -75,7 +75,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
     if (instant === null || !whole.value) return;
     v.cursors[0].value = instant;
     let here = true;
-    const timer = setTimeout(() => void door.playback(name, { at_ms: instant * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), told), playing.peek() ? 0 : rest_ms);
+    const timer = setTimeout(() => void door.playback(name, { at_ms: instant * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), reported), playing.peek() ? 0 : rest_ms);
     return () => {
       here = false;
       clearTimeout(timer);
@@ -176,7 +176,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                       <td data-label={t('Velocity')} class="num">{formatNumber(a.velocity, 3)}</td>
                       <td data-label={t('Following error')} class="num">{formatNumber(a.following_error, 3)}</td>
                       <td data-label={t('Error')} class="num" title={a.error.text || undefined}>{a.error.code || '–'}</td>
-                      <td data-label={t('Registers')} class="mono playback-words">{registerWords(now.registers.find((r) => r.axis === a.name))}</td>
+                      <td data-label={t('Registers')} class="mono playback-words">{registerText(now.registers.find((r) => r.axis === a.name))}</td>
                     </tr>
                   ))}
                 </tbody>

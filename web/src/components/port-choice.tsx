@@ -4,7 +4,7 @@ import { useSignal } from '@preact/signals';
 import { hostPorts, type HostPort } from '../api/host';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { atPort, portKind, portOf, portWords } from '../text/ports';
+import { atPort, portKind, portOf, portText } from '../text/ports';
 import { Choice } from './form';
 import { useLoaded } from './loaded';
 
@@ -38,7 +38,7 @@ export function PortChoice({ uri, own, onUri }: { uri: string; own: string; onUr
           const port = list.find((p) => p.uri === v);
           if (port) onUri(atPort(port, uri), port);
         }}
-        choices={[{ value: '', text: t('as typed') }, ...list.map((p) => ({ value: p.uri, text: portWords(p, own) }))]}
+        choices={[{ value: '', text: t('as typed') }, ...list.map((p) => ({ value: p.uri, text: portText(p, own) }))]}
         hint={<>{now?.kind === 'can' && !now.up && t('The interface is switched off: an administrator of the machine switches it on with its bit rate.')} {again}</>}
       />
     </div>

@@ -5,17 +5,17 @@ import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
 import { useGateway } from '../gateway';
-import { gatewayWords, t, theirs } from '../language';
+import { gatewayText, t, theirs } from '../language';
 import { addressBase } from '../state/address-base';
 import { persisted } from '../state/persisted';
-import { instanceWords, profileWords, readProfile, registerRows, type ProfileFaults } from '../text/profile';
+import { instanceText, profileText, readProfile, registerRows, type ProfileFaults } from '../text/profile';
 import { Ask } from './ask';
-import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 const unit = persisted('profile.unit');
 const language = persisted('profile.language', 'lexium');
@@ -30,25 +30,25 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
   const { client, store } = useGateway();
   const door = useMemo(() => new ProfileDoor(client), [client]);
   const axes = useSignal<readonly string[]>(['']);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const faults = useSignal<ProfileFaults>({});
   const asking = useSignal<number | null>(null);
   const named = useNamed();
   const no = useBarred('engineer');
   const load = async () => void (listed.value = await door.all());
-  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('profiles')) : p.words));
+  const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('profiles')) : p.text));
   if (!listed.value) return why ? <Section title={t("Profiles: another device's registers")}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { languages, profiles } = listed.value;
   const chosen = languages.find((l) => l.language === language.value);
   const title = (p: Profile) => languages.find((l) => l.language === p.language)?.title ?? p.language;
 
-  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(told, what, how, good, load);
+  const send = (what: string, how: () => Promise<unknown>, good: string) => tellOf(reported, what, how, good, load);
   const add = async () => {
     const taken = new Map<number, string>([...[...mapped].map((u) => [u, t('mappings')] as const), ...profiles.map((p) => [p.unit, t('the profile {title}', { title: title(p) })] as const)]);
     const read = readProfile({ unit: unit.value, language: language.value, axes: axes.value, counts: counts.value, velocity: velocity.value, acceleration: acceleration.value, input: input.value, output: output.value, object: object.value }, languages, taken);
     faults.value = 'faults' in read ? read.faults : {};
     if ('faults' in read) {
-      told.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
+      reported.value = { tone: 'refused', text: t('Mend the fields that are marked.') };
       return;
     }
     if (await send(t('Adding …'), () => door.put(read.unit, read.entry), t('Unit {unit} speaks {title} now.', { unit: read.unit, title: chosen?.title ?? '' }))) unit.value = input.value = output.value = object.value = '';
@@ -63,14 +63,14 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
       {profiles.map((p) => (
         <details key={p.unit} class="card profile" data-profile={p.unit}>
           <summary>
-            {t('Unit {unit}:', { unit: p.unit })} <strong>{title(p)}</strong> {t('in front of {axes}', { axes: profileWords(p) })}
-            {instanceWords(p) !== '' && <span class="where"> {t('EtherNet/IP: {list}', { list: instanceWords(p) })}</span>}
+            {t('Unit {unit}:', { unit: p.unit })} <strong>{title(p)}</strong> {t('in front of {axes}', { axes: profileText(p) })}
+            {instanceText(p) !== '' && <span class="where"> {t('EtherNet/IP: {list}', { list: instanceText(p) })}</span>}
           </summary>
           <RegisterList profile={p} listed={listed.value!} />
           <div class="form-foot">
             {asking.value === p.unit ? (
               <Ask
-                words={t('Take the profile of unit {unit} away? Clients of this unit are refused from then on.', { unit: p.unit })}
+                text={t('Take the profile of unit {unit} away? Clients of this unit are refused from then on.', { unit: p.unit })}
                 yes={t('Take it away')}
                 field="profile-ask"
                 onYes={() => {
@@ -132,7 +132,7 @@ export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed |
           <button type="submit" class="button primary" {...no}>
             {t('Add the profile')}
           </button>
-          <Tell told={told.value} field="profile-told" />
+          <Tell reported={reported.value} field="profile-told" />
         </div>
       </form>
     </Section>
@@ -163,7 +163,7 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
               <th scope="row">{r.name}</th>
               <td class="mono">{r.type}</td>
               <td>{r.access}</td>
-              <td {...gatewayWords}>{r.text}</td>
+              <td {...gatewayText}>{r.text}</td>
               {profile.object_instance != null && <td>{r.object}</td>}
             </tr>
           ))}

@@ -1,6 +1,6 @@
 // Parameters of a recipe as a form: name, type, default, bounds, unit, what each is for. In: the document and the faults found in it.
 // Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { useSignal } from '@preact/signals';
 import { defaultOf, parameterFault, parameterTypeName, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
 import { Icon } from './icon';
@@ -15,12 +15,12 @@ export interface RecipeParametersProps {
 
 export function RecipeParameters({ document, change, faults }: RecipeParametersProps) {
   const fresh = useSignal('');
-  const wrong = useSignal('');
+  const error = useSignal('');
   const names = Object.keys(document.parameters ?? {});
   const add = () => {
     const name = fresh.peek().trim();
-    wrong.value = parameterFault(document, name);
-    if (wrong.peek()) return;
+    error.value = parameterFault(document, name);
+    if (error.peek()) return;
     fresh.value = '';
     change(withParameter(document, name, { type: 'number' }));
   };
@@ -38,13 +38,13 @@ export function RecipeParameters({ document, change, faults }: RecipeParametersP
           add();
         }}
       >
-        <input class="search" type="text" aria-label={t('Name of the new parameter')} placeholder={t('name')} autocomplete="off" spellcheck={false} value={fresh.value} aria-invalid={wrong.value !== '' || undefined} onInput={(e) => (fresh.value = e.currentTarget.value)} />
+        <input class="search" type="text" aria-label={t('Name of the new parameter')} placeholder={t('name')} autocomplete="off" spellcheck={false} value={fresh.value} aria-invalid={error.value !== '' || undefined} onInput={(e) => (fresh.value = e.currentTarget.value)} />
         <button type="submit" class="button">
           {t('Add a parameter')}
         </button>
-        {wrong.value && (
+        {error.value && (
           <span class="step-fault" role="status">
-            {wrong.value}
+            {error.value}
           </span>
         )}
       </form>
@@ -53,7 +53,7 @@ export function RecipeParameters({ document, change, faults }: RecipeParametersP
 }
 
 function ParameterRow({ name, document, change, faults }: RecipeParametersProps & { name: string }) {
-  const wrong = useSignal('');
+  const error = useSignal('');
   const p = document.parameters?.[name] as RecipeParameter;
   const set = (more: Partial<Record<keyof RecipeParameter, Json | undefined>>) => change(withParameter(document, name, more));
   const label = (what: string) => t('Parameter {name}: {what}', { name, what });
@@ -74,12 +74,12 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
               class="mono"
               spellcheck={false}
               aria-label={label(t('Name'))}
-              aria-invalid={wrong.value !== '' || undefined}
+              aria-invalid={error.value !== '' || undefined}
               value={name}
               onDone={(text) => {
                 const typed = text.trim();
-                wrong.value = typed === name ? '' : parameterFault(document, typed);
-                if (!wrong.peek() && typed !== name) change(renamedParameter(document, name, typed));
+                error.value = typed === name ? '' : parameterFault(document, typed);
+                if (!error.peek() && typed !== name) change(renamedParameter(document, name, typed));
               }}
             />
           </label>
@@ -111,13 +111,13 @@ function ParameterRow({ name, document, change, faults }: RecipeParametersProps 
           <Icon name="remove" />
         </button>
       </div>
-      {wrong.value && (
+      {error.value && (
         <p class="step-fault" role="status">
-          {wrong.value}
+          {error.value}
         </p>
       )}
       {faults.map((f) => (
-        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
+        <p key={f.pointer + f.text} class="step-fault" {...gatewayText}>
           {f.text}. {f.remedy}.
         </p>
       ))}

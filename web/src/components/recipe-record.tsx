@@ -23,10 +23,10 @@ interface On {
   axes: string[];
   from_ms: number;
 }
-const kept = persisted('recipes.record');
+const stored = persisted('recipes.record');
 function onNow(): On | null {
   try {
-    const on = JSON.parse(kept.value) as On;
+    const on = JSON.parse(stored.value) as On;
     return typeof on.recipe === 'string' && Array.isArray(on.axes) && Number.isFinite(on.from_ms) ? on : null;
   } catch {
     return null;
@@ -34,7 +34,7 @@ function onNow(): On | null {
 }
 
 /** `saved`: nothing is lost when the page is left. */
-export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept: boolean; add: (steps: Step[]) => void }) {
+export function RecordPart({ recipe, persisted: saved, add }: { recipe: string; persisted: boolean; add: (steps: Step[]) => void }) {
   const { client, store } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const named = useNamed();
@@ -46,7 +46,7 @@ export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept:
   const mine = on?.recipe === recipe;
   const axes = store.axisNames.value.slice(0, mostAxes);
   const picked = (chosen.value ?? axes).filter((a) => axes.includes(a));
-  const told = (error: unknown) => (fault.value = capital(asProblem(error).words));
+  const reported = (error: unknown) => (fault.value = capital(asProblem(error).text));
 
   useEffect(() => {
     if (!mine || !on) return;
@@ -55,7 +55,7 @@ export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept:
       void door.steps(on.axes, on.from_ms).then((s) => {
         if (here) now.value = s;
         if (here) fault.value = '';
-      }, (e: unknown) => here && told(e));
+      }, (e: unknown) => here && reported(e));
     look();
     const timer = setInterval(look, look_ms);
     return () => {
@@ -69,23 +69,23 @@ export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept:
     now.value = null;
     try {
       const first = await door.steps(picked);
-      kept.value = JSON.stringify({ recipe, axes: picked, from_ms: first.to } satisfies On);
+      stored.value = JSON.stringify({ recipe, axes: picked, from_ms: first.to } satisfies On);
     } catch (error) {
-      told(error);
+      reported(error);
     }
   };
   const end = async () => {
     if (!on) return;
     try {
       const all = await door.steps(on.axes, on.from_ms);
-      kept.value = '';
+      stored.value = '';
       now.value = null;
       const steps = all.steps as unknown as Step[];
       if (steps.length > 0) add(steps);
       const count = steps.length === 0 ? t('Nothing was done to these axes.') : steps.length === 1 ? t('1 step is added; look at it, then save.') : t('{n} steps are added; look at them, then save.', { n: steps.length });
       done.value = [count, ...all.left_out.map((s) => t('Left out: {what}.', { what: s }))].join(' ');
     } catch (error) {
-      told(error); // it goes on: nothing is lost
+      reported(error); // it goes on: nothing is lost
     }
   };
   const steps = (now.value?.steps ?? []) as unknown as Step[];
@@ -129,7 +129,7 @@ export function RecordPart({ recipe, kept: saved, add }: { recipe: string; kept:
             <button type="button" class="button primary" onClick={() => void end()}>
               <Icon name="stop" /> {t('End and add the steps')}
             </button>
-            <button type="button" class="button quiet" onClick={() => (kept.value = '')}>
+            <button type="button" class="button quiet" onClick={() => (stored.value = '')}>
               {t('Throw away')}
             </button>
           </div>

@@ -1,6 +1,6 @@
 // A run of a recipe: arguments, start, live progress, cancel, and its report. In: the recipe's parameters, reports of the stream and of REST.
 // Out: requests to the gateway. What was typed stays, whatever becomes of the run. Never starts a run by itself.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { useBarred, Why } from './gate';
 import { useSignal, type Signal } from '@preact/signals';
@@ -17,7 +17,7 @@ import { useLoaded } from './loaded';
 import { AxisName, SimulatedMark, useNamed } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const begun = (n: number) => t('Run {n} has begun.', { n });
 const isOver = (state: string) => state !== 'running' && state !== 'stopping';
@@ -188,7 +188,7 @@ export function RunReports({ run }: { run: Run }) {
                   </span>
                   <Pill word={runWord(x.state)} label={t('State')} />
                 </div>
-                {x.text && <p class="why" {...gatewayWords}>{capital(plain(x.text))}</p>}
+                {x.text && <p class="why" {...gatewayText}>{capital(plain(x.text))}</p>}
               </li>
             ))}
           </ol>
@@ -201,7 +201,7 @@ export function RunReports({ run }: { run: Run }) {
 type StepReport = RecipeReport['steps'][number];
 const hasValue = (s: StepReport): boolean => s.value !== null && s.value !== undefined;
 /** What a step read, wrote or looked at: a condition names what it wanted, so what there was is said as such. */
-const valueSaid = (s: StepReport): string => {
+const valuePublished = (s: StepReport): string => {
   const value = typedOf(typeof s.value === 'number' ? Number(s.value.toPrecision(9)) : s.value);
   if (s.step === 'read_parameter') return `= ${value}`;
   return s.step === 'set_parameter' ? t('taken as {value}', { value }) : t('it was {value}', { value });
@@ -223,7 +223,7 @@ export function Report({ report: r }: { report: RecipeReport }) {
         {r.text && (
           <p class="step-fault" data-field="run-text">
             {r.at_label || r.at_step ? `${r.at_label || r.at_step}: ` : ''}
-            <span {...gatewayWords}>{capital(plain(r.text))}</span>
+            <span {...gatewayText}>{capital(plain(r.text))}</span>
           </p>
         )}
         {r.stops.map((s) => (
@@ -241,10 +241,10 @@ export function Report({ report: r }: { report: RecipeReport }) {
                 <Icon name={word.icon} size={14} />
                 <span class="report-word">{word.text}</span>
                 <span class="report-what">
-                  <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span {...gatewayWords}>{plain(stepWhat(s))}</span>
+                  <b>{stepLabel(s.step)}</b> {s.axis && <SimulatedMark of={s.axis} lead="" />} <span {...gatewayText}>{plain(stepWhat(s))}</span>
                   {s.times > 1 && ` × ${s.times}`}
-                  {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valueSaid(s)}</span>}
-                  {s.text && <span {...gatewayWords}> {plain(s.text)}</span>}
+                  {hasValue(s) && <span class="mono" data-field="step-value">{' '}{valuePublished(s)}</span>}
+                  {s.text && <span {...gatewayText}> {plain(s.text)}</span>}
                   {s.comment && <i> {s.comment}</i>}
                 </span>
                 <span class="report-at mono">

@@ -1,13 +1,13 @@
 // Recipe steps as forms, one per step, nested where the recipe nests. In: the document and the faults that the gateway has found in it.
 // Out: a changed copy of the document. Never checks by itself: the gateway does, and its sentences stand at the step they are about.
-import { gatewayWords, midSentence, t } from '../language';
+import { gatewayText, midSentence, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
 import type { HandItem } from '../api/types';
 import { useGateway } from '../gateway';
 import type { components } from '../api/schema';
-import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, stepSummary, takesTolerance, titleOf, unknownAxes, unknownWords, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
+import { added, at, axisMeant, changed, commands, comparisons, fieldsOfStep, freshStep, kindOf, moved, pointerOf, points, removed, stepKinds, stepSummary, takesTolerance, titleOf, unknownAxes, unknownText, typedOf, unitOfField, valueOf, withCommand, type Json, type Path, type RecipeDocument, type Step, type StepField, type StepKind } from '../text/recipe';
 import { capital } from '../state/commander';
 import { plainWord } from '../text/plain';
 import { Icon } from './icon';
@@ -104,8 +104,8 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   const nobody = listed ? unknownAxes(document, axes).filter((u) => u.pointer === pointer) : [];
   const body = kind ? step[kind.word] : undefined;
   // What is wrong is never folded away, nor what is wrong inside.
-  const wrong = faults.some((f) => f.pointer === pointer || f.pointer.startsWith(`${pointer}/`));
-  const open = wrong || !folded.value.has(pointer);
+  const invalid = faults.some((f) => f.pointer === pointer || f.pointer.startsWith(`${pointer}/`));
+  const open = invalid || !folded.value.has(pointer);
   const fold = () => {
     const next = new Set(folded.peek());
     if (!next.delete(pointer)) next.add(pointer);
@@ -114,7 +114,7 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
   return (
     <li class={`step${mine.length > 0 ? ' is-wrong' : ''}`} data-step={pointer}>
       <div class="step-head">
-        <button type="button" class="button quiet small square" aria-expanded={open} aria-label={open ? t('Fold {title}', { title }) : t('Unfold {title}', { title })} disabled={wrong} onClick={fold}>
+        <button type="button" class="button quiet small square" aria-expanded={open} aria-label={open ? t('Fold {title}', { title }) : t('Unfold {title}', { title })} disabled={invalid} onClick={fold}>
           <Icon name={open ? 'down' : 'arrow-right'} />
         </button>
         <b class="step-title">{title}</b>
@@ -144,16 +144,16 @@ function StepRow({ step, list, i, last }: { step: Step; list: Path; i: number; l
         </label>
       </div>}
       {mine.map((f) => (
-        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
+        <p key={f.pointer + f.text} class="step-fault" {...gatewayText}>
           {f.text}. {f.remedy}.
         </p>
       ))}
       {nobody.length > 0 && (
         <p class="step-fault" data-field="no-axis">
-          {unknownWords(nobody)}
+          {unknownText(nobody)}
         </p>
       )}
-      {open && kind?.word === 'simulate' && <SimulateWords axis={(body as { axis?: unknown } | null)?.axis} />}
+      {open && kind?.word === 'simulate' && <SimulateText axis={(body as { axis?: unknown } | null)?.axis} />}
       {open && kind?.lists?.map((l) => (
         <div key={l} class="step-inner">
           {kind.lists && kind.lists.length > 1 && <p class="step-side">{l === 'then' ? t('Then') : t('Else')}</p>}
@@ -201,7 +201,7 @@ function InputOffers({ id, named }: { id: string; named: unknown }) {
   );
 }
 
-function SimulateWords({ axis: named }: { axis: unknown }) {
+function SimulateText({ axis: named }: { axis: unknown }) {
   const { store } = useGateway();
   const axis = useMeant(named);
   if (axis === '' || store.axis(axis) === undefined || store.simulation('axis', axis).value) return null;

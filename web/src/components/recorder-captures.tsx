@@ -12,9 +12,9 @@ import { persisted } from '../state/persisted';
 import { readAt } from '../state/plot';
 import { captureParts, joined } from '../state/recorder';
 import { parseNumber, parseQuantity } from '../text/number';
-import { bytesWords, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerWords, type TracePoint } from '../text/recorder';
+import { bytesText, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerText, type TracePoint } from '../text/recorder';
 import { dateTime } from '../text/time';
-import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { Choice, quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -23,7 +23,7 @@ import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
 import { RenameForm } from './rename-form';
 import { saveText } from './save';
 import { Section } from './section';
-import { refusal, tellOf } from './told';
+import { refusal, tellOf } from './reported';
 
 const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-5'];
 export const mostOverlaid = 4;
@@ -34,7 +34,7 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const list = useSignal<CaptureList | null>(null);
   const drawn = useSignal<readonly CaptureWithRows[]>([]);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const load = async () => void (list.value = await door.captures());
   const waiting = useLoaded(load, [door]);
   const runs = list.value?.captures.some((c) => c.state === 'armed' || c.state === 'triggered' || (c.state === 'done' && c.bytes === 0 && !c.fault)) ?? false;
@@ -48,12 +48,12 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
     try {
       const whole = await door.capture(name);
       drawn.value = [...drawn.peek().filter((c) => c.name !== name), whole].slice(-mostOverlaid);
-      told.value = quiet;
+      reported.value = quiet;
     } catch (error) {
-      told.value = refusal(error);
+      reported.value = refusal(error);
     }
   };
-  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(reported, t('Asking the gateway.'), what, done, load);
   // One that was just armed here is drawn when it is done.
   const mine = useRef('');
   useEffect(() => {
@@ -76,10 +76,10 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
             }}
           />
         </Gate>
-        <Tell told={told.value} field="capture-told" />
+        <Tell reported={reported.value} field="capture-told" />
       </Section>
       {drawn.value.length > 0 && <Overlay captures={drawn.value} />}
-      <Section title={captures.length > 0 ? t('Captures, {n}', { n: captures.length }) : t('Captures')} beside={list.value && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(list.value.disk_bytes), disk_most_bytes: bytesWords(list.value.disk_most_bytes) })}</span>}>
+      <Section title={captures.length > 0 ? t('Captures, {n}', { n: captures.length }) : t('Captures')} beside={list.value && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesText(list.value.disk_bytes), disk_most_bytes: bytesText(list.value.disk_most_bytes) })}</span>}>
         {list.value?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(list.value.disk_fault)))}</p>}
         {captures.length === 0 ? (
           <Empty text={waiting || t('No capture yet.')} />
@@ -108,7 +108,7 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
         <b>{c.name}</b>
         <span class="where">
           {' '}
-          {c.triggered_at ? dateTime(c.triggered_at) : ''} {captureAbout(c)} · {triggerWords(c.trigger, unit)}
+          {c.triggered_at ? dateTime(c.triggered_at) : ''} {captureAbout(c)} · {triggerText(c.trigger, unit)}
           {c.why ? marked(` · ${theirs(c.why)}`) : ''}
         </span>
       </span>

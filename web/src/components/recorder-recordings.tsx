@@ -8,9 +8,9 @@ import { RecorderDoor, recordingFile } from '../api/recorder';
 import type { Recording, RecordingList } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
-import { bytesWords, freeName, nameFault, recordingWord } from '../text/recorder';
+import { bytesText, freeName, nameFault, recordingWord } from '../text/recorder';
 import { dateTime } from '../text/time';
-import { quiet, Tell, TextField, type Told } from './form';
+import { quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -18,19 +18,19 @@ import { Pill } from './pill';
 import { PlaybackPart } from './playback';
 import { RenameForm } from './rename-form';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
   const { client } = useGateway();
   const door = useMemo(() => new RecorderDoor(client), [client]);
   const list = useSignal<RecordingList | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const open = useSignal(first ?? '');
   const name = useSignal('');
   const why = useSignal('');
   const load = async () => void (list.value = await door.recordings());
   const waiting = useLoaded(load, [door]);
-  const act = (what: () => Promise<unknown>, done: string) => tellOf(told, t('Asking the gateway.'), what, done, load);
+  const act = (what: () => Promise<unknown>, done: string) => tellOf(reported, t('Asking the gateway.'), what, done, load);
   const recordings = list.value?.recordings ?? [];
   const wanted = name.value || freeName('recording', recordings.map((r) => r.name));
   const fault = nameFault(wanted);
@@ -57,14 +57,14 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
               <button type="submit" class="button primary" disabled={fault !== undefined}>
                 {t('Freeze the last minutes')}
               </button>
-              <span class="where">{now ? `${now.from ? `${t('since {from}', { from: dateTime(now.from) })}, ` : ''}${bytesWords(now.bytes)}${now.not_replayable ? ` · ${t('to be read, not replayed: {why}', { why: now.not_replayable })}` : ` · ${t('replayable')}`}` : waiting}</span>
+              <span class="where">{now ? `${now.from ? `${t('since {from}', { from: dateTime(now.from) })}, ` : ''}${bytesText(now.bytes)}${now.not_replayable ? ` · ${t('to be read, not replayed: {why}', { why: now.not_replayable })}` : ` · ${t('replayable')}`}` : waiting}</span>
             </div>
           </form>
         </Gate>
-        <Tell told={told.value} field="recording-told" />
+        <Tell reported={reported.value} field="recording-told" />
       </Section>
       {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
-      <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesWords(now.disk_bytes), disk_most_bytes: bytesWords(now.disk_most_bytes) })}</span>}>
+      <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesText(now.disk_bytes), disk_most_bytes: bytesText(now.disk_most_bytes) })}</span>}>
         {now?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(now.disk_fault)))}</p>}
         {recordings.length === 0 ? (
           <Empty text={waiting || t('No recording yet. An alarm makes one by itself.')} />
@@ -90,7 +90,7 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
         <b>{r.name}</b>
         <span class="where">
           {' '}
-          {r.at ? dateTime(r.at) : ''} {bytesWords(r.bytes)}
+          {r.at ? dateTime(r.at) : ''} {bytesText(r.bytes)}
           {r.automatic ? ` · ${t('by an alarm')}` : ''}
           {r.why ? marked(` · ${r.automatic ? theirs(r.why) : r.why}`) : ''}
           {r.who ? ` · ${r.who}` : ''}

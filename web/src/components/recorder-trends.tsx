@@ -12,7 +12,7 @@ import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { readAt } from '../state/plot';
 import { joined, trendPart, type Drawn } from '../state/recorder';
-import { instantText, pointNames, points, pointUnit, rateWords, type TracePoint } from '../text/recorder';
+import { instantText, pointNames, points, pointUnit, rateText, type TracePoint } from '../text/recorder';
 import { Empty } from './lines';
 import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
 import { saveText } from './save';
@@ -77,7 +77,7 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         fault.value = '';
         version.value += 1;
       } catch (error) {
-        if (here) fault.value = capital(asProblem(error).words);
+        if (here) fault.value = capital(asProblem(error).text);
       } finally {
         asking = false;
         if (here && again) {
@@ -125,7 +125,7 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
   const curves = useMemo(() => trendCurves(doc, axes, seen), [doc?.axes.map((a) => a.unit).join(), key]);
   const save = () => {
     const [from, to] = v.range.peek();
-    void door.trendsCsv({ axes, points: [...seen, 'state'], from_ms: from * 1000, to_ms: to * 1000, columns: 5000 }).then((text) => saveText('trends.csv', 'text/csv', text), (e: unknown) => (fault.value = capital(asProblem(e).words)));
+    void door.trendsCsv({ axes, points: [...seen, 'state'], from_ms: from * 1000, to_ms: to * 1000, columns: 5000 }).then((text) => saveText('trends.csv', 'text/csv', text), (e: unknown) => (fault.value = capital(asProblem(e).text)));
   };
   if (names.length === 0) return <Empty text={store.listed.value ? t('There is no axis yet.') : t('Waiting for the gateway.')} />;
   return (
@@ -184,7 +184,7 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
         ))}
       </ul>
       <p class="where" role="status" data-field="trend-rate">
-        {fault.value ? marked(fault.value) : (doc ? doc.axes.map((a) => `${a.axis} ${rateWords(a.rate_hz)}`).join(' · ') : t('Waiting for the gateway.'))}
+        {fault.value ? marked(fault.value) : (doc ? doc.axes.map((a) => `${a.axis} ${rateText(a.rate_hz)}`).join(' · ') : t('Waiting for the gateway.'))}
         {!follow.value && !fault.value && ` · ${t('held: choose a time to follow again')}`}
       </p>
       <CursorTable view={v} curves={curves} read={(c, instant) => readAt(drawn.current.at, drawn.current.columns[curves.indexOf(c)] ?? [], instant)} clock={(instant) => instantText(instant, 1)} />

@@ -1,6 +1,6 @@
 // Scan: looking for drives on a line. In: the line's name, a range of addresses. Out: what was found, and whether the site knows it.
 // Never adds a drive by itself, and never begins to look by itself.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { useBarred, Why } from './gate';
 import { useSignal } from '@preact/signals';
@@ -15,7 +15,7 @@ const askAgain_ms = 300;
 const askLater_ms = 2_000;
 
 /** "3 of 8 addresses asked, done, 1 found". A line that is asked as a whole has no addresses to count: how it was found is told then. */
-export function scanWords(r: Pick<ScanReport, 'asked' | 'of' | 'state' | 'text' | 'found'>): string {
+export function scanText(r: Pick<ScanReport, 'asked' | 'of' | 'state' | 'text' | 'found'>): string {
   const found = r.found.length === 1 ? t('1 found') : t('{n} found', { n: r.found.length });
   const how = r.of > 0 ? t('{asked} of {of} addresses asked, {state}, {found}', { asked: r.asked, of: r.of, state: r.state, found }) : t('The line was asked as a whole, not address by address: {state}, {found}', { state: r.state, found });
   return `${how}${r.text ? `: ${r.text}` : ''}`;
@@ -53,7 +53,7 @@ export function ScanSection({ line }: { line: string }) {
     try {
       report.value = await what();
     } catch (error) {
-      fault.value = capital(asProblem(error).words);
+      fault.value = capital(asProblem(error).text);
     }
   };
   const r = report.value;
@@ -75,7 +75,7 @@ export function ScanSection({ line }: { line: string }) {
           {r && r.state !== 'none' && <progress max={1} value={r.state === 'done' ? 1 : r.progress} aria-label={t('Addresses asked')} />}
           {r && r.state !== 'none' && (
             <span class="where" role="status">
-              {scanWords(r)}
+              {scanText(r)}
             </span>
           )}
         </div>
@@ -92,7 +92,7 @@ export function ScanSection({ line }: { line: string }) {
                   </h3>
                   <span class="where">{f.known_as ? t('is the drive {known_as}', { known_as: f.known_as }) : t('not in the site yet')}</span>
                 </div>
-                {f.text && <p class="why" {...gatewayWords}>{f.text}</p>}
+                {f.text && <p class="why" {...gatewayText}>{f.text}</p>}
               </li>
             ))}
           </ul>

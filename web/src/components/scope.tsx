@@ -9,7 +9,7 @@ import { useGateway } from '../gateway';
 import { persisted } from '../state/persisted';
 import { channels, columnOf, csvOf, needsDemand, Trigger, valueAt, type Channel, type TriggerSetting } from '../state/scope';
 import type { AxisHistory, HistoryColumns } from '../state/history';
-import { demandWords } from '../text/axis';
+import { demandText } from '../text/axis';
 import { localFigures, parseNumber } from '../text/number';
 import { CursorTable, Plot, PlotView, type Curve } from './plot';
 import { saveText } from './save';
@@ -160,12 +160,12 @@ function DemandLine({ axis, seen, view }: { axis: string; seen: ReadonlySet<stri
   if (!channels.some((c) => needsDemand(c) && (seen.has(c) || (trigger.mode !== 'off' && trigger.channel === c)))) return null;
   return (
     <p class="where scope-why" data-field="demand-source" data-source={source ?? 'none'}>
-      {demandWords(source)}
+      {demandText(source)}
     </p>
   );
 }
 
-const triggerWords = { off: '', waiting: t('Waiting for the trigger'), fired: t('Triggered, recording'), shown: t('Held by the trigger') } as const;
+const triggerText = { off: '', waiting: t('Waiting for the trigger'), fired: t('Triggered, recording'), shown: t('Held by the trigger') } as const;
 
 function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => number }) {
   const typed = useRef(signal('0')).current;
@@ -225,7 +225,7 @@ function TriggerBar({ view, unit, now }: { view: View; unit: string; now: () => 
             {t('Arm')}
           </button>
           <span class="where" role="status">
-            {parsed.good ? triggerWords[view.triggerState.value] : parsed.why}
+            {parsed.good ? triggerText[view.triggerState.value] : parsed.why}
           </span>
         </>
       )}

@@ -1,6 +1,6 @@
 // Site entries: the form of a line, a drive or an axis of the draft. In: the draft, which form is open. Out: the draft, changed; nothing is sent from here.
 // Faults of the gateway's last check stand beside their field. What is typed in an open form stays while the page is elsewhere.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { signal, useSignal, type Signal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { useGateway } from '../gateway';
@@ -25,12 +25,12 @@ export function openForm(room: Room, site: Site, entry: Entry | null, preset: Te
   forms[room].value = { own: entry?.name ?? null, texts };
 }
 
-const changeWords: Record<Room, (name: string) => string> = {
+const changeText: Record<Room, (name: string) => string> = {
   lines: (name) => t('Change line {name}', { name }),
   drives: (name) => t('Change drive {name}', { name }),
   axes: (name) => t('Change axis {name}', { name }),
 };
-const addWords: Record<Room, string> = { lines: t('Add a line'), drives: t('Add a drive'), axes: t('Add an axis') };
+const addText: Record<Room, string> = { lines: t('Add a line'), drives: t('Add a drive'), axes: t('Add an axis') };
 
 interface FormProps {
   room: Room;
@@ -68,7 +68,7 @@ export function EntryForm({ room, draft, own, open, gateway }: FormProps) {
       ref={form}
       class="form entry-form"
       noValidate
-      aria-label={own ? changeWords[room](own.name) : addWords[room]}
+      aria-label={own ? changeText[room](own.name) : addText[room]}
       onSubmit={(e) => {
         e.preventDefault();
         touched.value = true;
@@ -117,7 +117,7 @@ export function EntryField({ f, site, texts, fault, onText }: FieldProps) {
   switch (f.kind) {
     case 'line': return <Choice {...common} value={text} onChoice={onText} choices={names(site.lines)} />;
     case 'drive': return <Choice {...common} value={text} onChoice={onText} choices={names(site.drives)} />;
-    case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ ...gatewayWords, value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
+    case 'family': return <Choice {...common} class="wide" value={text} onChoice={onText} choices={[{ value: '', text: t('choose') }, ...(store.about.value?.families ?? []).map((n) => ({ ...gatewayText, value: n, text: store.familyTitles.value.get(n) ? `${store.familyTitles.value.get(n)} (${n})` : n }))]} />;
     case 'switch': return <Switch {...common} on={text === 'true'} onSwitch={(on) => onText(on ? 'true' : '')} />;
     case 'choice': return <Choice {...common} value={text} onChoice={onText} choices={f.choices ?? []} />;
     default: {

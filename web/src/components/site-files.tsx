@@ -7,9 +7,9 @@ import type { SiteDoor } from '../api/site';
 import { capital } from '../state/commander';
 import type { SiteDraft } from '../state/site-draft';
 import { readSite } from '../text/site';
-import { sizeWords as size } from '../text/site-files';
+import { sizeText as size } from '../text/site-files';
 import { useBarred, Why } from './gate';
-import { notOffered, quiet, Tell, type Told } from './form';
+import { notOffered, quiet, Tell, type Reported } from './form';
 import { Section } from './section';
 import { lookAtPending } from './site-pending';
 
@@ -20,22 +20,22 @@ const absent = (status: number) => status === 404 || status === 405 || status ==
 export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor }) {
   const no = useBarred('engineer');
   const noCopy = useBarred('administrator');
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const copy = useSignal<File | null>(null);
   const passphrase = useSignal('');
   const take = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     input.value = '';
     if (!file) return;
-    if (file.size > largestSite) return void (told.value = { tone: 'refused', text: t('{name} is larger than a site can be.', { name: file.name }) });
+    if (file.size > largestSite) return void (reported.value = { tone: 'refused', text: t('{name} is larger than a site can be.', { name: file.name }) });
     const site = readSite(await file.text());
-    if (typeof site === 'string') return void (told.value = { tone: 'refused', text: `${file.name}: ${site}` });
+    if (typeof site === 'string') return void (reported.value = { tone: 'refused', text: `${file.name}: ${site}` });
     draft.edit(site);
     const n = draft.changes.peek().length;
-    told.value = { tone: 'good', text: n === 0 ? t('{name} is the site that is in force.', { name: file.name }) : t('{name} is in the draft: {n} differences. Nothing has been sent; check and apply above.', { name: file.name, n }) };
+    reported.value = { tone: 'good', text: n === 0 ? t('{name} is the site that is in force.', { name: file.name }) : t('{name} is in the draft: {n} differences. Nothing has been sent; check and apply above.', { name: file.name, n }) };
   };
   const backup = async () => {
-    told.value = { tone: 'busy', text: t('Copying …') };
+    reported.value = { tone: 'busy', text: t('Copying …') };
     try {
       const blob = await door.backup(passphrase.value);
       const link = document.createElement('a');
@@ -45,25 +45,25 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
       link.click();
       link.remove();
       setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-      told.value = { tone: 'good', text: passphrase.value === '' ? t('A copy of everything, {size}, without private keys.', { size: size(blob.size) }) : t('A copy of everything, {size}, sealed.', { size: size(blob.size) }) };
+      reported.value = { tone: 'good', text: passphrase.value === '' ? t('A copy of everything, {size}, without private keys.', { size: size(blob.size) }) : t('A copy of everything, {size}, sealed.', { size: size(blob.size) }) };
     } catch (error) {
       const p = asProblem(error);
-      told.value = { tone: 'refused', text: absent(p.status) ? notOffered(t('a backup through the page')) : capital(p.words) };
+      reported.value = { tone: 'refused', text: absent(p.status) ? notOffered(t('a backup through the page')) : capital(p.text) };
     }
   };
   const restore = async () => {
     const file = copy.value;
     if (!file) return;
-    told.value = { tone: 'busy', text: t('Restoring …') };
+    reported.value = { tone: 'busy', text: t('Restoring …') };
     try {
       const r = await door.restoreBackup(file, passphrase.value);
       copy.value = null;
-      told.value = { tone: 'good', text: capital(r.text ?? r.detail ?? (r.restart_needed ? t('Taken; it takes effect when the gateway is started anew.') : t('Taken.'))) };
+      reported.value = { tone: 'good', text: capital(r.text ?? r.detail ?? (r.restart_needed ? t('Taken; it takes effect when the gateway is started anew.') : t('Taken.'))) };
       lookAtPending();
       await draft.load();
     } catch (error) {
       const p = asProblem(error);
-      told.value = { tone: 'refused', text: absent(p.status) ? notOffered(t('a restore through the page')) : capital(p.words) };
+      reported.value = { tone: 'refused', text: absent(p.status) ? notOffered(t('a restore through the page')) : capital(p.text) };
     }
   };
   return (
@@ -90,14 +90,14 @@ export function SiteFiles({ draft, door }: { draft: SiteDraft; door: SiteDoor })
               onChange={(e) => {
                 const file = e.currentTarget.files?.[0];
                 e.currentTarget.value = '';
-                if (file && file.size > largestBackup) told.value = { tone: 'refused', text: t('{name} has {size}; at most 64 MiB are taken.', { name: file.name, size: size(file.size) }) };
+                if (file && file.size > largestBackup) reported.value = { tone: 'refused', text: t('{name} has {size}; at most 64 MiB are taken.', { name: file.name, size: size(file.size) }) };
                 else copy.value = file ?? null;
               }}
             />
             {t('Restore a backup')}
           </label>
           <input type="password" aria-label={t('Passphrase of the backup')} placeholder={t('passphrase, or none')} autocomplete="new-password" maxLength={256} {...noCopy} value={passphrase.value} onInput={(e) => (passphrase.value = e.currentTarget.value)} />
-          <Tell told={told.value} field="files-told" />
+          <Tell reported={reported.value} field="files-told" />
         </div>
         {copy.value && (
           <div class="form-foot ask" role="group" aria-label={t('Restore a backup')}>

@@ -9,14 +9,14 @@ import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import type { SiteDraft } from '../state/site-draft';
 import { differenceOf, type Difference } from '../text/site';
-import { sizeWords } from '../text/site-files';
+import { sizeText } from '../text/site-files';
 import { clockTime } from '../text/time';
 import { useBarred } from './gate';
 import { notOffered } from './form';
 import { useLoaded } from './loaded';
 import { Section } from './section';
 import { DifferenceList } from './site-stage';
-import { refusal } from './told';
+import { refusal } from './reported';
 
 const absent = (status: number) => status === 404 || status === 405 || status === 501;
 /** As many as are asked for at once. */
@@ -40,7 +40,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     list.value = joins ? [...first, ...had.filter((h) => h.revision < last)] : first;
     if (!joins) older.value = { more: first.length >= atOnce, busy: false, why: '' };
   };
-  const why = useLoaded(load, [door, revision], (p) => (absent(p.status) ? notOffered(t('a history of applied states')) : p.words));
+  const why = useLoaded(load, [door, revision], (p) => (absent(p.status) ? notOffered(t('a history of applied states')) : p.text));
   const ask = async () => {
     const before = list.peek().at(-1)?.revision;
     if (before === undefined || older.peek().busy) return;
@@ -51,7 +51,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
       list.value = [...list.peek(), ...next.filter((h) => h.revision < least)];
       older.value = { more: next.length >= atOnce, busy: false, why: '' };
     } catch (error) {
-      older.value = { more: true, busy: false, why: capital(asProblem(error).words) };
+      older.value = { more: true, busy: false, why: capital(asProblem(error).text) };
     }
   };
   const look = async (n: number) => {
@@ -59,7 +59,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     try {
       shown.value = { revision: n, changes: differenceOf(draft.base.peek(), await door.old(n)) };
     } catch (error) {
-      draft.told.value = refusal(error);
+      draft.reported.value = refusal(error);
     }
   };
   return (
@@ -91,7 +91,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
                     </button>
                   </div>
                   <p class="where">
-                    {clockTime(h.at)} {h.who ?? ''} · {sizeWords(h.bytes)}
+                    {clockTime(h.at)} {h.who ?? ''} · {sizeText(h.bytes)}
                   </p>
                   {draft.askRestore.value === h.revision && (
                     <p class="form-foot ask" role="group" aria-label={t('Restore revision {revision}', { revision: h.revision })}>

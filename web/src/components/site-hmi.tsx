@@ -32,7 +32,7 @@ export function ReadFromHmi({ axis }: { axis: string }) {
         if (!document.hidden) words.value = await door.registers({ unit: 1, table: 'holding_registers', address: first, count }, end.signal);
         why.value = '';
       } catch (error) {
-        if (!end.signal.aborted) why.value = asProblem(error).words;
+        if (!end.signal.aborted) why.value = asProblem(error).text;
       }
       if (!end.signal.aborted) timer = setTimeout(() => void look(), period_ms);
     };
@@ -54,12 +54,12 @@ export function ReadFromHmi({ axis }: { axis: string }) {
   }
   const line = mbpollLine(place, first + 2);
   const raw = wordsOf(words.value?.words, words.value?.exception ?? null);
-  const row = (at: number, what: string, said: string) => (
+  const row = (at: number, what: string, published: string) => (
     <tr>
       <th scope="row">{what}</th>
       <td class="mono">{first + at}</td>
       <td class="mono">{oneBased('holding_registers', first + at)}</td>
-      <td class="mono">{said}</td>
+      <td class="mono">{published}</td>
     </tr>
   );
   const copy = async () => {
@@ -87,7 +87,7 @@ export function ReadFromHmi({ axis }: { axis: string }) {
         </thead>
         <tbody>
           {row(0, t('Status word'), raw.status === null ? '–' : hex(raw.status, 4))}
-          {row(2, t('Position, 32 bits, high word first, in increments'), raw.position === null ? '–' : `${raw.words} = ${raw.position}`)}
+          {row(2, t('Position, 32 bits, high word first, in increments'), raw.position === null ? '–' : `${raw.text} = ${raw.position}`)}
         </tbody>
       </table>
       <p class="form-told" role="status">

@@ -5,11 +5,11 @@ import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Pending, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
-import { pendingWords } from '../text/site-files';
-import { quiet, Tell, type Told } from './form';
+import { pendingText } from '../text/site-files';
+import { quiet, Tell, type Reported } from './form';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 const lookAgain_ms = 10_000;
 /** Counts up when this page has laid one down. */
@@ -21,7 +21,7 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
   const may = session.info.value?.role === 'administrator'; // not before the role is known
   const now = useSignal<Pending | null>(null);
   const asked = useSignal(false);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const look = async () => void (now.value = may ? await door.pending() : null);
   useLoaded(look, [door, may, laid.value]);
   useEffect(() => {
@@ -32,12 +32,12 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
     return () => clearInterval(timer);
   }, [door, may]);
   const drop = async () => {
-    await tellOf(told, t('Dropping it …'), () => door.dropPending(), t('Dropped: the next start goes on with the database as it is.'));
+    await tellOf(reported, t('Dropping it …'), () => door.dropPending(), t('Dropped: the next start goes on with the database as it is.'));
     asked.value = false;
     await look().catch(() => undefined);
   };
   const waits = may && now.value?.waiting === true;
-  if (!waits && told.value.tone === 'none') return null;
+  if (!waits && reported.value.tone === 'none') return null;
   return (
     <section class={`card pending-restore${waits ? ' is-waiting' : ''}`} aria-label={t('Restore that waits')} data-field="pending">
       {waits && now.value && (
@@ -46,7 +46,7 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
             <Icon name="triangle" />{' '}{t('A restore waits: it takes effect with the next start.')}
           </p>
           <p class="where" data-field="pending-what">
-            {pendingWords(now.value)}
+            {pendingText(now.value)}
           </p>
         </>
       )}
@@ -67,7 +67,7 @@ export function PendingRestore({ door }: { door: SiteDoor }) {
             </button>
           </>
         )}
-        <Tell told={told.value} field="pending-told" />
+        <Tell reported={reported.value} field="pending-told" />
       </div>
     </section>
   );

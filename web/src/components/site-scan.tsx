@@ -8,7 +8,7 @@ import type { Scan, SiteDoor } from '../api/site';
 import type { SiteDraft } from '../state/site-draft';
 import { freeName, freeNumber, withEntry, type Entry } from '../text/site';
 import { useBarred } from './gate';
-import { notOffered, quiet, Tell, TextField, type Told } from './form';
+import { notOffered, quiet, Tell, TextField, type Reported } from './form';
 
 const poll_ms = 300;
 const longest_ms = 600_000;
@@ -34,19 +34,19 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
   const from = useSignal('');
   const to = useSignal('');
   const scan = useSignal<Scan | null>(null);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const running = useRef<{ stop: boolean } | null>(null);
   useEffect(() => () => void (running.current && (running.current.stop = true)), []);
 
-  const words = (s: Scan) => `${s.state === 'done' ? s.asked ? t('{n} found, {asked} asked.', { n: s.found.length, asked: s.asked }) : t('{n} found.', { n: s.found.length }) : t('The scan is {state}.', { state: s.state })} ${s.text ?? ''}`.trim();
+  const text = (s: Scan) => `${s.state === 'done' ? s.asked ? t('{n} found, {asked} asked.', { n: s.found.length, asked: s.asked }) : t('{n} found.', { n: s.found.length }) : t('The scan is {state}.', { state: s.state })} ${s.text ?? ''}`.trim();
   /** Until it has an end, whoever began it. */
   const follow = async (run: { stop: boolean }) => {
     const end = performance.now() + longest_ms;
     while (!run.stop && performance.now() < end) {
       const s = await door.scan(line.name);
       scan.value = s;
-      if (s.state !== 'running') return void (told.value = { tone: s.state === 'done' ? 'good' : 'refused', text: words(s) });
-      told.value = { tone: 'busy', text: t('Scanning, {percent} % …', { percent: Math.round(s.progress * 100) }) };
+      if (s.state !== 'running') return void (reported.value = { tone: s.state === 'done' ? 'good' : 'refused', text: text(s) });
+      reported.value = { tone: 'busy', text: t('Scanning, {percent} % …', { percent: Math.round(s.progress * 100) }) };
       await new Promise((r) => setTimeout(r, poll_ms));
     }
   };
@@ -66,24 +66,24 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       if (a !== undefined) range.from = a;
       if (b !== undefined) range.to = b;
       scan.value = null;
-      told.value = { tone: 'busy', text: t('Scanning …') };
+      reported.value = { tone: 'busy', text: t('Scanning …') };
       try {
         await door.startScan(line.name, range);
         await follow(run);
       } catch (error) {
         const p = asProblem(error);
-        told.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered(t('a scan of its lines')) : p.words };
+        reported.value = { tone: 'refused', text: p.status === 405 || p.status === 501 || (p.status === 404 && !/line/.test(p.message)) || p.message.startsWith('there is nothing at') ? notOffered(t('a scan of its lines')) : p.text };
       }
     });
   /** One that runs already, begun before a reload or by somebody else, is followed to its end; what the last one has found is still there. */
   const look = () =>
     watch(async (run) => {
       const s = await door.scan(line.name);
-      if (run.stop || told.peek().tone !== 'none') return;
+      if (run.stop || reported.peek().tone !== 'none') return;
       if (s.state === 'running') return follow(run);
       if (s.found.length === 0) return;
       scan.value = s;
-      told.value = { tone: 'none', text: t('The last scan: {s}', { s: words(s) }) };
+      reported.value = { tone: 'none', text: t('The last scan: {s}', { s: text(s) }) };
     }).catch(() => undefined); // a gateway that does not tell has nothing to go on with
   useEffect(() => {
     void (begin && !no.disabled ? start() : look());
@@ -109,15 +109,15 @@ export function ScanPanel({ line, door, draft, begin = false, headed = false }: 
       <div class="form-foot">
         <TextField label={t('From address')} class="within" number value={from.value} onText={(t) => (from.value = t)} placeholder={t('first')} />
         <TextField label={t('to')} class="within" number value={to.value} onText={(t) => (to.value = t)} placeholder={t('last')} />
-        <button type="submit" class="button primary" disabled={told.value.tone === 'busy'} {...no}>
+        <button type="submit" class="button primary" disabled={reported.value.tone === 'busy'} {...no}>
           {t('Scan')}
         </button>
-        {told.value.tone === 'busy' && (
+        {reported.value.tone === 'busy' && (
           <button type="button" class="button" {...no} onClick={() => void door.endScan(line.name).catch(() => undefined)}>
             {t('End')}
           </button>
         )}
-        <Tell told={told.value} field="scan-told" />
+        <Tell reported={reported.value} field="scan-told" />
       </div>
       {scan.value && scan.value.state === 'running' && <progress max={1} value={scan.value.progress} aria-label={t('Progress of the scan')} />}
       {scan.value && scan.value.found.length > 0 && (

@@ -1,11 +1,11 @@
 // Site stage: what is waiting to be applied, and the way there: check, apply, keep, or roll back. In: the draft. Out: the draft's steps.
 // While an applied change waits to be kept, the rest of its time is shown each second; the head of the page speaks it when it is short.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { useSignal, type Signal } from '@preact/signals';
 import { useGateway } from '../gateway';
-import { checkedWords, stagerOf, type SiteDraft } from '../state/site-draft';
+import { checkedText, stagerOf, type SiteDraft } from '../state/site-draft';
 import { persisted } from '../state/persisted';
-import { differenceWords, sameDocument, type Difference } from '../text/site';
+import { differenceText, sameDocument, type Difference } from '../text/site';
 import type { StageDiff } from '../api/site';
 import { parseNumber } from '../text/number';
 import { Tell, TextField } from './form';
@@ -13,18 +13,18 @@ import { useBarred } from './gate';
 import { Icon } from './icon';
 import { KeepOrBack } from './keep-or-back';
 import { keepBarred, useTrialRest } from './trial';
-import { appliedWords, applyBarred, disturbedWords } from '../text/trial';
+import { appliedText, applyBarred, disturbedText } from '../text/trial';
 
 const usual = persisted('site.within_s', '60');
 const mostShown = 200;
-const kindWords: Record<Difference['kind'], string> = { added: t('added'), removed: t('removed'), changed: t('changed') };
+const kindText: Record<Difference['kind'], string> = { added: t('added'), removed: t('removed'), changed: t('changed') };
 
 export function DifferenceList({ list, label }: { list: readonly (Difference | StageDiff)[]; label: string }) {
   return (
     <ul class="differences site-diff" aria-label={label}>
       {list.slice(0, mostShown).map((d) => (
         <li key={d.what} data-diff={d.what} class={`is-${d.kind}`}>
-          <span class="diff-kind">{kindWords[d.kind]}</span> <span>{differenceWords(d)}</span>
+          <span class="diff-kind">{kindText[d.kind]}</span> <span>{differenceText(d)}</span>
         </li>
       ))}
       {list.length > mostShown && <li class="where">{t('and {n} more', { n: list.length - mostShown })}</li>}
@@ -45,14 +45,14 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
   const faults = draft.faults.value;
   const s = parseNumber(within.value);
   const seconds = s.good && Number.isInteger(s.value) && (s.value === 0 || (s.value >= 5 && s.value <= 600)) ? s.value : null;
-  const busy = draft.told.value.tone === 'busy';
+  const busy = draft.reported.value.tone === 'busy';
   const rival = draft.rival.value;
   const inView = rival?.inView === true && stage.state === 'staged';
   const foreign = stage.state === 'staged' && !checked;
   const ready = inView ? (stage.faults?.length ?? 0) === 0 : checked && faults.length === 0 && theirs === null && changes.length > 0;
   const list = inView ? (stage.faults ?? []) : checked ? faults : [];
   const asked = useSignal(false);
-  const disturbed = disturbedWords(draft.disturbs.value, draft.base.value, draft.draft.value);
+  const disturbed = disturbedText(draft.disturbs.value, draft.base.value, draft.draft.value);
 
   if (stage.state === 'applied') {
     return (
@@ -61,7 +61,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
           <Icon name="clock" />{' '}{t('The change is applied.')}{' '}{rest > 0 ? t('It is rolled back by itself in {rest} s.', { rest }) : t('Its time is over.')}
         </p>
         <p class="form-told" data-field="applied-by">
-          {appliedWords(stage, tab.name.value, keepBarred(draft, session, tab.name.value))}
+          {appliedText(stage, tab.name.value, keepBarred(draft, session, tab.name.value))}
         </p>
         <div class="form-foot">
           <KeepOrBack draft={draft} primary />
@@ -131,7 +131,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
         <ul class="stage-faults" aria-label={t('Faults')}>
           {list.slice(0, 50).map((f) => (
             <li key={f.pointer + f.text} class="fault-text">
-              <span class="mono">{f.pointer}</span> <span {...gatewayWords}>{f.text}: {f.remedy}</span>
+              <span class="mono">{f.pointer}</span> <span {...gatewayText}>{f.text}: {f.remedy}</span>
             </li>
           ))}
         </ul>
@@ -184,7 +184,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
             {t('Put it into the draft again')}
           </button>
         )}
-        <Tell told={changes.length === 0 && draft.told.value.text === checkedWords ? { tone: 'none', text: '' } : draft.told.value} field="stage-told" />
+        <Tell reported={changes.length === 0 && draft.reported.value.text === checkedText ? { tone: 'none', text: '' } : draft.reported.value} field="stage-told" />
       </div>
       {draft.offersStage.value === false && changes.length > 0 && <p class="form-told">{t('This gateway does not offer staging: an applied change stays, there is no roll back by itself.')}</p>}
     </section>

@@ -9,7 +9,7 @@ import { axisPath, linePath } from '../router';
 import type { SiteDraft } from '../state/site-draft';
 import { stateWord, type Word } from '../text/axis';
 import { placeOf, sameDocument, type Entry, type Room, type Site } from '../text/site';
-import { branchWords, hangingWords, summaryOf, treeOf, type DriveBranch } from '../text/site-tree';
+import { branchText, hangingText, summaryOf, treeOf, type DriveBranch } from '../text/site-tree';
 import { EntryForm, forms, openForm, type Open } from './site-entries';
 import { useBarred } from './gate';
 import { Icon } from './icon';
@@ -33,7 +33,7 @@ interface Tree {
   below?: ((line: Entry) => ComponentChildren) | undefined;
 }
 
-const words: Record<Room, { change: (name: string) => string; remove: (name: string) => string }> = {
+const shown: Record<Room, { change: (name: string) => string; remove: (name: string) => string }> = {
   lines: { change: (name) => t('Change line {name}', { name }), remove: (name) => t('Remove line {name}', { name }) },
   drives: { change: (name) => t('Change drive {name}', { name }), remove: (name) => t('Remove drive {name}', { name }) },
   axes: { change: (name) => t('Change axis {name}', { name }), remove: (name) => t('Remove axis {name}', { name }) },
@@ -83,7 +83,7 @@ export function SiteTree({ draft, extra, below }: Pick<Tree, 'draft' | 'extra' |
           {lines.map(({ line, drives }) => {
             const shut = folded.value.has(line.name) && !isHeld(drives);
             return (
-              <Node key={line.name} room="lines" e={line} tree={tree} fold={drives.length > 0 ? { shut, toggle: () => fold(line.name), words: branchWords(drives.length, drives.reduce((n, d) => n + d.axes.length, 0)) } : undefined}>
+              <Node key={line.name} room="lines" e={line} tree={tree} fold={drives.length > 0 ? { shut, toggle: () => fold(line.name), text: branchText(drives.length, drives.reduce((n, d) => n + d.axes.length, 0)) } : undefined}>
                 {!shut && <Drives of={drives} tree={tree} label={t('Drives on {line}', { line: line.name })} />}
                 <NewBelow room="drives" preset={{ line: line.name }} tree={tree} text={t('New drive on {line}', { line: line.name })} />
               </Node>
@@ -153,7 +153,7 @@ interface NodeProps {
   room: Room;
   e: Entry;
   tree: Tree;
-  fold?: { shut: boolean; toggle: () => void; words: string } | undefined;
+  fold?: { shut: boolean; toggle: () => void; text: string } | undefined;
   children?: ComponentChildren;
 }
 
@@ -182,14 +182,14 @@ function Node({ room, e, tree, fold, children }: NodeProps) {
         {old && <State room={room} name={e.name} />}
         <span class="where tree-summary">
           <span class="mono">{summaryOf(room, e)}</span>
-          {fold && fold.shut && ` · ${fold.words}`}
+          {fold && fold.shut && ` · ${fold.text}`}
         </span>
         <span class="tree-acts">
           {room === 'lines' && extra?.(e)}
-          <button type="button" class="button small quiet square" aria-label={words[room].change(e.name)} title={t('Change')} {...no} onClick={() => openForm(room, site, e)}>
+          <button type="button" class="button small quiet square" aria-label={shown[room].change(e.name)} title={t('Change')} {...no} onClick={() => openForm(room, site, e)}>
             <Icon name="pencil" size={14} />
           </button>
-          <button type="button" class="button small quiet square" aria-label={words[room].remove(e.name)} title={t('Remove from the draft')} {...no} onClick={() => (removing.value = true)}>
+          <button type="button" class="button small quiet square" aria-label={shown[room].remove(e.name)} title={t('Remove from the draft')} {...no} onClick={() => (removing.value = true)}>
             <Icon name="bin" size={14} />
           </button>
         </span>
@@ -201,7 +201,7 @@ function Node({ room, e, tree, fold, children }: NodeProps) {
       ))}
       {removing.value && (
         <p class="form-foot ask">
-          <span>{hangingWords(site, room, e.name)}</span>
+          <span>{hangingText(site, room, e.name)}</span>
           <button
             type="button"
             class="button small"
@@ -228,7 +228,7 @@ function Node({ room, e, tree, fold, children }: NodeProps) {
 /** What it is now, at the gateway: of the site in force, not of the draft. */
 function State({ room, name }: { room: Room; name: string }) {
   const { store } = useGateway();
-  const told = (word: Word, live: boolean): Word => (live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) });
+  const reported = (word: Word, live: boolean): Word => (live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) });
   if (room === 'axes') {
     const a = store.axis(name)?.value;
     return a ? <Pill label={t('State')} id="tree-state" word={stateWord(a.data, store.trustOf(a))} /> : null;
@@ -236,8 +236,8 @@ function State({ room, name }: { room: Room; name: string }) {
   const live = (epoch: number) => store.connected.value && epoch === store.connection.value.epoch;
   if (room === 'drives') {
     const d = store.drive(name)?.value;
-    return d ? <Pill label={t('Presence')} id="tree-state" word={told(presenceWord(d.data), live(d.epoch))} /> : null;
+    return d ? <Pill label={t('Presence')} id="tree-state" word={reported(presenceWord(d.data), live(d.epoch))} /> : null;
   }
   const l = store.line(name)?.value;
-  return l ? <Pill label={t('State')} id="tree-state" word={told(lineWord(l.data.status.state), live(l.epoch))} /> : null;
+  return l ? <Pill label={t('State')} id="tree-state" word={reported(lineWord(l.data.status.state), live(l.epoch))} /> : null;
 }

@@ -78,7 +78,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
       </header>
       {at < wanted && (
         <p class="where" role="status" data-field="wizard-back">
-          {t('{what} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.', { what: chosen[order[at] as Room].value || theWords[order[at] as Room] })}
+          {t('{what} is not there any more: it was rolled back, dropped, or removed by somebody else. So it goes on from here.', { what: chosen[order[at] as Room].value || theText[order[at] as Room] })}
         </p>
       )}
       {at < 3 && <StepForm key={at} room={order[at] as Room} draft={draft} back={at > 0 ? () => go(at - 1) : null} next={() => go(at + 1)} />}
@@ -98,7 +98,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
               {t('Look at all changes')}
             </button>
           )}
-          {lineFirst.value === 'applying' && <Tell told={draft.told.value} field="wizard-told" />}
+          {lineFirst.value === 'applying' && <Tell reported={draft.reported.value} field="wizard-told" />}
         </div>
       )}
       {at === 1 && ((lineFirst.value === 'shown' && !line) || (onTrial && lineFirst.value !== 'applying')) && <SiteStage draft={draft} />}
@@ -152,7 +152,7 @@ export function SiteWizard({ draft, door, leave }: { draft: SiteDraft; door: Sit
               onClick={() => {
                 for (const c of [...Object.values(chosen), ...Object.values(typed)]) c.value = '';
                 step.value = '0';
-                draft.told.value = quiet;
+                draft.reported.value = quiet;
                 leave();
               }}
             >
@@ -187,8 +187,8 @@ function KeepAfterMove({ draft, axis }: { draft: SiteDraft; axis: string }) {
 }
 
 const nouns: Record<Room, string> = { lines: t('line'), drives: t('drive'), axes: t('axis') };
-const theWords: Record<Room, string> = { lines: t('The line'), drives: t('The drive'), axes: t('The axis') };
-const newWords: Record<Room, string> = { lines: t('a new line'), drives: t('a new drive'), axes: t('a new axis') };
+const theText: Record<Room, string> = { lines: t('The line'), drives: t('The drive'), axes: t('The axis') };
+const newText: Record<Room, string> = { lines: t('a new line'), drives: t('a new drive'), axes: t('a new axis') };
 const keys: Record<Room, readonly string[]> = { lines: ['name', 'family', 'uri', 'bitrate'], drives: ['name', 'address', 'presence'], axes: ['name', 'unit', 'increments_per_unit', 'channel', 'position_min', 'position_max', 'velocity_max'] };
 
 function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; back: (() => void) | null; next: () => void }) {
@@ -246,7 +246,7 @@ function StepForm({ room, draft, back, next }: { room: Room; draft: SiteDraft; b
             </label>
           ))}
           <label class="check">
-            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} />{' '}{newWords[room]}
+            <input type="radio" name={`wizard-${room}`} checked={use.value === ''} onChange={() => (use.value = '')} />{' '}{newText[room]}
           </label>
         </fieldset>
       )}

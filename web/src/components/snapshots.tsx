@@ -10,15 +10,15 @@ import type { AxisParameter, MaybeValue } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { emptied, persisted } from '../state/persisted';
-import { steppedText, unitWords, valueText } from '../text/parameter';
-import { foreignWords, snapshotWords } from '../text/snapshot';
-import { leftOut, parametersWords } from '../text/transfer';
-import { Choice, notOffered, quiet, Tell, TextField, type Told } from './form';
+import { steppedText, unitText, valueText } from '../text/parameter';
+import { foreignText, snapshotText } from '../text/snapshot';
+import { leftOut, parametersText } from '../text/transfer';
+import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { AxisName } from './name';
 import { Section } from './section';
-import { tellOf } from './told';
+import { tellOf } from './reported';
 
 const plain = { allowed: null };
 const gone = (status: number) => status === 404 || status === 405 || status === 501;
@@ -27,11 +27,11 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const { client, store } = useGateway();
   const door = useMemo(() => new SnapshotDoor(client, axis), [client, axis]);
   const list = useSignal<Snapshot[]>([]);
-  const told = useSignal<Told>(quiet);
+  const reported = useSignal<Reported>(quiet);
   const name = persisted(`snapshot.${axis}.name`);
   const comment = persisted(`snapshot.${axis}.comment`);
   const from = useSignal('device');
-  const wrong = useSignal(false);
+  const invalid = useSignal(false);
   const removing = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const live = useSignal(false);
@@ -43,14 +43,14 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
     list.value = await door.list();
     onList(list.value);
   };
-  const why = useLoaded(load, [door], (p) => (gone(p.status) ? notOffered('snapshots') : p.words));
+  const why = useLoaded(load, [door], (p) => (gone(p.status) ? notOffered('snapshots') : p.text));
 
   /** What was done is done, whether or not the list can be read after it. */
   const again = () => load().catch(() => undefined);
-  const tell = (busy: string, act: () => Promise<string>) => tellOf(told, busy, act, (words) => words);
+  const tell = (busy: string, act: () => Promise<string>) => tellOf(reported, busy, act, (text) => text);
   const save = () => {
-    wrong.value = name.value.trim() === '';
-    if (wrong.value) return;
+    invalid.value = name.value.trim() === '';
+    if (invalid.value) return;
     void tell(from.value === 'device' ? t('Reading all parameters from the drive …') : t('Saving …'), async () => {
       const sent = { name: name.value, comment: comment.value };
       const s = await door.save({ name: sent.name.trim(), comment: sent.comment.trim(), from: from.value });
@@ -72,12 +72,12 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const restore = () => {
     const r = restoring.value;
     if (!r || r.chosen.size === 0) return;
-    void tell(t('Writing {size} …', { size: parametersWords(r.chosen.size) }), async () => {
+    void tell(t('Writing {size} …', { size: parametersText(r.chosen.size) }), async () => {
       const done = await door.restore(r.snapshot.n, { parameters: [...r.chosen], dry_run: false, ...(live.peek() ? { include_live: true } : {}) });
       restoring.value = null;
       const failed = done.failed ?? [];
       if (failed.length > 0) throw new Error(t('{n} written; NOT written: {n2}', { n: done.changed?.length ?? 0, n2: failed.map((f) => `${f.parameter} (${f.reason})`).join(', ') }));
-      return t('{n} restored from {name}.', { n: parametersWords(done.changed?.length ?? r.chosen.size), name: r.snapshot.name });
+      return t('{n} restored from {name}.', { n: parametersText(done.changed?.length ?? r.chosen.size), name: r.snapshot.name });
     });
   };
   const remove = (s: Snapshot) =>
@@ -112,7 +112,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
       >
         <Why need="engineer" what={t('Saving, restoring and removing a snapshot')} />
         <div class="form-grid">
-          <TextField label={t('Name')} value={name.value} onText={(entered) => (name.value = entered)} fault={wrong.value && name.value.trim() === '' ? t('Give it a name.') : undefined} />
+          <TextField label={t('Name')} value={name.value} onText={(entered) => (name.value = entered)} fault={invalid.value && name.value.trim() === '' ? t('Give it a name.') : undefined} />
           <TextField label={t('Comment')} class="wide" value={comment.value} onText={(entered) => (comment.value = entered)} />
           <Choice label={t('Values')} class="wide" value={from.value} onChoice={(v) => (from.value = v)} choices={[{ value: 'device', text: t('read from the drive now') }, { value: 'stored', text: t('as the gateway has stored them') }]} />
         </div>
@@ -120,14 +120,14 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
           <button type="submit" class="button primary" {...no}>
             {t('Save snapshot')}
           </button>
-          <Tell told={told.value} field="snapshot-told" />
+          <Tell reported={reported.value} field="snapshot-told" />
         </div>
         {list.value.length === 0 ? (
           <p class="where">{t('No snapshot is kept.')}</p>
         ) : (
           <ul class="rows snapshot-list" aria-label={t('Snapshots')}>
             {[...list.value].reverse().map((s) => {
-              const other = foreignWords(s, family, titles);
+              const other = foreignText(s, family, titles);
               return (
               <li key={s.n} class="row" data-snapshot={s.n}>
                 <div class="row-head">
@@ -153,7 +153,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                   )}
                 </div>
                 <p class="where">
-                  {snapshotWords(s, titles)}
+                  {snapshotText(s, titles)}
                 </p>
                 {other && (
                   <p class="where">
@@ -187,7 +187,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
         {r && (r.report.changes?.length ?? 0) > 0 && (
           <fieldset class="changes">
             <legend>
-              {t('Restoring {name} changes {n} of', { name: r.snapshot.name, n: parametersWords(r.report.changes?.length ?? 0) })}{' '}<AxisName name={axis} plain />
+              {t('Restoring {name} changes {n} of', { name: r.snapshot.name, n: parametersText(r.report.changes?.length ?? 0) })}{' '}<AxisName name={axis} plain />
             </legend>
             <ul>
               {r.report.changes?.map((c) => (
@@ -244,14 +244,14 @@ function Known({ id, shapes }: { id: string; shapes: Shapes }) {
 }
 /** An element of an array has the name of the array. */
 const shapeOf = (id: string, shapes: Shapes) => shapes.get(id) ?? shapes.get(id.replace(/\[\d+\]$/, ''));
-const unitAfter = (value: MaybeValue, p: AxisParameter | undefined): string => (!p || p.allowed ? '' : `${unitWords(p.unit)} ${steppedText(value, p.unit)}`.trim());
+const unitAfter = (value: MaybeValue, p: AxisParameter | undefined): string => (!p || p.allowed ? '' : `${unitText(p.unit)} ${steppedText(value, p.unit)}`.trim());
 
 function LeftOut({ skipped, shapes }: { skipped: { parameter: string; why: string }[]; shapes: Shapes }) {
   const groups = leftOut(skipped);
   return (
     <details class="where" data-field="left-out">
       <summary>
-        {t('Left out: {n} (', { n: parametersWords(skipped.length) })}{groups.map((g) => `${g.parameters.length}: ${g.why}`).join('; ')})
+        {t('Left out: {n} (', { n: parametersText(skipped.length) })}{groups.map((g) => `${g.parameters.length}: ${g.why}`).join('; ')})
       </summary>
       <ul>
         {groups.map((g) => (
@@ -260,7 +260,7 @@ function LeftOut({ skipped, shapes }: { skipped: { parameter: string; why: strin
             <ul class="left-out-ids">
               {g.parameters.map((id) => (
                 <li key={id}>
-                  <Known id={id} shapes={shapes} /> <span class="unit">{unitWords(shapeOf(id, shapes)?.unit ?? null)}</span>
+                  <Known id={id} shapes={shapes} /> <span class="unit">{unitText(shapeOf(id, shapes)?.unit ?? null)}</span>
                 </li>
               ))}
             </ul>

@@ -7,8 +7,8 @@ import { t } from '../language';
 import { barred, roles, roleWord } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
-import { Choice, quiet, Tell, TextField, type Told } from './form';
-import { refusal } from './told';
+import { Choice, quiet, Tell, TextField, type Reported } from './form';
+import { refusal } from './reported';
 
 const ends = [
   { value: '86400', text: t('in a day') },
@@ -22,7 +22,7 @@ export function Tokens() {
   const info = session.info.value;
   const [tokens, setTokens] = useState<Token[] | null>(null);
   const [made, setMade] = useState<MadeToken | null>(null);
-  const [told, setTold] = useState<Told>(quiet);
+  const [reported, setReported] = useState<Reported>(quiet);
   const [asked, setAsked] = useState('');
   const [name, setName] = useState('');
   const [role, setRole] = useState<string>('viewer');
@@ -33,15 +33,15 @@ export function Tokens() {
   const why = useLoaded(list);
   const add = async (event: Event) => {
     event.preventDefault();
-    if (!name.trim()) return setTold({ tone: 'refused', text: t('The name is missing.') });
-    setTold({ tone: 'busy', text: t('Making …') });
+    if (!name.trim()) return setReported({ tone: 'refused', text: t('The name is missing.') });
+    setReported({ tone: 'busy', text: t('Making …') });
     try {
       setMade(await client.call<MadeToken>('/tokens', { method: 'POST', body: { name: name.trim(), role, ...(end ? { expires_in_s: Number(end) } : {}) } }));
-      setTold({ tone: 'good', text: t('Made. It is shown this once: copy it now.') });
+      setReported({ tone: 'good', text: t('Made. It is shown this once: copy it now.') });
       setName((now) => (now === name ? '' : now));
       await list();
     } catch (error) {
-      setTold(refusal(error));
+      setReported(refusal(error));
     }
   };
   const remove = async (k: Token) => {
@@ -50,18 +50,18 @@ export function Tokens() {
     try {
       await client.call(`/tokens/${encodeURIComponent(k.id)}`, { method: 'DELETE' });
       if (made?.id === k.id) setMade(null);
-      setTold({ tone: 'good', text: t('Deleted {name}.', { name: k.name }) });
+      setReported({ tone: 'good', text: t('Deleted {name}.', { name: k.name }) });
       await list();
     } catch (error) {
-      setTold(refusal(error));
+      setReported(refusal(error));
     }
   };
   const copy = async (secret: string) => {
     try {
       await navigator.clipboard.writeText(secret);
-      setTold({ tone: 'good', text: t('Copied.') });
+      setReported({ tone: 'good', text: t('Copied.') });
     } catch {
-      setTold({ tone: 'refused', text: t('The browser does not let the page copy: mark the text and copy it by hand.') });
+      setReported({ tone: 'refused', text: t('The browser does not let the page copy: mark the text and copy it by hand.') });
     }
   };
   const may = roles.slice(0, info?.role ? roles.indexOf(info.role) + 1 : roles.length).map((r) => ({ value: r, text: roleWord(r) }));
@@ -107,7 +107,7 @@ export function Tokens() {
           <button type="submit" class="button primary" {...barred(no)}>
             {t('Add token')}
           </button>
-          <Tell told={told} field="tokens-told" />
+          <Tell reported={reported} field="tokens-told" />
         </div>
       </form>
     </div>

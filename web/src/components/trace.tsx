@@ -4,7 +4,7 @@ import { t } from '../language';
 import { useComputed, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { useGateway } from '../gateway';
-import { bytesOf, idWords, joined, matches, type Frame, type FrameFilter } from '../state/frames';
+import { bytesOf, idText, joined, matches, type Frame, type FrameFilter } from '../state/frames';
 import { dateTime } from '../text/time';
 import { Empty } from './lines';
 import { Section } from './section';
@@ -146,7 +146,7 @@ function Details({ frame: f }: { frame: Frame }) {
         {f.id !== null && (
           <div>
             <dt>{t('Identifier')}</dt>
-            <dd>{idWords(f)}</dd>
+            <dd>{idText(f)}</dd>
           </div>
         )}
         {f.decoded.map((d, i) => (

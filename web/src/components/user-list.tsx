@@ -8,14 +8,14 @@ import { t } from '../language';
 import { passwordFault, roles, roleWord, userFault } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
-import { Choice, quiet, Tell, TextField, type Told } from './form';
+import { Choice, quiet, Tell, TextField, type Reported } from './form';
 
 export const roleChoices = roles.map((r) => ({ value: r, text: roleWord(r) }));
 
 export function UserList() {
   const { client, session } = useGateway();
   const [users, setUsers] = useState<User[] | null>(null);
-  const [told, setTold] = useState<Told>(quiet);
+  const [reported, setReported] = useState<Reported>(quiet);
   const [asked, setAsked] = useState('');
   const [chosen, setChosen] = useState<Record<string, string>>({});
   const [renewing, setRenewing] = useState('');
@@ -25,15 +25,15 @@ export function UserList() {
   const [fresh, setFresh] = useState('');
 
   const list = async () => setUsers(await client.call<User[]>('/users'));
-  const act = async (words: string, work: () => Promise<unknown>): Promise<boolean> => {
-    setTold({ tone: 'busy', text: `${words} …` });
+  const act = async (text: string, work: () => Promise<unknown>): Promise<boolean> => {
+    setReported({ tone: 'busy', text: `${text} …` });
     try {
       await work();
-      setTold({ tone: 'good', text: t('{what}: done.', { what: words }) });
+      setReported({ tone: 'good', text: t('{what}: done.', { what: text }) });
       await list();
       return true;
     } catch (error) {
-      setTold({ tone: 'refused', text: `${words}: ${asProblem(error).words}` });
+      setReported({ tone: 'refused', text: `${text}: ${asProblem(error).text}` });
       return false;
     } finally {
       void session.ask(); // it may have been oneself
@@ -42,7 +42,7 @@ export function UserList() {
   const why = useLoaded(list);
 
   const at = (n: string) => `/users/${encodeURIComponent(n)}`;
-  const patch = (n: string, words: string, body: object) => act(words, () => client.call(at(n), { method: 'PATCH', body }));
+  const patch = (n: string, text: string, body: object) => act(text, () => client.call(at(n), { method: 'PATCH', body }));
   const saveRole = async (n: string, to: string) => {
     if (await patch(n, t('Role of {name}: {role}', { name: n, role: roleWord(to as Role) }), { role: to })) setChosen(({ [n]: _, ...rest }) => rest);
   };
@@ -57,14 +57,14 @@ export function UserList() {
       return setRenewing(n);
     }
     const fault = passwordFault(fresh, fresh);
-    if (fault) return setTold({ tone: 'refused', text: fault });
+    if (fault) return setReported({ tone: 'refused', text: fault });
     if (await patch(n, t('New password of {name}', { name: n }), { password: fresh })) setRenewing('');
     setFresh((now) => (now === fresh ? '' : now));
   };
   const add = async (event: Event) => {
     event.preventDefault();
     const fault = userFault(name) || passwordFault(password, password);
-    if (fault) return setTold({ tone: 'refused', text: fault });
+    if (fault) return setReported({ tone: 'refused', text: fault });
     if (await act(t('Add {name}', { name }), () => client.call('/users', { method: 'POST', body: { name, role: role as Role, password } }))) setName((now) => (now === name ? '' : now));
     setPassword((now) => (now === password ? '' : now));
   };
@@ -123,7 +123,7 @@ export function UserList() {
           <button type="submit" class="button primary">
             {t('Add user')}
           </button>
-          <Tell told={told} field="users-told" />
+          <Tell reported={reported} field="users-told" />
         </div>
       </form>
     </div>

@@ -1,7 +1,7 @@
 // Who: who one is to the gateway, with the role; the way to the own account, to the sign-in, and out. In: the session. Out: a piece of the head.
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { whoWords } from '../state/session';
+import { whoText } from '../state/session';
 import { Icon } from './icon';
 
 export function Who() {
@@ -9,12 +9,12 @@ export function Who() {
   const info = session.info.value;
   // While a sign-in is needed the head says that, and nothing else beside it.
   if (!info?.role || session.needed.value) return null;
-  const words = whoWords(info);
+  const text = whoText(info);
   return (
     <span class="who" data-field="who">
-      <a class="who-name" href="/users" title={t('{words}: account, users and tokens', { words })} aria-label={t('You are {words}. Account, users and tokens', { words })}>
+      <a class="who-name" href="/users" title={t('{text}: account, users and tokens', { text })} aria-label={t('You are {text}. Account, users and tokens', { text })}>
         <Icon name="person" size={15} />
-        <span>{words}</span>
+        <span>{text}</span>
       </a>
       <Way />
     </span>

@@ -10,7 +10,7 @@ import { recipe } from './de/recipe';
 import { recorder } from './de/recorder';
 import { report } from './de/report';
 import { site } from './de/site';
-import { words } from './de/words';
+import { text } from './de/text';
 import type { Table } from './index';
 
-export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...words };
+export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };

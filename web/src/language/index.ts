@@ -40,8 +40,8 @@ export function chooseLanguage(l: Language): void {
 
 /** A sentence in the reader's language: the English one with "{name}" where values go. A sentence without a translation stays English. */
 export function t(text: string, values?: Values): string {
-  const said = table[text] ?? text;
-  return values === undefined ? said : said.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
+  const published = table[text] ?? text;
+  return values === undefined ? published : published.replace(/\{(\w+)\}/g, (all, name: string) => (name in values ? String(values[name]) : all));
 }
 
 /** A word that is made of a name of the API, such as `fault_cleared` or a condition of a twin: which there are is listed in scripts/language-lists.mjs. */
@@ -56,14 +56,14 @@ export function rich<T>(text: string, values: Readonly<Record<string, T>>): (str
 }
 
 /** A word of the page within a sentence: English begins it small; the tables' words keep their case, since German nouns begin large everywhere. */
-export const midSentence = (words: string): string => (spoken === 'en' && !/^(Modbus|EtherNet|DDS|[A-Z]{2})/.test(words) ? words.charAt(0).toLowerCase() + words.slice(1) : words);
+export const midSentence = (text: string): string => (spoken === 'en' && !/^(Modbus|EtherNet|DDS|[A-Z]{2})/.test(text) ? text.charAt(0).toLowerCase() + text.slice(1) : text);
 
 /** Upon an element that shows what the gateway, a catalogue or a drive says itself: English in every language, and read so by a screen reader. */
-export const gatewayWords = { lang: 'en' } as const;
+export const gatewayText = { lang: 'en' } as const;
 
 /** The same where such words become a piece of a sentence of the page: they stand between the signs that Unicode has for a foreign piece of text, which
  * no reader sees, and which `marked()` turns into that attribute where the sentence is drawn. */
-export const theirs = (words: string): string => (spoken === 'en' || words === '' ? words : `\u2068${words}\u2069`);
+export const theirs = (text: string): string => (spoken === 'en' || text === '' ? text : `\u2068${text}\u2069`);
 
 /** For tests: the sentences of a table, or English again. */
 export function speak(l: Language, sentences: Table = {}): void {

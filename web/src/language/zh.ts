@@ -10,7 +10,7 @@ import { recipe } from './zh/recipe';
 import { recorder } from './zh/recorder';
 import { report } from './zh/report';
 import { site } from './zh/site';
-import { words } from './zh/words';
+import { text } from './zh/text';
 import type { Table } from './index';
 
-export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...words };
+export const table: Table = { ...assembly, ...axis, ...events, ...frame, ...mapping, ...parameter, ...recipe, ...recorder, ...report, ...site, ...text };

@@ -23,7 +23,7 @@ import { StateMachine } from '../components/state-machine';
 import { StopButton } from '../components/stop';
 import { useGateway } from '../gateway';
 import { linePath, recorderPath, type AxisTab } from '../router';
-import { commandedWords } from '../text/authority';
+import { commandedText } from '../text/authority';
 import { markOf, unitOf } from '../text/axis';
 
 const Controls = memo(FullControls, (a, b) => a.axis.name === b.axis.name && a.axis.unit === b.axis.unit);
@@ -151,7 +151,7 @@ function LastCommander({ axis }: { axis: Axis }) {
     );
     return () => void (here = false);
   }, [client, name, authority, axis.authority_holder, times.value]);
-  return <span data-field="last-commander">{commandedWords(authority, who.value, tab.name.value)}</span>;
+  return <span data-field="last-commander">{commandedText(authority, who.value, tab.name.value)}</span>;
 }
 
 function AxisEvents({ name }: { name: string }) {

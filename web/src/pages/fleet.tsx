@@ -10,7 +10,7 @@ import { Field } from '../components/field';
 import { useBarred, Why } from '../components/gate';
 import { Icon } from '../components/icon';
 import { Empty } from '../components/lines';
-import { awayWords, waiting } from '../components/loaded';
+import { awayText, waiting } from '../components/loaded';
 import { Mark, Pill } from '../components/pill';
 import { Section } from '../components/section';
 import { StopButton } from '../components/stop';
@@ -19,7 +19,7 @@ import { rich, t } from '../language';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
 import { markOf, motionWord, positionText, stateWord, unitOf } from '../text/axis';
-import { aboutAxis, asAxis, clockWords, gatewayWord, heardWords, trustOf } from '../text/fleet';
+import { aboutAxis, asAxis, clockText, gatewayWord, receivedText, trustOf } from '../text/fleet';
 import { formatExact, parseQuantity } from '../text/number';
 import { duration } from '../text/time';
 
@@ -42,7 +42,7 @@ export function FleetPage() {
         if (!document.hidden) fleet.value = await client.fleet();
         fault.value = '';
       } catch (error) {
-        fault.value = capital(asProblem(error).words);
+        fault.value = capital(asProblem(error).text);
       }
       if (here) timer = setTimeout(() => void ask(), period_ms);
     };
@@ -59,7 +59,7 @@ export function FleetPage() {
     <main class="page fleet">
       <h1 tabIndex={-1}>{t('Fleet')}</h1>
       {fault.value && <p class="card form" role="status" data-field="fleet-fault">{marked(fault.value)}</p>}
-      {!known && !fault.value && <Empty text={awayWords(connection) || waiting} />}
+      {!known && !fault.value && <Empty text={awayText(connection) || waiting} />}
       {known && !known.enabled && <Empty text={t('This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true.')} />}
       {known?.enabled && (
         <>
@@ -77,12 +77,12 @@ export function FleetPage() {
 /** `title`: its name, and what tells it from another one of the same name. */
 function GatewayCard({ gateway: g, title, connected, many }: { gateway: FleetGateway; title: string; connected: boolean; many: boolean }) {
   const open = useSignal(!many);
-  const clock = clockWords(g.clock_ahead_ms);
+  const clock = clockText(g.clock_ahead_ms);
   return (
     <Section title={title} class="fleet-gateway" beside={<Pill label={t('Gateway')} word={gatewayWord(g, connected)} id="gateway-state" />}>
       <div class="card" data-gateway={g.gateway} data-instance={g.instance} data-alive={g.alive}>
         <p class="where fleet-about">
-          <span data-field="heard">{heardWords(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}
+          <span data-field="heard">{receivedText(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}
           {clock && ` · ${clock}`}
           {g.page && !g.here && (
             <>
@@ -155,12 +155,12 @@ function Controls({ at, unit, result }: { at: string; unit: string; result: stri
   const { fleet } = useGateway();
   const no = useBarred('operator');
   const typed = useMemo(() => ({ target: persisted(`fleet.${at}.target`), speed: persisted(`fleet.${at}.speed`) }), [at]);
-  const wrong = useSignal<'target' | 'speed' | ''>('');
-  const send = (command: Command, words: string) => void fleet.send(at, command, words);
+  const error = useSignal<'target' | 'speed' | ''>('');
+  const send = (command: Command, text: string) => void fleet.send(at, command, text);
   const move = () => {
     const target = parseQuantity(typed.target.value);
     const speed = typed.speed.value.trim() === '' ? null : parseQuantity(typed.speed.value);
-    wrong.value = !target.good ? 'target' : speed && !(speed.good && speed.value > 0) ? 'speed' : '';
+    error.value = !target.good ? 'target' : speed && !(speed.good && speed.value > 0) ? 'speed' : '';
     if (!target.good) return fleet.tell(at, 'refused', t('Target: {why}', { why: target.why }));
     if (speed && !speed.good) return fleet.tell(at, 'refused', t('Speed: {why}', { why: speed.why }));
     if (speed?.good && speed.value <= 0) return fleet.tell(at, 'refused', t('Speed: It must be greater than 0.'));
@@ -174,8 +174,8 @@ function Controls({ at, unit, result }: { at: string; unit: string; result: stri
       </span>
       <button type="button" class="button" aria-label={t('Reset fault of {at}', { at })} {...no} onClick={() => send({ command: 'reset_fault' }, t('Reset fault'))}>{t('Reset')}</button>
       <button type="button" class="button" aria-label={t('Halt {at}', { at })} title={t('Stop on the profile ramp, stay enabled')} onClick={() => send({ command: 'halt' }, t('Halt'))}>{t('Halt')}</button>
-      <Field label={t('Target')} longLabel={t('Target of {at}', { at })} unit={unit} text={typed.target} wrong={wrong.value === 'target'} describedBy={result} onEnter={move} />
-      <Field label={t('Speed')} longLabel={t('Speed of {at}', { at })} unit={`${unit}/s`} text={typed.speed} wrong={wrong.value === 'speed'} describedBy={result} placeholder={t('as is')} onEnter={move} />
+      <Field label={t('Target')} longLabel={t('Target of {at}', { at })} unit={unit} text={typed.target} invalid={error.value === 'target'} describedBy={result} onEnter={move} />
+      <Field label={t('Speed')} longLabel={t('Speed of {at}', { at })} unit={`${unit}/s`} text={typed.speed} invalid={error.value === 'speed'} describedBy={result} placeholder={t('as is')} onEnter={move} />
       <button type="button" class="button tinted" aria-label={t('Move to target of {at}', { at })} {...no} onClick={move}>{t('Move to')}</button>
     </div>
   );

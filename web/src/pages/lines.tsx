@@ -1,6 +1,6 @@
 // Lines and drives, and one line with what it counts, the frames that cross it, and the hand of its twins. In: the store, the stream's
 // frames. Out: two pages.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { Gate } from '../components/gate';
 import { Hand } from '../components/hand';
 import { DriveList, Empty, LineCard, LineList, lineWord } from '../components/lines';
@@ -39,7 +39,7 @@ export function LinePage({ name, at_ms }: { name: string; at_ms?: number | undef
       {known ? (
         <>
           <p class="where">
-            {known.data.family} · <span class="mono">{known.data.uri}</span> · {lineWord(known.data.status.state).text} <span {...gatewayWords}>{known.data.status.text}</span>
+            {known.data.family} · <span class="mono">{known.data.uri}</span> · {lineWord(known.data.status.state).text} <span {...gatewayText}>{known.data.status.text}</span>
           </p>
           <div class="side-by-side">
             <Section title={t('Statistics')}>

@@ -5,7 +5,7 @@ import { useMemo, useRef } from 'preact/hooks';
 import { MappingDoor } from '../api/mappings';
 import type { Profiles as ProfileList } from '../api/profiles';
 import { Assemblies } from '../components/assemblies';
-import { notOffered, quiet, type Told, toldOf } from '../components/form';
+import { notOffered, quiet, type Reported, reportedOf } from '../components/form';
 import { Gate, useBarred, Why } from '../components/gate';
 import { Icon } from '../components/icon';
 import { Empty } from '../components/lines';
@@ -27,7 +27,7 @@ import { addressBase, countFrom } from '../state/address-base';
 import { usePolled } from '../state/mapping-poll';
 import { MappingBook } from '../state/mappings';
 import { persisted } from '../state/persisted';
-import type { Heard } from '../state/register-look';
+import type { Received } from '../state/register-look';
 import { readAddress } from '../text/address';
 import { tables, type Known, type Table } from '../text/mapping';
 import { blocksOf, type Block } from '../text/mapping-blocks';
@@ -45,8 +45,8 @@ export function MappingsPage() {
   const { client, store } = useGateway();
   const door = useMemo(() => new MappingDoor(client), [client]);
   const book = useMemo(() => new MappingBook(door), [door]);
-  const told = useSignal<Told>(quiet);
-  const heard: Signal<ReadonlyMap<string, Heard>> = useMemo(() => signal(new Map()), []);
+  const reported = useSignal<Reported>(quiet);
+  const received: Signal<ReadonlyMap<string, Received>> = useMemo(() => signal(new Map()), []);
   const registers = useSignal('');
   const parameters: Signal<ReadonlyMap<string, ReadonlyMap<string, ParameterShape>>> = useMemo(() => signal(new Map()), []);
   const listed = useSignal<ProfileList | null>(null);
@@ -78,7 +78,7 @@ export function MappingsPage() {
   usePolled({
     door,
     seen: mode.value === 'map' ? seen.value : noBlocks,
-    heard,
+    received,
     asks: () => store.connected.peek(),
     epoch: store.connection.value.epoch,
     offered: (yes) => (registers.value = yes ? '' : notOffered(t('a look at its registers: parameters show no live value here'))),
@@ -104,13 +104,13 @@ export function MappingsPage() {
   };
 
   const undo = async () => {
-    told.value = { tone: 'busy', text: t('Undoing …') };
-    told.value = toldOf(await book.undo());
+    reported.value = { tone: 'busy', text: t('Undoing …') };
+    reported.value = reportedOf(await book.undo());
   };
   const show = () => {
     const place = readAddress(goTo.peek(), table, base);
-    if (!place.good) return void (told.value = { tone: 'refused', text: place.why });
-    told.value = quiet;
+    if (!place.good) return void (reported.value = { tone: 'refused', text: place.why });
+    reported.value = quiet;
     if (place.table !== table) tableShown.value = place.table;
     open.value = [...open.peek().slice(-19), place.address];
     requestAnimationFrame(() => requestAnimationFrame(() => handle.current?.show(place.address)));
@@ -198,8 +198,8 @@ export function MappingsPage() {
                 <button type="button" class="button" aria-expanded={dialog.value === 'paste'} {...no} onClick={() => (dialog.value = dialog.peek() === 'paste' ? '' : 'paste')}>
                   {t('Paste or import')}
                 </button>
-                <button type="button" class="button" disabled={!last} title={last ? t('{what} (Ctrl Z)', { what: last.words }) : t('Nothing was changed by this page yet')} {...no} onClick={() => void undo()}>
-                  {last ? t('Undo: {what}', { what: midSentence(last.words) }) : t('Undo')}
+                <button type="button" class="button" disabled={!last} title={last ? t('{what} (Ctrl Z)', { what: last.text }) : t('Nothing was changed by this page yet')} {...no} onClick={() => void undo()}>
+                  {last ? t('Undo: {what}', { what: midSentence(last.text) }) : t('Undo')}
                 </button>
               </>
             )}
@@ -215,7 +215,7 @@ export function MappingsPage() {
           <>
             {fixed !== '' && <p class="where">{fixed}</p>}
             {blocks.length === 0 && <Empty text={rows.length === 0 ? t('Nothing is mapped yet. Drag a point into a free place, add an entry by the form, or paste a table.') : t('Unit {unit} has nothing in this table.', { unit })} />}
-            <MappingWorkspace book={book} known={known} blocks={blocks} unit={unit} table={table} base={base} open={open.value} heard={heard} told={told} seen={(b) => (seen.value = b)} handle={handle} paletteAxis={paletteAxis} fixed={fixed} />
+            <MappingWorkspace book={book} known={known} blocks={blocks} unit={unit} table={table} base={base} open={open.value} received={received} reported={reported} seen={(b) => (seen.value = b)} handle={handle} paletteAxis={paletteAxis} fixed={fixed} />
           </>
         )}
         {registers.value !== '' && <p class="where">{registers.value}</p>}

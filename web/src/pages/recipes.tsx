@@ -1,6 +1,6 @@
 // Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from '../components/marked';
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
@@ -20,7 +20,7 @@ import { useGateway } from '../gateway';
 import { go, recipePath } from '../router';
 import { capital } from '../state/commander';
 import { RecipeFile, type RecipeClash } from '../state/recipe-file';
-import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownWords, valueOf, type RecipeDocument } from '../text/recipe';
+import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownText, valueOf, type RecipeDocument } from '../text/recipe';
 import { unitOf } from '../text/axis';
 import { clockTime } from '../text/time';
 
@@ -158,10 +158,10 @@ export function RecipePage({ name }: { name: string }) {
       stored.value = sent;
       faults.value = [];
       const nobody = store.listed.peek() ? unknownAxes(d, store.axisNames.peek()) : [];
-      result.value = nobody.length > 0 ? { tone: 'partly', text: t('Saved. But {nobody}', { nobody: unknownWords(nobody) }) } : { tone: 'good', text: t('Saved.') };
+      result.value = nobody.length > 0 ? { tone: 'partly', text: t('Saved. But {nobody}', { nobody: unknownText(nobody) }) } : { tone: 'good', text: t('Saved.') };
     } else if (!outcome.clash) {
       faults.value = (outcome.problem.document.faults ?? []) as Fault[];
-      result.value = { tone: 'refused', text: capital(outcome.problem.words) };
+      result.value = { tone: 'refused', text: capital(outcome.problem.text) };
     }
   };
   /** Goes on from what somebody else has made of it. */
@@ -181,7 +181,7 @@ export function RecipePage({ name }: { name: string }) {
     const outcome = file.there ? await file.remove() : ({ good: true } as const);
     if (outcome.good) return go('/recipes');
     clash.value = outcome.clash ? { ...outcome.clash, act: 'remove' } : null;
-    result.value = { tone: 'refused', text: capital(outcome.problem.words) };
+    result.value = { tone: 'refused', text: capital(outcome.problem.text) };
   };
   const d = document.value;
   const given: Signal<Record<string, string>> = useSignal({});
@@ -276,12 +276,12 @@ export function RecipePage({ name }: { name: string }) {
                 </Section>
                 <Section title={t('Steps')}>
                   <div class="card recipe-card">
-                    <RecordPart recipe={name} kept={!unsaved || d.steps.length === 0} add={(steps) => put({ ...d, steps: [...d.steps, ...steps] })} />
+                    <RecordPart recipe={name} persisted={!unsaved || d.steps.length === 0} add={(steps) => put({ ...d, steps: [...d.steps, ...steps] })} />
                     <StepEditor document={d} change={put} axes={store.axisNames.value} listed={store.listed.value} unitOf={unitMeant} faults={faults.value} />
                     {faults.value
                       .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
                       .map((f) => (
-                        <p key={f.pointer + f.text} class="step-fault" {...gatewayWords}>
+                        <p key={f.pointer + f.text} class="step-fault" {...gatewayText}>
                           {f.pointer}: {f.text}. {f.remedy}.
                         </p>
                       ))}

@@ -1,7 +1,7 @@
 // Commissioning report: one document to print and sign: the site and its wiring, parameters beside snapshot and default, the register list with its
 // hash, captured curves, the fail-safe rehearsal with its times, versions, who and when. In: the gateway's documents, read once when the page is
 // opened and again by the button. Out: a page that the browser prints or saves as PDF. A drive is read for it only when a button says so.
-import { gatewayWords, t } from '../language';
+import { gatewayText, t } from '../language';
 import { marked } from '../components/marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
@@ -22,9 +22,9 @@ import { readMissing } from '../state/read-missing';
 import { markOf, unitOf } from '../text/axis';
 import type { MappingPoint } from '../text/mapping';
 import { formatExact } from '../text/number';
-import { steppedText, unitWords, valueText } from '../text/parameter';
+import { steppedText, unitText, valueText } from '../text/parameter';
 import { presenceText } from '../text/presence';
-import { captureAbout, triggerWords } from '../text/recorder';
+import { captureAbout, triggerText } from '../text/recorder';
 import { comparedSentence, parameterReport, type ParameterReport, type SnapshotValues } from '../text/report';
 import { dateTime } from '../text/time';
 import type { MaybeValue } from '../api/types';
@@ -182,11 +182,11 @@ export function ReportPage() {
                     {a.report.rows.map((r) => (
                       <tr key={r.id}>
                         <th scope="row" class="mono">{r.id}</th>
-                        <td {...gatewayWords}>{r.name.replaceAll('_', ' ')}</td>
+                        <td {...gatewayText}>{r.name.replaceAll('_', ' ')}</td>
                         <td>{shown(r.now, r.unit)}</td>
                         <td>{shown(r.otherwise, r.unit)}</td>
                         <td>{r.snapshot === undefined ? '–' : shown(r.snapshot, r.unit)}</td>
-                        <td>{unitWords(r.unit || null)}</td>
+                        <td>{unitText(r.unit || null)}</td>
                       </tr>
                     ))}
                   </Table>
@@ -209,7 +209,7 @@ export function ReportPage() {
             {w.drawn.map((c) => (
               <div key={c.name} class="report-curve">
                 <p>
-                  <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerWords(c.trigger, c.axes[0]?.unit)}
+                  <b>{c.name}</b>, {c.triggered_at ? dateTime(c.triggered_at) : ''}, {captureAbout(c)}, {triggerText(c.trigger, c.axes[0]?.unit)}
                   {c.who ? `, ${t('by {who}', { who: c.who })}` : ''}
                 </p>
                 <Overlay captures={[c]} />
@@ -250,7 +250,7 @@ export function ReportPage() {
   );
 }
 
-const plainKnown = { drafts: new Map(), base: '0' as const, heard: new Map(), parameters: () => null };
+const plainKnown = { drafts: new Map(), base: '0' as const, received: new Map(), parameters: () => null };
 const shown = (v: MaybeValue, unit: string) => (v === null ? '–' : `${valueText(v, { allowed: null })} ${steppedText(v, unit || null)}`.trim());
 
 function Fact({ name, value }: { name: string; value: string }) {

@@ -2,12 +2,12 @@
 // Shown in place of a page when the gateway knows nobody here; afterwards that page is there again as it was.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { LanguageChoice } from '../components/language';
-import { quiet, Tell, TextField, type Told } from '../components/form';
+import { quiet, Tell, TextField, type Reported } from '../components/form';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { go, route } from '../router';
 import { persisted } from '../state/persisted';
-import { passwordFault, signInWords, userFault } from '../state/session';
+import { passwordFault, signInText, userFault } from '../state/session';
 
 export function SignInPage() {
   const { session } = useGateway();
@@ -17,24 +17,24 @@ export function SignInPage() {
   const [code, setCode] = useState('');
   const [password, setPassword] = useState('');
   const [second, setSecond] = useState('');
-  const [told, setTold] = useState<Told>(quiet);
+  const [reported, setReported] = useState<Reported>(quiet);
   const head = useRef<HTMLHeadingElement>(null);
   useEffect(() => head.current?.focus({ preventScroll: true }), []);
 
   const send = async (event: Event) => {
     event.preventDefault();
-    if (told.tone === 'busy') return;
+    if (reported.tone === 'busy') return;
     const fault = first ? (code.trim() ? '' : t('The code is missing.')) || userFault(user.value) || passwordFault(password, second) : user.value ? '' : t('The name is missing.');
-    if (fault) return setTold({ tone: 'refused', text: fault });
-    setTold({ tone: 'busy', text: t('Signing in …') });
+    if (fault) return setReported({ tone: 'refused', text: fault });
+    setReported({ tone: 'busy', text: t('Signing in …') });
     const problem = await (first ? session.first(code.trim(), user.value, password) : session.signIn(user.value, password));
     // A wrong code says nothing about the passwords: typed twice, they stay.
     if (!problem || !first) {
       setPassword((now) => (now === password ? '' : now));
       setSecond('');
     }
-    if (problem) return setTold({ tone: 'refused', text: signInWords(problem) });
-    setTold({ tone: 'good', text: t('Signed in.') });
+    if (problem) return setReported({ tone: 'refused', text: signInText(problem) });
+    setReported({ tone: 'good', text: t('Signed in.') });
     if (route.peek().page === 'sign-in') go('/');
   };
   return (
@@ -62,7 +62,7 @@ export function SignInPage() {
               {t('Go on without signing in')}
             </button>
           )}
-          <Tell told={told} field="sign-in-told" />
+          <Tell reported={reported} field="sign-in-told" />
         </div>
       </form>
       <LanguageChoice />

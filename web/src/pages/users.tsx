@@ -6,7 +6,7 @@ import { UserList } from '../components/user-list';
 import { Section } from '../components/section';
 import { useGateway } from '../gateway';
 import { rich, t } from '../language';
-import { whoWords } from '../state/session';
+import { whoText } from '../state/session';
 
 export function UsersPage() {
   const { session } = useGateway();
@@ -16,7 +16,7 @@ export function UsersPage() {
     <main class="page narrow users-page">
       <h1 tabIndex={-1}>{t('Users')}</h1>
       <p class="account-line">
-        <span data-field="account">{info ? t('You are {words}.', { words: whoWords(info) }) : t('The gateway has not said who you are.')}</span> <Way />
+        <span data-field="account">{info ? t('You are {text}.', { text: whoText(info) }) : t('The gateway has not said who you are.')}</span> <Way />
       </p>
       {info?.first_sign_in && (
         <p class="card form" data-field="no-account">

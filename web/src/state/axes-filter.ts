@@ -12,11 +12,11 @@ export const axesFilter = signal('');
 export function axisMatches(axis: Axis, trust: Trust, text: string): boolean {
   const wanted = text.trim().toLowerCase();
   if (wanted === '') return true;
-  const words = [axis.name, axis.group ?? '', axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
+  const texts = [axis.name, axis.group ?? '', axis.family, axis.line, axis.drive, stateWord(axis, trust).text];
   // What the strip counts, by the same rule and word as there.
-  if (!axis.online) words.push(t('offline'));
-  else words.push(motionWord(axis, trust).text, axis.moving ? t('moving') : '', axis.stale ? t('stale') : '');
-  if (axis.fault) words.push(t('in fault'));
-  words.push(axis.simulated ? t('simulated') : axis.presence === 'device' ? t('real') : '');
-  return words.some((w) => w.toLowerCase().includes(wanted));
+  if (!axis.online) texts.push(t('offline'));
+  else texts.push(motionWord(axis, trust).text, axis.moving ? t('moving') : '', axis.stale ? t('stale') : '');
+  if (axis.fault) texts.push(t('in fault'));
+  texts.push(axis.simulated ? t('simulated') : axis.presence === 'device' ? t('real') : '');
+  return texts.some((w) => w.toLowerCase().includes(wanted));
 }

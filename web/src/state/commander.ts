@@ -30,7 +30,7 @@ export class Commander {
   private readonly onTheirWay = new Map<string, number>();
   private readonly stopsWanted = new Set<string>();
   private readonly serial = new Map<string, number>();
-  private readonly watched = new Map<string, Watched & { words: string; mine: number }>();
+  private readonly watched = new Map<string, Watched & { text: string; mine: number }>();
   /** Refusals, and what their axis showed then: with another it is over. */
   private readonly causes = new Map<string, { note: Note; reason: string; cause: string }>();
 
@@ -52,7 +52,7 @@ export class Commander {
     if (w) {
       const outcome = this.serial.get(name) === w.mine ? outcomeOf(w, axis) : { tone: 'none' as const, text: '' };
       if (outcome) this.watched.delete(name);
-      if (outcome?.text) this.tell(name, outcome.tone, t('{what}: {how}', { what: w.words, how: outcome.text }), 'interrupted', axis);
+      if (outcome?.text) this.tell(name, outcome.tone, t('{what}: {how}', { what: w.text, how: outcome.text }), 'interrupted', axis);
       else if (outcome && this.serial.get(name) === w.mine) this.note(name).value = quiet;
     }
     const r = this.causes.get(name);
@@ -82,8 +82,8 @@ export class Commander {
   }
 
   /** What was told of the axis is over: the field that it was about has another text. */
-  forget(axis: string, told: Note): void {
-    if (this.note(axis).peek() === told) this.note(axis).value = quiet;
+  forget(axis: string, reported: Note): void {
+    if (this.note(axis).peek() === reported) this.note(axis).value = quiet;
   }
 
   /** Without a connection nothing green stands: what was accepted may be otherwise by now. */
@@ -93,21 +93,21 @@ export class Commander {
 
   /** Good news leaves after a while, so that it is not read as the answer to something later. Refusals stay until the next command. */
   private fade(of: Signal<Note>): void {
-    const told = of.peek();
-    if (told.tone !== 'good' && told.tone !== 'partly') return;
+    const reported = of.peek();
+    if (reported.tone !== 'good' && reported.tone !== 'partly') return;
     setTimeout(() => {
-      if (of.peek() === told) of.value = quiet;
+      if (of.peek() === reported) of.value = quiet;
     }, goodStays_ms);
   }
 
-  async send(axis: string, command: Command, words: string): Promise<CommandAnswer | Problem> {
+  async send(axis: string, command: Command, text: string): Promise<CommandAnswer | Problem> {
     const why = isStop(command) ? '' : this.blocked();
     const mine = this.begin(axis);
     if (why) {
-      this.tell(axis, 'refused', t('{what}: not sent. {why}', { what: words, why }), 'blocked');
+      this.tell(axis, 'refused', t('{what}: not sent. {why}', { what: text, why }), 'blocked');
       return new Problem('cancelled', why);
     }
-    this.tell(axis, 'busy', t('{what} …', { what: words }));
+    this.tell(axis, 'busy', t('{what} …', { what: text }));
     if (isMotion(command)) this.onTheirWay.set(axis, (this.onTheirWay.get(axis) ?? 0) + 1);
     let result: CommandAnswer | Problem;
     try {
@@ -117,8 +117,8 @@ export class Commander {
     }
     if (isMotion(command)) this.arrived(axis);
     if (this.serial.get(axis) !== mine) return result;
-    this.tell(axis, ...noteOf(words, result), 'result' in result ? '' : result.reason);
-    if ('result' in result && isWatched(command)) this.watched.set(axis, { command, words, mine, taken_ms: this.now_ms(), moved: false, target: undefined });
+    this.tell(axis, ...noteOf(text, result), 'result' in result ? '' : result.reason);
+    if ('result' in result && isWatched(command)) this.watched.set(axis, { command, text, mine, taken_ms: this.now_ms(), moved: false, target: undefined });
     return result;
   }
 
@@ -132,7 +132,7 @@ export class Commander {
     if (this.serial.get(axis) === mine) {
       if (!problem && this.offline(axis)) this.tell(axis, 'partly', t('Stop: sent, but the axis is offline: nobody confirms it'));
       else if (!problem) this.tell(axis, 'good', t('Stop: accepted'));
-      else this.tell(axis, 'refused', t('Stop NOT confirmed: {why}', { why: problem.words }));
+      else this.tell(axis, 'refused', t('Stop NOT confirmed: {why}', { why: problem.text }));
     }
     return problem;
   }
@@ -145,7 +145,7 @@ export class Commander {
       try {
         axes = (await this.client.axes(true)).map((a) => a.name);
       } catch (error) {
-        this.stopReport.value = { tone: 'refused', text: t('NOT stopped: the gateway did not say which axes there are. {why}', { why: capital(asProblem(error).words) }) };
+        this.stopReport.value = { tone: 'refused', text: t('NOT stopped: the gateway did not say which axes there are. {why}', { why: capital(asProblem(error).text) }) };
         return;
       }
     }
@@ -165,7 +165,7 @@ export class Commander {
       this.stopReport.value = { tone: 'good', text: axes.length === 1 ? t('Stop accepted by the axis.') : t('Stop accepted by all {n} axes.', { n: axes.length }) };
       this.fade(this.stopReport);
     } else {
-      const why = bad[0]?.problem?.words ?? '';
+      const why = bad[0]?.problem?.text ?? '';
       this.stopReport.value = { tone: 'refused', text: away.length > 0 ? t('Stop accepted by {good} of {all}; {away} offline. NOT confirmed by {names}: {why}', { good, all: axes.length, away: away.length, names: some(bad), why }) : t('Stop accepted by {good} of {all}. NOT confirmed by {names}: {why}', { good, all: axes.length, names: some(bad), why }) };
     }
   }
@@ -202,15 +202,15 @@ export class Commander {
 
 const isStop = (c: Command) => c.command === 'quick_stop' || c.command === 'halt' || c.command === 'disable';
 
-function noteOf(words: string, result: CommandAnswer | Problem): [NoteTone, string] {
+function noteOf(text: string, result: CommandAnswer | Problem): [NoteTone, string] {
   if ('result' in result) {
-    const said = [result.reason && reasonWord(result.reason), plain(result.text)].filter(Boolean).join('. ');
+    const published = [result.reason && reasonWord(result.reason), plain(result.text)].filter(Boolean).join('. ');
     const how = result.result === 'done' ? t('done') : t('accepted');
-    return ['good', said ? t('{what}: {how}. {more}', { what: words, how, more: said }) : t('{what}: {how}', { what: words, how })];
+    return ['good', published ? t('{what}: {how}. {more}', { what: text, how, more: published }) : t('{what}: {how}', { what: text, how })];
   }
   const failed = result.document.result === 'failed' || result.kind !== 'answered';
-  const why = capital(result.words);
-  return ['refused', failed ? t('{what}: failed. {why}', { what: words, why }) : t('{what}: refused. {why}', { what: words, why })];
+  const why = capital(result.text);
+  return ['refused', failed ? t('{what}: failed. {why}', { what: text, why }) : t('{what}: refused. {why}', { what: text, why })];
 }
 
 const some = (all: readonly { axis: string }[]): string => {

@@ -13,17 +13,17 @@ export interface FrameFilter {
 }
 
 /** After a reconnection the newest ones come once more: what is known already is left out. */
-export function joined(kept: Frame[], news: Frame[]): Frame[] {
-  const last = kept.at(-1)?.sequence ?? -1;
-  return [...kept, ...news.filter((f) => f.sequence > last)].slice(-mostFrames);
+export function joined(earlier: Frame[], news: Frame[]): Frame[] {
+  const last = earlier.at(-1)?.sequence ?? -1;
+  return [...earlier, ...news.filter((f) => f.sequence > last)].slice(-mostFrames);
 }
 
 export function matches(f: Frame, filter: FrameFilter): boolean {
   if (filter.direction !== 'both' && f.to_drive !== (filter.direction === 'to')) return false;
-  const words = filter.text.toLowerCase().split(/\s+/).filter(Boolean);
-  if (words.length === 0) return true;
+  const texts = filter.text.toLowerCase().split(/\s+/).filter(Boolean);
+  if (texts.length === 0) return true;
   const all = `${f.text} ${f.data} ${f.decoded.join(' ')} ${f.simulated ? t('simulated') : t('cable')} ${f.kind}`.toLowerCase();
-  return words.every((w) => (w.length > 1 && w.startsWith('-') ? !all.includes(w.slice(1)) : all.includes(w)));
+  return texts.every((w) => (w.length > 1 && w.startsWith('-') ? !all.includes(w.slice(1)) : all.includes(w)));
 }
 
 export interface ByteRow {
@@ -48,7 +48,7 @@ export function bytesOf(data: string): ByteRow[] {
 }
 
 /** "04280095 (extended, 29 bits)" */
-export function idWords(f: Frame): string {
+export function idText(f: Frame): string {
   if (f.id === null) return '';
   const digits = f.extended ? 8 : 3;
   const values = { id: f.id.toString(16).toUpperCase().padStart(digits, '0'), n: f.id };

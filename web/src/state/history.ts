@@ -32,7 +32,7 @@ const columns = ['position', 'velocity', 'target', 'demand', 'error'] as const;
 const sources: readonly DemandSource[] = [null, 'drive', 'computed', 'open_loop'];
 const empty = (): HistoryColumns => ({ at: [], position: [], velocity: [], target: [], demand: [], error: [], source: [] });
 const known = (v: number): number | null => (Number.isNaN(v) ? null : v);
-const kept = (v: number | null | undefined): number => v ?? NaN;
+const orNaN = (v: number | null | undefined): number => v ?? NaN;
 /** What is drawn as a line between two samples. */
 const lines = ['position', 'demand', 'error'] as const;
 const differ = (a: HistorySample, b: HistorySample): boolean => lines.some((c) => (a[c] ?? null) !== (b[c] ?? null));
@@ -184,7 +184,7 @@ export class AxisHistory {
       this.first = k + 1 === this.at_ms.length ? 0 : k + 1;
     }
     this.at_ms[k] = s.at_ms;
-    columns.forEach((c, n) => ((this.values[n] as Float64Array)[k] = kept(s[c])));
+    columns.forEach((c, n) => ((this.values[n] as Float64Array)[k] = orNaN(s[c])));
     (this.values[columns.length] as Float64Array)[k] = sources.indexOf(s.source ?? null);
   }
 

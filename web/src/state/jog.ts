@@ -28,10 +28,10 @@ export class Jog {
     return this.held !== 0;
   }
 
-  press(velocity: number, words: string): void {
+  press(velocity: number, text: string): void {
     if (this.held) return;
     const mine = (this.held = Math.random());
-    void this.commander.send(this.axis, { command: 'move_velocity', velocity, hold_ms }, words).then((answer) => {
+    void this.commander.send(this.axis, { command: 'move_velocity', velocity, hold_ms }, text).then((answer) => {
       const taken = 'result' in answer;
       const certainlyNot = !taken && (answer.kind === 'cancelled' || (answer.kind === 'answered' && answer.status < 500));
       const stillHeld = this.held === mine;
@@ -59,10 +59,10 @@ export class Jog {
         if (this.held !== mine) return;
         if (problem.kind === 'answered' && problem.status < 500) {
           this.held = 0;
-          this.commander.tell(this.axis, 'refused', t('Jog: ended. {why}', { why: problem.words }));
+          this.commander.tell(this.axis, 'refused', t('Jog: ended. {why}', { why: problem.text }));
           void this.halt(false);
         } else {
-          this.giveUp(problem.words);
+          this.giveUp(problem.text);
         }
         return;
       }
@@ -91,10 +91,10 @@ export class Jog {
         const problem = asProblem(error);
         // The drive said no: it is not moving by this jog, or it never will listen. Trying again changes nothing.
         if (problem.kind === 'answered' && problem.status < 500) {
-          this.commander.tell(this.axis, 'refused', t('Jog: halt refused. {why}', { why: problem.words }));
+          this.commander.tell(this.axis, 'refused', t('Jog: halt refused. {why}', { why: problem.text }));
           return;
         }
-        this.commander.tell(this.axis, 'refused', t('Jog: the halt is NOT confirmed: {why}', { why: problem.words }));
+        this.commander.tell(this.axis, 'refused', t('Jog: the halt is NOT confirmed: {why}', { why: problem.text }));
         if (i >= mostRetries || this.held) return;
         await new Promise((r) => setTimeout(r, retry_ms));
       }

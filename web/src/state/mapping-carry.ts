@@ -84,10 +84,10 @@ export class MapHand {
   }
 
   /** "position of feeder over 4–5: free", "… taken by m1 (velocity of feeder, 4–5)". */
-  words(): string {
+  text(): string {
     const c = this.carry.value;
     if (!c) return '';
-    const what = carriedWords(c.what);
+    const what = carriedText(c.what);
     if (c.at === null) return t('{what}: put it on a free place', { what });
     const { table, base, barred } = this.ground.value;
     if (barred) return barred;
@@ -96,7 +96,7 @@ export class MapHand {
     if (!fit || (fit.taken.length === 0 && !fit.beyond)) return t('{what} at {place}: free', { what, place });
     if (fit.taken.length === 0) return t('{what} at {place}: ends behind the last address', { what, place });
     const next = c.what.kind === 'resize' ? null : firstFit(this.ground.value.blocks, c.shape, c.at, this.lifted(c));
-    const other = takenWords(fit.taken, base);
+    const other = takenText(fit.taken, base);
     return next === null ? t('{what} at {place}: taken by {other}', { what, place, other }) : t('{what} at {place}: taken by {other}. Next free place: {free}', { what, place, other, free: spanText(table, next, next, base) });
   }
 
@@ -105,7 +105,7 @@ export class MapHand {
     const c = this.carry.peek();
     const { unit, table, barred } = this.ground.peek();
     if (!c) return null;
-    const words = this.words();
+    const text = this.text();
     const fit = this.fit.peek();
     const stays = c.what.kind === 'move' && c.at === Math.min(...c.what.own.map((m) => m.address));
     const same = c.what.kind === 'resize' && c.what.width === widthOf(c.what.own.type, c.what.own.length);
@@ -116,7 +116,7 @@ export class MapHand {
     if (barred || !fit || fit.taken.length > 0 || fit.beyond) {
       // By hand it stays there, to be carried on.
       if (c.by === 'pointer') this.putBack();
-      return { good: false, text: words };
+      return { good: false, text };
     }
     const at = c.at;
     this.putBack();
@@ -145,13 +145,13 @@ export class MapHand {
 }
 
 const specOf = ({ id: _, ...spec }: Mapping): MappingSpec => spec;
-const carriedWords = (w: Carried): string =>
+const carriedText = (w: Carried): string =>
   w.kind === 'new' ? t('{point} of {axis}', { point: w.point, axis: w.axis })
   : w.kind === 'resize' ? t('{id} as {type}', { id: w.own.id, type: resized(w.own, w.width).type })
   : w.kind === 'copy' ? (w.own.length === 1 ? t('Copy of {id} for {axis}', { id: w.own[0]!.id, axis: w.axis }) : t('Copy of {n} mappings for {axis}', { n: w.own.length, axis: w.axis }))
   : w.own.length === 1 ? t('{id}, {point} of {axis}', { id: w.own[0]!.id, point: w.own[0]!.point, axis: w.own[0]!.axis })
   : t('{n} mappings', { n: w.own.length });
-export function takenWords(taken: readonly Block[], base: Base): string {
+export function takenText(taken: readonly Block[], base: Base): string {
   const first = taken.slice(0, 3).map((b) => t('{id} ({point} of {axis}, {place})', { id: b.mapping?.id ?? b.name, point: b.name, axis: b.axis, place: placeText(b, base) })).join(', ');
   return taken.length > 3 ? t('{list} and {n} more', { list: first, n: taken.length - 3 }) : first;
 }

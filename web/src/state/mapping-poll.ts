@@ -6,7 +6,7 @@ import type { MappingDoor } from '../api/mappings';
 import { asProblem } from '../api/problem';
 import { readsOf, type Block } from '../text/mapping-blocks';
 import { isStandard } from '../text/register-map';
-import { lookAt, type Heard, type Looked } from './register-look';
+import { lookAt, type Received, type Looked } from './register-look';
 
 const poll_ms = 1000;
 const readsAtOnce = 8;
@@ -15,7 +15,7 @@ const lookedOf = (b: Block): Looked => ({ id: b.key, unit: b.unit, table: b.tabl
 export interface Polled {
   door: MappingDoor;
   seen: readonly Block[];
-  heard: Signal<ReadonlyMap<string, Heard>>;
+  received: Signal<ReadonlyMap<string, Received>>;
   /** Whether anything can be asked just now. */
   asks: () => boolean;
   /** Changes with each connection. */
@@ -23,7 +23,7 @@ export interface Polled {
   offered: (yes: boolean) => void;
 }
 
-export function usePolled({ door, seen, heard, asks, epoch, offered }: Polled): void {
+export function usePolled({ door, seen, received, asks, epoch, offered }: Polled): void {
   useEffect(() => {
     if (seen.length === 0 || epoch === 0) return;
     const end = new AbortController();
@@ -33,7 +33,7 @@ export function usePolled({ door, seen, heard, asks, epoch, offered }: Polled): 
     const again = async () => {
       let there = true;
       if (!document.hidden && asks()) {
-        const next = new Map(heard.peek());
+        const next = new Map(received.peek());
         for (let i = 0; i < Math.min(reads.length, readsAtOnce) && there && !end.signal.aborted; i += 1) {
           const own = reads[(turn + i) % reads.length]!.map(lookedOf);
           try {
@@ -44,11 +44,11 @@ export function usePolled({ door, seen, heard, asks, epoch, offered }: Polled): 
             const p = asProblem(error);
             there = !(p.status === 404 || p.status === 405 || p.status === 501);
             if (!there) offered(false);
-            for (const b of own) next.set(b.id, { words: null, value: undefined, text: there ? p.words : '' });
+            for (const b of own) next.set(b.id, { words: null, value: undefined, text: there ? p.text : '' });
           }
         }
         turn += readsAtOnce;
-        if (!end.signal.aborted) heard.value = next;
+        if (!end.signal.aborted) received.value = next;
       }
       if (there && !end.signal.aborted) timer = setTimeout(() => void again(), poll_ms);
     };

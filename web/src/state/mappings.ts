@@ -12,7 +12,7 @@ const mostUndo = 50;
 
 /** Entries by id before and after; null: not there. */
 export interface Change {
-  words: string;
+  text: string;
   entries: Map<string, { before: Mapping | null; after: Mapping | null }>;
 }
 
@@ -43,16 +43,16 @@ export class MappingBook {
   }
 
   /** `opened`: the entry as it was when the editing began; null: take whatever is there now. */
-  async replace(id: string, spec: MappingSpec, opened: Mapping | null, words = t('Changed {id}', { id })): Promise<Outcome> {
-    return this.change(words, (list) => {
+  async replace(id: string, spec: MappingSpec, opened: Mapping | null, text = t('Changed {id}', { id })): Promise<Outcome> {
+    return this.change(text, (list) => {
       unchanged(list, opened ? [opened] : [], id);
       return this.door.replace(id, { ...spec, id }, list.revision);
     });
   }
 
   /** All or none of them: those with the id of a present entry take its place. `opened`: these entries as they were when they were picked up. */
-  place(specs: readonly MappingSpec[], words: string, opened: readonly Mapping[] = []): Promise<Outcome> {
-    return this.change(words, async (list) => {
+  place(specs: readonly MappingSpec[], text: string, opened: readonly Mapping[] = []): Promise<Outcome> {
+    return this.change(text, async (list) => {
       unchanged(list, opened);
       return (await this.door.table(csvOf([columns, ...specs.map((s) => cellsOf(s as Partial<Mapping>))]), { replace: false, dryRun: false, revision: list.revision })).revision;
     });
@@ -111,35 +111,35 @@ export class MappingBook {
       await this.door.table(csvOf([columns, ...restored.map(cellsOf)]), { replace: true, dryRun: false, revision: now.revision });
       this.changes.value = this.changes.peek().slice(0, -1);
       await this.read();
-      return { good: true, text: t('Undone: {what}.', { what: midSentence(last.words) }) };
+      return { good: true, text: t('Undone: {what}.', { what: midSentence(last.text) }) };
     } catch (error) {
       const problem = asProblem(error);
-      return { good: false, text: t('Not undone: {why}', { why: problem.words }), problem };
+      return { good: false, text: t('Not undone: {why}', { why: problem.text }), problem };
     }
   }
 
-  private async change(words: string, act: (list: MappingList) => Promise<string>): Promise<Outcome> {
+  private async change(text: string, act: (list: MappingList) => Promise<string>): Promise<Outcome> {
     try {
       const before = await this.read();
       const revision = await act(before);
       const after = await this.read().catch(() => null);
       // Only if nobody came between is the difference of the two lists our own.
-      if (after && (revision === '' || revision === after.revision)) this.remember(words, before.rows, after.rows);
-      return { good: true, text: `${words}.` };
+      if (after && (revision === '' || revision === after.revision)) this.remember(text, before.rows, after.rows);
+      return { good: true, text: `${text}.` };
     } catch (error) {
       if (error instanceof ClashError) return { good: false, text: error.clash.text, clash: error.clash };
       const problem = asProblem(error);
-      return { good: false, text: problem.words, problem };
+      return { good: false, text: problem.text, problem };
     }
   }
 
-  private remember(words: string, before: Mapping[], after: Mapping[]): void {
+  private remember(text: string, before: Mapping[], after: Mapping[]): void {
     const entries: Change['entries'] = new Map();
     const old = new Map(before.map((m) => [m.id, m]));
     for (const m of after) if (!sameMapping(old.get(m.id), m)) entries.set(m.id, { before: old.get(m.id) ?? null, after: m });
     const left = new Set(after.map((m) => m.id));
     for (const m of before) if (!left.has(m.id)) entries.set(m.id, { before: m, after: null });
-    if (entries.size > 0) this.changes.value = [...this.changes.peek(), { words, entries }].slice(-mostUndo);
+    if (entries.size > 0) this.changes.value = [...this.changes.peek(), { text, entries }].slice(-mostUndo);
   }
 
   private async read(): Promise<MappingList> {

@@ -5,7 +5,7 @@ import type { MappingDoor, Registers } from '../api/mappings';
 import { t } from '../language';
 import { widthOf, type Mapping } from '../text/mapping';
 
-export interface Heard {
+export interface Received {
   words: number[] | null;
   value: number | string | boolean | null | undefined;
   /** Why there are no words: the exception, or what went wrong. */
@@ -14,7 +14,7 @@ export interface Heard {
 /** `id`: of the mapping, or any name of one's own for what is none. */
 export type Looked = Pick<Mapping, 'id' | 'unit' | 'table' | 'address' | 'type' | 'length'>;
 
-export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly Looked[], into: Map<string, Heard>, end: AbortSignal, most = 64): Promise<void> {
+export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly Looked[], into: Map<string, Received>, end: AbortSignal, most = 64): Promise<void> {
   let left = most;
   const read = async (rows: readonly Looked[]): Promise<void> => {
     const first = rows[0];
@@ -27,12 +27,12 @@ export async function lookAt(door: Pick<MappingDoor, 'registers'>, own: readonly
       await read(rows.slice(0, half));
       return read(rows.slice(half));
     }
-    for (const m of rows) into.set(m.id, heardOf(r, m));
+    for (const m of rows) into.set(m.id, receivedOf(r, m));
   };
   await read([...own].sort((a, b) => a.address - b.address));
 }
 
-function heardOf(r: Registers, m: Looked): Heard {
+function receivedOf(r: Registers, m: Looked): Received {
   if (r.exception) return { words: null, value: undefined, text: t('exception {code}: {text}', { code: r.exception.code, text: r.exception.text }) };
   const raw = r.words ?? (r.bits ?? []).map(Number);
   const at = m.address - r.address;

@@ -8,8 +8,8 @@ import { t } from '../language';
 import type { TabChannel } from './tab';
 
 export const roles: readonly Role[] = ['viewer', 'operator', 'engineer', 'administrator'];
-const roleWords: Record<Role, string> = { viewer: t('viewer'), operator: t('operator'), engineer: t('engineer'), administrator: t('administrator') };
-export const roleWord = (r: Role): string => roleWords[r] ?? r;
+const roleText: Record<Role, string> = { viewer: t('viewer'), operator: t('operator'), engineer: t('engineer'), administrator: t('administrator') };
+export const roleWord = (r: Role): string => roleText[r] ?? r;
 
 type Caller = Pick<Client, 'call'> & Partial<Pick<Client, 'csrf' | 'onUnauthorized'>>;
 
@@ -41,7 +41,7 @@ export class Session {
   ) {
     if (channel) channel.onmessage = () => void this.ask();
     client.onUnauthorized = (problem) => {
-      if (problem.is('session_ended')) this.end(problem.words);
+      if (problem.is('session_ended')) this.end(problem.text);
       void this.ask();
     };
   }
@@ -157,7 +157,7 @@ export class Session {
 }
 
 /** "anna, engineer"; "local access, engineer". */
-export function whoWords(info: SessionInfo): string {
+export function whoText(info: SessionInfo): string {
   if (!info.role) return t('not signed in');
   return `${info.user ?? (info.via === 'local' ? t('local access') : info.via)}, ${roleWord(info.role)}`;
 }
@@ -166,9 +166,9 @@ export function whoWords(info: SessionInfo): string {
 export const barred = (why: string): { disabled?: true; title?: string; 'aria-description'?: string } => (why ? { disabled: true, title: why, 'aria-description': why } : {});
 
 /** Why a sign-in did not work; for a lockout with the seconds to wait. */
-export function signInWords(p: Problem): string {
-  if (p.status !== 429) return p.words;
-  return p.retryAfter_s > 0 ? t('Too many wrong attempts. Try again in {n} s.', { n: p.retryAfter_s }) : p.words;
+export function signInText(p: Problem): string {
+  if (p.status !== 429) return p.text;
+  return p.retryAfter_s > 0 ? t('Too many wrong attempts. Try again in {n} s.', { n: p.retryAfter_s }) : p.text;
 }
 
 /** Rules of a password, told before the gateway has to. */

@@ -11,12 +11,12 @@ import { holderName, personOf } from '../text/authority';
 import { capital } from './commander';
 import { persisted } from './persisted';
 
-export interface Told {
+export interface Reported {
   tone: 'none' | 'busy' | 'good' | 'refused';
   text: string;
 }
 const none: Stage = { state: 'none' };
-const quiet: Told = { tone: 'none', text: '' };
+const quiet: Reported = { tone: 'none', text: '' };
 /** Empty: an older gateway, where a stage cannot be told from another one. */
 const idOf = (stage: Stage): string => (typeof stage.id === 'string' ? stage.id : '');
 export const stagerOf = (stage: Stage): string => (stage.by && !/^local\b/.test(stage.by) ? holderName(stage.by) : capital(personOf(stage.by || 'local')));
@@ -38,7 +38,7 @@ export class SiteDraft {
   readonly faults = signal<SiteFault[]>([]);
   readonly checked = signal<Site | null>(null);
   readonly disturbs = signal<string[]>([]);
-  readonly told = signal<Told>(quiet);
+  readonly reported = signal<Reported>(quiet);
   /** Somebody else's stage stands in the way of mine: what is staged, and whether it is in view to be applied. */
   readonly rival = signal<{ inView: boolean } | null>(null);
   /** A revision that is to be restored over changes that are not applied: it is asked for first. */
@@ -86,7 +86,7 @@ export class SiteDraft {
       }
       this.state.value = 'there';
     } catch (error) {
-      if (this.state.peek() !== 'there') this.state.value = asProblem(error).words;
+      if (this.state.peek() !== 'there') this.state.value = asProblem(error).text;
       return asProblem(error);
     }
     await this.look();
@@ -104,7 +104,7 @@ export class SiteDraft {
       this.offersStage.value = true;
       if (now.state === 'none') {
         this.rival.value = null;
-        if (before.state !== 'none' && this.told.peek().tone !== 'busy') this.told.value = quiet;
+        if (before.state !== 'none' && this.reported.peek().tone !== 'busy') this.reported.value = quiet;
       } else if (now.state === 'staged' && idOf(now) !== '' && idOf(now) !== this.shown && before.state === 'staged' && idOf(before) === this.shown && this.shown !== '') {
         // Mine was replaced: it is said before somebody presses Apply.
         this.contest(t('{now} has staged something else in place of what you checked.', { now: stagerOf(now) }));
@@ -123,7 +123,7 @@ export class SiteDraft {
     this.move(site, tag, this.base.peek());
     if (!applied || sameDocument(site, applied)) return;
     this.rolledBack.value = applied;
-    this.told.value = { tone: 'refused', text: t('Rolled back by itself: nobody pressed Keep in time.') };
+    this.reported.value = { tone: 'refused', text: t('Rolled back by itself: nobody pressed Keep in time.') };
   }
 
   /** Puts what was rolled back into the draft again, to be checked and applied anew. */
@@ -135,7 +135,7 @@ export class SiteDraft {
   edit(site: Site): void {
     this.draft.value = site;
     this.rolledBack.value = null;
-    this.told.value = quiet;
+    this.reported.value = quiet;
   }
   put = (room: Room, entry: Entry, own: string | null) => this.edit(withEntry(this.draft.peek(), room, entry, own));
   remove = (room: Room, name: string) => this.edit(withoutEntry(this.draft.peek(), room, name));
@@ -154,7 +154,7 @@ export class SiteDraft {
     this.tag = theirs.tag;
     this.draft.value = site;
     this.clear();
-    this.told.value = {
+    this.reported.value = {
       tone: 'good',
       text: !withMine ? t('Your changes are dropped.') : clashes.length > 0 ? t('Your changes stand on the newer site now. Both of you changed {names}: yours would win; look at the list.', { names: clashes.map((c) => c.what.split('/')[1]).join(', ') }) : t('Your changes stand on the newer site now.'),
     };
@@ -265,7 +265,7 @@ export class SiteDraft {
     this.rival.value = { inView: theirs };
     this.shown = theirs ? idOf(this.stage.peek()) : '';
     this.checked.value = null;
-    this.told.value = quiet;
+    this.reported.value = quiet;
   }
 
   /** The stage in the gateway is what this page has checked. */
@@ -278,12 +278,12 @@ export class SiteDraft {
     this.rival.value = { inView: false };
     this.shown = '';
     this.checked.value = null;
-    this.told.value = { tone: 'refused', text };
+    this.reported.value = { tone: 'refused', text };
   }
   private verdict(): string {
     const n = this.faults.peek().length;
-    if (n > 0) throw new Error(faultWords(n));
-    return checkedWords;
+    if (n > 0) throw new Error(faultText(n));
+    return checkedText;
   }
   private judge(site: Site, faults: SiteFault[], disturbs: string[]): void {
     this.faults.value = faults;
@@ -294,7 +294,7 @@ export class SiteDraft {
     this.judge({}, [], []);
     this.checked.value = null;
     this.theirs.value = null;
-    this.told.value = quiet;
+    this.reported.value = quiet;
   }
   /** The site in force is another one now; what was typed since `from` is put on top of it. */
   private move(site: Site, tag: string, from: Site): void {
@@ -316,18 +316,18 @@ export class SiteDraft {
     return this.tell(busy, () => act().finally(() => (this.moving = false)));
   }
   private async tell(busy: string, act: () => Promise<string>): Promise<boolean> {
-    this.told.value = { tone: 'busy', text: busy };
+    this.reported.value = { tone: 'busy', text: busy };
     this.rolledBack.value = null;
     try {
-      this.told.value = { tone: 'good', text: await act() };
+      this.reported.value = { tone: 'good', text: await act() };
       return true;
     } catch (error) {
       const p = asProblem(error);
       if (p.document.faults) this.judge(this.draft.peek(), p.document.faults, []);
       if (p.status === 412) await this.load();
       const n = p.document.faults?.length ?? 0;
-      const words = n > 0 ? faultWords(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? t('Somebody else has changed the site meanwhile; what you typed is kept.') : p.words;
-      this.told.value = { tone: 'refused', text: words.charAt(0).toUpperCase() + words.slice(1) };
+      const text = n > 0 ? faultText(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? t('Somebody else has changed the site meanwhile; what you typed is kept.') : p.text;
+      this.reported.value = { tone: 'refused', text: text.charAt(0).toUpperCase() + text.slice(1) };
       if (p.is('stage_replaced') || p.is('stage_taken')) await this.meet(p);
       return false;
     }
@@ -339,7 +339,7 @@ export class SiteDraft {
     if (stage?.state === 'none') {
       this.checked.value = null;
       this.shown = '';
-      this.told.value = { tone: 'refused', text: t('Nothing was applied: what you checked is not staged any more. Check it again.') };
+      this.reported.value = { tone: 'refused', text: t('Nothing was applied: what you checked is not staged any more. Check it again.') };
     } else {
       const who = stage ? stagerOf(stage) : t('Somebody else');
       this.contest(t('{value} has staged another change. What you typed is kept.', { value: p.is('stage_replaced') ? t('Nothing was applied: {list}', { list: who.replace(/^Somebody/, 'somebody') }) : who }));
@@ -348,8 +348,8 @@ export class SiteDraft {
 }
 
 /** What is told when a check has found nothing. */
-export const checkedWords = t('Checked: it can be applied.');
-const faultWords = (n: number): string => (n === 1 ? t('One fault must be mended.') : t('{n} faults must be mended.', { n }));
+export const checkedText = t('Checked: it can be applied.');
+const faultText = (n: number): string => (n === 1 ? t('One fault must be mended.') : t('{n} faults must be mended.', { n }));
 
 const drafts = new WeakMap<Client, { door: SiteDoor; draft: SiteDraft }>();
 /** The one draft of a page; the head and the part of the site look at the same stage. */

@@ -8,7 +8,7 @@ export interface TabChannel {
   postMessage(message: unknown): void;
   onmessage: ((event: MessageEvent) => void) | null;
 }
-type Said = { kind: 'whose' | 'mine'; name: string; nonce: string };
+type Published = { kind: 'whose' | 'mine'; name: string; nonce: string };
 
 export const tabNameLength = 6;
 const random = (n: number): string => Array.from({ length: n }, () => Math.floor(Math.random() * 36).toString(36)).join('');
@@ -23,13 +23,13 @@ export class Tab {
 
   constructor(
     /** What is kept in the tab's session; '' in a new tab. */
-    private readonly kept: Signal<string>,
+    private readonly stored: Signal<string>,
     private readonly channel: TabChannel | null,
     wait_ms = 120,
   ) {
-    const inherited = kept.peek() !== '';
-    if (!inherited) kept.value = freshTabName();
-    this.own = signal(kept.peek());
+    const inherited = stored.peek() !== '';
+    if (!inherited) stored.value = freshTabName();
+    this.own = signal(stored.peek());
     this.name = this.own;
     if (!channel) {
       this.settled = Promise.resolve();
@@ -38,10 +38,10 @@ export class Tab {
     let settle = (): void => undefined;
     this.settled = inherited ? new Promise((r) => (settle = r)) : Promise.resolve();
     channel.onmessage = (event) => {
-      const said = event.data as Said | null;
-      if (said?.name !== this.own.peek() || typeof said.nonce !== 'string') return;
-      if (said.kind === 'whose' && said.nonce !== this.nonce) this.say('mine', said.nonce);
-      else if (said.kind === 'mine' && said.nonce === this.nonce) {
+      const published = event.data as Published | null;
+      if (published?.name !== this.own.peek() || typeof published.nonce !== 'string') return;
+      if (published.kind === 'whose' && published.nonce !== this.nonce) this.say('mine', published.nonce);
+      else if (published.kind === 'mine' && published.nonce === this.nonce) {
         this.rename();
         settle();
       }
@@ -52,12 +52,12 @@ export class Tab {
   }
 
   private rename(): void {
-    this.kept.value = this.own.value = freshTabName();
+    this.stored.value = this.own.value = freshTabName();
   }
 
-  private say(kind: Said['kind'], nonce: string): void {
+  private say(kind: Published['kind'], nonce: string): void {
     try {
-      this.channel?.postMessage({ kind, name: this.own.peek(), nonce } satisfies Said);
+      this.channel?.postMessage({ kind, name: this.own.peek(), nonce } satisfies Published);
     } catch {
       // A channel that is shut tells nobody; the name stays.
     }

@@ -63,12 +63,12 @@ export const nameOf = (c: CatalogueCommand): string => c.name.replaceAll('_', ' 
 export const questionOf = (c: CatalogueCommand, axis: string): string => (c.confirm ? t('{action} on {axis}: {question} Run it?', { action: nameOf(c), axis, question: c.confirm }) : '');
 /** The same as a recipe step's one text; empty where a text has blanks in it, which that form does not carry. */
 export function recipeText(c: CatalogueCommand, typed: Record<string, string>): string {
-  const words = Object.entries(bodyOf(c, typed).arguments ?? {}).map(([name, value]) => `${name}=${value}`);
-  return words.some((w) => /[\s,;]/.test(w)) ? '' : words.join(' ');
+  const texts = Object.entries(bodyOf(c, typed).arguments ?? {}).map(([name, value]) => `${name}=${value}`);
+  return texts.some((w) => /[\s,;]/.test(w)) ? '' : texts.join(' ');
 }
 
 /** Those whose name, id or description has all the words. */
 export function found(commands: readonly CatalogueCommand[], sought: string): CatalogueCommand[] {
-  const words = sought.toLowerCase().split(/\s+/).filter(Boolean);
-  return commands.filter((c) => words.every((w) => `${c.id} ${c.name} ${c.description ?? ''}`.toLowerCase().includes(w)));
+  const texts = sought.toLowerCase().split(/\s+/).filter(Boolean);
+  return commands.filter((c) => texts.every((w) => `${c.id} ${c.name} ${c.description ?? ''}`.toLowerCase().includes(w)));
 }

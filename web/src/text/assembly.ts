@@ -60,7 +60,7 @@ export const draftOf = (a: Assembly): AssemblyDraft => ({
 });
 
 /** "Instance 300, 24 bytes to the originator: unit 40, from register 0". */
-export function assemblyWords(a: Assembly): string {
+export function assemblyText(a: Assembly): string {
   const table = a.table === 'input_registers' ? t('input register') : t('register');
   const order = a.byte_order === 'registers' ? t(', in the order of registers') : '';
   const values = { n: a.bytes, unit: a.unit, table, first: a.address, last: a.address + a.registers - 1, order };
@@ -68,4 +68,4 @@ export function assemblyWords(a: Assembly): string {
 }
 
 /** "4 to 7", or "4". */
-export const bytesWords = (offset: number, bytes: number): string => (bytes === 1 ? String(offset) : t('{first} to {last}', { first: offset, last: offset + bytes - 1 }));
+export const bytesText = (offset: number, bytes: number): string => (bytes === 1 ? String(offset) : t('{first} to {last}', { first: offset, last: offset + bytes - 1 }));

@@ -40,7 +40,7 @@ export function handOverChoices(held: readonly { door: string; holder: string }[
  * `door`: by which the last command came; `who`: by whom, as the gateway writes it, "http anna page-1a2b3c"; empty where it does not say. It says
  * nothing about who holds the axis now.
  */
-export function commandedWords(door: string, who: string, tab = ''): string {
+export function commandedText(door: string, who: string, tab = ''): string {
   const [first = '', ...rest] = who.split(' ');
   const by = (who === '' ? (door === 'none' ? '' : door) : first).replace('_', '/');
   const client = rest.join(' ');
@@ -49,7 +49,7 @@ export function commandedWords(door: string, who: string, tab = ''): string {
   return client === '' ? t('last commanded by {by}', { by }) : t('last commanded by {holder} ({by})', { holder: holderName(client), by });
 }
 
-export function heldWords(h: Held): string {
+export function heldText(h: Held): string {
   if (!h.holder) return t('Nobody holds it');
   const holder = holderName(h.holder), n = h.rest_s;
   if (h.mine) return n > 0 ? t('Held by this page, {n} s left', { n }) : t('Held by this page, about to end');

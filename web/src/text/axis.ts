@@ -58,7 +58,7 @@ export function markOf(axis: Pick<Axis, 'presence'>): { text: string; kind: 'rea
 }
 
 /** Whose word demand and following error are, in a sentence: nobody should take a reckoned value for a measured one. */
-export function demandWords(source: Axis['demand_source']): string {
+export function demandText(source: Axis['demand_source']): string {
   const about = t('Demand and following error');
   if (source === 'drive') return t('{about}: from the drive.', { about });
   if (source === 'computed') return t('{about}: computed by the gateway from the order, not measured by the drive.', { about });
@@ -73,7 +73,7 @@ export const velocityText = (axis: Axis): string => formatNumber(axis.velocity, 
 export const targetText = (axis: Axis): string => formatNumber(axis.target_position, decimalsOf(axis.increments_per_unit));
 
 /** The question before the present position gets another name. */
-export function setPositionWords(axis: Axis, position: number): string {
+export function setPositionText(axis: Axis, position: number): string {
   const unit = unitOf(axis);
   const old = axis.position === null ? t('not known') : `${positionText(axis)} ${unit}`;
   return t('The axis stands where it is; its position is {old} now and will be called {position} {unit}. Targets, limits and what other machines read count from the new zero. Set it?', { old, position: formatNumber(position, decimalsOf(axis.increments_per_unit)), unit });

@@ -33,10 +33,10 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   const put = (key: string, text: string, icon: Word['icon'], tone: Word['tone'], about: string, long: string, path: string, of: string[] = []) =>
     out.push({ key, word: { text, icon, tone, long }, about, text: long, path, axes: of });
   for (const a of axes) if (a.fault) put(`axis ${a.name}`, t('Fault'), 'bell', 'fault', a.name, t('Fault {code}: {n}', { code: a.error.code, n: a.error.text || t('the drive says no more') }), axisPath(a.name));
-  const told = new Set<string>();
+  const reported = new Set<string>();
   const offline = (of: (a: Axis) => boolean): string[] => {
-    const names = axes.filter((a) => !a.online && of(a) && !told.has(a.name)).map((a) => a.name);
-    for (const n of names) told.add(n);
+    const names = axes.filter((a) => !a.online && of(a) && !reported.has(a.name)).map((a) => a.name);
+    for (const n of names) reported.add(n);
     return names;
   };
   const down = new Set<string>();
@@ -53,7 +53,7 @@ export function errorsNow(axes: Axis[], lines: Line[], drives: Drive[], unacknow
   const byDrive = new Map(drives.map((d) => [d.name, d]));
   const groups = new Map<string, { drive: string; line: string; why: string; names: string[] }>();
   for (const a of axes) {
-    if (a.online || told.has(a.name)) continue;
+    if (a.online || reported.has(a.name)) continue;
     const why = offlineReason(a, byDrive.get(a.drive), alarms);
     const group = groups.get(`${a.drive}\n${why}`) ?? { drive: a.drive, line: a.line, why, names: [] };
     group.names.push(a.name);

@@ -33,7 +33,7 @@ export function causeHint(cause: Matrix['causes'][number]): string {
 }
 
 /** What an axis has named, in one line. */
-export function namedWords(row: FailSafeRow): string {
+export function namedText(row: FailSafeRow): string {
   const own = (Object.keys(causes) as Cause[]).flatMap((c) => {
     const action = row.fail_safe[c];
     return action ? [t('{cause}: {action}', { cause: midSentence(causeText(c)), action: midSentence(actionText(action)) })] : [];
@@ -44,7 +44,7 @@ export function namedWords(row: FailSafeRow): string {
 
 const ofDrive = { quick_stop: t('quick stop'), disable: t('switched off'), fault: t('fault') } as const;
 /** What its drive does by itself, in one line. */
-export function watchdogWords({ drive_watchdog: w }: FailSafeRow): string {
+export function watchdogText({ drive_watchdog: w }: FailSafeRow): string {
   if (!w.available) return t('The drive has no watchdog of its own. {description}', { description: theirs(w.description) });
   if (w.state === 'armed' && w.action !== null) return t('The drive\'s own watchdog: {n} after {time_ms} ms without the gateway.', { n: ofDrive[w.action], time_ms: w.time_ms ?? 0 });
   if (w.state === 'off') return t('The drive\'s own watchdog is switched off (watchdog_action).');

@@ -16,13 +16,13 @@ export function gatewayWord(g: Pick<FleetGateway, 'alive' | 'here' | 'silent_ms'
   return { text: t('Alive'), icon: 'check', tone: 'good', long: t('Heard within its lease of 2 s') };
 }
 
-export function heardWords(g: Pick<FleetGateway, 'here' | 'silent_ms'>): string {
+export function receivedText(g: Pick<FleetGateway, 'here' | 'silent_ms'>): string {
   if (g.here) return t('this gateway');
   return g.silent_ms < 1000 ? t('heard now') : t('last heard {time} ago', { time: duration(g.silent_ms) });
 }
 
 /** What is worth knowing of its clock; empty: it is as this one's. */
-export function clockWords(ahead_ms: number): string {
+export function clockText(ahead_ms: number): string {
   if (Math.abs(ahead_ms) < 1000) return '';
   return ahead_ms > 0 ? t('its clock is {time} ahead of this one', { time: duration(ahead_ms) }) : t('its clock is {time} behind this one', { time: duration(-ahead_ms) });
 }
@@ -46,12 +46,12 @@ export function asAxis(a: FleetAxis): Pick<Axis, 'state' | 'moving' | 'velocity'
 
 /** How old what is shown is, and what else there is to say of the axis. */
 export function aboutAxis(g: FleetGateway, a: FleetAxis): string {
-  const said = [a.age_ms === null ? t('its drive was never seen') : !g.alive || a.age_ms >= 1000 ? t('{time} old', { time: duration(a.age_ms) }) : t('now')];
-  if (a.fault) said.push(t('fault {code}', { code: a.error_code }));
-  else if (a.error_code !== 0) said.push(t('error {code}', { code: a.error_code }));
-  if (a.warning) said.push(t('warning'));
-  if (a.online && !a.referenced) said.push(t('not referenced'));
-  if (a.fail_safe_cause !== 0) said.push(t('fail-safe has acted'));
-  if (a.holder) said.push(t('held by {holder}', { holder: a.holder }));
-  return said.join(' · ');
+  const published = [a.age_ms === null ? t('its drive was never seen') : !g.alive || a.age_ms >= 1000 ? t('{time} old', { time: duration(a.age_ms) }) : t('now')];
+  if (a.fault) published.push(t('fault {code}', { code: a.error_code }));
+  else if (a.error_code !== 0) published.push(t('error {code}', { code: a.error_code }));
+  if (a.warning) published.push(t('warning'));
+  if (a.online && !a.referenced) published.push(t('not referenced'));
+  if (a.fail_safe_cause !== 0) published.push(t('fail-safe has acted'));
+  if (a.holder) published.push(t('held by {holder}', { holder: a.holder }));
+  return published.join(' · ');
 }

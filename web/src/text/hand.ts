@@ -41,8 +41,8 @@ const odd: Readonly<Record<string, string>> = {
 };
 export const handLabel = (name: string): string => {
   const { base } = split(name);
-  const words = base.replaceAll('_', ' ');
-  return odd[base] ?? word(words.charAt(0).toUpperCase() + words.slice(1));
+  const text = base.replaceAll('_', ' ');
+  return odd[base] ?? word(text.charAt(0).toUpperCase() + text.slice(1));
 };
 
 /** `own`: the channel of the axis whose page it is; null: the page of the drive. */

@@ -22,9 +22,9 @@ export function modbusPlace(doors: readonly { name: string; address: string }[],
 export const mbpollLine = (p: Place, address: number): string => `mbpoll -m tcp -p ${p.port} -a 1 -t 4:int -B -0 -r ${address} -c 1 -1 ${p.host}`;
 
 /** Of four words from the axis' first register. */
-export function wordsOf(words: readonly number[] | undefined, exception: { code: number; text: string } | null): { status: number | null; position: number | null; words: string; fault: string } {
+export function wordsOf(words: readonly number[] | undefined, exception: { code: number; text: string } | null): { status: number | null; position: number | null; text: string; fault: string } {
   const [status, , high, low] = words ?? [];
-  if (exception || status === undefined || high === undefined || low === undefined) return { status: null, position: null, words: '', fault: exception ? `${exception.code}: ${exception.text}` : '' };
+  if (exception || status === undefined || high === undefined || low === undefined) return { status: null, position: null, text: '', fault: exception ? `${exception.code}: ${exception.text}` : '' };
   const four = (n: number) => n.toString(16).toUpperCase().padStart(4, '0');
-  return { status, position: (high << 16) | low, words: `${four(high)} ${four(low)}`, fault: '' };
+  return { status, position: (high << 16) | low, text: `${four(high)} ${four(low)}`, fault: '' };
 }

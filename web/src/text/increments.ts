@@ -13,17 +13,17 @@ export interface Mechanics {
 }
 export const plainMechanics: Mechanics = { per_turn: '200', microsteps: '16', motor_turns: '1', output_turns: '1', travel: '' };
 
-export type Reckoned = { good: true; value: number } | { good: false; wrong: (keyof Mechanics)[] };
+export type Reckoned = { good: true; value: number } | { good: false; errors: (keyof Mechanics)[] };
 
 /** Increments per unit = increments in a turn of the motor × turns of the motor for one of the output ÷ travel. */
 export function incrementsOf(m: Mechanics): Reckoned {
   const keys = Object.keys(plainMechanics) as (keyof Mechanics)[];
   const n = Object.fromEntries(keys.map((k) => [k, parseQuantity(m[k])]));
-  const wrong = keys.filter((k) => {
+  const errors = keys.filter((k) => {
     const p = n[k];
     return !p?.good || !(p.value > 0);
   });
-  if (wrong.length > 0) return { good: false, wrong };
+  if (errors.length > 0) return { good: false, errors };
   const of = (k: keyof Mechanics) => (n[k] as { value: number }).value;
   return { good: true, value: (of('per_turn') * of('microsteps') * of('motor_turns')) / of('output_turns') / of('travel') };
 }

@@ -1,7 +1,7 @@
 // Mapping table: rows of a spreadsheet into mappings, each with its faults, also among one another. In: text, what is known, what is there.
 // Out: rows in their order. A row with the id of a present mapping takes its place. Pure.
 import { t } from '../language';
-import { checkTexts, cellsOf, columns, columnWords, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
+import { checkTexts, cellsOf, columns, columnText, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
 import { csvOf, mostRows, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface ReadRow {
@@ -40,21 +40,21 @@ export function readTable(text: string, known: Known, present: readonly Mapping[
       if (h) texts[h] = h === 'scale' || h === 'offset' ? pointed(cells[i] ?? '', separator) : (cells[i] ?? '');
     });
     const { spec, faults } = checkTexts(texts, known);
-    const words: string[] = Object.entries(faults).map(([f, why]) => t('{field}: {why}', { field: columnWords[f as Column], why }));
+    const parts: string[] = Object.entries(faults).map(([f, why]) => t('{field}: {why}', { field: columnText[f as Column], why }));
     const id = texts.id?.trim() ?? '';
-    if (cells.length > heads.length) words.push(t('The row has {cells} cells, the table {columns} columns.', { cells: cells.length, columns: heads.length }));
+    if (cells.length > heads.length) parts.push(t('The row has {cells} cells, the table {columns} columns.', { cells: cells.length, columns: heads.length }));
     if (id !== '') {
-      if (!/^[A-Za-z0-9_.-]{1,64}$/.test(id)) words.push(t('id: 1 to 64 letters, digits, - _ and .'));
-      else if (ids.has(id)) words.push(t('id: line {line} has {id} too.', { line: ids.get(id) ?? '', id }));
+      if (!/^[A-Za-z0-9_.-]{1,64}$/.test(id)) parts.push(t('id: 1 to 64 letters, digits, - _ and .'));
+      else if (ids.has(id)) parts.push(t('id: line {line} has {id} too.', { line: ids.get(id) ?? '', id }));
       ids.set(id, line);
     }
     if (spec) {
       if (id !== '') spec.id = id;
       const whole = { type: 'i32', table: 'holding_registers', word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...spec, id: id || t('line {line}', { line }) } as Mapping;
-      for (const c of conflictsOf(whole, taken)) words.push(t('Address: {place} is taken by {id} of this table.', { place: placeText(whole), id: c.id }));
+      for (const c of conflictsOf(whole, taken)) parts.push(t('Address: {place} is taken by {id} of this table.', { place: placeText(whole), id: c.id }));
       taken.push(whole);
     }
-    return { line, texts, spec, faults: words };
+    return { line, texts, spec, faults: parts };
   });
   // Against what is there, without the entries that the table replaces.
   const staying = present.filter((m) => !ids.has(m.id));

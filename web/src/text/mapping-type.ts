@@ -2,7 +2,7 @@
 // In: the point, the parameter as the catalogue has it. Out: a type, or null where nobody says; the unit of the value before scaling. Pure.
 import type { Axis, AxisParameter } from '../api/types';
 import { pointUnit, type Known, type RegisterType } from './mapping';
-import { unitWords } from './parameter';
+import { unitText } from './parameter';
 
 export type ParameterShape = Pick<AxisParameter, 'type' | 'unit'>;
 
@@ -33,5 +33,5 @@ export function naturalType(axis: string, point: string, known: Known): Register
 /** "mm", "inc/s", "mA"; empty: none, or not known. */
 export function valueUnit(axis: Pick<Axis, 'unit'> | undefined, name: string, point: string, known: Known): string {
   const own = pointUnit(axis ?? { unit: '' }, point);
-  return own || (Object.hasOwn(ofPoints, point) ? '' : unitWords(shapeOf(known, name, point)?.unit ?? null));
+  return own || (Object.hasOwn(ofPoints, point) ? '' : unitText(shapeOf(known, name, point)?.unit ?? null));
 }

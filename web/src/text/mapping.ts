@@ -83,7 +83,7 @@ export type Field = (typeof fields)[number];
 export type Texts = Record<Field, string>;
 export const columns = ['id', ...fields] as const;
 /** As people are told of them; in tables and files they keep their names. */
-export const columnWords: Readonly<Record<(typeof columns)[number], string>> = {
+export const columnText: Readonly<Record<(typeof columns)[number], string>> = {
   id: t('id'), unit: t('unit'), table: t('table'), address: t('address'), axis: t('axis'), point: t('point'), type: t('type'), word_order: t('word order'), scale: t('scale'),
   offset: t('offset'), access: t('access'), length: t('length'), comment: t('comment'), on_overflow: t('on overflow'),
 };
@@ -201,7 +201,7 @@ export function differenceText(before: Mapping | null | undefined, after: Mappin
   if (!after) return t('removed');
   const a = cellsOf(before);
   const b = cellsOf(after);
-  const parts = columns.flatMap((c, i) => (a[i] === b[i] ? [] : [t('{what} {before} → {after}', { what: columnWords[c], before: a[i] || t('empty'), after: b[i] || t('empty') })]));
+  const parts = columns.flatMap((c, i) => (a[i] === b[i] ? [] : [t('{what} {before} → {after}', { what: columnText[c], before: a[i] || t('empty'), after: b[i] || t('empty') })]));
   return parts.join(', ') || t('the same');
 }
 
@@ -255,7 +255,7 @@ export function signWarning(m: { point: string; type: string; offset: number }):
 }
 
 /** Reads raw words as a type, as an HMI does. */
-export function decodeWords(words: readonly number[], type: RegisterType, order: Mapping['word_order']): number | bigint | boolean | string | null {
+export function decodeText(words: readonly number[], type: RegisterType, order: Mapping['word_order']): number | bigint | boolean | string | null {
   const width = widthOf(type, words.length);
   if (words.length < width) return null;
   const used = words.slice(0, width);

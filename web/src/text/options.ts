@@ -13,8 +13,8 @@ export type Families = ReadonlyMap<string, Family>;
 
 export const optionPrefix = 'options.';
 /** "Home timeout, s" of home_timeout_s. */
-const label = (o: OptionSpec) => (o.unit ? `${words(o.name.replace(new RegExp(`_${o.unit.replace(/[^a-z]/gi, '.')}$`), ''))}, ${o.unit}` : words(o.name));
-const words = (name: string) => (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll('_', ' ');
+const label = (o: OptionSpec) => (o.unit ? `${shown(o.name.replace(new RegExp(`_${o.unit.replace(/[^a-z]/gi, '.')}$`), ''))}, ${o.unit}` : shown(o.name));
+const shown = (name: string) => (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll('_', ' ');
 
 /** The family that an entry is of, as it is typed: of a line its own, of a drive its own or its line's, of an axis its drive's. */
 export function familyOf(room: Room, texts: Texts, site: Site): string {
@@ -27,14 +27,14 @@ export function familyOf(room: Room, texts: Texts, site: Site): string {
 export const optionsFor = (family: Family | undefined, room: Room): readonly OptionSpec[] =>
   room === 'axes' ? [] : (family?.options ?? []).filter((o) => o.of.includes('twin') || o.of.includes(room === 'lines' ? 'line' : 'drive'));
 
-const switchWords = ['on', 'off', 'true', 'false', '1', '0'];
+const switchText = ['on', 'off', 'true', 'false', '1', '0'];
 /** Six words for a switch are two to choose from. */
-const choicesOf = (o: OptionSpec): readonly string[] => (o.values && switchWords.every((w) => o.values?.includes(w)) ? o.values.filter((v) => v === 'on' || v === 'off') : (o.values ?? []));
+const choicesOf = (o: OptionSpec): readonly string[] => (o.values && switchText.every((w) => o.values?.includes(w)) ? o.values.filter((v) => v === 'on' || v === 'off') : (o.values ?? []));
 const rangeOf = (o: OptionSpec): string => {
   const unit = o.unit ? ` ${o.unit}` : '';
-  const said = (n: number) => `${formatExact(n)}${unit}`;
-  if (o.min !== undefined && o.max !== undefined) return t('{min} to {max}', { min: formatExact(o.min), max: said(o.max) });
-  return o.min !== undefined ? t('from {n}', { n: said(o.min) }) : o.max !== undefined ? t('up to {n}', { n: said(o.max) }) : '';
+  const published = (n: number) => `${formatExact(n)}${unit}`;
+  if (o.min !== undefined && o.max !== undefined) return t('{min} to {max}', { min: formatExact(o.min), max: published(o.max) });
+  return o.min !== undefined ? t('from {n}', { n: published(o.min) }) : o.max !== undefined ? t('up to {n}', { n: published(o.max) }) : '';
 };
 
 /** An option as a field of a form: its range, its default and its description are in its hint. */
@@ -60,7 +60,7 @@ export function optionFault(o: OptionSpec, text: string): string {
   const p = parseNumber(typed);
   if (!p.good || !Number.isInteger(p.value)) return t('A whole number.');
   const n = p.value;
-  return (o.min !== undefined && n < o.min) || (o.max !== undefined && n > o.max) ? `${words(rangeOf(o))}.` : '';
+  return (o.min !== undefined && n < o.min) || (o.max !== undefined && n > o.max) ? `${shown(rangeOf(o))}.` : '';
 }
 
 /** Names that were typed, or were there, and are none of the family's: they count as not given, and stay until they are emptied. */

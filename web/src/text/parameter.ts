@@ -34,12 +34,12 @@ export function steppedUnit(unit: string | null): { step: number; decimals: numb
 }
 
 /** "pulse/s^2" as people write it; of steps: "× 0.1 A", so that no number before it reads as a quantity. */
-export const unitWords = (unit: string | null): string => `${steppedUnit(unit) ? '× ' : ''}${(unit ?? '').replace(/\^2\b/g, '²').replace(/\^3\b/g, '³').replace(/^deg C$/, '°C')}`;
+export const unitText = (unit: string | null): string => `${steppedUnit(unit) ? '× ' : ''}${(unit ?? '').replace(/\^2\b/g, '²').replace(/\^3\b/g, '³').replace(/^deg C$/, '°C')}`;
 
 /** "= 1.0 A": what a count of steps comes to; empty where the unit is an ordinary one. The value itself stays the drive's own number everywhere. */
 export function steppedText(value: MaybeValue, unit: string | null): string {
   const s = steppedUnit(unit);
-  return s && typeof value === 'number' && Number.isFinite(value) ? `= ${formatNumber(value * s.step, s.decimals)} ${unitWords(s.unit)}` : '';
+  return s && typeof value === 'number' && Number.isFinite(value) ? `= ${formatNumber(value * s.step, s.decimals)} ${unitText(s.unit)}` : '';
 }
 
 export function rangeText(p: Described): string {
@@ -90,8 +90,8 @@ export function valueText(value: MaybeValue, p: Pick<Described, 'allowed'> & Par
   const meaning = p.allowed?.find((a) => a.value === value)?.meaning ?? p.meanings?.find((m) => value >= m.from && value <= m.through)?.meaning;
   if (!meaning) return formatExact(value);
   // "17 bits" says the 17 already, "500 kbit/s" does not say the code 5. Between code and meaning stands a sign: "2 500 kbit/s" reads as 2500.
-  const said = meaning.startsWith(String(value)) && !/^[\d.,]/.test(meaning.slice(String(value).length));
-  return said ? meaning : `${formatExact(value)} = ${meaning}`;
+  const published = meaning.startsWith(String(value)) && !/^[\d.,]/.test(meaning.slice(String(value).length));
+  return published ? meaning : `${formatExact(value)} = ${meaning}`;
 }
 
 /** The longest text that a value with meanings can have, for the room of its cell; empty: a number, which takes one line. */
@@ -126,7 +126,7 @@ export function fileText(value: MaybeValue): string {
 export type Read = { good: true; value: Value } | { good: false; why: string };
 
 export function readValue(text: string, p: Described): Read {
-  const unit = p.unit ? ` ${unitWords(p.unit)}` : '';
+  const unit = p.unit ? ` ${unitText(p.unit)}` : '';
   if (p.type === 'text') return { good: true, value: text };
   if (p.type === 'bytes') {
     const bytes = text.replace(/\s/g, '');
@@ -146,8 +146,8 @@ export function readValue(text: string, p: Described): Read {
   if (p.allowed && p.allowed.length > 0 && !p.allowed.some((a) => a.value === value)) return { good: false, why: t('{shown} is not allowed. Allowed: {range}.', { shown, range: rangeText(p) }) };
   const { min, max } = rangeOf(p);
   if ((min !== null && value < min) || (max !== null && value > max)) return { good: false, why: t('{shown} is outside the range {range}.', { shown, range: rangeText(p) + unit }) };
-  const wrong = wrongField(value, p);
-  return wrong ? { good: false, why: wrong } : { good: true, value };
+  const error = wrongField(value, p);
+  return error ? { good: false, why: error } : { good: true, value };
 }
 
 /** The same value? Numbers of f32 parameters come back rounded. */
@@ -159,7 +159,7 @@ export function sameValue(a: MaybeValue, b: MaybeValue): boolean {
 }
 
 /** What is asked before a value is written by which the drive is reached: its address, name or group, the speed or form of its line. */
-export const addressingWords = (axis: string, p: Pick<AxisParameter, 'id' | 'name' | 'value' | 'allowed'>, sent: string): string =>
+export const addressingText = (axis: string, p: Pick<AxisParameter, 'id' | 'name' | 'value' | 'allowed'>, sent: string): string =>
   t('The drive of {axis} is reached by {id} ({name}): {now} and will be {next}. The gateway may not find the drive again before the site says the same. Write it?', { axis, id: p.id, name: p.name.replaceAll('_', ' '), now: p.value === null ? t('what it is now is not known') : t('it is {value} now', { value: valueText(p.value, p) }), next: sent.trim() });
 
 /** What a parameter is, from the catalogue: what the manual says, what its values mean, and what writing it does besides. */

@@ -3,7 +3,7 @@
 // calls an axis `switch_on_disabled`.
 import { word } from '../language';
 
-const words: Record<string, string> = {
+const shown: Record<string, string> = {
   not_ready_to_switch_on: 'not ready',
   switch_on_disabled: 'disabled',
   ready_to_switch_on: 'ready to switch on',
@@ -46,9 +46,9 @@ const spaced = new Set(
 );
 const unscored = (word: string): string => word.replace(/_(ms|s)$/, ' in $1').replaceAll('_', ' ');
 // A point may stand behind its axis and a dot; a state, a command or a step never does: there it is a part of a name.
-const known = new RegExp(`(?<![\\w/"'.])(?:${Object.keys(words).join('|')})(?![\\w"'/])|(?<![\\w/"'])(?:position_units|velocity_units|${[...spaced].join('|')})(?![\\w"'/])`, 'g');
+const known = new RegExp(`(?<![\\w/"'.])(?:${Object.keys(shown).join('|')})(?![\\w"'/])|(?<![\\w/"'])(?:position_units|velocity_units|${[...spaced].join('|')})(?![\\w"'/])`, 'g');
 
-const english = (word: string): string => words[word] ?? unscored(word);
+const english = (word: string): string => shown[word] ?? unscored(word);
 
 /** A sentence of the gateway, which is English in every language of the page: so are the words in it. */
 export const plain = (text: string): string => text.replace(known, english);

@@ -14,7 +14,7 @@ export const atPort = (port: HostPort, uri: string): string => {
   return port.uri + query;
 };
 /** `own`: the line whose form it is; that it is there is no news. */
-export function portWords(p: HostPort, own: string): string {
+export function portText(p: HostPort, own: string): string {
   const more = [p.text, p.up ? '' : t('switched off'), p.line && p.line !== own ? t('line {line} is there', { line: p.line }) : ''].filter(Boolean);
   return [p.name, ...more].join(' · ');
 }

@@ -60,7 +60,7 @@ export function readProfile(d: ProfileDraft, languages: readonly Language[], tak
 }
 
 /** Counts, speed and ramp of the axes, where the entry says them. */
-export function profileWords(p: Profile): string {
+export function profileText(p: Profile): string {
   return p.axes
     .map((a) => {
       const more = [a.counts_per_unit != null && t('{n} counts per unit', { n: a.counts_per_unit }), a.velocity != null && t('{n} units/s', { n: a.velocity }), a.acceleration != null && t('{n} units/s²', { n: a.acceleration })].filter(Boolean);
@@ -70,12 +70,12 @@ export function profileWords(p: Profile): string {
 }
 
 /** Where it stands on EtherNet/IP; empty: nowhere. */
-export function instanceWords(p: Profile): string {
+export function instanceText(p: Profile): string {
   const parts = [p.input_assembly != null && t('input assembly {n}', { n: p.input_assembly }), p.output_assembly != null && t('output assembly {n}', { n: p.output_assembly }), p.object_instance != null && t('objects with instance {n}', { n: p.object_instance })];
   return parts.filter(Boolean).join(', ');
 }
 
-const accessWords = { R: t('read'), W: t('write'), RW: t('read and write') } as const;
+const accessText = { R: t('read'), W: t('write'), RW: t('read and write') } as const;
 export interface RegisterRow {
   key: string;
   where: string;
@@ -99,7 +99,7 @@ export function registerRows(language: Language, axes: number, base: Base): Regi
         where: width(r) === 1 ? from : `${from}, ${addressText(table, r.address + 1, base)}`,
         name: r.name,
         type: r.type,
-        access: r.tables.length === 1 && table === 'input_registers' ? t('{access}, input register', { access: accessWords[r.access] }) : accessWords[r.access],
+        access: r.tables.length === 1 && table === 'input_registers' ? t('{access}, input register', { access: accessText[r.access] }) : accessText[r.access],
         text: r.description,
         object: r.object ? t('class {class}h, attribute {attribute}', { class: r.object.class.toString(16).toUpperCase(), attribute: r.object.attribute }) : '',
       };

@@ -3,7 +3,7 @@
 import { t } from '../language';
 import { plainWord } from './plain';
 
-const said: Readonly<Record<string, string>> = {
+const published: Readonly<Record<string, string>> = {
   authority: t('somebody else holds the axis'),
   bad_request: t('the request cannot be read'),
   busy: t('busy'),
@@ -53,4 +53,4 @@ const said: Readonly<Record<string, string>> = {
   wrong_state: t('not possible in this state'),
 };
 
-export const reasonWord = (reason: string): string => said[reason] ?? plainWord(reason);
+export const reasonWord = (reason: string): string => published[reason] ?? plainWord(reason);

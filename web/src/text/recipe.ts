@@ -272,8 +272,8 @@ export function recipeDifferences(before: unknown, after: unknown, place = ''): 
   if (inner(before) && inner(after) && Array.isArray(before) === Array.isArray(after)) {
     return [...new Set([...Object.keys(before), ...Object.keys(after)])].flatMap((k) => recipeDifferences(before[k], after[k], `${place}/${k}`));
   }
-  const said = (v: unknown) => (v === undefined ? t('nothing') : JSON.stringify(v));
-  return [`${place}: ${said(before)} → ${said(after)}`];
+  const published = (v: unknown) => (v === undefined ? t('nothing') : JSON.stringify(v));
+  return [`${place}: ${published(before)} → ${published(after)}`];
 }
 /** Without what the gateway adds by itself. */
 export function editable(document: RecipeDocument): RecipeDocument {
@@ -284,8 +284,8 @@ export function editable(document: RecipeDocument): RecipeDocument {
 
 /** "AC of feeder = 20000": what a step of a report is about, without its number and its word. */
 export function stepWhat(s: { label?: string; step: string }): string {
-  const said = (s.label ?? '').replace(/^Step [^:]*: /, '');
-  return said.startsWith(s.step) ? said.slice(s.step.length).trim() : said;
+  const published = (s.label ?? '').replace(/^Step [^:]*: /, '');
+  return published.startsWith(s.step) ? published.slice(s.step.length).trim() : published;
 }
 /** How long a step took, as exactly as one compares steps: "12 ms", "0.85 s", "2 min". */
 export const tookText = (ms: number): string => (ms < 0 ? '' : ms < 100 ? t('{n} ms', { n: Math.round(ms) }) : ms < 10_000 ? t('{n} s', { n: localFigures((ms / 1000).toFixed(2)) }) : duration(ms));
@@ -341,9 +341,9 @@ export function unknownAxes(document: RecipeDocument, axes: readonly string[]): 
   return found;
 }
 /** "Step 2 names foo, which is no axis of this site"; each step of it once, at most five. */
-export function unknownWords(list: readonly Unknown[]): string {
-  const said = list.slice(0, 5).map((u) => t('{title} names {axis}, which is no axis of this site', { title: u.title, axis: u.axis }));
-  return t('{steps}. A run would be refused.', { steps: [...said, ...(list.length > 5 ? [t('and {n} more', { n: list.length - 5 })] : [])].join('; ') });
+export function unknownText(list: readonly Unknown[]): string {
+  const published = list.slice(0, 5).map((u) => t('{title} names {axis}, which is no axis of this site', { title: u.title, axis: u.axis }));
+  return t('{steps}. A run would be refused.', { steps: [...published, ...(list.length > 5 ? [t('and {n} more', { n: list.length - 5 })] : [])].join('; ') });
 }
 
 export function runWord(state: string): Word {

@@ -22,7 +22,7 @@ export const stateNames: Record<NonNullable<CaptureTrigger['state']>, string> = 
 };
 
 /** What a capture waits for, or waited for. */
-export function triggerWords(trigger: CaptureTrigger | null, unit = ''): string {
+export function triggerText(trigger: CaptureTrigger | null, unit = ''): string {
   if (!trigger) return t('not known');
   const axis = trigger.axis ?? t('the axis');
   if (trigger.kind === 'at_once') return t('at once');
@@ -67,13 +67,13 @@ export const recordingWord = (r: Recording): Word =>
       ? { text: t('Replayable'), icon: 'check', tone: 'good', long: t('axisgate replay plays it') }
       : { text: t('To be read'), icon: 'list', tone: 'muted', long: r.not_replayable ?? '' };
 
-export const bytesWords = (n: number): string => (n < 10_000 ? t('{n} bytes', { n }) : n < 10_000_000 ? t('{n} kB', { n: formatNumber(n / 1000, 0) }) : t('{n} MB', { n: formatNumber(n / 1_000_000, 0) }));
+export const bytesText = (n: number): string => (n < 10_000 ? t('{n} bytes', { n }) : n < 10_000_000 ? t('{n} kB', { n: formatNumber(n / 1000, 0) }) : t('{n} MB', { n: formatNumber(n / 1_000_000, 0) }));
 
 /** "20.0 Hz", or why there is none. */
-export const rateWords = (rate_hz: number): string => (rate_hz > 0 ? t('told {n} times a second', { n: rate_hz < 10 ? localFigures(rate_hz.toFixed(1)) : Math.round(rate_hz) }) : t('not told now'));
+export const rateText = (rate_hz: number): string => (rate_hz > 0 ? t('told {n} times a second', { n: rate_hz < 10 ? localFigures(rate_hz.toFixed(1)) : Math.round(rate_hz) }) : t('not told now'));
 
 /** Registers 0 to 11 of an axis as they were, in hexadecimal. */
-export const registerWords = (r: { address: number; words: readonly number[] } | undefined): string =>
+export const registerText = (r: { address: number; words: readonly number[] } | undefined): string =>
   r ? `${r.address}: ${r.words.slice(0, 12).map((w) => w.toString(16).toUpperCase().padStart(4, '0')).join(' ')}` : '–';
 
 /** The next free name of a kind: "capture-3". */

@@ -11,7 +11,7 @@ const functions: Record<number, string> = {
   1: t('read coils'), 2: t('read discrete inputs'), 3: t('read holding registers'), 4: t('read input registers'), 5: t('write a coil'), 6: t('write a register'), 8: t('diagnostics'),
   15: t('write coils'), 16: t('write registers'), 17: t('report server id'), 22: t('mask write'), 23: t('read and write'), 43: t('identification'),
 };
-export const functionWords = (list: readonly number[]): string => list.map((n) => (functions[n] ? `${n} ${functions[n]}` : String(n))).join(', ') || t('all that the door knows');
+export const functionText = (list: readonly number[]): string => list.map((n) => (functions[n] ? `${n} ${functions[n]}` : String(n))).join(', ') || t('all that the door knows');
 
 export const flagNames: readonly string[] = [t('online'), t('simulated'), t('stale'), t('referenced'), t('moving'), t('target reached'), t('fault'), t('warning')];
 const flagPoints = ['online', 'simulated', 'stale', 'referenced', 'moving', 'target_reached', 'fault', 'warning'];
@@ -94,7 +94,7 @@ export function bitName(address: number, axes: readonly Pick<Axis, 'name' | 'num
 }
 
 /** From where the door lets clients in: what is allowed, as far as the address that it listens at is reached from there. */
-export function allowedWords(allow: readonly string[], bind: string): string {
+export function allowedText(allow: readonly string[], bind: string): string {
   const here = /^(127\.|\[::1\]|::1$|localhost)/.test(bind);
   if (here) return t('this machine alone: the door listens at {bind}', { bind });
   return allow.join(', ') || t('everywhere');

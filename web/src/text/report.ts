@@ -30,7 +30,7 @@ const same = (a: MaybeValue, b: MaybeValue): boolean => a === b || (typeof a ===
 
 /** What is known now, beside its default and the snapshot: rows that differ from either. What nobody has read is counted, not guessed. */
 export function parameterReport(list: readonly AxisParameter[], snapshot: SnapshotValues | null): ParameterReport {
-  const kept = new Map(snapshot?.parameters.map((p) => [p.parameter, p.value]) ?? []);
+  const stored = new Map(snapshot?.parameters.map((p) => [p.parameter, p.value]) ?? []);
   const out: ParameterReport = { rows: [], known: 0, unknown: 0, againstSnapshot: 0 };
   for (const p of list) {
     if (p.access === 'W' || p.count) continue;
@@ -40,11 +40,11 @@ export function parameterReport(list: readonly AxisParameter[], snapshot: Snapsh
       continue;
     }
     out.known += 1;
-    const inSnapshot = kept.get(p.id);
-    if (kept.has(p.id)) out.againstSnapshot += 1;
+    const inSnapshot = stored.get(p.id);
+    if (stored.has(p.id)) out.againstSnapshot += 1;
     const fallback = (p as { default?: MaybeValue }).default ?? null;
     const writable = p.access.includes('W');
-    if ((writable && fallback !== null && !same(now, fallback)) || (kept.has(p.id) && !same(now, inSnapshot ?? null))) {
+    if ((writable && fallback !== null && !same(now, fallback)) || (stored.has(p.id) && !same(now, inSnapshot ?? null))) {
       out.rows.push({ id: p.id, name: p.name ?? '', unit: p.unit ?? '', now, otherwise: fallback, snapshot: inSnapshot });
     }
   }

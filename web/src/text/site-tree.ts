@@ -31,7 +31,7 @@ export function treeOf(site: Site): SiteTree {
 }
 
 /** "2 drives, 3 axes". */
-export function branchWords(drives: number, axes: number): string {
+export function branchText(drives: number, axes: number): string {
   const d = drives === 1 ? t('1 drive') : t('{n} drives', { n: drives });
   const a = axes === 1 ? t('1 axis') : t('{n} axes', { n: axes });
   return t('{drives}, {axes}', { drives: d, axes: a });
@@ -51,7 +51,7 @@ export function summaryOf(room: Room, e: Entry): string {
 }
 
 /** What goes with an entry that is taken out. */
-export function hangingWords(site: Site, room: Room, name: string): string {
+export function hangingText(site: Site, room: Room, name: string): string {
   const drives = room === 'lines' ? (site.drives ?? []).filter((d) => d.line === name).map((d) => d.name) : room === 'drives' ? [name] : [];
   const axes = room === 'axes' ? [name] : (site.axes ?? []).filter((a) => drives.includes(a.drive as string)).map((a) => a.name);
   const mappings = (site.mappings ?? []).filter((m) => axes.includes(m.axis as string)).length;

@@ -175,9 +175,9 @@ export function checkEntry(room: Room, texts: Texts, site: Site, own: Entry | nu
     }
   }
   const others = (site[room] ?? []).filter((e) => e.name !== own?.name);
-  const taken = (key: string, words: string, same: (e: Entry) => boolean) => {
+  const taken = (key: string, text: string, same: (e: Entry) => boolean) => {
     const o = others.find(same);
-    if (o && !faults[key]) faults[key] = `${words} ${o.name}.`;
+    if (o && !faults[key]) faults[key] = `${text} ${o.name}.`;
   };
   taken('name', { lines: t('There is already a line'), drives: t('There is already a drive'), axes: t('There is already an axis') }[room], (e) => e.name === entry.name);
   if (room === 'drives' && entry.line !== undefined && !(site.lines ?? []).some((l) => l.name === entry.line)) faults.line ??= t('There is no line {line}.', { line: String(entry.line) });
@@ -253,7 +253,7 @@ export function differenceOf(before: Site, after: Site): Difference[] {
 const shown = (v: unknown): string => (v === undefined || v === null ? t('nothing') : typeof v === 'object' ? JSON.stringify(v) : typeof v === 'number' ? typedNumber(v) : String(v));
 
 /** "axis feeder: unit mm → deg, number 1 → 2". */
-export function differenceWords(d: { kind: string; what: string; before?: Record<string, unknown> | null | undefined; after?: Record<string, unknown> | null | undefined }): string {
+export function differenceText(d: { kind: string; what: string; before?: Record<string, unknown> | null | undefined; after?: Record<string, unknown> | null | undefined }): string {
   const [room = '', ...rest] = d.what.split('/');
   const name = `${oneOf[room as Room] ?? room} ${rest.join('/')}`;
   const before = d.before ?? {};
@@ -321,8 +321,8 @@ export function readSite(text: string): Site | string {
     return t('This is not JSON: {why}', { why: error instanceof Error ? error.message : t('it cannot be read') });
   }
   if (typeof d !== 'object' || d === null || Array.isArray(d)) return t('A site is an object with lines, drives, axes and mappings.');
-  const wrong = Object.entries(d).find(([k, v]) => !(allRooms as readonly string[]).includes(k) || !(v === null || Array.isArray(v)));
-  if (wrong) return t('“{key}” is no list of a site: {lists}.', { key: wrong[0], lists: 'lines, drives, axes, mappings, modbus_units' });
+  const fault = Object.entries(d).find(([k, v]) => !(allRooms as readonly string[]).includes(k) || !(v === null || Array.isArray(v)));
+  if (fault) return t('“{key}” is no list of a site: {lists}.', { key: fault[0], lists: 'lines, drives, axes, mappings, modbus_units' });
   for (const room of rooms) {
     const bad = ((d as Site)[room] ?? []).findIndex((e) => typeof e?.name !== 'string');
     if (bad >= 0) return t('{room}: entry {n} has no name.', { room, n: bad + 1 });

@@ -6,7 +6,7 @@ import { clockTime } from './time';
 const titled = (family: string, titles: ReadonlyMap<string, string>): string => (titles.has(family) ? `${titles.get(family)} (${family})` : family);
 
 /** "21:03:11 · UIROBOT UIM342 (uim342) · 58 values · by anna · stored values · as delivered". */
-export function snapshotWords(s: Snapshot, titles: ReadonlyMap<string, string>): string {
+export function snapshotText(s: Snapshot, titles: ReadonlyMap<string, string>): string {
   const count = s.values ?? (typeof s.parameters === 'number' ? s.parameters : undefined);
   return [
     s.at ? clockTime(s.at) : '',
@@ -21,7 +21,7 @@ export function snapshotWords(s: Snapshot, titles: ReadonlyMap<string, string>):
 const foreign = (s: Snapshot, family: string) => Boolean(s.family && family && s.family !== family);
 
 /** Why it can be neither compared nor restored here; empty: it can, as far as the page knows. */
-export const foreignWords = (s: Snapshot, family: string, titles: ReadonlyMap<string, string>): string =>
+export const foreignText = (s: Snapshot, family: string, titles: ReadonlyMap<string, string>): string =>
   foreign(s, family) ? t('Taken of {n}; the drive is {family} now, so it is neither compared nor restored.', { n: titled(s.family ?? '', titles), family: titled(family, titles) }) : '';
 
 export interface Offer {
@@ -32,8 +32,8 @@ export interface Offer {
 export const snapshotChoice = (s: Snapshot, value: string, family: string): Offer =>
   foreign(s, family) ? { value, text: t('snapshot {name}: of {family}, not comparable', { name: s.name, family: s.family ?? '' }), disabled: true } : { value, text: t('snapshot {name}', { name: s.name }) };
 /** Another family can be chosen, to be told why it cannot be compared. `said`: the name as it is shown. */
-export const axisChoice = (name: string, theirs: string, family: string, said = name): Offer =>
-  theirs !== family ? { value: `axis:${name}`, text: t('axis {said}: {theirs}, not comparable', { said, theirs }) } : { value: `axis:${name}`, text: t('axis {said}, values known now', { said }) };
+export const axisChoice = (name: string, theirs: string, family: string, published = name): Offer =>
+  theirs !== family ? { value: `axis:${name}`, text: t('axis {published}: {theirs}, not comparable', { published, theirs }) } : { value: `axis:${name}`, text: t('axis {published}, values known now', { published }) };
 /** Why two axes are not compared. */
 export const differentFamilies = (axis: string, family: string, other: string, theirs: string, titles: ReadonlyMap<string, string>): string =>
   t('The families differ: {other} is {theirs}, {axis} is {family}. Their parameters are not the same ones, so they cannot be compared.', { other, theirs: titled(theirs, titles), axis, family: titled(family, titles) });

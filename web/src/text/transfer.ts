@@ -113,7 +113,7 @@ export function compareWith(list: readonly AxisParameter[], other: (p: AxisParam
 }
 
 /** "3 of 20 values that both sides know differ; 5 cannot be compared." */
-export function comparedWords(rows: readonly Compared[], of: number): string {
+export function comparedText(rows: readonly Compared[], of: number): string {
   const both = rows.filter((r) => r.known !== false);
   const differ = both.filter((r) => !r.same).length;
   const open = Math.max(of, rows.length) - both.length;
@@ -141,7 +141,7 @@ export function isMarked(p: AxisParameter, mark: Marked): boolean {
   }
 }
 
-export const parametersWords = (n: number): string => (n === 1 ? t('1 parameter') : t('{n} parameters', { n }));
+export const parametersText = (n: number): string => (n === 1 ? t('1 parameter') : t('{n} parameters', { n }));
 
 /** Why a restore leaves something out, in the words of the form. The gateway names the parameter in its reason: that is said beside its id already. */
 export function leftOutWhy(why: string): string {

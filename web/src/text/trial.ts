@@ -6,7 +6,7 @@ import { personOf } from './authority';
 import type { Site } from './site';
 
 /** `barred`: why this page may not keep it; empty: it may. */
-export function appliedWords(stage: Pick<Stage, 'by' | 'client'>, tab: string, barred: string): string {
+export function appliedText(stage: Pick<Stage, 'by' | 'client'>, tab: string, barred: string): string {
   const client = stage.client ?? '';
   if (client !== '' && tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return t('Applied by this page.');
   const by = stage.by ?? '';
@@ -17,13 +17,13 @@ export function appliedWords(stage: Pick<Stage, 'by' | 'client'>, tab: string, b
 }
 
 /** Axes that are taken out are not disturbed for a moment: they are gone. Either way the gateway brings to rest first what moves of them. */
-export function disturbedWords(disturbs: readonly string[], before: Site, after: Site): string {
+export function disturbedText(disturbs: readonly string[], before: Site, after: Site): string {
   const there = new Set((after.axes ?? []).map((a) => a.name));
   const gone = (before.axes ?? []).map((a) => a.name).filter((n) => !there.has(n));
   const shaken = disturbs.filter((n) => !gone.includes(n));
-  const said = [gone.length > 0 ? t('Applying removes {list}.', { list: gone.join(', ') }) : '', shaken.length > 0 ? t('Applying disturbs for a moment: {list}.', { list: shaken.join(', ') }) : ''];
-  if (gone.length + shaken.length > 0) said.push(t('What of it moves is stopped first.'));
-  return said.filter(Boolean).join(' ');
+  const published = [gone.length > 0 ? t('Applying removes {list}.', { list: gone.join(', ') }) : '', shaken.length > 0 ? t('Applying disturbs for a moment: {list}.', { list: shaken.join(', ') }) : ''];
+  if (gone.length + shaken.length > 0) published.push(t('What of it moves is stopped first.'));
+  return published.filter(Boolean).join(' ');
 }
 
 /** What to do before Apply can be pressed. */

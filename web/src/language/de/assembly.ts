@@ -57,7 +57,7 @@ export const assembly: Table = {
   'Instances of your own, beside 100+n and 150+n of the axes: a range of a unit\'s registers, byte by byte. {n} of at most {most}. A change closes the connections that are open.': 'Eigene Instanzen neben 100+n und 150+n der Achsen: ein Bereich der Register eines Teilnehmers, Byte für Byte. {n} von höchstens {most}. Eine Änderung schließt die offenen Verbindungen.',
   'It comes with the profile of unit {unit} and goes with it.': 'Sie kommt mit dem Profil von Teilnehmer {unit} und geht mit ihm.',
   'Leave it as it was': 'Unverändert lassen',
-  'Line {n}: {words}': 'Zeile {n}: {words}',
+  'Line {n}: {text}': 'Zeile {n}: {text}',
   'mappings': 'Zuordnungen',
   'Mend the fields that are marked.': 'Die markierten Felder berichtigen.',
   'Number of registers': 'Anzahl der Register',

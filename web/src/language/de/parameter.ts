@@ -101,7 +101,7 @@ export const parameter: Table = {
   '{done} written.': '{done} geschrieben.',
   '{family} · drive {drive}, channel {channel}': '{family} · Antrieb {drive}, Kanal {channel}',
   '{id} can only be read.': '{id} ist nur lesbar.',
-  '{id}: {words}. {done} were written before it; {left} behind it were not sent.': '{id}: {words}. {done} wurden davor geschrieben; {left} danach wurden nicht gesendet.',
+  '{id}: {text}. {done} were written before it; {left} behind it were not sent.': '{id}: {text}. {done} wurden davor geschrieben; {left} danach wurden nicht gesendet.',
   '{known} of {n} values are known and in the file.': '{known} von {n} Werten sind bekannt und in der Datei.',
   '{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.': '{known} von {n} Werten sind bekannt und in der Datei. „Alle lesen“ oben fragt den Antrieb nach den anderen.',
   '{name} has {size} bytes; at most {largest} are read.': '{name} hat {size} Bytes; höchstens {largest} werden gelesen.',

@@ -57,7 +57,7 @@ export const assembly: Table = {
   'Instances of your own, beside 100+n and 150+n of the axes: a range of a unit\'s registers, byte by byte. {n} of at most {most}. A change closes the connections that are open.': '除各轴的 100+n 和 150+n 之外的自定义实例：从站寄存器的一段，逐字节。已有 {n} 个，最多 {most} 个。更改会关闭已打开的连接。',
   'It comes with the profile of unit {unit} and goes with it.': '它随从站 {unit} 的配置文件而来，也随之移除。',
   'Leave it as it was': '保持原样',
-  'Line {n}: {words}': '第 {n} 行：{words}',
+  'Line {n}: {text}': '第 {n} 行：{text}',
   'mappings': '映射',
   'Mend the fields that are marked.': '请更正标记的字段。',
   'Number of registers': '寄存器数量',

@@ -101,7 +101,7 @@ export const parameter: Table = {
   '{done} written.': '已写入 {done}。',
   '{family} · drive {drive}, channel {channel}': '{family} · 驱动器 {drive}，通道 {channel}',
   '{id} can only be read.': '{id} 只读。',
-  '{id}: {words}. {done} were written before it; {left} behind it were not sent.': '{id}：{words}。此前已写入 {done} 个；其后 {left} 个未发送。',
+  '{id}: {text}. {done} were written before it; {left} behind it were not sent.': '{id}：{text}。此前已写入 {done} 个；其后 {left} 个未发送。',
   '{known} of {n} values are known and in the file.': '{n} 个值中有 {known} 个已知并在文件中。',
   '{known} of {n} values are known and in the file. “Read all” above asks the drive for the others.': '{n} 个值中有 {known} 个已知并在文件中。上方的“全部读取”向驱动器查询其余的值。',
   '{name} has {size} bytes; at most {largest} are read.': '{name} 有 {size} 字节；最多读取 {largest} 字节。',

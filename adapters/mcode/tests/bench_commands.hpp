@@ -1,4 +1,4 @@
-// Command desk: what the benches of the adapter share: commands go in, their results and the drives' links come out.
+// Bench commands: what the benches of the adapter share: commands go in, their results and the drives' links come out.
 // In: a bench with `adapter`, `setup`, `now`, `out`, `drain` and `run`. Out: the same bench with commands.
 // Never moves time by itself but in `wait`.
 #pragma once
@@ -11,7 +11,7 @@ namespace axisgate::mcode::test {
 
 /// `Bench` derives from it.
 template <class Bench>
-struct CommandDesk {
+struct BenchCommands {
     std::vector<Result> results;
     std::vector<DriveLink> links;
     Ticket next = 1;

@@ -1,6 +1,6 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeWords, differenceText, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
+import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeText, differenceText, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
 import { bitName, notMapped } from '../src/text/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/text/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/text/table-text';
@@ -62,10 +62,10 @@ describe('what was typed', () => {
     [{ access: 'W', table: 'input_registers', point: 'target_position' }, 'access', 'only be read'],
     [{ access: 'X' }, 'access', 'R, W or RW'],
     [{ type: 'string', length: '65' }, 'length', '64'],
-  ] as [Partial<Texts>, keyof Texts, string][])('%o is refused at its field', (change, field, words) => {
+  ] as [Partial<Texts>, keyof Texts, string][])('%o is refused at its field', (change, field, text) => {
     const { spec, faults } = checkTexts(texts(change), known);
     expect(spec).toBeNull();
-    expect(faults[field]).toContain(words);
+    expect(faults[field]).toContain(text);
   });
   it('knows parameters by id, name and element, and does not judge those of an axis it does not know', () => {
     for (const point of ['MT[1]', 'working_current', 'PP[17]']) expect(checkTexts(texts({ point }), known).faults).toEqual({});
@@ -127,8 +127,8 @@ describe('values', () => {
     expect(pointValue(a, 'MT[1]')).toBeUndefined();
   });
   it('of demand and following error are the axis\' increments, and not known while nobody says them', () => {
-    const told = axis({ demand_source: 'computed', position_demand_increments: 40010, following_error_increments: -7 });
-    expect(['position_demand', 'following_error'].map((p) => [pointValue(told, p), pointUnit(told, p)])).toEqual([[40010, 'inc'], [-7, 'inc']]);
+    const reported = axis({ demand_source: 'computed', position_demand_increments: 40010, following_error_increments: -7 });
+    expect(['position_demand', 'following_error'].map((p) => [pointValue(reported, p), pointUnit(reported, p)])).toEqual([[40010, 'inc'], [-7, 'inc']]);
     expect(pointValue(axis({ following_error_increments: null }), 'following_error')).toBeNull();
     expect(signWarning({ point: 'following_error', type: 'u32', offset: 0 })).toContain('can be negative');
   });
@@ -146,7 +146,7 @@ describe('values', () => {
     [[4, 3, 2, 1], 'u64', 'low_first', 0x0001000200030004n],
     [[0x4142, 0x4300], 'string', 'high_first', 'ABC'],
     [[1], 'i32', 'high_first', null],
-  ] as const)('%o as %s, %s is %s', (words, type, order, value) => expect(decodeWords(words, type, order)).toBe(value));
+  ] as const)('%o as %s, %s is %s', (text, type, order, value) => expect(decodeText(text, type, order)).toBe(value));
 });
 
 describe('before it is mapped, and where nothing is', () => {

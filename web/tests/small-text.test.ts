@@ -1,34 +1,34 @@
 // Small words: a restore that waits, a snapshot and its family, an event in the axis' unit, the type and unit that a mapped value has by itself.
 import { describe, expect, it } from 'vitest';
 import { groupsOf, inUnits } from '../src/text/event';
-import { allowedWords } from '../src/text/register-map';
+import { allowedText } from '../src/text/register-map';
 import type { GatewayEvent } from '../src/api/types';
 import { plain } from '../src/text/plain';
 import { naturalType, valueUnit } from '../src/text/mapping-type';
 import type { Known } from '../src/text/mapping';
-import { pendingWords, sizeWords } from '../src/text/site-files';
-import { axisChoice, foreignWords, snapshotChoice, snapshotWords } from '../src/text/snapshot';
+import { pendingText, sizeText } from '../src/text/site-files';
+import { axisChoice, foreignText, snapshotChoice, snapshotText } from '../src/text/snapshot';
 import { clockTime, dateTime } from '../src/text/time';
 
 const at = '2026-03-01T10:11:12Z';
 const titles = new Map([['uim342', 'UIROBOT UIM342']]);
 
 it('a restore that waits says when, who, how large, what it brings, and what goes', () => {
-  expect(pendingWords({ waiting: true, at, who: 'anna 10.0.0.2', bytes: 319_488, version: 5, site_revision: 7 })).toBe(`Laid down ${clockTime(at)} by anna 10.0.0.2, 312 KiB. It brings site revision 7 with it, and a database of structure 5. Site, mappings, parameters, snapshots, recipes, events, users and tokens of now go with that start.`);
-  expect(pendingWords({ waiting: true, at: null, who: null, bytes: null, version: null, site_revision: null })).toMatch(/^Laid down\. Site,/);
-  expect([sizeWords(5), sizeWords(2048), sizeWords(3_500_000)]).toEqual(['5 bytes', '2 KiB', '3.3 MiB']);
+  expect(pendingText({ waiting: true, at, who: 'anna 10.0.0.2', bytes: 319_488, version: 5, site_revision: 7 })).toBe(`Laid down ${clockTime(at)} by anna 10.0.0.2, 312 KiB. It brings site revision 7 with it, and a database of structure 5. Site, mappings, parameters, snapshots, recipes, events, users and tokens of now go with that start.`);
+  expect(pendingText({ waiting: true, at: null, who: null, bytes: null, version: null, site_revision: null })).toMatch(/^Laid down\. Site,/);
+  expect([sizeText(5), sizeText(2048), sizeText(3_500_000)]).toEqual(['5 bytes', '2 KiB', '3.3 MiB']);
 });
 
 describe('a snapshot', () => {
   const s = { n: 1, name: 'first', at, who: 'anna', family: 'uim342', values: 58, comment: 'as delivered' };
   it('says when, of what, how much, by whom', () => {
-    expect(snapshotWords(s, titles)).toBe(`${clockTime(at)} · UIROBOT UIM342 (uim342) · 58 values · by anna · as delivered`);
-    expect(snapshotWords({ n: 1, name: 'x', family: null, values: 1 }, titles)).toBe('family not known: taken by an older program · 1 value');
+    expect(snapshotText(s, titles)).toBe(`${clockTime(at)} · UIROBOT UIM342 (uim342) · 58 values · by anna · as delivered`);
+    expect(snapshotText({ n: 1, name: 'x', family: null, values: 1 }, titles)).toBe('family not known: taken by an older program · 1 value');
   });
   it('of another family says why it is of no use, everywhere; one that nobody knows is not barred', () => {
-    expect(foreignWords(s, 'uim342', titles)).toBe('');
-    expect(foreignWords({ ...s, family: null }, 'mcode', titles)).toBe('');
-    expect(foreignWords(s, 'mcode', titles)).toBe('Taken of UIROBOT UIM342 (uim342); the drive is mcode now, so it is neither compared nor restored.');
+    expect(foreignText(s, 'uim342', titles)).toBe('');
+    expect(foreignText({ ...s, family: null }, 'mcode', titles)).toBe('');
+    expect(foreignText(s, 'mcode', titles)).toBe('Taken of UIROBOT UIM342 (uim342); the drive is mcode now, so it is neither compared nor restored.');
     expect(snapshotChoice(s, '1', 'mcode')).toEqual({ value: '1', text: 'snapshot first: of uim342, not comparable', disabled: true });
     expect(snapshotChoice(s, '1', 'uim342')).toEqual({ value: '1', text: 'snapshot first' });
     expect([axisChoice('b', 'mcode', 'uim342').text, axisChoice('b', 'uim342', 'uim342').text]).toEqual(['axis b: mcode, not comparable', 'axis b, values known now']);
@@ -41,8 +41,8 @@ it.each([
   ['interrupted: axis feeder has stopped before its target (at 3200 increments)', 'interrupted: axis feeder has stopped before its target at 1.000 mm (3200 increments)'],
   ['enable', 'enable'],
   ['AC 16000', 'AC 16000'],
-])('an event says %s in the unit of its axis', (text, said) => {
-  expect(inUnits(text, { unit: 'mm', increments_per_unit: 3200 }).replaceAll('\u202f', ' ')).toBe(said.replaceAll('16 000', '16 000'));
+])('an event says %s in the unit of its axis', (text, published) => {
+  expect(inUnits(text, { unit: 'mm', increments_per_unit: 3200 }).replaceAll('\u202f', ' ')).toBe(published.replaceAll('16 000', '16 000'));
   expect(inUnits(text, { unit: '', increments_per_unit: 1 })).toBe(plain(text));
   expect(inUnits(text, undefined)).toBe(plain(text));
 });
@@ -73,7 +73,7 @@ describe('many writes of one go are one entry', () => {
 it.each([
   [[], '0.0.0.0:502', 'everywhere'], [['10.0.0.0/8', '::1'], '0.0.0.0:502', '10.0.0.0/8, ::1'], [[], '127.0.0.1:1502', 'this machine alone: the door listens at 127.0.0.1:1502'],
   [[], '[::1]:502', 'this machine alone: the door listens at [::1]:502'], [['10.0.0.0/8'], '127.0.0.1:502', 'this machine alone: the door listens at 127.0.0.1:502'], [[], '[::]:502', 'everywhere'],
-])('allowed %j at %s: %s', (allow, bind, words) => expect(allowedWords(allow, bind)).toBe(words));
+])('allowed %j at %s: %s', (allow, bind, text) => expect(allowedText(allow, bind)).toBe(text));
 
 it('says the day of what is kept, also of today', () => {
   const now = new Date();

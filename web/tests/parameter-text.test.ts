@@ -1,6 +1,6 @@
 // A parameter's range and what is typed for it: out of range tells the range; nothing is bent to fit.
 import { describe, expect, it } from 'vitest';
-import { fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, unitWords, valueText, withField } from '../src/text/parameter';
+import { fieldLines, fieldValue, rangeText, readValue, sameValue, searchRank, unitText, valueText, withField } from '../src/text/parameter';
 
 const p = (change: object) => ({ type: 'u32', min: null, max: null, unit: null, allowed: null, ...change }) as Parameters<typeof readValue>[1];
 
@@ -66,9 +66,9 @@ it('compares values as the drive means them', () => {
   expect(sameValue(null, 0)).toBe(false);
 });
 it('writes units as people do', () => {
-  expect(unitWords('pulse/s^2')).toBe('pulse/s²');
-  expect(unitWords('deg C')).toBe('°C');
-  expect(unitWords(null)).toBe('');
+  expect(unitText('pulse/s^2')).toBe('pulse/s²');
+  expect(unitText('deg C')).toBe('°C');
+  expect(unitText(null)).toBe('');
 });
 
 describe('a number of parts', () => {

@@ -2,7 +2,7 @@
 import { expect, it } from 'vitest';
 import type { FleetAxis, FleetGateway } from '../src/api/types';
 import { markOf, positionText } from '../src/text/axis';
-import { aboutAxis, asAxis, clockWords, gatewayWord, heardWords, trustOf } from '../src/text/fleet';
+import { aboutAxis, asAxis, clockText, gatewayWord, receivedText, trustOf } from '../src/text/fleet';
 
 const axis = (change: Partial<FleetAxis> = {}): FleetAxis => ({
   axis: 'lift', number: 1, family: 'uim342', unit: 'mm', online: true, simulated: true, stale: false, referenced: true, moving: false, target_reached: true, fault: false, warning: false,
@@ -14,11 +14,11 @@ const gateway = (change: Partial<FleetGateway> = {}): FleetGateway => ({ gateway
 it('a gateway is alive, silent, gone or this one; without a connection nothing is known of it', () => {
   expect([gateway(), gateway({ silent_ms: 1500 }), gateway({ alive: false }), gateway({ here: true })].map((g) => gatewayWord(g, true).text)).toEqual(['Alive', 'Silent', 'Gone', 'This one']);
   expect(gatewayWord(gateway(), false).text).toBe('Not live');
-  expect([heardWords(gateway()), heardWords(gateway({ silent_ms: 4000 }))]).toEqual(['heard now', 'last heard 4 s ago']);
+  expect([receivedText(gateway()), receivedText(gateway({ silent_ms: 4000 }))]).toEqual(['heard now', 'last heard 4 s ago']);
 });
 
 it('a clock is told when it is another one by a second', () => {
-  expect([clockWords(900), clockWords(7_200_000), clockWords(-3000)]).toEqual(['', "its clock is 2 h ahead of this one", "its clock is 3 s behind this one"]);
+  expect([clockText(900), clockText(7_200_000), clockText(-3000)]).toEqual(['', "its clock is 2 h ahead of this one", "its clock is 3 s behind this one"]);
 });
 
 it('what is old says its age, and is not trusted', () => {

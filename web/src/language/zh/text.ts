@@ -2,7 +2,7 @@
 // In: nothing. Out: a part of the table; a sentence stands in one part only.
 import type { Table } from '../index';
 
-export const words: Table = {
+export const text: Table = {
   'a fault of the gateway itself': '网关自身错误',
   'acceleration max': '最大加速度',
   'accepted': '已接受',

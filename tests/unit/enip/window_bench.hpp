@@ -1,4 +1,4 @@
-// Window desk: a site with two axes, own assemblies and profiles, and the door's values on it, without sockets and without an engine.
+// Window bench: a site with two axes, own assemblies and profiles, and the door's values on it, without sockets and without an engine.
 // In: mappings and assemblies that a test adds. Out: bytes, commands. Never a whole site document: that is read elsewhere.
 #pragma once
 
@@ -29,15 +29,15 @@ struct WindowPort final : modbus::test::FakePort {
     std::vector<SetPoint> points;
 };
 
-struct WindowDesk : HotDoor {
-    WindowDesk() {
+struct WindowBench : HotDoor {
+    WindowBench() {
         std::vector<std::string> faults;
         catalogue = Catalogue::parse(window_page, faults);
         EXPECT_TRUE(catalogue) << (faults.empty() ? "" : faults[0]);
         one = port.add_axis(1, &*catalogue);
         two = port.add_axis(2, &*catalogue);
         values.use_number(port.attach(*this));
-        values.use([this](cip::Token t, General g, cip::View v) { told.push_back({t, g, Bytes(v.begin(), v.end())}); });
+        values.use([this](cip::Token t, General g, cip::View v) { published.push_back({t, g, Bytes(v.begin(), v.end())}); });
         state.axis_ids = {one, two};
         state.site.axes.resize(2);
         state.site.axes[0].name = "feeder";
@@ -114,12 +114,12 @@ struct WindowDesk : HotDoor {
     std::vector<Mapping> maps;
     std::uint32_t revision = 0;
     AxisId one{}, two{};
-    struct Told {
+    struct Published {
         cip::Token token;
         General general;
         Bytes value;
     };
-    std::vector<Told> told;
+    std::vector<Published> published;
     cip::Peer plc{{0xC0000207, 50'000}, 1};
 };
 

@@ -11,7 +11,7 @@ AxisId id(int n) { return AxisId{static_cast<std::uint16_t>(n)}; }
 
 // --- whose fault -----------------------------------------------------------------------------------------------------------------
 
-TEST(PacontrolTold, OneLimitSwitchIsTheFaultOfItsAxisAlone) {
+TEST(PacontrolReported, OneLimitSwitchIsTheFaultOfItsAxisAlone) {
     Rig r(4);
     r.move_all(4);
     r.run(1s);
@@ -46,7 +46,7 @@ TEST(PacontrolTold, OneLimitSwitchIsTheFaultOfItsAxisAlone) {
     }
 }
 
-TEST(PacontrolTold, AnErrorOfTheControlItselfIsTheFaultOfAllAxes) {
+TEST(PacontrolReported, AnErrorOfTheControlItselfIsTheFaultOfAllAxes) {
     Rig r(3);
     r.move_all(3);
     r.hand("inject_error", std::int64_t{501});
@@ -57,7 +57,7 @@ TEST(PacontrolTold, AnErrorOfTheControlItselfIsTheFaultOfAllAxes) {
     }
 }
 
-TEST(PacontrolTold, AStatusThatIsNeverReadDoesNotHideAFault) {
+TEST(PacontrolReported, AStatusThatIsNeverReadDoesNotHideAFault) {
     Enabled b(2);
     b.control.script = [](const Request& q) {
         return q.code == 0x1910 || q.code == 0x1921 ? FakeControl::refuse(21) : FakeControl::Verdict{};
@@ -70,7 +70,7 @@ TEST(PacontrolTold, AStatusThatIsNeverReadDoesNotHideAFault) {
 
 // --- stops at the control --------------------------------------------------------------------------------------------------------
 
-TEST(PacontrolTold, AfterAStopAtTheControlEnableMakesMovesPossibleAgain) {
+TEST(PacontrolReported, AfterAStopAtTheControlEnableMakesMovesPossibleAgain) {
     Rig r(2);
     r.move_all(2);
     r.run(500ms);
@@ -96,7 +96,7 @@ TEST(PacontrolTold, AfterAStopAtTheControlEnableMakesMovesPossibleAgain) {
         EXPECT_EQ(r.answer(r.command(m, n, true)).outcome, Outcome::done);
 }
 
-TEST(PacontrolTold, AParameterThatWaitsForHomePositionIsAReasonToGoThere) {
+TEST(PacontrolReported, AParameterThatWaitsForHomePositionIsAReasonToGoThere) {
     Enabled b(2, {{"when", "wait"}});
     const Ticket write = b.command(WriteParameter{Bench::point("AP6"), Value{12.5}}, false, 1);
     const Ticket read = b.command(ReadParameter{Bench::point("AP6")}, false, 1);
@@ -109,7 +109,7 @@ TEST(PacontrolTold, AParameterThatWaitsForHomePositionIsAReasonToGoThere) {
     EXPECT_EQ(r.outcome, Outcome::done) << r.text;
     EXPECT_LT(b.now - begun, 2s) << "not the time-out of the waiting";
     EXPECT_EQ(b.answer(read).value, Value{12.5});
-    EXPECT_EQ(std::ranges::count(b.said(), "0A81;0;0;0"), 1);
+    EXPECT_EQ(std::ranges::count(b.reported(), "0A81;0;0;0"), 1);
 }
 
 // --- reference runs --------------------------------------------------------------------------------------------------------------
@@ -122,7 +122,7 @@ struct Aborted {
     bool error;
 };
 
-TEST(PacontrolTold, WhatAbortedAReferenceRunIsTold) {
+TEST(PacontrolReported, WhatAbortedAReferenceRunIsTold) {
     for (const Aborted& a : {Aborted{"external_stop", Value{false}, "stop input", Reason::interrupted, false},
                              Aborted{"inject_error", Value{std::int64_t{501}}, "E501", Reason::drive_refused, true},
                              Aborted{"axis1.inject_error", Value{std::int64_t{531}}, "E531", Reason::drive_refused, true},
@@ -163,7 +163,7 @@ struct Crowd {
 };
 
 /// Of each axis the instant that is told is never newer than its last 190C, and never older than what counts as stale on a byte line.
-TEST(PacontrolTold, TheAgeIsThatOfTheOldestPartAndNeverStale) {
+TEST(PacontrolReported, TheAgeIsThatOfTheOldestPartAndNeverStale) {
     for (const Crowd& c : {Crowd{3, 0, "ep"}, Crowd{16, 0, "ep"}, Crowd{16, 0, "other"}, Crowd{3, 1, "ep"}, Crowd{16, 8, "other"},
                            Crowd{16, 4, "ep"}, Crowd{16, 16, "other"}, Crowd{16, 16, "ep"}}) {
         SCOPED_TRACE(testing::Message() << c.axes << " axes, " << c.moving << " moving, " << c.model);
@@ -188,7 +188,7 @@ TEST(PacontrolTold, TheAgeIsThatOfTheOldestPartAndNeverStale) {
     }
 }
 
-TEST(PacontrolTold, EndsAreHeardSoonThoughSixteenMove) {
+TEST(PacontrolReported, EndsAreHeardSoonThoughSixteenMove) {
     Rig r(16, {{"model", "other"}});
     r.move_all(15);
     EXPECT_EQ(r.ask(Enable{}, 15), Outcome::accepted);

@@ -1,7 +1,7 @@
 // Assemblies in words: what is typed becomes an entry or faults by field; bytes in words. All pure.
 import { expect, test } from 'vitest';
 import type { Assembly } from '../src/api/assemblies';
-import { assemblyWords, bytesWords, draftOf, emptyAssembly, readAssembly } from '../src/text/assembly';
+import { assemblyText, bytesText, draftOf, emptyAssembly, readAssembly } from '../src/text/assembly';
 
 const shown: Assembly = {
   instance: 300,
@@ -38,7 +38,7 @@ test('an entry goes into the form and comes back as it was', () => {
 });
 
 test('bytes in words', () => {
-  expect(assemblyWords(shown)).toBe('12 bytes from the originator: unit 40, register 2 to 7, in the order of registers');
-  expect(bytesWords(4, 4)).toBe('4 to 7');
-  expect(bytesWords(4, 1)).toBe('4');
+  expect(assemblyText(shown)).toBe('12 bytes from the originator: unit 40, register 2 to 7, in the order of registers');
+  expect(bytesText(4, 4)).toBe('4 to 7');
+  expect(bytesText(4, 1)).toBe('4');
 });

@@ -26,11 +26,11 @@ const ready: [string, string, RegExp][] = [
   ['/lines', 'main', /feeder/], ['/lines/can0', 'main', /can0/], ['/mappings', '#mapping-form', /gantry-x/], ['/site', 'main', /feeder/], ['/recipes', 'main', /Recipes/],
   ['/events', 'main', /Events/], ['/gateway', 'main', /Modbus/], ['/fleet', 'main', /in no domain/], ['/users', 'main', /Users/],
 ];
-for (const [path, where, words] of ready) {
+for (const [path, where, shown] of ready) {
   it(`${path}: no word of the API`, async () => {
     p = await openPage(path);
     p.other('PATCH', '/axes/feeder', { velocity_max: 90 });
-    await p.see(where, words);
+    await p.see(where, shown);
     await p.drawn();
     expect(underscored(p.root)).toEqual([]);
   });
@@ -44,9 +44,9 @@ it('states, reasons, points and settings have plain words, behind an axis and a 
 });
 
 it('what had words of its maker has plain ones: confirm within, save to draft, fault simulation, unit ID', async () => {
-  const shows = async (path: string, where: string, words: RegExp) => {
+  const shows = async (path: string, where: string, text: RegExp) => {
     p = await openPage(path);
-    await p.see(where, words);
+    await p.see(where, text);
     p.close();
   };
   await shows('/axes/feeder/simulation', 'main h2', /^Fault simulation/);

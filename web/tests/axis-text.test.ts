@@ -49,7 +49,7 @@ describe('notice', () => {
     [{ warning: true }, 'Warning'],
     [{ referenced: false }, 'No error. Not referenced'],
     [{ error: { code: 5, text: '' } }, 'Error 5: the drive says no more'],
-  ])('of %j is %s', (change, words) => expect(noticeOf(axis({ referenced: true, ...change }), 'live', '', '').text).toBe(words));
+  ])('of %j is %s', (change, text) => expect(noticeOf(axis({ referenced: true, ...change }), 'live', '', '').text).toBe(text));
   it('of an axis that nobody serves says so', () => expect(noticeOf(axis(), 'offline', '', '').text).toBe('Offline: nobody answers'));
   it('says when nothing is wrong', () => expect(noticeOf(axis({ referenced: true }), 'live', '', '').text).toBe('No error. Referenced'));
 });

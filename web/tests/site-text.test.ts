@@ -1,6 +1,6 @@
 // A site in words and forms: entries from what was typed, differences, changes put on top of another's. All pure.
 import { describe, expect, it } from 'vitest';
-import { checkEntry, differenceOf, differenceWords, freeName, freeNumber, placeOf, readSite, rebase, sameDocument, textsOfEntry, withEntry, withoutEntry, type Entry, type Room, type Site, type Texts } from '../src/text/site';
+import { checkEntry, differenceOf, differenceText, freeName, freeNumber, placeOf, readSite, rebase, sameDocument, textsOfEntry, withEntry, withoutEntry, type Entry, type Room, type Site, type Texts } from '../src/text/site';
 
 const site: Site = {
   lines: [{ name: 'can0', uri: 'twin', family: 'uim342', bitrate: 1000000 }, { name: 'rs', uri: 'pty:/tmp/x', family: 'mcode' }],
@@ -69,7 +69,7 @@ describe('a site', () => {
   });
   it('tells differences, in words', () => {
     const next = withEntry(withoutEntry(site, 'axes', 'lift'), 'axes', { ...entry('axes', 'feeder'), unit: 'deg' }, 'feeder');
-    expect(differenceOf(site, next).map(differenceWords)).toEqual(['axis lift: drive lift, number 2', 'axis feeder: unit mm → deg']);
+    expect(differenceOf(site, next).map(differenceText)).toEqual(['axis lift: drive lift, number 2', 'axis feeder: unit mm → deg']);
     expect(differenceOf(site, { ...structuredClone(site) })).toEqual([]);
   });
   it('does not see a difference in the order of members or in what is left out', () => expect(sameDocument({ a: 1, b: { c: 2 } }, { b: { c: 2 }, a: 1, d: undefined })).toBe(true));
@@ -96,7 +96,7 @@ describe('a site', () => {
     expect(rebase(site, site, refusing).site.modbus_units).toEqual(refusing.modbus_units);
     expect(rebase(site, refusing, site).site.modbus_units).toEqual(refusing.modbus_units);
     expect(rebase(site, site, site).site).not.toHaveProperty('modbus_units');
-    expect(differenceOf(site, refusing).map(differenceWords)).toEqual(['Modbus unit 7: unit 7, gaps refuse']);
+    expect(differenceOf(site, refusing).map(differenceText)).toEqual(['Modbus unit 7: unit 7, gaps refuse']);
   });
   it('finds the place of a fault', () => {
     expect(placeOf('/axes/1/number', site)).toEqual({ room: 'axes', name: 'lift', key: 'number' });

@@ -1,7 +1,7 @@
 // Fail-safe in words: causes, what an axis has named, one change, the cells of a rehearsal. All pure.
 import { describe, expect, it } from 'vitest';
 import type { Cell, FailSafeRow } from '../src/api/fail-safe';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedWords, readWatchdog, watchdogWords } from '../src/text/fail-safe';
+import { actionChoices, causeHint, causeText, cellRow, changed, namedText, readWatchdog, watchdogText } from '../src/text/fail-safe';
 
 const none: FailSafeRow['drive_watchdog'] = { available: false, state: null, time_ms: null, action: null, description: 'The manual names none.' };
 const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null, drive_watchdog: none });
@@ -20,16 +20,16 @@ describe('words', () => {
     expect(hint('nothing')).toMatch(/below\. By default a motion to a target goes on\.$/);
   });
   it('says what an axis has named', () => {
-    expect(namedWords(row({ modbus_closed: null }))).toBe('all as by default');
-    expect(namedWords(row({ modbus_closed: 'quick_stop', enip_idle: 'disable', watchdog_ms: 800 }))).toBe('Modbus connection closed: quick stop; EtherNet/IP scanner idle: switch off; Modbus clients watched for 800 ms');
+    expect(namedText(row({ modbus_closed: null }))).toBe('all as by default');
+    expect(namedText(row({ modbus_closed: 'quick_stop', enip_idle: 'disable', watchdog_ms: 800 }))).toBe('Modbus connection closed: quick stop; EtherNet/IP scanner idle: switch off; Modbus clients watched for 800 ms');
   });
   it('says what the drive does by itself', () => {
-    const words = (w: Partial<typeof none>) => watchdogWords({ ...row({}), drive_watchdog: { ...none, available: true, ...w } });
-    expect(watchdogWords(row({}))).toBe('The drive has no watchdog of its own. The manual names none.');
-    expect(words({ state: 'armed', time_ms: 300, action: 'disable' })).toBe("The drive's own watchdog: switched off after 300 ms without the gateway.");
-    expect(words({ state: 'off' })).toMatch(/switched off \(watchdog_action\)/);
-    expect(words({ state: 'refused' })).toMatch(/it goes on/);
-    expect(words({})).toMatch(/has not been set yet/);
+    const text = (w: Partial<typeof none>) => watchdogText({ ...row({}), drive_watchdog: { ...none, available: true, ...w } });
+    expect(watchdogText(row({}))).toBe('The drive has no watchdog of its own. The manual names none.');
+    expect(text({ state: 'armed', time_ms: 300, action: 'disable' })).toBe("The drive's own watchdog: switched off after 300 ms without the gateway.");
+    expect(text({ state: 'off' })).toMatch(/switched off \(watchdog_action\)/);
+    expect(text({ state: 'refused' })).toMatch(/it goes on/);
+    expect(text({})).toMatch(/has not been set yet/);
   });
   it('changes one member and leaves the others', () => {
     expect(changed(row({ modbus_closed: 'halt', line_lost: 'disable' }), 'modbus_closed', '')).toEqual({ modbus_closed: null, line_lost: 'disable' });
@@ -37,7 +37,7 @@ describe('words', () => {
   });
   it('reads the time of a silent client: a number, the default, or why not', () => {
     expect([readWatchdog(' 800 '), readWatchdog('0'), readWatchdog('')].map((r) => r.good && r.value)).toEqual([800, 0, null]);
-    for (const wrong of ['-1', '1.5', '1e3', 'soon', '600001']) expect(readWatchdog(wrong).good).toBe(false);
+    for (const error of ['-1', '1.5', '1e3', 'soon', '600001']) expect(readWatchdog(error).good).toBe(false);
   });
   it('shows a cell, and says where it has no figure', () => {
     expect(cellRow(cell, 'mm')).toMatchObject({ action: 'Halt, by default', acted: '0.1 ms', slower: '15 ms', stood: '105 ms', way: '1.235 mm' });

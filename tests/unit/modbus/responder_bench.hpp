@@ -1,4 +1,4 @@
-// Desk: a Responder with a fake port and one client, asked in hex.
+// Responder bench: a Responder with a fake port and one client, asked in hex.
 // In: request PDUs. Out: answer PDUs; a write is answered by the scripted results of its commands.
 #pragma once
 
@@ -54,8 +54,8 @@ struct ResponderDoor : HotDoor {
     Responder responder;
 };
 
-struct Desk : registers::WriteOwner {
-    explicit Desk(WordOrder order = WordOrder::high_first) : door(port, order, settings()) {}
+struct ResponderBench : registers::WriteOwner {
+    explicit ResponderBench(WordOrder order = WordOrder::high_first) : door(port, order, settings()) {}
     static Responder::Settings settings() {
         Responder::Settings s;
         s.version = "1.2.3";

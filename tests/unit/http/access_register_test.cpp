@@ -1,4 +1,4 @@
-// The access desk in virtual time: sessions, tokens, lockout, local access; and the rules for names and passwords.
+// The access register in virtual time: sessions, tokens, lockout, local access; and the rules for names and passwords.
 // In: tables. Out: judgements.
 #include <gtest/gtest.h>
 
@@ -21,16 +21,16 @@ AccessSettings small() {
 }
 User person(std::string name, Role role) { return {std::move(name), role, true, "h", t0, 0}; }
 
-struct DeskTest : ::testing::Test {
-    AccessRegister desk{small()};
-    DeskTest() {
-        desk.load(person("anna", Role::administrator));
-        desk.load(person("ben", Role::viewer));
+struct AccessRegisterTest : ::testing::Test {
+    AccessRegister access{small()};
+    AccessRegisterTest() {
+        access.load(person("anna", Role::administrator));
+        access.load(person("ben", Role::viewer));
     }
     AccessRegister::NewSession in(std::string_view name, std::int64_t at) {
-        const auto attempt = desk.begin_sign_in(name, peer, at);
+        const auto attempt = access.begin_sign_in(name, peer, at);
         EXPECT_EQ(attempt.pause_s, 0);
-        auto session = desk.end_sign_in(name, attempt.hash, true, peer, at);
+        auto session = access.end_sign_in(name, attempt.hash, true, peer, at);
         EXPECT_TRUE(session.has_value());
         return session.value_or(AccessRegister::NewSession{});
     }
@@ -38,17 +38,17 @@ struct DeskTest : ::testing::Test {
         Credentials c;
         c.cookies = {id};
         c.peer = peer;
-        return desk.identify(c, at);
+        return access.identify(c, at);
     }
     Identity by_token(std::string_view secret, std::int64_t at) {
         Credentials c;
         c.bearer = secret;
         c.peer = "127.0.0.1:5";
-        return desk.identify(c, at);
+        return access.identify(c, at);
     }
 };
 
-TEST_F(DeskTest, SessionIsTheUserWithHisRole) {
+TEST_F(AccessRegisterTest, SessionIsTheUserWithHisRole) {
     const auto session = in("anna", t0);
     const auto i = by_cookie(session.id, t0 + s);
     EXPECT_EQ(i.via, Identity::Via::cookie);
@@ -59,85 +59,85 @@ TEST_F(DeskTest, SessionIsTheUserWithHisRole) {
     EXPECT_EQ(by_cookie(session.identity.session, t0 + s).role, Role::none) << "the digest is not the id";
 }
 
-TEST_F(DeskTest, IdleSessionEndsAndARequestKeepsItAwake) {
+TEST_F(AccessRegisterTest, IdleSessionEndsAndARequestKeepsItAwake) {
     const auto session = in("anna", t0);
     EXPECT_EQ(by_cookie(session.id, t0 + 599 * s).role, Role::administrator);
     EXPECT_EQ(by_cookie(session.id, t0 + 1198 * s).role, Role::administrator);
     EXPECT_EQ(by_cookie(session.id, t0 + 1798 * s).role, Role::none);
-    EXPECT_EQ(desk.sessions(), 0u);
+    EXPECT_EQ(access.sessions(), 0u);
 }
 
-TEST_F(DeskTest, ALookThatIsNotARequestDoesNotKeepItAwake) {
+TEST_F(AccessRegisterTest, ALookThatIsNotARequestDoesNotKeepItAwake) {
     const auto session = in("anna", t0);
     Credentials c;
     c.cookies = {session.id};
     c.peer = peer;
-    EXPECT_EQ(desk.identify(c, t0 + 599 * s, false).role, Role::administrator);
+    EXPECT_EQ(access.identify(c, t0 + 599 * s, false).role, Role::administrator);
     EXPECT_EQ(by_cookie(session.id, t0 + 600 * s).role, Role::none);
 }
 
-TEST_F(DeskTest, SessionEndsAbsolutely) {
+TEST_F(AccessRegisterTest, SessionEndsAbsolutely) {
     const auto session = in("anna", t0);
     for (std::int64_t t = 0; t < 3600; t += 300)
         EXPECT_EQ(by_cookie(session.id, t0 + t * s).role, Role::administrator) << t;
     EXPECT_EQ(by_cookie(session.id, t0 + 3600 * s).role, Role::none);
 }
 
-TEST_F(DeskTest, SessionsAreBoundedPerUserAndInAll) {
+TEST_F(AccessRegisterTest, SessionsAreBoundedPerUserAndInAll) {
     const auto first = in("anna", t0), second = in("anna", t0 + s), third = in("anna", t0 + 2 * s);
     EXPECT_EQ(by_cookie(first.id, t0 + 3 * s).role, Role::none);
     EXPECT_EQ(by_cookie(second.id, t0 + 4 * s).role, Role::administrator);
     (void)in("ben", t0 + 5 * s);
     (void)in("ben", t0 + 6 * s);
-    EXPECT_EQ(desk.sessions(), 3u);
+    EXPECT_EQ(access.sessions(), 3u);
     EXPECT_EQ(by_cookie(third.id, t0 + 7 * s).role, Role::none) << "the longest idle one of all went";
 }
 
-TEST_F(DeskTest, ChangingAUserEndsHisSessionsAlone) {
+TEST_F(AccessRegisterTest, ChangingAUserEndsHisSessionsAlone) {
     for (int what = 0; what < 4; ++what) {
         const auto anna = in("anna", t0), ben = in("ben", t0);
-        User u = *desk.user("ben");
+        User u = *access.user("ben");
         if (what == 0) u.role = Role::engineer;
         if (what == 1) u.hash += "2";
         if (what == 2) u.enabled = false;
         if (what == 3) u.last_sign_in_ns = 5;
-        desk.put(u);
+        access.put(u);
         EXPECT_EQ(by_cookie(ben.id, t0 + s).role, what == 3 ? u.role : Role::none) << what;
         EXPECT_EQ(by_cookie(anna.id, t0 + s).role, Role::administrator) << what;
         u.enabled = true;
-        desk.put(u);
+        access.put(u);
     }
 }
 
-TEST_F(DeskTest, SignOutAndRemovalEndASession) {
+TEST_F(AccessRegisterTest, SignOutAndRemovalEndASession) {
     const auto anna = in("anna", t0);
-    desk.sign_out(anna.identity.session);
+    access.sign_out(anna.identity.session);
     EXPECT_EQ(by_cookie(anna.id, t0).role, Role::none);
     const auto ben = in("ben", t0);
-    (void)desk.remove_user("ben");
+    (void)access.remove_user("ben");
     EXPECT_EQ(by_cookie(ben.id, t0).role, Role::none);
 }
 
-TEST_F(DeskTest, TokenHasTheLowerOfItsRoleAndItsOwners) {
+TEST_F(AccessRegisterTest, TokenHasTheLowerOfItsRoleAndItsOwners) {
     Token t{"id1", "line3", "anna", Role::engineer, digest_of("secret"), t0, t0 + 100 * s, 0};
-    desk.put(t);
+    access.put(t);
     const auto i = by_token("id1.secret", t0 + s);
     EXPECT_EQ(i.role, Role::engineer);
     EXPECT_EQ(who(i, peer), "token line3 (anna) 192.0.2.7:5123");
-    auto uses = desk.take_uses();
+    auto uses = access.take_uses();
     ASSERT_EQ(uses.size(), 1u);
     EXPECT_EQ(uses[0].kind, "last_use");
     EXPECT_EQ(uses[0].name, "token id1");
     (void)by_token("id1.secret", t0 + 2 * s);
-    EXPECT_FALSE(desk.has_uses()) << "stored once an hour";
-    User u = *desk.user("anna");
+    EXPECT_FALSE(access.has_uses()) << "stored once an hour";
+    User u = *access.user("anna");
     u.role = Role::viewer;
-    desk.put(u);
+    access.put(u);
     EXPECT_EQ(by_token("id1.secret", t0 + s).role, Role::viewer);
 }
 
-TEST_F(DeskTest, WrongTokenIsNobodyEvenOnThisMachine) {
-    desk.put(Token{"id1", "line3", "anna", Role::engineer, digest_of("secret"), t0, t0 + 100 * s, 0});
+TEST_F(AccessRegisterTest, WrongTokenIsNobodyEvenOnThisMachine) {
+    access.put(Token{"id1", "line3", "anna", Role::engineer, digest_of("secret"), t0, t0 + 100 * s, 0});
     for (const auto* wrong : {"id1.secre", "id2.secret", "id1", "", ".", "id1.", "id1.secret.x"}) {
         const auto i = by_token(wrong, t0 + s);
         EXPECT_EQ(i.role, Role::none) << wrong;
@@ -145,12 +145,12 @@ TEST_F(DeskTest, WrongTokenIsNobodyEvenOnThisMachine) {
     }
     EXPECT_EQ(by_token("id1.secret", t0 + 99 * s).role, Role::engineer);
     EXPECT_EQ(by_token("id1.secret", t0 + 100 * s).role, Role::none) << "expired";
-    User u = *desk.user("anna");
+    User u = *access.user("anna");
     u.enabled = false;
-    desk.put(u);
+    access.put(u);
     EXPECT_EQ(by_token("id1.secret", t0 + s).role, Role::none) << "disabled owner";
-    EXPECT_EQ(desk.remove_user("anna"), std::vector<std::string>{"id1"});
-    EXPECT_TRUE(desk.tokens().empty());
+    EXPECT_EQ(access.remove_user("anna"), std::vector<std::string>{"id1"});
+    EXPECT_TRUE(access.tokens().empty());
 }
 
 TEST(LocalAccess, IsForThisMachineWithoutAProxyAlone) {
@@ -177,43 +177,43 @@ TEST(LocalAccess, IsForThisMachineWithoutAProxyAlone) {
     }
 }
 
-TEST_F(DeskTest, WhoGuessesNamesFromOneAddressIsHeldUpAndHisNeighbourIsNotAtOnce) {
+TEST_F(AccessRegisterTest, WhoGuessesNamesFromOneAddressIsHeldUpAndHisNeighbourIsNotAtOnce) {
     for (int n = 1; n <= Lockout::free_failures_of_peer; ++n) {
-        EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 0) << "a neighbour's " << n - 1 << " wrong ones are not hers";
-        desk.attempt_was_good("anna", peer);
-        EXPECT_EQ(desk.begin_sign_in("guess" + std::to_string(n), peer, t0).pause_s, 0);
+        EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0) << "a neighbour's " << n - 1 << " wrong ones are not hers";
+        access.attempt_was_good("anna", peer);
+        EXPECT_EQ(access.begin_sign_in("guess" + std::to_string(n), peer, t0).pause_s, 0);
     }
-    EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 1) << "but not without a bound";
-    EXPECT_EQ(desk.begin_sign_in("another", peer, t0).pause_s, 1);
-    EXPECT_EQ(desk.begin_sign_in("anna", "198.51.100.1:1", t0).pause_s, 0) << "from elsewhere";
+    EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 1) << "but not without a bound";
+    EXPECT_EQ(access.begin_sign_in("another", peer, t0).pause_s, 1);
+    EXPECT_EQ(access.begin_sign_in("anna", "198.51.100.1:1", t0).pause_s, 0) << "from elsewhere";
 }
 
-TEST_F(DeskTest, WrongPasswordsCostAGrowingPause) {
+TEST_F(AccessRegisterTest, WrongPasswordsCostAGrowingPause) {
     std::int64_t now = t0;
     for (int i = 0; i < Lockout::free_failures; ++i)
-        EXPECT_EQ(desk.begin_sign_in("ben", peer, now).pause_s, 0);
+        EXPECT_EQ(access.begin_sign_in("ben", peer, now).pause_s, 0);
     for (const std::int64_t pause : {1, 2, 4, 8, 16, 32, 64, 128, 256, 300, 300}) {
-        EXPECT_EQ(desk.begin_sign_in("ben", "198.51.100.1:1", now).pause_s, 0) << "by user and address: nobody locks him out elsewhere";
-        desk.attempt_was_good("ben", "198.51.100.1:1");
-        EXPECT_EQ(desk.begin_sign_in("ben", peer, now + pause * s - 1).pause_s, 1);
+        EXPECT_EQ(access.begin_sign_in("ben", "198.51.100.1:1", now).pause_s, 0) << "by user and address: nobody locks him out elsewhere";
+        access.attempt_was_good("ben", "198.51.100.1:1");
+        EXPECT_EQ(access.begin_sign_in("ben", peer, now + pause * s - 1).pause_s, 1);
         now += pause * s;
-        EXPECT_EQ(desk.begin_sign_in("ben", peer, now).pause_s, 0);
+        EXPECT_EQ(access.begin_sign_in("ben", peer, now).pause_s, 0);
     }
 }
 
-TEST_F(DeskTest, WhoWasLetInFromAnAddressIsNotHeldUpByItsOtherPeople) {
+TEST_F(AccessRegisterTest, WhoWasLetInFromAnAddressIsNotHeldUpByItsOtherPeople) {
     (void)in("anna", t0);
     for (int n = 0; n < 2 * Lockout::free_failures_of_peer; ++n)
-        (void)desk.begin_sign_in("guess" + std::to_string(n), peer, t0);
-    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).pause_s, 1);
-    EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 0);
-    EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 0);
-    EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 0);
-    EXPECT_EQ(desk.begin_sign_in("anna", peer, t0).pause_s, 1) << "but her own wrong ones count there too";
+        (void)access.begin_sign_in("guess" + std::to_string(n), peer, t0);
+    EXPECT_EQ(access.begin_sign_in("ben", peer, t0).pause_s, 1);
+    EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0);
+    EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0);
+    EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0);
+    EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 1) << "but her own wrong ones count there too";
     // Where she was let in is known after a restart.
     AccessRegister again{small()};
     again.load(person("anna", Role::administrator));
-    for (const auto& use : desk.take_uses())
+    for (const auto& use : access.take_uses())
         again.load_use(use.name, *use.text);
     EXPECT_EQ(again.user("anna")->last_sign_in_ns, t0);
     for (int n = 0; n < 2 * Lockout::free_failures_of_peer; ++n)
@@ -221,39 +221,39 @@ TEST_F(DeskTest, WhoWasLetInFromAnAddressIsNotHeldUpByItsOtherPeople) {
     EXPECT_EQ(again.begin_sign_in("anna", peer, t0).pause_s, 0);
 }
 
-TEST_F(DeskTest, ANetworkOfIPv6IsOnePlace) {
+TEST_F(AccessRegisterTest, ANetworkOfIPv6IsOnePlace) {
     for (int n = 0; n < Lockout::free_failures; ++n)
-        EXPECT_EQ(desk.begin_sign_in("ben", "[2001:db8:1:2::" + std::to_string(n + 1) + "]:5", t0).pause_s, 0);
-    EXPECT_EQ(desk.begin_sign_in("ben", "[2001:db8:1:2:ffff::9]:5", t0).pause_s, 1);
-    EXPECT_EQ(desk.begin_sign_in("ben", "[2001:db8:1:3::1]:5", t0).pause_s, 0);
+        EXPECT_EQ(access.begin_sign_in("ben", "[2001:db8:1:2::" + std::to_string(n + 1) + "]:5", t0).pause_s, 0);
+    EXPECT_EQ(access.begin_sign_in("ben", "[2001:db8:1:2:ffff::9]:5", t0).pause_s, 1);
+    EXPECT_EQ(access.begin_sign_in("ben", "[2001:db8:1:3::1]:5", t0).pause_s, 0);
     EXPECT_EQ(network_of("[::ffff:192.0.2.7]:5"), network_of("192.0.2.7:6"));
 }
 
-TEST_F(DeskTest, ARightPasswordClearsTheUserAndTakesOneBackFromThePeer) {
-    (void)desk.begin_sign_in("anna", peer, t0);
-    (void)desk.begin_sign_in("anna", peer, t0);
+TEST_F(AccessRegisterTest, ARightPasswordClearsTheUserAndTakesOneBackFromThePeer) {
+    (void)access.begin_sign_in("anna", peer, t0);
+    (void)access.begin_sign_in("anna", peer, t0);
     (void)in("anna", t0);
     for (int n = 2; n < Lockout::free_failures_of_peer; ++n)
-        EXPECT_EQ(desk.begin_sign_in("guess" + std::to_string(n), peer, t0).pause_s, 0) << n;
-    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).pause_s, 1) << "the peer's two wrong ones still count, the right one does not";
-    EXPECT_EQ(desk.begin_sign_in("anna", "198.51.100.1:1", t0).pause_s, 0);
+        EXPECT_EQ(access.begin_sign_in("guess" + std::to_string(n), peer, t0).pause_s, 0) << n;
+    EXPECT_EQ(access.begin_sign_in("ben", peer, t0).pause_s, 1) << "the peer's two wrong ones still count, the right one does not";
+    EXPECT_EQ(access.begin_sign_in("anna", "198.51.100.1:1", t0).pause_s, 0);
 }
 
-TEST_F(DeskTest, UnknownAndDisabledUsersCostAsMuchAsOthers) {
-    EXPECT_EQ(desk.begin_sign_in("nobody-here", peer, t0).hash, hash_of_nobody);
-    User u = *desk.user("ben");
+TEST_F(AccessRegisterTest, UnknownAndDisabledUsersCostAsMuchAsOthers) {
+    EXPECT_EQ(access.begin_sign_in("nobody-here", peer, t0).hash, hash_of_nobody);
+    User u = *access.user("ben");
     u.enabled = false;
-    desk.put(u);
-    EXPECT_EQ(desk.begin_sign_in("ben", peer, t0).hash, hash_of_nobody);
-    EXPECT_FALSE(desk.end_sign_in("ben", "h", true, peer, t0));
+    access.put(u);
+    EXPECT_EQ(access.begin_sign_in("ben", peer, t0).hash, hash_of_nobody);
+    EXPECT_FALSE(access.end_sign_in("ben", "h", true, peer, t0));
 }
 
-TEST_F(DeskTest, AHashThatWasChangedMeanwhileDoesNotSignIn) {
-    const auto attempt = desk.begin_sign_in("ben", peer, t0);
-    User u = *desk.user("ben");
+TEST_F(AccessRegisterTest, AHashThatWasChangedMeanwhileDoesNotSignIn) {
+    const auto attempt = access.begin_sign_in("ben", peer, t0);
+    User u = *access.user("ben");
     u.hash = "new";
-    desk.put(u);
-    EXPECT_FALSE(desk.end_sign_in("ben", attempt.hash, true, peer, t0));
+    access.put(u);
+    EXPECT_FALSE(access.end_sign_in("ben", attempt.hash, true, peer, t0));
 }
 
 TEST(LockoutTable, IsBoundedAndForgets) {
@@ -268,33 +268,33 @@ TEST(LockoutTable, IsBoundedAndForgets) {
     EXPECT_LE(l.pause_s("user a", t0 - 100'000 * s), Lockout::max_pause_s) << "the clock was set back";
 }
 
-TEST_F(DeskTest, LastAdministratorIsKnown) {
-    EXPECT_TRUE(desk.is_last_administrator("anna"));
-    EXPECT_FALSE(desk.is_last_administrator("ben"));
+TEST_F(AccessRegisterTest, LastAdministratorIsKnown) {
+    EXPECT_TRUE(access.is_last_administrator("anna"));
+    EXPECT_FALSE(access.is_last_administrator("ben"));
     User u = person("cleo", Role::administrator);
     u.enabled = false;
-    desk.put(u);
-    EXPECT_TRUE(desk.is_last_administrator("anna")) << "a disabled one does not count";
+    access.put(u);
+    EXPECT_TRUE(access.is_last_administrator("anna")) << "a disabled one does not count";
     u.enabled = true;
-    desk.put(u);
-    EXPECT_FALSE(desk.is_last_administrator("anna"));
+    access.put(u);
+    EXPECT_FALSE(access.is_last_administrator("anna"));
 }
 
-TEST_F(DeskTest, FirstCodeIsTakenAsItIsTypedAndWrongOnesArePaused) {
+TEST_F(AccessRegisterTest, FirstCodeIsTakenAsItIsTypedAndWrongOnesArePaused) {
     const std::string code = random_code();
     EXPECT_EQ(code.size(), 19u);
-    desk.load_code(digest_of(plain_code(code)));
+    access.load_code(digest_of(plain_code(code)));
     std::string typed = code;
     for (auto& c : typed)
         c = c == '-' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    EXPECT_TRUE(desk.try_code(typed, peer, t0).right);
+    EXPECT_TRUE(access.try_code(typed, peer, t0).right);
     for (int i = 0; i < 3; ++i)
-        EXPECT_FALSE(desk.try_code("0000-0000-0000-0000", peer, t0).right);
-    EXPECT_EQ(desk.try_code(code, peer, t0).pause_s, 1);
-    EXPECT_TRUE(desk.try_code(code, peer, t0 + s).right);
-    desk.code_used();
-    EXPECT_FALSE(desk.try_code(code, "198.51.100.1:1", t0).right);
-    EXPECT_FALSE(desk.try_code("", "198.51.100.2:1", t0).right);
+        EXPECT_FALSE(access.try_code("0000-0000-0000-0000", peer, t0).right);
+    EXPECT_EQ(access.try_code(code, peer, t0).pause_s, 1);
+    EXPECT_TRUE(access.try_code(code, peer, t0 + s).right);
+    access.code_used();
+    EXPECT_FALSE(access.try_code(code, "198.51.100.1:1", t0).right);
+    EXPECT_FALSE(access.try_code("", "198.51.100.2:1", t0).right);
 }
 
 TEST(Records, ComeBackAsTheyWere) {
@@ -307,14 +307,14 @@ TEST(Records, ComeBackAsTheyWere) {
     const auto token = token_of(*record_of(t).text);
     ASSERT_TRUE(token);
     EXPECT_EQ(record_of(*token).text, record_of(t).text);
-    AccessRegister desk{AccessSettings{}};
+    AccessRegister access{AccessSettings{}};
     for (const auto* bad : {"", "[]", "{", R"({"at_ns":"x","good_from":7})", R"({"good_from":[1,null]})"}) {
-        desk.load_use("user anna", bad);
-        desk.load_use("token i", bad);
-        desk.load_use("nonsense", bad);
+        access.load_use("user anna", bad);
+        access.load_use("token i", bad);
+        access.load_use("nonsense", bad);
     }
-    EXPECT_FALSE(desk.has_users()) << "a use brings nobody back";
-    EXPECT_TRUE(desk.tokens().empty());
+    EXPECT_FALSE(access.has_users()) << "a use brings nobody back";
+    EXPECT_TRUE(access.tokens().empty());
     EXPECT_EQ(code_of(*record_of_code("abc").text), "abc");
     for (const auto* bad : {"", "[]", "{", "{}", R"({"name":"a","role":"king","hash":"h"})", R"({"name":"a","role":"none","hash":"h"})",
                             R"({"name":"","role":"viewer","hash":"h"})"})

@@ -1,7 +1,7 @@
 // Profiles in words: what is typed becomes an entry or faults by field; registers of a language as rows. All pure.
 import { describe, expect, it } from 'vitest';
 import type { Language } from '../src/api/profiles';
-import { instanceWords, profileWords, readProfile, registerRows } from '../src/text/profile';
+import { instanceText, profileText, readProfile, registerRows } from '../src/text/profile';
 
 const register = (address: number, more: object = {}) => ({ tables: ['holding_registers' as const, 'input_registers' as const], address, type: 'i32' as const, access: 'RW' as const, name: 'MA', description: 'moves', axis: null, min: null, max: null, object: null, ...more });
 const languages: Language[] = [
@@ -20,7 +20,7 @@ describe('what is typed', () => {
     const places = { input: '210', output: '310', object: '1' };
     expect(readProfile({ ...draft, ...places }, languages, new Map())).toMatchObject({ entry: { input_assembly: 210, output_assembly: 310, object_instance: 1 } });
     expect(readProfile({ ...draft, ...places, language: 'pacontrol' }, languages, new Map())).not.toHaveProperty('entry.object_instance');
-    expect(instanceWords({ unit: 10, language: 'lexium', axes: [{ axis: 'a' }], input_assembly: 210, object_instance: 1 })).toBe('input assembly 210, objects with instance 1');
+    expect(instanceText({ unit: 10, language: 'lexium', axes: [{ axis: 'a' }], input_assembly: 210, object_instance: 1 })).toBe('input assembly 210, objects with instance 1');
   });
   it.each([
     [{ unit: '1' }, { unit: 'A whole number from 2 to 254.' }], [{ unit: '' }, { unit: 'A whole number from 2 to 254.' }], [{ unit: '12' }, { unit: 'Unit 12 has mappings.' }],
@@ -31,7 +31,7 @@ describe('what is typed', () => {
 });
 
 describe('what is shown', () => {
-  it('says what the entry says of its axes', () => expect(profileWords({ unit: 10, language: 'lexium', axes: [{ axis: 'feeder', counts_per_unit: 51200, acceleration: 500 }, { axis: 'lift' }] })).toBe('feeder (51200 counts per unit, 500 units/s²), lift'));
+  it('says what the entry says of its axes', () => expect(profileText({ unit: 10, language: 'lexium', axes: [{ axis: 'feeder', counts_per_unit: 51200, acceleration: 500 }, { axis: 'lift' }] })).toBe('feeder (51200 counts per unit, 500 units/s²), lift'));
   it('lists the registers of the axes that are there, in the addresses of the page', () => {
     expect(registerRows(languages[1]!, 1, '0').map((r) => [r.where, r.access])).toEqual([['0', 'read, input register'], ['8, 9', 'read and write']]);
     expect(registerRows(languages[0]!, 1, '1').map((r) => [r.where, r.access])).toEqual([['40068, 40069', 'write']]);

@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    static constexpr double limit_units = 200, limit_increments = limit_units * 100;
+    static constexpr double limit_units = 40, limit_increments = limit_units * 100;
 
     /// One axis of a drive behind a cable.
     struct Machine {
@@ -232,6 +232,8 @@ private:
         ++went_wrong_["restart"];
         mix_in(fingerprint_, *world_);
         given_.clear();  // nobody is left to answer
+        for (const Machine& m : machines_)  // and nobody to halt what has no end of its own, until the other one has found it
+            if (witness_.speed(m.shaft, then) > 0) witness_.lift_limit(m.shaft);
         auto plant = world_->plant;
         world_.reset();
         then += std::chrono::milliseconds(pick(1500));
@@ -273,7 +275,7 @@ private:
     CommandBody any_body(const Subject& s, Given& g) {
         Move m;
         m.target = static_cast<std::int64_t>(pick(20001)) - 10000;
-        if (plan_.limits) m.target *= 3;  // some lead beyond
+        if (plan_.limits) m.target = m.target * 6 / 10;  // a third lead beyond
         m.velocity = 1 + static_cast<std::int64_t>(pick(8000));
         m.acceleration = 10000 + static_cast<std::int64_t>(pick(30000));
         m.deceleration = m.acceleration;

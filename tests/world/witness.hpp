@@ -30,6 +30,7 @@ public:
         return shafts_.size() - 1;
     }
     void limit(std::size_t n, double most) { shafts_[n].limit = most; }
+    void lift_limit(std::size_t n) { shafts_[n].limit.reset(); }
 
     void motion_ordered(std::size_t n) {
         Shaft& s = shafts_[n];

@@ -4,13 +4,14 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <utility>
 
 namespace axisgate {
 
 struct Poller::State : std::enable_shared_from_this<State> {
-    State(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> ready)
-        : descriptor(io.get_executor()), on_ready(std::move(ready)) {
+    State(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> ready, Clock now)
+        : descriptor(io.get_executor()), on_ready(std::move(ready)), clock(now) {
         fd = ::epoll_create1(EPOLL_CLOEXEC);
         boost::system::error_code ignored;
         if (fd >= 0) (void)descriptor.assign(fd, ignored);
@@ -29,7 +30,9 @@ struct Poller::State : std::enable_shared_from_this<State> {
         // Who was answered asks again meanwhile: to look here once more is cheaper than a turn of the io_context.
         epoll_event events[events_per_turn];
         bool any = false;
+        const auto until = clock() + asks_again;
         for (int room = events_per_turn, n = 1; room > 0 && n > 0 && !ended; room -= n) {
+            if (any && clock() >= until) break;
             n = ::epoll_wait(fd, events, room, 0);
             if (n > 0) on_ready({events, static_cast<std::size_t>(n)});
             any = any || n > 0;
@@ -40,12 +43,13 @@ struct Poller::State : std::enable_shared_from_this<State> {
 
     boost::asio::posix::basic_stream_descriptor<boost::asio::io_context::executor_type> descriptor;
     std::function<void(std::span<const epoll_event>)> on_ready;
+    Clock clock;
     int fd = -1;
     bool ended = false;
 };
 
-Poller::Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready)
-    : state_(std::make_shared<State>(io, std::move(on_ready))) {
+Poller::Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready, Clock clock)
+    : state_(std::make_shared<State>(io, std::move(on_ready), clock)) {
     if (good()) state_->arm(state_);
 }
 

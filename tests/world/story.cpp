@@ -231,7 +231,7 @@ private:
         Instant then = world_->now;
         ++went_wrong_["restart"];
         mix_in(fingerprint_, *world_);
-        given_.clear();  // nobody is left to answer
+        given_.clear();                     // nobody is left to answer
         for (const Machine& m : machines_)  // and nobody to halt what has no end of its own, until the other one has found it
             if (witness_.speed(m.shaft, then) > 0) witness_.lift_limit(m.shaft);
         auto plant = world_->plant;

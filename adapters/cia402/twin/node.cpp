@@ -371,8 +371,10 @@ Instant Node::deadline() const {
 }
 
 void Node::advance(Instant now, Out& out) {
-    for (int i = 0; i < most_events && deadline() <= now; ++i) {
-        const Instant at = std::max(deadline(), now_);
+    for (int i = 0; i < most_events; ++i) {
+        const Instant due = deadline();
+        if (due > now) break;
+        const Instant at = std::max(due, now_);
         now_ = at;
         if (device_->next_event(now_) <= at) {
             shown_.reset();

@@ -152,8 +152,7 @@ bool Orders::in_window(Instant at) const {
 
 /// At the end of its way the shaft stands within the position window (6067h; FFFFFFFFh: there is none).
 bool Orders::settles() const {
-    const auto window = o_.get(0x6067);
-    if ((!m_.held() && !m_.lags()) || window == 0xFFFFFFFF) return true;
+    if ((!m_.held() && !m_.lags()) || o_.get(0x6067) == 0xFFFFFFFF) return true;
     return std::fabs(m_.shaft(m_.end()).position - m_.demand(m_.end()).position) <= u_.way_of(0x6067);
 }
 

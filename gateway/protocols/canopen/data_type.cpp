@@ -48,9 +48,15 @@ constexpr std::array table{
     Row{DataType::unsigned56, Kind::unsigned_whole, 7, "UNSIGNED56"},
     Row{DataType::unsigned64, Kind::unsigned_whole, 8, "UNSIGNED64"},
 };
+constexpr auto rows = [] {  // by number: it is asked for with each value of a PDO
+    std::array<const Row*, 0x1C> list{};
+    for (const Row& r : table)
+        list[static_cast<std::size_t>(r.type)] = &r;
+    return list;
+}();
 const Row* row(DataType type) noexcept {
-    const auto* r = std::find_if(table.begin(), table.end(), [&](const Row& x) { return x.type == type; });
-    return r == table.end() ? nullptr : r;
+    const auto number = static_cast<std::size_t>(type);
+    return number < rows.size() ? rows[number] : nullptr;
 }
 }  // namespace
 

@@ -20,6 +20,7 @@ Abort length_fault(const Entry& e, std::size_t size) {
     if (most != 0 && size > most) return Abort::too_long;
     return bytes && size < *bytes ? Abort::too_short : Abort::none;
 }
+std::uint32_t key_of(Address a) noexcept { return std::uint32_t{a.index} << 8 | a.sub; }
 }  // namespace
 
 std::string_view name_of(EntryAccess access) noexcept { return access_names[static_cast<std::size_t>(access)].second; }
@@ -30,15 +31,23 @@ std::optional<EntryAccess> entry_access_named(std::string_view name) noexcept {
     return std::nullopt;
 }
 
+Dictionary::Dictionary(const Dictionary& of) : SdoStore(of), entries_(of.entries_), on_write_(of.on_write_), on_read_(of.on_read_) {
+    for (auto& [address, entry] : entries_)
+        places_[key_of(address)] = &entry;
+}
+
 void Dictionary::add(Address address, Entry entry) {
     const auto bytes = bytes_of(entry.type);
     if (bytes && entry.bytes.size() != *bytes) entry.bytes.assign(*bytes, 0);
-    entries_[address] = std::move(entry);
+    Entry& place = entries_[address];
+    place = std::move(entry);
+    places_[key_of(address)] = &place;
 }
-const Entry* Dictionary::find(Address address) const {
-    const auto it = entries_.find(address);
-    return it == entries_.end() ? nullptr : &it->second;
+Entry* Dictionary::at(Address address) const {
+    const auto it = places_.find(key_of(address));
+    return it == places_.end() ? nullptr : it->second;
 }
+const Entry* Dictionary::find(Address address) const { return at(address); }
 bool Dictionary::has(std::uint16_t index) const {
     const auto it = entries_.lower_bound(Address{index, 0});
     return it != entries_.end() && it->first.index == index;
@@ -50,9 +59,9 @@ bool Dictionary::set(Address address, const Value& value) {
     return bytes && set_bytes(address, *bytes);
 }
 bool Dictionary::set_bytes(Address address, std::span<const std::uint8_t> bytes) {
-    const auto it = entries_.find(address);
-    if (it == entries_.end() || fits(it->second, bytes) != Abort::none) return false;
-    it->second.bytes.assign(bytes.begin(), bytes.end());
+    Entry* const e = at(address);
+    if (!e || fits(*e, bytes) != Abort::none) return false;
+    e->bytes.assign(bytes.begin(), bytes.end());
     return true;
 }
 Value Dictionary::value(Address address) const {
@@ -91,7 +100,7 @@ Abort Dictionary::admits(Address address, std::optional<std::size_t> size) {
 Abort Dictionary::write(Address address, std::span<const std::uint8_t> bytes, bool sized) {
     const Abort fault = admits(address, std::nullopt);
     if (fault != Abort::none) return fault;
-    Entry& e = entries_.find(address)->second;
+    Entry& e = *at(address);
     if (const auto type = bytes_of(e.type); type && !sized && bytes.size() > *type) bytes = bytes.first(*type);
     const Abort wrong = fits(e, bytes);
     if (wrong != Abort::none) return wrong;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "gateway/core/value.hpp"
@@ -39,6 +40,11 @@ struct Entry {
 
 class Dictionary : public SdoStore {
 public:
+    Dictionary() = default;
+    Dictionary(const Dictionary& of);
+    Dictionary(Dictionary&&) = default;  // entries keep their places
+    Dictionary& operator=(const Dictionary& of) { return *this = Dictionary(of); }
+    Dictionary& operator=(Dictionary&&) = default;
     /// Asked when a write has passed type and bounds, before it takes effect. Anything but `none` refuses it, and nothing is changed.
     using OnWrite = std::function<Abort(Address, std::span<const std::uint8_t>)>;
     /// Called before a read, so that the owner can set what is asked for. Anything but `none` refuses the read.
@@ -67,7 +73,9 @@ public:
 private:
     [[nodiscard]] Abort missing(Address address) const;
     [[nodiscard]] static Abort fits(const Entry& entry, std::span<const std::uint8_t> bytes);
+    [[nodiscard]] Entry* at(Address address) const;
     std::map<Address, Entry> entries_;
+    std::unordered_map<std::uint32_t, Entry*> places_;  // the same, for who asks with every PDO: a tree of some hundred is ten looks
     OnWrite on_write_;
     OnRead on_read_;
 };

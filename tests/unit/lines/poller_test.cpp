@@ -7,10 +7,14 @@
 #include <unistd.h>
 
 #include <boost/asio/io_context.hpp>
+#include <chrono>
 #include <vector>
 
 namespace axisgate {
 namespace {
+
+std::chrono::steady_clock::time_point test_time{};
+std::chrono::steady_clock::time_point test_clock() { return test_time; }
 
 struct Pairs {
     explicit Pairs(std::size_t n) : ours(n), theirs(n) {
@@ -62,17 +66,43 @@ TEST(Poller, WhoAsksWithoutAnEndDoesNotKeepATurnForHimself) {
     boost::asio::io_context io;
     const Pairs pairs(1);
     int served = 0;
-    Poller poller(io, [&](std::span<const epoll_event>) {
-        ++served;
-        pairs.take(0);
-        pairs.ask(0);
-    });
+    Poller poller(
+        io,
+        [&](std::span<const epoll_event>) {
+            ++served;
+            pairs.take(0);
+            pairs.ask(0);
+        },
+        test_clock);
     ASSERT_TRUE(poller.add(pairs.ours[0], 0, EPOLLIN));
     pairs.ask(0);
     EXPECT_EQ(io.poll_one(), 1u);
     EXPECT_EQ(served, Poller::events_per_turn);
     EXPECT_EQ(io.poll_one(), 1u) << "and he is asked for again";
     EXPECT_EQ(served, 2 * Poller::events_per_turn);
+}
+
+TEST(Poller, WhoTakesLongIsServedOnceAndWhatIsDueHasItsTurn) {
+    boost::asio::io_context io;
+    const Pairs pairs(1);
+    int served = 0;
+    std::chrono::microseconds takes = Poller::asks_again;
+    Poller poller(
+        io,
+        [&](std::span<const epoll_event>) {
+            ++served;
+            test_time += takes;
+            pairs.take(0);
+            pairs.ask(0);
+        },
+        test_clock);
+    ASSERT_TRUE(poller.add(pairs.ours[0], 0, EPOLLIN));
+    pairs.ask(0);
+    EXPECT_EQ(io.poll_one(), 1u);
+    EXPECT_EQ(served, 1) << "its time is over";
+    takes = Poller::asks_again / 5;
+    EXPECT_EQ(io.poll_one(), 1u) << "and it is asked for again";
+    EXPECT_EQ(served, 1 + 5) << "until the time is over";
 }
 }  // namespace
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Demand, the pieces: see demand.hpp. In: orders. Out: pieces of constant acceleration, in order, without gaps of position.
-// Never allocates, never divides by what may be 0.
+// Demand: a motion as pieces of constant acceleration. In: orders. Out: pieces of constant acceleration, in order, without gaps of
+// position. Never allocates, never divides by what may be 0.
 #include "gateway/axis/demand.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Histogram: see histogram.hpp. In: durations. Out: counts and text.
+// Histogram: counts in fixed buckets. In: durations. Out: counts and text.
 // Buckets are kept apart and summed up by the reader: the observing thread writes two numbers.
 #include "gateway/core/histogram.hpp"
 

@@ -1,4 +1,4 @@
-// LineUri: see line_uri.hpp. In: text. Out: a value or a fault with an example.
+// LineUri: scheme, place and options of a line. In: text. Out: a value or a fault with an example.
 // Never accepts what it does not understand: a mistyped option would otherwise be found on the machine, at night.
 #include "gateway/core/line_uri.hpp"
 

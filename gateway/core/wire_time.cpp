@@ -1,4 +1,4 @@
-// Wire time: see wire_time.hpp. In: frames. Out: bit counts.
+// Wire time: the bits of a frame, stuffed ones included. In: frames. Out: bit counts.
 // Never allocates; two to eight bits at a time.
 #include "gateway/core/wire_time.hpp"
 

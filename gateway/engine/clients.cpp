@@ -1,4 +1,4 @@
-// Clients, see clients.hpp: by what each kind of command is seen to be done.
+// Clients: by what each kind of command is seen to be done.
 // In: accepted commands and their axis' feedback. Out: results.
 // Never answers from feedback that is older than the acceptance where the end of a motion before could be seen.
 #include <fmt/core.h>

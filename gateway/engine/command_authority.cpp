@@ -1,4 +1,4 @@
-// Command authority, see command_authority.hpp.
+// Command authority: who may command an axis now.
 // In: commands with their origin, leases taken, released and handed over. Out: verdicts, events.
 // Never begins a lease before the end of the one before it has been told.
 #include <fmt/core.h>

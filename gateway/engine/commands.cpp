@@ -1,4 +1,4 @@
-// Commands, see commands.hpp: guarded, planned, noted and carried out; `on_command` is the list of it.
+// Commands: guarded, planned, noted and carried out; `on_command` is the list of it.
 // In: one command. Out: a refusal, an answer, or its orders, one by one.
 // Never guards in two places: authority, limits and profile are each asked in `plan_motion`.
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
 // Engine: the way in to its parts, and time: whose deadline is next, who is due, and what is looked at every now and then.
-// In: see engine.hpp. Out: calls of the part that each of them concerns; turns of adapters and twins.
-// Never looks at a side that nothing has touched and that is not due.
+// In: commands, set-points, frames, results of the store, time. Out: calls of the part that each of them concerns; turns of adapters and
+// twins. Never looks at a side that nothing has touched and that is not due.
 #include "gateway/engine/engine.hpp"
 
 #include <algorithm>

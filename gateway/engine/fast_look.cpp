@@ -1,4 +1,4 @@
-// Fast look, see fast_look.hpp.
+// Fast look: an axis is polled more often for a while.
 // In: wishes, the passing of time. Out: a period at each axis, its line's adapters told.
 // Never changes one axis where another of the same wish is refused.
 #include <algorithm>

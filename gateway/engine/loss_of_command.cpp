@@ -1,4 +1,4 @@
-// Loss of command, see loss_of_command.hpp: what was lost, by what words, and what is done about it.
+// Loss of command: what was lost, by what words, and what is done about it.
 // In: a client that is gone or silent, a drive that speaks again, the gateway's own end. Out: the site's action, an event, a count.
 // Never acts twice for one loss: until the next command to the axis, the first cause stands.
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// Orders, see orders.hpp: one order down, its one result up, the site's limits on the way.
+// Orders: one order down, its one result up, the site's limits on the way.
 // In: an order's body, its client. Out: the call of the adapter; from its result the answer, once all orders of a client have theirs.
 // Never answers a parameter write before the store has it.
 #include <fmt/core.h>

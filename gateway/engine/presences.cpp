@@ -1,4 +1,4 @@
-// Presences, see presences.hpp: links, the presence rule, and what is compared before a device gets its axes back.
+// Presences: links, the presence rule, and what is compared before a device gets its axes back.
 // In: line states, drives' links. Out: who serves, told to the axes and as an event.
 // Never lets a twin take over an axis whose device went silent while it was commanded.
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// Publisher, see publisher.hpp: how an axis becomes its picture.
+// Publisher: how an axis becomes its picture.
 // In: an axis as its parts have left it. Out: its picture in the image; results, events and samples at the host.
 // Never allocates for a picture.
 #include <algorithm>

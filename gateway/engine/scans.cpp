@@ -1,4 +1,4 @@
-// Scans, see scans.hpp: from a wish to the addresses that are asked, and what each turn makes of the answers.
+// Scans: from a wish to the addresses that are asked, and what each turn makes of the answers.
 // In: the families of a line, its drives. Out: probes for the line's adapters; a report for whoever asks.
 // Never changes what the site's own drives are told.
 #include <fmt/core.h>

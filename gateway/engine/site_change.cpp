@@ -1,4 +1,4 @@
-// A site change, see site_change.hpp: at once, or when what it takes away stands.
+// A site change: at once, or when what it takes away stands.
 // In: the wanted site, the passing of time. Out: stops, then the site in force; an alarm for each axis of which nobody knows that it
 // stands. Never two at a time: an older one comes into force before the next begins.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The site in force, see site_in_force.hpp: what goes, what comes or changes, and how it is put to work.
+// The site in force: what goes, what comes or changes, and how it is put to work.
 // In: the wanted site and what is remembered of its drives. Out: the machine as the site wants it; what is told of removed axes and
 // options. Never gives an id to another name.
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// Speakers, see speakers.hpp: what a line's adapters are told of it and of its drives.
+// Speakers: what a line's adapters are told of it and of its drives.
 // In: the site's words. Out: LineSetup, and adapters that have it.
 // Never gives an adapter drives of another family, or those that the other side serves.
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Streams, see streams.hpp: from a set-point to its adapter, or to the one reason for which it is refused.
+// Streams: from a set-point to its adapter, or to the one reason for which it is refused.
 // In: set-points. Out: the profile that follows them, the newest to the adapter; begin, end and refusals in the axis' picture.
 // Never begins again what was ended before its client has paused.
 #include <fmt/format.h>

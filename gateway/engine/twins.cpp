@@ -1,4 +1,4 @@
-// Twins, see twins.hpp.
+// Twins: plugged into their bus, kept over a restart, moved by hand.
 // In: a drive that its twin serves. Out: the twin with as many axes as the site uses, its memory, what the hand did.
 // Never sets a part of what the hand wants: unknown names are refused before the first is set.
 #include <fmt/core.h>

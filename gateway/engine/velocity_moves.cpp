@@ -1,4 +1,4 @@
-// Velocity moves, see velocity_moves.hpp: the dead-man time-out, and the halt before the site's limits of position.
+// Velocity moves: the dead-man time-out, and the halt before the site's limits of position.
 // In: renewals by the client that holds, positions and speeds. Out: halts and events.
 // Never sends a renewed move to the drive again.
 #include <fmt/core.h>

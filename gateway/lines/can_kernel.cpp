@@ -1,4 +1,4 @@
-// CAN kernel: see can_kernel.hpp. SocketCAN's raw sockets and rtnetlink.
+// CAN kernel: SocketCAN's raw sockets and rtnetlink.
 // In: names and frames. Out: descriptors and errno. Never waits.
 #include "gateway/lines/can_kernel.hpp"
 

@@ -1,4 +1,4 @@
-// CanLine: see can_line.hpp. Here: frames both ways; what happens to the interface itself is in can_line_link.cpp.
+// CanLine: frames both ways; what happens to the interface itself is in can_line_link.cpp.
 // In: readiness of the raw socket. Out: frames and reports.
 // Never takes a frame for sent because the kernel took it: only the controller's echo says so.
 #include "gateway/lines/can_line.hpp"

@@ -1,4 +1,4 @@
-// CAN link: see can_link.hpp. In and out: bytes.
+// CAN link: netlink messages about a CAN interface. In and out: bytes.
 // Never uses the macros of the kernel's headers to walk a message: they trust its lengths.
 #include "gateway/lines/can_link.hpp"
 

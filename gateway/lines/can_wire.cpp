@@ -1,4 +1,4 @@
-// CAN wire: see can_wire.hpp. In: the kernel's structures. Out: ours.
+// CAN wire: SocketCAN's frames and error frames. In: the kernel's structures. Out: ours.
 // Never allocates for a data frame.
 #include "gateway/lines/can_wire.hpp"
 

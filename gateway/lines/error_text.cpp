@@ -1,4 +1,4 @@
-// Error text: see error_text.hpp. In: errno. Out: words.
+// Error text: what a failed system call means to who runs the gateway. In: errno. Out: words.
 // Never uses strerror(), whose text another thread could change.
 #include "gateway/lines/error_text.hpp"
 

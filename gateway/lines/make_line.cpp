@@ -1,4 +1,4 @@
-// Making lines: see make_line.hpp. In: a URI. Out: a line.
+// Making lines: one kind for each scheme of a URI. In: a URI. Out: a line.
 // Never opens anything.
 #include "gateway/lines/make_line.hpp"
 

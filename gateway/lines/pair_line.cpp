@@ -1,4 +1,4 @@
-// PairLine: see pair_line.hpp. In: a pair of sockets for each attempt. Out: frames.
+// PairLine: a line whose other end another part of the program takes. In: a pair of sockets for each attempt. Out: frames.
 // Never keeps the other end: it is given away before the line is up.
 #include "gateway/lines/pair_line.hpp"
 

@@ -1,5 +1,5 @@
-// PtyLine: see pty_line.hpp. In: readiness of the pseudo-terminal's master. Out: frames.
-// Never goes down because the other side closes: the next program finds the same name.
+// PtyLine: a pseudo-terminal that another program opens as if it were the drive. In: readiness of the pseudo-terminal's master. Out:
+// frames. Never goes down because the other side closes: the next program finds the same name.
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/lines/error_text.hpp"

@@ -1,4 +1,4 @@
-// RealLine: see real_line.hpp. In: calls of the owner and of the transport. Out: LineEvents.
+// RealLine: opening, sending in order, and trying again, for every transport. In: calls of the owner and of the transport. Out: LineEvents.
 // Never calls the owner from inside open(), close() or send().
 #include "gateway/lines/real_line.hpp"
 

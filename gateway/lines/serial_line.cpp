@@ -1,4 +1,4 @@
-// SerialLine: see serial_line.hpp. In: readiness of the port. Out: frames.
+// SerialLine: a port, opened and read as it is ready. In: readiness of the port. Out: frames.
 // Never gives up: an adapter that is pulled out and plugged in again is found under its path.
 #include "gateway/lines/serial_line.hpp"
 

@@ -1,4 +1,4 @@
-// Serial port: see serial_port.hpp. The kernel's own terminal structures, because the C library's know only the usual bit rates.
+// Serial port: any bit rate. The kernel's own terminal structures, because the C library's know only the usual bit rates.
 // In: a path and settings. Out: a descriptor.
 // Never included together with <termios.h>: the two define the same names differently. Hence a file of its own.
 #include "gateway/lines/serial_port.hpp"

@@ -1,4 +1,4 @@
-// StreamLine: see stream_line.hpp. In: readiness of the descriptor. Out: frames up, bytes down.
+// StreamLine: what all lines of bytes have in common. In: readiness of the descriptor. Out: frames up, bytes down.
 // Never cuts into a frame that is half written, not even for an urgent one.
 #include "gateway/lines/stream_line.hpp"
 

@@ -1,4 +1,4 @@
-// TcpLine: see tcp_line.hpp. In: answers of the resolver and of the peer. Out: frames.
+// TcpLine: a name is resolved, connected to, and tried again. In: answers of the resolver and of the peer. Out: frames.
 // Never blocks: names are resolved by Asio's own thread, and an address is used without asking anybody.
 #include "gateway/lines/tcp_line.hpp"
 

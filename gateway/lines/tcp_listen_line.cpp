@@ -1,4 +1,4 @@
-// TcpListenLine: see tcp_listen_line.hpp. In: connections and their bytes. Out: frames.
+// TcpListenLine: whoever connects shares the line with the others. In: connections and their bytes. Out: frames.
 // Never goes down because a client does; only the port itself can fail.
 #include "gateway/lines/tcp_listen_line.hpp"
 

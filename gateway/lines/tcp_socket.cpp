@@ -1,4 +1,4 @@
-// TCP socket: see tcp_socket.hpp. In: a descriptor. Out: nothing.
+// TCP socket: no delay, and a peer that is gone is noticed. In: a descriptor. Out: nothing.
 // Never throws, never waits.
 #include "gateway/lines/tcp_socket.hpp"
 

@@ -1,4 +1,4 @@
-// UdpLine: see udp_line.hpp. In: datagrams. Out: frames.
+// UdpLine: one datagram is one frame. In: datagrams. Out: frames.
 // Never blocks; a datagram that the kernel cannot take now waits in the queue, one that it refuses is counted as an error.
 #include "gateway/lines/udp_line.hpp"
 

@@ -1,4 +1,4 @@
-// Mapping, values: what a point's value is as registers, and what registers mean; see mapping.hpp.
+// Mapping, values: what a point's value is as registers, and what registers mean.
 // In: values, register bytes. Out: the same the other way round. Never rounds a whole number that fits.
 #include <algorithm>
 #include <bit>

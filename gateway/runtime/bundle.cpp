@@ -1,4 +1,4 @@
-// Bundle: see bundle.hpp. In: files, the database read-only, HTTP on this machine. Out: a tar.
+// Bundle: what a supporter asks for, in one archive, without secrets. In: files, the database read-only, HTTP on this machine. Out: a tar.
 // Bounds: 10,000 events, the last 1 MiB of the log; of pages those of own_page.hpp.
 #include "gateway/runtime/bundle.hpp"
 

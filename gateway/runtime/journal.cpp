@@ -1,4 +1,4 @@
-// Journal: see journal.hpp. In: texts. Out: datagrams; values with line ends go with their length in front.
+// Journal: systemd's socket in its own protocol. In: texts. Out: datagrams; values with line ends go with their length in front.
 // Never sends more than 64 KiB at once: a message is cut.
 #include "gateway/runtime/journal.hpp"
 

@@ -1,5 +1,5 @@
-// Log: see log.hpp. In: lines and events. Out: text with time and level, or journal fields.
-// Two loggers share one end: the default one, whose lines are limited by their text, and one for events, limited by their cause.
+// Log: one line of text, or one datagram of the journal, for each event. In: lines and events. Out: text with time and level, or journal
+// fields. Two loggers share one end: the default one, whose lines are limited by their text, and one for events, limited by their cause.
 #include "gateway/runtime/log.hpp"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// Log limit: see log_limit.hpp. In: causes. Out: verdicts. A cause is forgotten when its period is over.
+// Log limit: how often one cause is written in a period. In: causes. Out: verdicts. A cause is forgotten when its period is over.
 // Looks at all causes once a second at most. Never has a clock.
 #include "gateway/runtime/log_limit.hpp"
 

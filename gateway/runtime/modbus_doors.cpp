@@ -1,4 +1,4 @@
-// Modbus doors: see modbus_doors.hpp. In: the configuration. Out: the doors, and a report of both.
+// Modbus doors: the TCP one and the serial one, as the configuration has them. In: the configuration. Out: the doors, and a report of both.
 // Never fails for a serial port that is not there: adapters are plugged in later.
 #include "gateway/runtime/modbus_doors.hpp"
 

@@ -1,4 +1,4 @@
-// Process metrics: see process_metrics.hpp. In: /proc/self. Out: text.
+// Process metrics: memory, threads and descriptors as Prometheus text. In: /proc/self. Out: text.
 // Never keeps anything between two calls.
 #include "gateway/runtime/process_metrics.hpp"
 

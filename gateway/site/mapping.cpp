@@ -1,4 +1,4 @@
-// Mapping: see mapping.hpp. In: JSON objects. Out: checked entries.
+// Mapping: one entry of a user map, read and written. In: JSON objects. Out: checked entries.
 // Never reads a value: only what may stand where.
 #include "gateway/site/mapping.hpp"
 

@@ -1,4 +1,4 @@
-// Options, read from the catalogue's "options": see options.hpp. In: catalogue, names, values. Out: faults in words.
+// Options, as the catalogue's "options" describe them. In: catalogue, names, values. Out: faults in words.
 // Never keeps a table of its own, apart from what the gateway itself reads of every line.
 #include "gateway/site/options.hpp"
 

@@ -1,5 +1,5 @@
-// FaultLine: see fault_line.hpp. In: frames of both directions. Out: spoiled ones, in order, at instants that are a function of the seed.
-// Never touches reports of a CAN controller: those belong to the line itself.
+// FaultLine: loses, doubles, delays and spoils by a seed. In: frames of both directions. Out: spoiled ones, in order, at instants that are
+// a function of the seed. Never touches reports of a CAN controller: those belong to the line itself.
 #include "gateway/wire/fault_line.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Frame export: see frame_export.hpp. In: TraceEntry values. Out: text or bytes.
+// Frame export: candump logs, pcapng captures, and lines for people. In: TraceEntry values. Out: text or bytes.
 // Never reads a clock: what a capture says about time is what the entries say.
 #include "gateway/wire/frame_export.hpp"
 

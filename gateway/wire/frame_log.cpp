@@ -1,4 +1,4 @@
-// FrameLog: see frame_log.hpp. In: frames, from one thread. Out: copies, to any.
+// FrameLog: a ring that is written without a lock. In: frames, from one thread. Out: copies, to any.
 // Never waits, on either side.
 #include "gateway/wire/frame_log.hpp"
 

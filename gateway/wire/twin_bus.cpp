@@ -1,4 +1,4 @@
-// TwinBus: see twin_bus.hpp. An event loop over three kinds of event: a transmission ends, a twin's deadline, a transmission starts.
+// TwinBus: an event loop over three kinds of event: a transmission ends, a twin's deadline, a transmission starts.
 // In: frames, twins, time. Out: LineEvents, from on_deadline alone.
 // Never allocates per frame once its queues have grown to what the traffic needs.
 #include "gateway/wire/twin_bus.hpp"

@@ -36,7 +36,7 @@ test('a fault shows at the top of the overview with the way to it; all is well: 
   await becomes('no alarm is counted', () => page.locator('[data-field=alarm-badge]').count(), 0);
   await breakAxis('feeder');
   await page.locator('[data-wrong="axis feeder"]').waitFor();
-  const says = (selector, words) => until(`${selector} says ${text}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
+  const says = (selector, words) => until(`${selector} says ${words}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
   await says('[data-wrong="axis feeder"]', /Fault/);
   await page.locator('[data-wrong=alarms]').waitFor();
   await says('[data-field=alarm-badge]', /^[12]\s/);

@@ -14,7 +14,7 @@ after(async () => {
   await program?.end();
 });
 const bar = (p) => p.getByRole('group', { name: 'Authority over feeder' });
-const held = (p, words) => until(`"${text}" is shown`, async () => { const t = await bar(p).innerText(); return words.test(t) || t; });
+const held = (p, words) => until(`"${words}" is shown`, async () => { const t = await bar(p).innerText(); return words.test(t) || t; });
 
 test('one page holds the axis, the other is refused with the name of the holder, takes it over, and gives it back', async () => {
   const a = await open(browser, `${program.url}/axes/feeder`);

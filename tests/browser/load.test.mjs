@@ -25,7 +25,7 @@ test('the overview shows each axis live, without a fault', async () => {
   }
   await becomes('the connection is live', () => page.locator('[data-field=connection]').innerText(), 'Live');
   await becomes('the line is there', () => page.locator('[data-line=can0]').count(), 1);
-  const says = (selector, words) => until(`${selector} says ${text}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
+  const says = (selector, words) => until(`${selector} says ${words}`, async () => words.test(await page.locator(selector).innerText()) || (await page.locator(selector).innerText()));
   await says('[data-line=can0]', /Up[\s\S]*Exchanges/);
   await says('[data-drive=feeder]', /Simulated/);
   assert.deepEqual(page.faults(), []);

@@ -4,6 +4,7 @@
 In: the source tree. Out: one line per fault, one per rule, then "N passed, N failed" of rules. Never changes a file.
 """
 import concurrent.futures
+import itertools
 import os
 import pathlib
 import re
@@ -152,6 +153,9 @@ def faults_of(path, text):
             yield "open", f"{rel}:{n}: {RULES['open']}"
     if not lines[0].startswith("// "):
         yield "head", f"{rel}:1: {RULES['head']}"
+    for line in itertools.takewhile(lambda x: x.startswith("//"), lines):
+        if re.search(r"\bsee (the header|[a-z_0-9]+\.hpp)\b", line):
+            yield "head", f"{rel}: says where to look instead of what it is: {line}"
     if path.suffix == ".hpp" and "#pragma once" not in text:
         yield "once", f"{rel}: no #pragma once"
     if len(lines) > 900:

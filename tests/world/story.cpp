@@ -1,5 +1,5 @@
 // Story: the seeded day itself: commands of two clients, faults of the wire, of drives, store and gateway, then healing.
-// In: see story.hpp. Out: laws: one answer each, nothing fresh from who is silent, leases hold, motion by order alone, all heals.
+// In: a subject and a seed. Out: laws: one answer each, nothing fresh from who is silent, leases hold, motion by order alone, all heals.
 // Never uses a random number that is not the seed's.
 #include "tests/world/story.hpp"
 

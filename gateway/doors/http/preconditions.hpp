@@ -1,5 +1,5 @@
 // Preconditions: entity tags of what is kept outside the site (recipes, users, one parameter, the Modbus door), and the 412 of all of them.
-// In: what makes a state. Out: a tag; a refusal that tells what is there now. The site has its revision: see site_change.hpp.
+// In: what makes a state. Out: a tag; a refusal that tells what is there now. The site has its revision.
 #pragma once
 
 #include <boost/json/value.hpp>

@@ -1,5 +1,5 @@
-// RTU door: see rtu_door.hpp. In: runs of bytes, results, the silence timer. Out: answers through the line; events of the port.
-// One timer waits for silence; it is not moved for every run of bytes: when it rings too early it is set anew.
+// RTU door: Modbus on a serial line, as a slave. In: runs of bytes, results, the silence timer. Out: answers through the line; events of
+// the port. One timer waits for silence; it is not moved for every run of bytes: when it rings too early it is set anew.
 #include "gateway/doors/modbus/rtu_door.hpp"
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-// RTU receiver: see rtu_receiver.hpp. In: bytes and time. Out: frames.
+// RTU receiver: a frame ends where the line is silent. In: bytes and time. Out: frames.
 // Echo and frame are told apart byte by byte; what turns out to be no echo goes into the frame as if it had just come. Never guesses where
 // a frame begins within a run: only silence says that.
 #include "gateway/doors/modbus/rtu_receiver.hpp"

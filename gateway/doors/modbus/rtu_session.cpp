@@ -1,4 +1,4 @@
-// RTU session: see rtu_session.hpp. In: frames and results. Out: answers.
+// RTU session: the one master of the line, its addresses and its answers. In: frames and results. Out: answers.
 // A serial line has one request at a time: whatever is heard after a request ends the right to answer it, or two would speak at once.
 // Writes whose answers are given up go on; only nobody is told.
 #include "gateway/doors/modbus/rtu_session.hpp"

@@ -263,7 +263,7 @@ bool LineAdapter::stop_all_at_once(Turn& t) {
     if (std::exchange(resync_, false)) bytes.insert(bytes.begin(), lf);
     flight_.deadline = flight_.latest = t.now + bus_.wire(bytes.size()) + 20ms;
     reader_.begin({Expect::Kind::nothing, {}, false, false, false});
-    drives().each([&](Drive& d) { d.stops.reported_by_all(t.now + bus_.wire(bytes.size())); });
+    drives().each([&](Drive& d) { d.stops.taken_by_all(t.now + bus_.wire(bytes.size())); });
     bus_.turns.began(first->slot(), false);
     send(bytes, Priority::urgent, t);
     return true;

@@ -166,7 +166,7 @@ Request Drive::next(Turn& t) {
 
 Request Drive::choose(Turn& t) {
     if (line_setup.naming()) return jobs.next(t.now);
-    if (!ready()) return away() && !stops.empty() ? stops.unreceived() : start.next();
+    if (!ready()) return away() && !stops.empty() ? stops.to_absent() : start.next();
     if (mode.leaving()) return mode.next();
     if (!stops.empty()) return stops.next(t.now);
     if (errors.wanted()) return Request::ask(What::error, "ER");
@@ -223,8 +223,7 @@ void Drive::confirm_ended(Verdict v, const ReplyReader& r, Turn& t) {
             return confirmed(t);
         }
         const Verdict reported = stops.confirming() ? stops.acknowledgement() : jobs.job().acknowledgement;
-        return errors.ask(reported == Verdict::refused || !words.sums || quiet() ||
-                          stops.reported_to_all());  // an ACK means: no error [L2081]
+        return errors.ask(reported == Verdict::refused || !words.sums || quiet() || stops.sent_to_all());  // an ACK means: no error [L2081]
     }
     if (v == Verdict::waiting) start.silent(t);
     if (ready()) stops.confirming() ? stops.missed(t) : jobs.missed(t);

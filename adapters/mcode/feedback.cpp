@@ -58,7 +58,7 @@ void Errors::answered(Verdict v, const std::string& data, Turn& t) {
     tries_ = 0;
     feedback().error_read();
     // With a line to all nobody says whose error it is: a fault is told, and the stop is judged by what is read.
-    const bool ours = waits && ours_ && !(drive_.stops.reported_to_all() && is_fault_code(static_cast<int>(*code)));
+    const bool ours = waits && ours_ && !(drive_.stops.sent_to_all() && is_fault_code(static_cast<int>(*code)));
     learn(static_cast<int>(*code), ours, t);
     if (!waits) return;
     const int keep = last_;

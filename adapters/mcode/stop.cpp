@@ -56,7 +56,7 @@ Request Stops::next(Instant now) {
     return r;
 }
 
-Request Stops::unreceived() {
+Request Stops::to_absent() {
     const Stop& s = *lane_.first();
     const LinkWords& w = drive_.words;
     Request r = Request::say(Request::Purpose::stop, s.lines.front());
@@ -105,7 +105,7 @@ std::string_view Stops::line() const noexcept {
 }
 
 /// Its stop's line has gone to all drives, who say nothing: reading tells what became of it.
-void Stops::reported_by_all(Instant received) {
+void Stops::taken_by_all(Instant received) {
     if (empty() || confirming()) return;
     Stop& s = *lane_.first();
     feedback().demand.published(s.lines[s.at], received, true);  // who proves not to have heard it loses its demand

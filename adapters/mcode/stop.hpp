@@ -25,7 +25,7 @@ public:
     [[nodiscard]] bool confirming() const noexcept { return !empty() && lane_.first()->confirming; }
     [[nodiscard]] Request next(Instant now);
     /// Perhaps an absent drive hears: with and without checksum, since nobody says which it would take.
-    [[nodiscard]] Request unreceived();
+    [[nodiscard]] Request to_absent();
     void ended(Verdict v, Turn& t);
     void confirmed(Turn& t);
     void unconfirmed(std::string why, Turn& t);  ///< what would confirm it cannot be had
@@ -38,8 +38,8 @@ public:
     // --- a line to every drive at once ---------------------------------------------------------------------------------------
     /// The first stop's line, sent or not; empty: none waits, or it cannot be said to all.
     [[nodiscard]] std::string_view line() const noexcept;
-    void reported_by_all(Instant received);
-    [[nodiscard]] bool reported_to_all() const noexcept { return confirming() && lane_.first()->to_all; }
+    void taken_by_all(Instant received);
+    [[nodiscard]] bool sent_to_all() const noexcept { return confirming() && lane_.first()->to_all; }
     /// The acknowledgement of the one that is confirmed.
     [[nodiscard]] Verdict acknowledgement() const noexcept { return lane_.first()->acknowledgement; }
 

@@ -189,7 +189,7 @@ bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw,
         s.halted = false;
         if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached && !(rising & cw_new_setpoint)) {
             d.orders.emplace_back(*s.active);
-            ++s.published_again;
+            ++s.repeated_moves;
         }
     }
     if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !(rising & cw_halt)) {

@@ -134,7 +134,7 @@ private:
         Instant power_known_at{};        // feedback up to here may be older than the acknowledged power order
         bool quick_stopped = false;      // quick stop active until left by a control word or command
         bool setpoint_acknowledged = false;  // bit 12 in mode 1
-        int published_again = 0;             // moves on their way to the drive that are no new set-points: after a halt, or buffered before
+        int repeated_moves = 0;              // moves on their way to the drive that are no new set-points: after a halt, or buffered before
         bool halted = false;
         bool homing_refused = false;  // the last homing was not taken: bit 13, and an older "attained" is not shown
         bool reacting = false;        // the stop of the present fault is on its way, or was taken

@@ -121,8 +121,8 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
     } else if (std::holds_alternative<SetPosition>(order)) {
         if (good) s.active.reset();  // its target was a place by the old count
     } else if (const auto* m = std::get_if<Move>(&order)) {
-        const bool again = s.published_again > 0;
-        if (again) --s.published_again;
+        const bool again = s.repeated_moves > 0;
+        if (again) --s.repeated_moves;
         if (!good) return;
         if (!again) ++s.setpoints_accepted;
         const auto shown = [](std::uint32_t& into, const std::optional<std::int64_t>& v) {
@@ -172,7 +172,7 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
         if (s.buffered && !s.halted) {
             Move next = *s.buffered;
             s.buffered.reset();
-            ++s.published_again;  // counted when it was buffered
+            ++s.repeated_moves;  // counted when it was buffered
             return CommandBody{next};
         }
         if (!s.halted) s.active.reset();
@@ -201,7 +201,7 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.virtual_step = 0;
     s_.quick_stopped = false;
     s_.controlword = 0;
-    s_.published_again = 0;
+    s_.repeated_moves = 0;
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
     for (Written& w : s_.written)

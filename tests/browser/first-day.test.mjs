@@ -130,8 +130,14 @@ async function day(program, language) {
   await page.goto(`${program.url}/recorder/recordings/`);
   const freeze = page.getByRole('form', { name: s('New recording') });
   await freeze.getByLabel(s('Name'), { exact: true }).fill('held');
-  await freeze.getByRole('button', { name: s('Freeze the last minutes'), exact: true }).click();
-  await page.locator('[data-recording="held"]').waitFor();
+  const freezes = freeze.getByRole('button', { name: s('Freeze the last minutes'), exact: true });
+  await freezes.click();
+  // An alarm makes one by itself: while that is written, another one is refused and asked for again.
+  await until('the recording is there', async () => {
+    if (await page.locator('[data-recording="held"]').count()) return true;
+    if (await page.locator('[data-field="recording-told"].result-refused').count()) await freezes.click();
+    return page.locator('[data-field="recording-told"]').innerText();
+  }, 60_000);
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: s('Download {name}', { name: 'held' }) }).click()]);
   const file = join(program.data, download.suggestedFilename());
   await download.saveAs(file);

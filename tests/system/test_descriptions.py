@@ -6,7 +6,7 @@ import configparser
 import json
 import pathlib
 
-from harness import Gateway, run, until
+from harness import Gateway, ModbusException, run, until
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 EDS = TOP / "adapters/cia402/tests/eds"
@@ -49,7 +49,12 @@ def test_a_drive_is_what_its_file_says(folder):
         # The same parameter through a mapped register, and what is stored by the drive's own name.
         gateway.send("POST", "/mappings", {"unit": 2, "address": 10, "axis": "lift", "point": "2010h:01", "type": "u16"}, 201)
         with gateway.modbus() as m:
-            until(lambda: m.read(10, 1, unit=2) == [410], 10, "the register")
+            def shown():
+                try:
+                    return m.read(10, 1, unit=2) == [410]
+                except ModbusException:
+                    return False  # its value is asked for just now
+            until(shown, 10, "the register")
         status, refused, _ = gateway.request("DELETE", "/api/v1/descriptions/plain.eds")
         assert status == 409 and refused["used_by"] == ["lift"], refused
         # It moves.

@@ -46,8 +46,8 @@ bool Adapter::make_room(Instant now) {
             const Session& s = it->second;
             if (s.leaving || (s.handle != 0) != registered || manager_.uses(it->first)) continue;
             // Who works is not thrown out by who only knocks.
-            if (registered && now - s.received_any < std::chrono::seconds(1)) continue;
-            if (oldest == sessions_.end() || s.received_any < oldest->second.received_any) oldest = it;
+            if (registered && now - s.last_received < std::chrono::seconds(1)) continue;
+            if (oldest == sessions_.end() || s.last_received < oldest->second.last_received) oldest = it;
         }
         return oldest;
     };
@@ -68,7 +68,7 @@ bool Adapter::on_connected(SessionKey key, Endpoint from, Instant now) {
     }
     Session& s = sessions_[key];
     s.from = from;
-    s.received_any = now;
+    s.last_received = now;
     counters_.sessions_opened.add();
     if (next_look_ == never) next_look_ = now + look_period;
     return true;
@@ -91,7 +91,7 @@ void Adapter::on_stream(SessionKey key, View bytes, Instant now) {
         const auto it = sessions_.find(key);
         if (it == sessions_.end() || it->second.leaving) return;
         Session& s = it->second;
-        s.received_any = now;
+        s.last_received = now;
         const std::size_t n = std::min(bytes.size(), s.framer.room());
         s.framer.add(bytes.first(n));
         bytes = bytes.subspan(n);
@@ -340,7 +340,7 @@ void Adapter::on_deadline(Instant now) {
     for (auto& [key, s] : sessions_) {
         const bool registered = s.handle != 0;
         if (registered && (limit <= Duration::zero() || manager_.uses(key))) continue;
-        if (now - s.received_any < (registered ? limit : unregistered_time_out)) continue;
+        if (now - s.last_received < (registered ? limit : unregistered_time_out)) continue;
         if (!s.leaving) counters_.sessions_silent.add();
         hang_up(key, s);
     }

@@ -60,7 +60,7 @@ private:
         Framer framer;
         Endpoint from;
         std::uint32_t handle = 0;  ///< 0: not registered
-        Instant received_any{};
+        Instant last_received{};
         bool leaving = false;
     };
     /// Where an answer goes.

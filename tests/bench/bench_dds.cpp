@@ -255,7 +255,7 @@ Distribution frames_to_samples(const std::string& program_path, int count) {
             (void)here.bus.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) { came = s.position == position ? now : came; });
             (void)drive.pump(everything);
         }
-        if (came != 0 && drive.published() > 1 && found) d.us.push_back(static_cast<double>(came - drive.published()) * 1e-3);
+        if (came != 0 && drive.left_at() > 1 && found) d.us.push_back(static_cast<double>(came - drive.left_at()) * 1e-3);
         found = found || came != 0;
         // States of one axis are at least a turn apart: what is measured is the way, and not the waiting for it.
         const std::int64_t next = clock_ns() + 45'000'000;

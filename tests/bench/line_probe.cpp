@@ -168,7 +168,7 @@ std::int64_t Drive::pump(const std::bitset<128>& expected) {
 }
 void Drive::put(std::int32_t position) {
     put_ = position;
-    published_ = 0;
+    left_at_ = 0;
     Out out;
     if (const auto fault = twin_->set_hand("position", std::int64_t{position}, at_ns(clock_ns()), out); !fault.empty()) give_up(fault);
     send(out);
@@ -178,7 +178,7 @@ void Drive::send(const Out& out) {
     std::memcpy(words.data(), &put_, sizeof put_);  // as the drive's language has it: the low byte first
     for (const auto& tx : out.frames) {
         const auto bytes = tx.frame.data();
-        if (published_ == 0 && std::search(bytes.begin(), bytes.end(), words.begin(), words.end()) != bytes.end()) published_ = clock_ns();
+        if (left_at_ == 0 && std::search(bytes.begin(), bytes.end(), words.begin(), words.end()) != bytes.end()) left_at_ = clock_ns();
         if (fd_ >= 0) (void)!::send(fd_, tx.frame.storage.data(), tx.frame.size, MSG_NOSIGNAL);
     }
 }
@@ -227,15 +227,15 @@ Program::~Program() {
 bool Program::ready() {
     char buffer[1024];
     const ssize_t n = ::read(out_, buffer, sizeof buffer);
-    if (n > 0) reported_.append(buffer, static_cast<std::size_t>(n));
-    if (n == 0) give_up("the program ended: " + reported_);
-    const auto at = ("\n" + reported_).rfind("\nready");
-    return at != std::string::npos && reported_.find('\n', at) != std::string::npos;
+    if (n > 0) output_.append(buffer, static_cast<std::size_t>(n));
+    if (n == 0) give_up("the program ended: " + output_);
+    const auto at = ("\n" + output_).rfind("\nready");
+    return at != std::string::npos && output_.find('\n', at) != std::string::npos;
 }
 std::uint16_t Program::port(const std::string& door) const {
-    const auto at = reported_.find(door + "=", reported_.rfind("ready"));
-    const auto colon = at == std::string::npos ? at : reported_.find(':', at);
-    return colon == std::string::npos ? std::uint16_t{0} : static_cast<std::uint16_t>(std::atoi(reported_.c_str() + colon + 1));
+    const auto at = output_.find(door + "=", output_.rfind("ready"));
+    const auto colon = at == std::string::npos ? at : output_.find(':', at);
+    return colon == std::string::npos ? std::uint16_t{0} : static_cast<std::uint16_t>(std::atoi(output_.c_str() + colon + 1));
 }
 
 ModbusClient::~ModbusClient() { ::close(fd_); }

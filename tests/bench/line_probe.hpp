@@ -52,7 +52,7 @@ public:
     std::bitset<128> functions;  ///< of the frames that came
     /// Moves the shaft by hand; the next frame that tells of it is noted.
     void put(std::int32_t position);
-    [[nodiscard]] std::int64_t published() const noexcept { return published_; }  ///< when that frame left; 0: not yet
+    [[nodiscard]] std::int64_t left_at() const noexcept { return left_at_; }  ///< when that frame left; 0: not yet
 
 private:
     void send(const Out& out);
@@ -61,7 +61,7 @@ private:
     std::unique_ptr<Twin> twin_;
     uim342::UiFramer framer_;
     std::int32_t put_ = 0;
-    std::int64_t published_ = 1;
+    std::int64_t left_at_ = 1;
 };
 
 /// The gateway as a process of its own.
@@ -81,7 +81,7 @@ public:
 private:
     pid_t pid_ = -1;
     int out_ = -1;
-    std::string reported_;
+    std::string output_;
 };
 
 /// A Modbus client that never waits by itself, with one request under way.

@@ -137,7 +137,7 @@ async function day(program, language) {
     if (await page.locator('[data-recording="held"]').count()) return true;
     if (await page.locator('[data-field="recording-told"].result-refused').count()) await freezes.click();
     return page.locator('[data-field="recording-told"]').innerText();
-  }, 60_000);
+  }, 30_000);
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('link', { name: s('Download {name}', { name: 'held' }) }).click()]);
   const file = join(program.data, download.suggestedFilename());
   await download.saveAs(file);

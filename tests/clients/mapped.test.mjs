@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import st from "st-ethernet-ip";
-import { undisturbed, until } from "./until.mjs";
+import { enabled, undisturbed, until } from "./until.mjs";
 
 const { DEVICE, LOCAL } = process.env;
 
@@ -23,14 +23,7 @@ test("st-ethernet-ip's scanner holds a freely mapped pair and moves an axis by i
   const status = () => connection.inputData.readUInt16LE(4);
   const position = () => connection.inputData.readFloatLE(0); // mm
   await undisturbed(connection, async () => {
-    out.fill(0);
-    await until(() => connection.connected && connection.OTsequenceNum > 20, () => `connected ${connection.connected}, ${connection.OTsequenceNum} datagrams`);
-
-    for (const [word, state] of [[0x06, 0x21], [0x07, 0x23], [0x0f, 0x27]]) {
-      out.writeUInt16LE(word, 0);
-      out.writeInt16LE(1, 2);
-      await until(() => (status() & 0x6f) === state, () => `status word ${status().toString(16)} instead of state ${state.toString(16)}`);
-    }
+    await enabled(connection, status);
     out.writeUInt32LE(4321, 12);
     await until(() => connection.inputData.readUInt32LE(6) === 4321, () => `AC is ${connection.inputData.readUInt32LE(6)}`);
     const target = Math.round(position()) + 25;

@@ -52,8 +52,9 @@ def test_a_drive_is_what_its_file_says(folder):
             def shown():
                 try:
                     return m.read(10, 1, unit=2) == [410]
-                except ModbusException:
-                    return False  # its value is asked for just now
+                except ModbusException as e:
+                    assert e.code == 6, e  # busy: its value is asked for just now
+                    return False
             until(shown, 10, "the register")
         status, refused, _ = gateway.request("DELETE", "/api/v1/descriptions/plain.eds")
         assert status == 409 and refused["used_by"] == ["lift"], refused

@@ -104,9 +104,9 @@ def test_the_shuttle_homes_moves_and_is_read_in_tenths_of_a_micrometre(folder):
 
 
 LOOP = ["Set Cmd Table Var 1 To: value=0; next=2; name=begin",
-        "VAI Go To Pos: position=20 velocity=1 acceleration=20 deceleration=20; next=3",
+        "VAI Go To Pos: position=20 velocity=1 acceleration=1 deceleration=1; next=3",
         "Wait Until Motion Finished; next=4",
-        "VAI Go To Pos: position=0 velocity=1 acceleration=20 deceleration=20; next=5",
+        "VAI Go To Pos: position=0 velocity=1 acceleration=1 deceleration=1; next=5",
         "Wait Until Motion Finished; next=6",
         "Add To Cmd Table Var 1: value=1; next=7",
         "IF Cmd Table Var 1 Less Than: value=3 entry_if_true=2 entry_if_false=8",

@@ -576,7 +576,7 @@ def serves(gateway, client):
 
 def test_bad_input_is_answered_and_stops_nothing(gateway):
     dice = random.Random(20261121)
-    client = Client(gateway, 8)
+    client = Client(gateway, 40)
     begun = time.monotonic()
     counts, silent = {}, 0
     operations = [o for o in API.operations if o.id != "openStream"]
@@ -586,16 +586,20 @@ def test_bad_input_is_answered_and_stops_nothing(gateway):
             break  # a slow machine: what has been asked so far is enough
         for o in operations:
             target, headers, body = spoiled_request(o, dice)
-            before = time.monotonic()
-            answer = client.request(o.method, target, body, headers)
-            took = time.monotonic() - before
             what = f"turn {turn}: {o.method} {target[:200]!r} {headers} {None if body is None else body[:300]!r}"
+            before = time.monotonic()
+            try:
+                answer = client.request(o.method, target, body, headers)
+            except TimeoutError:
+                raise AssertionError(f"{what}: no answer within {client.limit} s") from None
+            took = time.monotonic() - before
             if answer is None:
                 silent += 1
                 assert headers.get("Connection") or headers.get("Upgrade") or silent < 3, f"{what}: closed without an answer"
                 continue
             status, said, data = answer
-            assert took < 7, f"{what}: {took:.1f} s"
+            # A password is hashed by a thread that yields to all others: beside other tests on two processors that is a matter of seconds.
+            assert took < (30 if o.path.startswith(("/api/v1/session", "/api/v1/users")) else 7), f"{what}: {took:.1f} s"
             assert status < 500 or status in (503, 504), f"{what}: {status} {data[:300]!r}"
             if status >= 400:
                 wrong = o.wrong(status, said, data)

@@ -9,8 +9,8 @@ namespace {
 
 /// Bit stuffing: after five equal bits the sender inserts the opposite one, which begins the next run.
 struct Stuffing {
-    std::uint8_t last = 0, run = 1;  ///< as after the start of frame; a run of five has ended already
-    std::uint8_t count = 1;
+    std::uint8_t last, run;  ///< a run of five has ended already; state 0 is that after the start of frame
+    std::uint8_t count;
 
     constexpr void put(std::uint32_t bit) noexcept {
         ++count;
@@ -28,10 +28,10 @@ constexpr std::uint32_t crc_of_bit(std::uint32_t crc, std::uint32_t bit) noexcep
     return ((crc << 1) & 0x7FFFu) ^ (((crc >> 14) ^ bit) != 0 ? 0x4599u : 0u);
 }
 
-/// What so many bits do, from each state; `count` is what they grow by.
+/// What so many bits do, from each state: how many they grow to, and in the low three bits the state behind them.
 template <unsigned width>
 struct OfBits {
-    std::array<std::array<Stuffing, 1u << width>, 8> stuffing{};
+    std::array<std::array<std::uint8_t, 1u << width>, 8> stuffing{};
     std::array<std::uint16_t, 1u << width> crc{};
 
     constexpr OfBits() noexcept {
@@ -44,7 +44,7 @@ struct OfBits {
                 Stuffing s{static_cast<std::uint8_t>(state / 4), static_cast<std::uint8_t>(state % 4 + 1), 0};
                 for (unsigned i = width; i-- > 0;)
                     s.put((bits >> i) & 1u);
-                stuffing[state][bits] = s;
+                stuffing[state][bits] = static_cast<std::uint8_t>(s.count << 3 | s.state());
             }
         }
     }
@@ -55,19 +55,19 @@ constexpr OfBits<width> of_bits{};
 /// Takes the bits of a frame as they are sent, from behind the start of frame, and keeps count, checksum and stuff bits.
 class BitStream {
 public:
-    /// The low `width` bits (an even number), the highest first.
+    /// The low `width` bits, the highest first: whole bytes, with 2 or 6 behind them.
     void put(std::uint64_t value, unsigned width) noexcept {
         for (; width >= 8; width -= 8)
             take<8>(static_cast<std::uint32_t>(value >> (width - 8)) & 0xFFu);
-        for (; width >= 2; width -= 2)
-            take<2>(static_cast<std::uint32_t>(value >> (width - 2)) & 0x3u);
+        if (width == 6) take<6>(static_cast<std::uint32_t>(value) & 0x3Fu);
+        if (width == 2) take<2>(static_cast<std::uint32_t>(value) & 0x3u);
     }
     /// The checksum itself is stuffed like the rest but does not go into the checksum.
     void put_crc() noexcept {
         stuff<8>(crc_ >> 7);
         stuff<7>(crc_ & 0x7Fu);
     }
-    [[nodiscard]] std::uint32_t count() const noexcept { return stuffing_.count; }
+    [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
     [[nodiscard]] std::uint16_t crc() const noexcept { return static_cast<std::uint16_t>(crc_); }
 
 private:
@@ -78,11 +78,12 @@ private:
     }
     template <unsigned width>
     void stuff(std::uint32_t bits) noexcept {
-        const Stuffing& then = of_bits<width>.stuffing[stuffing_.state()][bits];
-        stuffing_ = {then.last, then.run, static_cast<std::uint8_t>(stuffing_.count + then.count)};
+        const std::uint32_t then = of_bits<width>.stuffing[state_][bits];
+        state_ = then & 7u;
+        count_ += then >> 3;
     }
     std::uint32_t crc_ = 0;  // the start of frame, a 0, leaves it as it is
-    Stuffing stuffing_;
+    std::uint32_t state_ = 0, count_ = 1;
 };
 
 BitStream head_and_data(const Frame& f) noexcept {

@@ -142,28 +142,33 @@ public:
     }
     [[nodiscard]] Instant earliest() {
         ask();
-        return heap_.empty() ? never : due_[heap_.front()];
+        return heap_.empty() ? never : heap_.front().at;
     }
     /// The same where what simulated drives say may be seen to so much later; what adapters do is due when it is.
     [[nodiscard]] Instant earliest(Duration twins_wait) {
         ask();
         Instant t = never;
-        for (std::size_t i = 0; i < due_.size(); ++i)
-            t = std::min(t, all_[i]->twin && due_[i] != never ? std::min(due_[i] + twins_wait, adapters_due_[i]) : due_[i]);
+        for (const auto [at, place] : heap_)
+            t = std::min(t, all_[place]->twin && at != never ? std::min(at + twins_wait, adapters_due_[place]) : at);
         return t;
     }
     /// The first one at this place or behind it whose deadline has come; nullptr: none.
     [[nodiscard]] Side* due(std::size_t from, Instant now) {
         ask();
+        if (!is_due(0, now)) return nullptr;
         std::size_t first = all_.size();
         look(0, from, now, first);
         return first < all_.size() ? all_[first] : nullptr;
     }
 
 private:
+    struct Due {
+        Instant at = never;
+        std::size_t place = 0;
+    };
+
     void begin_anew() {
         const std::size_t n = all_.size();
-        due_.assign(n, never);
         adapters_due_.assign(n, never);
         heap_.resize(n);
         in_heap_.resize(n);
@@ -171,7 +176,8 @@ private:
         asked_for_.clear();
         asked_for_.reserve(n);
         for (std::size_t i = 0; i < n; ++i) {
-            all_[i]->place = heap_[i] = in_heap_[i] = i;
+            all_[i]->place = in_heap_[i] = i;
+            heap_[i] = {never, i};
             touched(i);
         }
     }
@@ -179,40 +185,40 @@ private:
         for (const std::size_t place : asked_for_) {
             to_ask_[place] = 0;
             adapters_due_[place] = all_[place]->adapters_deadline();
-            const Instant before = std::exchange(due_[place], std::min(all_[place]->line->deadline(), adapters_due_[place]));
-            due_[place] < before ? up(in_heap_[place]) : down(in_heap_[place]);
+            const Due due{std::min(all_[place]->line->deadline(), adapters_due_[place]), place};
+            const std::size_t at = in_heap_[place];
+            due.at < heap_[at].at ? up(at, due) : down(at, due);
         }
         asked_for_.clear();
     }
-    void look(std::size_t at, std::size_t from, Instant now, std::size_t& first) const {
-        if (at >= heap_.size() || due_[heap_[at]] > now) return;
-        if (heap_[at] >= from) first = std::min(first, heap_[at]);
-        look(2 * at + 1, from, now, first);
-        look(2 * at + 2, from, now, first);
+    [[nodiscard]] bool is_due(std::size_t at, Instant now) const { return at < heap_.size() && heap_[at].at <= now; }
+    void look(std::size_t at, std::size_t from, Instant now, std::size_t& first) const {  // at one that is due
+        if (heap_[at].place >= from) first = std::min(first, heap_[at].place);
+        if (is_due(2 * at + 1, now)) look(2 * at + 1, from, now, first);
+        if (is_due(2 * at + 2, now)) look(2 * at + 2, from, now, first);
     }
-    void put(std::size_t at, std::size_t place) noexcept {
-        heap_[at] = place;
-        in_heap_[place] = at;
+    void put(std::size_t at, const Due& due) noexcept {
+        heap_[at] = due;
+        in_heap_[due.place] = at;
     }
-    void up(std::size_t at) noexcept {
-        const std::size_t place = heap_[at];
-        for (; at > 0 && due_[place] < due_[heap_[(at - 1) / 2]]; at = (at - 1) / 2)
+    void up(std::size_t at, const Due& due) noexcept {
+        for (; at > 0 && due.at < heap_[(at - 1) / 2].at; at = (at - 1) / 2)
             put(at, heap_[(at - 1) / 2]);
-        put(at, place);
+        put(at, due);
     }
-    void down(std::size_t at) noexcept {
-        const std::size_t place = heap_[at];
+    void down(std::size_t at, const Due& due) noexcept {
         for (std::size_t child; (child = 2 * at + 1) < heap_.size(); at = child) {
-            if (child + 1 < heap_.size() && due_[heap_[child + 1]] < due_[heap_[child]]) ++child;
-            if (due_[place] <= due_[heap_[child]]) break;
+            if (child + 1 < heap_.size() && heap_[child + 1].at < heap_[child].at) ++child;
+            if (due.at <= heap_[child].at) break;
             put(at, heap_[child]);
         }
-        put(at, place);
+        put(at, due);
     }
 
     std::vector<Side*> all_;
-    std::vector<Instant> due_, adapters_due_;  ///< by place, as these
-    std::vector<std::size_t> heap_, in_heap_;  ///< places, the earliest first; where each stands
+    std::vector<Due> heap_;              ///< the earliest first
+    std::vector<std::size_t> in_heap_;   ///< by place
+    std::vector<Instant> adapters_due_;  ///< by place
     std::vector<char> to_ask_;
     std::vector<std::size_t> asked_for_;
 };

@@ -32,6 +32,7 @@ bool SendQueue::push(const Frame& frame, Priority priority, Instant now) {
     }
     list.tail = i;
     ++size_;
+    ++of_priority_[static_cast<std::size_t>(priority)];
     ++waiting_[sender];
     return true;
 }
@@ -71,12 +72,14 @@ void SendQueue::unlink(Index i) noexcept {
     s.next = free_;
     free_ = i;
     --size_;
+    --of_priority_[static_cast<std::size_t>(s.entry.priority)];
     --waiting_[sender];
 }
 
 SendQueue::Index SendQueue::best(Instant t) const noexcept {
     if (size_ == 0) return none;
     for (std::size_t p = 0; p < priorities; ++p) {
+        if (of_priority_[p] == 0) continue;
         for (std::size_t k = 0; k < senders_; ++k) {
             const List& list = lists_[p][in_turn(p, k)];
             if (list.head != none && slots_[list.head].entry.queued_at <= t) return list.head;
@@ -91,10 +94,20 @@ const SendQueue::Entry* SendQueue::front(Instant t) const noexcept {
 }
 
 void SendQueue::pop(Instant t) noexcept {
+    if (const Index i = best(t); i != none) remove(i);
+}
+
+void SendQueue::take(Frame& to, Instant t) noexcept {
     const Index i = best(t);
-    if (i == none) return;
+    to = slots_[i].entry.frame;
+    remove(i);
+}
+
+/// Has had its turn.
+void SendQueue::remove(Index i) noexcept {
     const Entry& e = slots_[i].entry;
-    turn_[static_cast<std::size_t>(e.priority)] = (sender_of(e.frame) + 1) % senders_;
+    const std::size_t next = sender_of(e.frame) + 1;
+    turn_[static_cast<std::size_t>(e.priority)] = static_cast<std::uint32_t>(next < senders_ ? next : 0);
     unlink(i);
 }
 
@@ -120,8 +133,9 @@ std::size_t SendQueue::collect(std::span<const Entry*> to) const noexcept {
 Instant SendQueue::earliest() const noexcept {
     Instant t = never;
     if (size_ == 0) return t;
-    for (const auto& by_sender : lists_) {
-        for (const List& list : std::span(by_sender).first(senders_)) {
+    for (std::size_t p = 0; p < priorities; ++p) {
+        if (of_priority_[p] == 0) continue;
+        for (const List& list : std::span(lists_[p]).first(senders_)) {
             if (list.head != none) t = std::min(t, slots_[list.head].entry.queued_at);
         }
     }

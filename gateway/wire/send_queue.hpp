@@ -21,10 +21,10 @@ public:
     /// Frame::sender beyond it counts as the last one.
     static constexpr std::size_t most_senders = 8;
 
-    struct Entry {
-        Frame frame;
-        Priority priority = Priority::command;
+    struct Entry {  // the frame last: what is read of a short one lies together
         Instant queued_at{};
+        Priority priority = Priority::command;
+        Frame frame;
     };
 
     explicit SendQueue(std::size_t capacity = default_capacity) noexcept : capacity_(capacity) {}
@@ -35,6 +35,8 @@ public:
     [[nodiscard]] const Entry* front(Instant t = never) const noexcept;
     /// Removes what front(t) shows.
     void pop(Instant t = never) noexcept;
+    /// Removes it, and `to` is its frame; there must be one.
+    void take(Frame& to, Instant t) noexcept;
     /// The frames as they would leave, at most as many as `to` holds; returns how many. Valid until the next push.
     [[nodiscard]] std::size_t collect(std::span<const Entry*> to) const noexcept;
     /// When the first of the waiting frames came; `never` if none waits.
@@ -53,9 +55,9 @@ private:
     static constexpr Index none = 0xFFFFFFFF;
     static constexpr std::size_t priorities = 3;
     struct Slot {
-        Entry entry;
         Index next = none;
         Index previous = none;
+        Entry entry;
     };
     struct List {
         Index head = none;
@@ -63,24 +65,26 @@ private:
     };
 
     [[nodiscard]] static std::size_t sender_of(const Frame& frame) noexcept;
-    /// The list of a priority from which to take at this turn of the senders.
+    /// The sender of a priority from which to take at this turn of the senders.
     [[nodiscard]] std::size_t in_turn(std::size_t priority, std::size_t k) const noexcept {
         const std::size_t place = turn_[priority] + k;  // both below the number of senders
         return place < senders_ ? place : place - senders_;
     }
     [[nodiscard]] Index best(Instant t) const noexcept;
+    void remove(Index i) noexcept;
     void unlink(Index i) noexcept;
     [[nodiscard]] bool make_room(Priority priority, std::size_t sender) noexcept;
     [[nodiscard]] bool push_out(std::size_t sender) noexcept;
 
-    std::size_t capacity_;
     std::vector<Slot> slots_;
+    std::size_t size_ = 0;
+    std::size_t senders_ = 1;                              // seen so far
+    std::array<std::uint32_t, priorities> of_priority_{};  // frames that wait
+    std::array<std::uint32_t, priorities> turn_{};         // whose turn it is
     std::array<std::array<List, most_senders>, priorities> lists_;
     std::array<std::size_t, most_senders> waiting_{};  // by sender
-    std::array<std::size_t, priorities> turn_{};       // whose turn it is
-    std::size_t senders_ = 1;                          // seen so far
     Index free_ = none;
-    std::size_t size_ = 0;
+    std::size_t capacity_;
     std::uint64_t displaced_ = 0;
 };
 

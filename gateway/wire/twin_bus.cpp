@@ -12,7 +12,6 @@
 namespace axisgate {
 
 struct TwinBus::Node {
-    DriveId key = no_drive;
     std::unique_ptr<Twin> twin;
     SendQueue queue;
     std::size_t ear = 0;       // in ears_
@@ -22,6 +21,7 @@ struct TwinBus::Node {
 
 TwinBus::TwinBus(const TwinBusOptions& options) : options_(options) {
     if (options_.bits_per_byte == 0) options_.bits_per_byte = 10;
+    intermission_ = wire_time(can_intermission_bits, options_.bit_rate);
     wire_.reserve(4);
 }
 
@@ -30,10 +30,8 @@ TwinBus::~TwinBus() = default;
 // --- twins ----------------------------------------------------------------------------------------------------------
 
 TwinBus::Number TwinBus::find(DriveId key) const noexcept {
-    for (const Ear& e : ears_) {
-        if (nodes_[e.number]->key == key) return e.number;
-    }
-    return gone;
+    const auto at = std::ranges::find(keys_, key);
+    return at == keys_.end() ? gone : ears_[static_cast<std::size_t>(at - keys_.begin())].number;
 }
 
 void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& memory, Instant now) {
@@ -43,23 +41,24 @@ void TwinBus::add(DriveId key, std::unique_ptr<Twin> twin, const NonVolatile& me
     const auto number = static_cast<Number>(free - nodes_.begin());
     if (free == nodes_.end()) nodes_.emplace_back();
     nodes_[number] = std::make_unique<Node>();
-    nodes_[number]->key = key;
     nodes_[number]->twin = std::move(twin);
     nodes_[number]->ear = ears_.size();
     ears_.push_back({{}, number});
-    ++filters_;
+    keys_.push_back(key);
+    hearers_ = {};
     nodes_[number]->twin->power_on(memory, processed_, scratch_);
     take(number, processed_);
 }
 
 void TwinBus::remove(DriveId key) {
-    due_known_ = false;
+    next_known_ = false;
     const Number number = find(key);
     if (number == gone) return;
     place(number, never);
     drop_sender(number);
     ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(nodes_[number]->ear));
-    ++filters_;
+    keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(nodes_[number]->ear));
+    hearers_ = {};
     for (std::size_t i = nodes_[number]->ear; i < ears_.size(); ++i)
         nodes_[ears_[i].number]->ear = i;
     for (Transmission& t : wire_) {
@@ -82,7 +81,7 @@ const Twin* TwinBus::twin(DriveId key) const noexcept {
 std::size_t TwinBus::size() const noexcept { return ears_.size(); }
 
 std::string TwinBus::set_hand(DriveId key, const std::string& name, const Value& value, Instant now) {
-    due_known_ = false;
+    next_known_ = false;
     const Number number = find(key);
     if (number == gone) return "there is no twin of this drive on the bus: it is served by the device, or not at all";
     processed_ = std::max(processed_, now);
@@ -92,7 +91,7 @@ std::string TwinBus::set_hand(DriveId key, const std::string& name, const Value&
 }
 
 void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
-    due_known_ = false;
+    next_known_ = false;
     const Number number = find(key);
     if (number == gone) return;
     processed_ = std::max(processed_, now);
@@ -104,7 +103,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
 
 /// After every call to a twin: its frames go into its queue, its deadline into the heap, its filters to the ears.
 void TwinBus::take(Number number, Instant t, Duration at_least) {
-    due_known_ = false;
+    next_known_ = false;
     Node& node = *nodes_[number];
     const bool reported = !scratch_.frames.empty();
     for (const auto& tx : scratch_.frames) {
@@ -119,7 +118,7 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
     if (options_.kind == LineKind::can) {
         if (const Acceptance now = node.twin->acceptance(); now != ears_[node.ear].acceptance) {
             ears_[node.ear].acceptance = now;
-            ++filters_;
+            hearers_ = {};
         }
     }
     const Instant due = node.twin->deadline();
@@ -204,7 +203,7 @@ void TwinBus::sift_down(std::size_t i) noexcept {
 // --- the line -------------------------------------------------------------------------------------------------------
 
 void TwinBus::open(LineEvents& events, Instant now) {
-    due_known_ = false;
+    next_known_ = false;
     events_ = &events;
     processed_ = std::max(processed_, now);
     status_.state = LineStatus::State::opening;
@@ -212,7 +211,7 @@ void TwinBus::open(LineEvents& events, Instant now) {
 }
 
 void TwinBus::close() {
-    due_known_ = false;
+    next_known_ = false;
     events_ = nullptr;
     tell_up_ = false;
     status_.state = LineStatus::State::closed;
@@ -224,7 +223,7 @@ void TwinBus::close() {
 }
 
 bool TwinBus::send(const Frame& frame, Priority priority, Instant now) {
-    due_known_ = false;
+    next_known_ = false;
     const bool fits = frame.kind == (options_.kind == LineKind::can ? Frame::Kind::can : Frame::Kind::bytes);
     if (!fits) ++counters_.foreign;
     const std::uint64_t displaced = host_queue_.displaced();
@@ -270,49 +269,43 @@ Instant TwinBus::next_start() const noexcept {
     return std::max({t, processed_, can ? bus_free_ : Instant{}});
 }
 
-Instant TwinBus::next_event() const noexcept {
-    if (events_ == nullptr) return never;
-    if (tell_up_) return processed_;
-    const Instant twin = heap_.empty() ? never : heap_.front().at;
-    return std::min({first_end(), twin, next_start()});
+TwinBus::Event TwinBus::next_event() const noexcept {
+    if (events_ == nullptr) return {};
+    if (tell_up_) return {processed_, Event::Kind::start};
+    Event next{std::max(first_end(), processed_), Event::Kind::end};
+    const Instant twin = heap_.empty() ? never : std::max(heap_.front().at, processed_);
+    if (twin < next.at) next = {twin, Event::Kind::deadline};
+    if (const Instant start = next_start(); start < next.at) next = {start, Event::Kind::start};
+    return next;
 }
 
 void TwinBus::on_deadline(Instant now) {
     if (events_ == nullptr || running_) return;
     running_ = true;
-    due_known_ = false;
     if (tell_up_) {
-        tell_up_ = false;
+        tell_up_ = next_known_ = false;
         status_.state = LineStatus::State::up;
         events_->on_line_state(true, text());
     }
     for (std::size_t i = 0; i < max_events_per_call && events_ != nullptr; ++i) {
-        const Instant t = next_event();
-        if (t > now) {
+        if (!next_known_) next_ = next_event();
+        next_known_ = next_.at > now;
+        if (next_known_) {
             processed_ = std::max(processed_, now);
-            due_ = t;
-            due_known_ = true;
             break;
         }
-        step(std::max(t, processed_));
+        step(next_);
     }
     running_ = false;
 }
 
-/// One event. At the same instant an end comes first, then deadlines, then starts: whoever has something to send by then takes part.
-void TwinBus::step(Instant t) {
-    processed_ = t;
-    if (first_end() <= t) {
-        finish_one();
-        return;
-    }
-    if (!heap_.empty() && heap_.front().at <= t) {
-        const Number number = heap_.front().number;
-        nodes_[number]->twin->on_deadline(t, scratch_);
-        take(number, t, std::chrono::microseconds(1));  // one that stays due must not hold up time for everybody else
-        return;
-    }
-    start(t);
+void TwinBus::step(const Event& e) {
+    processed_ = e.at;
+    if (e.kind == Event::Kind::end) return finish_one();
+    if (e.kind == Event::Kind::start) return start(e.at);
+    const Number number = heap_.front().number;
+    nodes_[number]->twin->on_deadline(e.at, scratch_);
+    take(number, e.at, std::chrono::microseconds(1));  // one that stays due must not hold up time for everybody else
 }
 
 void TwinBus::start(Instant t) {
@@ -346,8 +339,7 @@ void TwinBus::start_can(Instant t) {
 
 void TwinBus::begin(Number sender, SendQueue& queue, Instant t) {
     Transmission& x = wire_.emplace_back();
-    x.frame = queue.front(t)->frame;
-    queue.pop(t);
+    queue.take(x.frame, t);
     x.sender = sender;
     x.start = t;
     const bool can = options_.kind == LineKind::can;
@@ -388,7 +380,7 @@ void TwinBus::finish_one() {
     const bool can = options_.kind == LineKind::can;
     done_.frame.at = done_.end;
     load_.add(done_.end, done_.end - done_.start);
-    if (can) bus_free_ = done_.end + wire_time(can_intermission_bits, options_.bit_rate);
+    if (can) bus_free_ = done_.end + intermission_;
     if (done_.garbled.any()) ++status_.errors;
     if (done_.sender == host) {
         ++status_.frames_out;
@@ -420,17 +412,19 @@ void TwinBus::give_run(Transmission& x) {
 
 /// A change of a twin's own filters while a frame is delivered concerns later frames.
 std::span<const TwinBus::Number> TwinBus::who_receives(std::uint32_t id) {
-    Hearers& h = hearers_[(id * 2654435761u) >> 24];
-    if (h.filters == filters_ && h.id == id) return std::span(h.numbers).first(h.count);
+    auto& set = hearers_[(id * 2654435761u) >> 25];
+    const auto known = std::ranges::find(set, id, &Hearer::id);
     hearing_.clear();
+    if (known != set.end() && known->number != host) {
+        if (known->number != gone) hearing_.push_back(known->number);
+        return hearing_;
+    }
     for (const Ear& e : ears_) {
         if (e.acceptance.takes(id)) hearing_.push_back(e.number);
     }
-    if (hearing_.size() <= h.numbers.size()) {
-        h.filters = filters_;
-        h.id = id;
-        h.count = static_cast<std::uint32_t>(hearing_.size());
-        std::ranges::copy(hearing_, h.numbers.begin());
+    if (known == set.end()) {
+        std::ranges::move_backward(set.begin(), set.end() - 1, set.end());
+        set.front() = {id, hearing_.empty() ? gone : hearing_.size() == 1 ? hearing_.front() : host};
     }
     return hearing_;
 }

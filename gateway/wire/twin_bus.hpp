@@ -75,7 +75,7 @@ public:
     void open(LineEvents& events, Instant now) override;
     void close() override;
     bool send(const Frame& frame, Priority priority, Instant now) override;
-    [[nodiscard]] Instant deadline() const override { return due_known_ ? due_ : next_event(); }
+    [[nodiscard]] Instant deadline() const override { return next_known_ ? next_.at : next_event().at; }
     void on_deadline(Instant now) override;
     [[nodiscard]] LineStatus status(Instant now) const override;
 
@@ -87,17 +87,24 @@ private:
     struct Node;
     /// One transmission on the wire.
     struct Transmission {
-        Frame frame;
         Number sender = host;
         Instant start{};
         Instant end{};
         Instant next{};                        ///< when its next bytes have crossed; `end` for the last ones
         std::uint16_t given = 0;               ///< bytes that the host has
         std::bitset<Frame::capacity> garbled;  ///< bytes that another driver has overlaid
+        Frame frame;
     };
     struct Due {
         Instant at;
         Number number;
+    };
+    /// What comes next, and when. At the same instant an end comes first, then deadlines, then starts: whoever has something to send by
+    /// then takes part.
+    struct Event {
+        enum class Kind : std::uint8_t { end, deadline, start };
+        Instant at = never;
+        Kind kind = Kind::end;
     };
     struct Ear {
         Acceptance acceptance;
@@ -115,11 +122,11 @@ private:
     [[nodiscard]] bool sending(Number sender) const noexcept;
     [[nodiscard]] bool may_start(Number twin) const noexcept;
     [[nodiscard]] Instant next_start() const noexcept;
-    [[nodiscard]] Instant next_event() const noexcept;
+    [[nodiscard]] Event next_event() const noexcept;
     [[nodiscard]] Instant first_end() const noexcept;
     [[nodiscard]] std::uint16_t run_end(const Transmission& x) const noexcept;
     void give_run(Transmission& x);
-    void step(Instant t);
+    void step(const Event& e);
     void start(Instant t);
     void start_can(Instant t);
     void begin(Number sender, SendQueue& queue, Instant t);
@@ -140,27 +147,27 @@ private:
     bool tell_up_ = false;
     bool running_ = false;
     Instant processed_{};  // events up to here are done; nothing happens before it any more
-    Instant due_ = never;  // when the next event is, if that is known
-    bool due_known_ = false;
+    Event next_;           // if that is known
+    bool next_known_ = false;
 
     std::vector<std::unique_ptr<Node>> nodes_;  // by number; null: free
     std::vector<Ear> ears_;                     // what is scanned for a frame, kept apart from the nodes so that it is dense
-    /// Who hears an identifier, as long as all filters are what they were when the ears were scanned for it.
-    struct Hearers {
-        std::uint64_t filters = 0;  ///< filters_ at that time
-        std::uint32_t id = 0;
-        std::uint32_t count = 0;
-        std::array<Number, 2> numbers{};  ///< in the order of the ears
+    std::vector<DriveId> keys_;                 // of the ears, each at the same place
+    /// Who hears an identifier, as the ears were scanned for it; forgotten with each change of ears_. Sets of four by a hash of the
+    /// identifier, the newest first: the few hundred identifiers of a full bus have room, in few cache lines.
+    struct Hearer {
+        std::uint32_t id = 0xFFFFFFFF;  ///< none
+        Number number = gone;           ///< gone: nobody; host: several, the ears are asked
     };
-    std::array<Hearers, 256> hearers_;  // by a hash of the identifier
-    std::vector<Number> hearing_;       // more than such a place holds
-    std::uint64_t filters_ = 1;         // grows with each change of ears_
-    std::vector<Due> heap_;             // twins by deadline, earliest first; nodes know their place in it
-    std::vector<Sender> senders_;       // dense, for the same reason
+    std::array<std::array<Hearer, 4>, 128> hearers_;
+    std::vector<Number> hearing_;  // of the identifier that was asked for last
+    std::vector<Due> heap_;        // twins by deadline, earliest first; nodes know their place in it
+    std::vector<Sender> senders_;  // dense, for the same reason
     SendQueue host_queue_;
     std::vector<Transmission> wire_;  // CAN: at most one; bytes: at most one per sender
     Transmission done_;               // the one that is being delivered
     Instant bus_free_{};              // CAN: end of the last intermission
+    Duration intermission_{};         // CAN
     Out scratch_;
 
     TwinBusCounters counters_;

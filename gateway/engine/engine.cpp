@@ -65,10 +65,17 @@ Instant Engine::deadline() const {
 }
 
 Instant Engine::wake_at(Duration twins_wait) const {
-    const auto& pending = parts_->pending;
-    if (!pending.clients.empty() || !pending.orders.empty() || parts_->site_change.waits()) return deadline();
+    constexpr std::size_t most_looked_at = 32;  // more orders than that are on their way to every line
+    const auto& orders = parts_->pending.orders;
     Machine& machine = parts_->machine;
-    return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest(twins_wait));
+    if (orders.size() > most_looked_at || parts_->site_change.waits()) return deadline();
+    const auto waits = [&](const Side& side) {
+        return std::ranges::none_of(orders, [&](const auto& o) {
+            const Axis* a = o.second.at_drive() ? machine.axis(o.second.axis) : nullptr;
+            return a && a->drive->line == &side.unit;
+        });
+    };
+    return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest(twins_wait, waits));
 }
 
 void Engine::on_deadline(Instant now) {

@@ -144,12 +144,12 @@ public:
         ask();
         return heap_.empty() ? never : heap_.front().at;
     }
-    /// The same where what simulated drives say may be seen to so much later; what adapters do is due when it is.
-    [[nodiscard]] Instant earliest(Duration twins_wait) {
+    /// The same where what simulated drives say may be seen to so much later on the sides that wait; what adapters do is due when it is.
+    [[nodiscard]] Instant earliest(Duration twins_wait, auto&& waits) {
         ask();
         Instant t = never;
         for (const auto [at, place] : heap_)
-            t = std::min(t, all_[place]->twin && at != never ? std::min(at + twins_wait, adapters_due_[place]) : at);
+            t = std::min(t, all_[place]->twin && at < t && waits(*all_[place]) ? std::min(at + twins_wait, adapters_due_[place]) : at);
         return t;
     }
     /// The first one at this place or behind it whose deadline has come; nullptr: none.
@@ -383,6 +383,8 @@ struct OrderRecord {
     Result kept;   ///< what the drive said, while the store works
     Value before;  ///< of a write: what was there, as far as it is known
     Instant given_at{};
+    /// Its drive has not answered yet.
+    [[nodiscard]] bool at_drive() const noexcept { return !known(kept.value); }
 };
 
 /// All that is there: lines, drives and axes of the site in force, and the present moment. Each part of the engine works on it.

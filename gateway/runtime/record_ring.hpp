@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -31,11 +32,12 @@ public:
         end_.store(end + need, std::memory_order_release);
         return true;
     }
-    /// Receiver's thread: each record that is there now; its payload holds for the call.
+    /// Receiver's thread: each record that is there now, at most so many; its payload holds for the call. True: that was all.
     template <class F>
-    void empty(F&& f) {
+    bool empty(F&& f, std::size_t most = SIZE_MAX) {
         std::size_t begin = begin_.load(std::memory_order_relaxed);
-        for (const std::size_t end = end_.load(std::memory_order_acquire); begin != end;) {
+        const std::size_t end = end_.load(std::memory_order_acquire);
+        for (; begin != end && most > 0; --most) {
             Head head{};
             read(begin, &head, sizeof head);
             room_.resize(head.size);
@@ -44,6 +46,7 @@ public:
             begin_.store(begin, std::memory_order_release);
             f(FlightRecord{head.kind, head.index, at_ns(head.at), room_});
         }
+        return begin == end;
     }
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 

@@ -442,6 +442,7 @@ void Service::take_down() {
         (void)warm.run_one_for(std::chrono::milliseconds(50));
     if (access) access->stop();
     cold->stop();
+    ports->events.tell_all();
 }
 }  // namespace
 

@@ -2,7 +2,14 @@
 // In: events, queries. Out: events. Reads of the database are local and short; nothing is written here.
 #include "gateway/runtime/warm_events.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace axisgate {
+namespace {
+/// In one go, some 5 us each: a whole commit's are half a millisecond, in which no command would be answered.
+constexpr std::size_t events_per_slice = 4;
+}  // namespace
 
 void WarmEvents::note(Event event) {
     outlet_.send(std::move(event), monotonic_now());
@@ -20,13 +27,26 @@ void WarmEvents::note(std::string kind, std::string text, const Origin& origin, 
 }
 
 void WarmEvents::written(std::vector<Event> events) {
-    threads_.answer([this, events = std::move(events)] {
-        const auto listeners = listeners_;
-        for (const auto& e : events) {
-            for (auto* l : listeners)
-                l->on_event(e);
-        }
+    threads_.answer([this, events = std::move(events)]() mutable {
+        const bool telling = !numbered_.empty();
+        std::ranges::move(events, std::back_inserter(numbered_));
+        if (!telling) tell_some();
     });
+}
+
+void WarmEvents::tell(std::size_t most) {
+    const auto listeners = listeners_;
+    for (; most > 0 && !numbered_.empty(); --most) {
+        const Event e = std::move(numbered_.front());
+        numbered_.pop_front();
+        for (auto* l : listeners)
+            l->on_event(e);
+    }
+}
+
+void WarmEvents::tell_some() {
+    tell(events_per_slice);
+    if (!numbered_.empty()) threads_.answer([this] { tell_some(); });  // behind what has come for others meanwhile
 }
 
 std::vector<Event> WarmEvents::events(const EventQuery& query) const {

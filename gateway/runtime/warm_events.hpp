@@ -3,6 +3,8 @@
 // Bounded: the ring to the storage; an event that finds it full is counted. Never by way of the hot thread.
 #pragma once
 
+#include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -26,11 +28,17 @@ public:
     void note(Event event) override;
     void listen(EventListener* listener) override { listeners_.push_back(listener); }
     void unlisten(EventListener* listener) override { std::erase(listeners_, listener); }
+    /// At the end, when the service thread does not turn any more: listeners are told of what has been numbered.
+    void tell_all() { tell(SIZE_MAX); }
 
 private:
+    void tell(std::size_t most);
+    void tell_some();
+
     const WarmThreads& threads_;
     EventOutlet outlet_;
     std::vector<EventListener*> listeners_;
+    std::deque<Event> numbered_;  ///< listeners are to be told of them
 };
 
 }  // namespace axisgate

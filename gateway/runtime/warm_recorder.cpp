@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "gateway/runtime/clock.hpp"
 #include "gateway/services/recorder/axr.hpp"
@@ -22,6 +23,8 @@ namespace {
 namespace json = boost::json;
 namespace fs = std::filesystem;
 constexpr auto look_often = std::chrono::milliseconds(100), look_seldom = std::chrono::milliseconds(500);
+/// In one go, some 20 us: all that a busy site writes in 100 ms is half a millisecond, in which no command would be answered.
+constexpr std::size_t records_per_slice = 64;
 
 /// All that goes into one file, taken on the service thread.
 struct Frozen {
@@ -208,30 +211,40 @@ void WarmRecorder::begin(RecorderSettings settings) {
     events_.listen(this);
     timer_ = std::make_unique<boost::asio::steady_timer>(threads_.warm);
     alarm_timer_ = std::make_unique<boost::asio::steady_timer>(threads_.warm);
-    wait();
+    wait(look_seldom);
 }
 
-void WarmRecorder::wait() {
-    timer_->expires_after(found_ ? look_often : look_seldom);
+void WarmRecorder::wait(std::chrono::milliseconds pause) {
+    timer_->expires_after(pause);
     timer_->async_wait([this](const boost::system::error_code& ec) {
         if (ec) return;
-        empty();
-        wait();
+        if (!take(records_per_slice)) return wait({});  // behind what has come for others meanwhile
+        end_look();
+        wait(std::exchange(found_, false) ? look_often : look_seldom);
     });
 }
 
 void WarmRecorder::empty() {
-    found_ = false;
     if (!trends_) return;
-    tap_.ring.empty([this](const FlightRecord& r) {
-        found_ = true;
-        if (r.kind != FlightKind::site) return keep(r);
-        std::shared_ptr<const SiteInput>* owned = nullptr;
-        std::memcpy(&owned, r.payload.data(), sizeof owned);
-        const std::unique_ptr<std::shared_ptr<const SiteInput>> site(owned);
-        const std::string written = pack_site(**site);
-        keep({r.kind, r.index, r.at, written});
-    });
+    (void)take(SIZE_MAX);
+    end_look();
+}
+
+bool WarmRecorder::take(std::size_t most) {
+    return tap_.ring.empty(
+        [this](const FlightRecord& r) {
+            found_ = true;
+            if (r.kind != FlightKind::site) return keep(r);
+            std::shared_ptr<const SiteInput>* owned = nullptr;
+            std::memcpy(&owned, r.payload.data(), sizeof owned);
+            const std::unique_ptr<std::shared_ptr<const SiteInput>> site(owned);
+            const std::string written = pack_site(**site);
+            keep({r.kind, r.index, r.at, written});
+        },
+        most);
+}
+
+void WarmRecorder::end_look() {
     if (tap_.ring.lost() > 0 && !inputs_->overflowed()) inputs_->give_up();
     if (listener_) listener_->on_time(monotonic_now());
     if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->keep(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));

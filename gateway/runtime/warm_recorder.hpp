@@ -5,6 +5,7 @@
 
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/thread_pool.hpp>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -97,7 +98,10 @@ private:
     };
     void on_event(const Event& event) override;
     void empty();
-    void wait();
+    /// The next records, at most so many. True: that was all.
+    [[nodiscard]] bool take(std::size_t most);
+    void end_look();
+    void wait(std::chrono::milliseconds pause);
     void keep(const FlightRecord& r);
     void freeze_this(std::string name, std::string why, std::string who, bool automatic,
                      std::function<void(RecordingFault, RecordingInfo)> then);
@@ -113,7 +117,7 @@ private:
     std::unique_ptr<FlightLog> stretch_, inputs_;
     RecordListener* listener_ = nullptr;
     std::unique_ptr<TrendDisk> trend_disk_;
-    bool found_ = false;  ///< records came with the last look
+    bool found_ = false;  ///< records came since the last pause
     Instant frozen_at_{};
     std::unique_ptr<boost::asio::steady_timer> timer_, alarm_timer_;
     boost::asio::thread_pool disk_{1};

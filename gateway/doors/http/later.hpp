@@ -15,7 +15,7 @@ namespace axisgate::http {
 class Later : public std::enable_shared_from_this<Later> {
 public:
     /// Between two looks at the sockets; a job that has begun is ended.
-    static constexpr std::chrono::microseconds most_at_once{50};
+    static constexpr std::chrono::microseconds most_at_once{15};
 
     explicit Later(boost::asio::io_context& context) : context_(context) {}
     Later(const Later&) = delete;

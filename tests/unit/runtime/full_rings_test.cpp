@@ -127,6 +127,49 @@ TEST(FullRings, EventsThatFindNoPlaceAreCountedAndToldOnce) {
     EXPECT_EQ(hot.lost_events(), 5u);
 }
 
+TEST(FullRings, ALargeCommitsEventsLetOthersInBetween) {
+    RingBench bench;
+    struct : EventListener {
+        std::vector<std::int32_t> codes;
+        void on_event(const Event& e) override { codes.push_back(e.code); }
+    } listener;
+    bench.ports->events.listen(&listener);
+    const auto commit = [&](std::int32_t from, std::int32_t to) {
+        std::vector<Event> list;
+        for (std::int32_t i = from; i < to; ++i)
+            list.push_back(numbered(i));
+        bench.ports->events.written(std::move(list));
+    };
+    std::vector<std::size_t> told;  // whenever somebody else has a turn
+    const std::function<void()> other = [&] {
+        told.push_back(listener.codes.size());
+        if (told.back() < 120) boost::asio::post(bench.warm, other);
+    };
+    commit(0, 100);
+    commit(100, 120);
+    boost::asio::post(bench.warm, other);
+    bench.run_warm();
+    ASSERT_EQ(listener.codes.size(), 120u);
+    for (std::int32_t i = 0; i < 120; ++i)
+        EXPECT_EQ(listener.codes[static_cast<std::size_t>(i)], i);
+    ASSERT_FALSE(told.empty());
+    for (std::size_t before = 0; const std::size_t n : told) {
+        EXPECT_LE(n - before, 8u) << "in one go, after " << before;
+        before = n;
+    }
+
+    commit(120, 200);
+    bench.warm.restart();
+    while (listener.codes.size() == 120)
+        ASSERT_EQ(bench.warm.poll_one(), 1u);
+    EXPECT_LT(listener.codes.size(), 200u);
+    bench.ports->events.tell_all();
+    EXPECT_EQ(listener.codes.size(), 200u) << "at the end nothing is left out";
+    bench.run_warm();
+    EXPECT_EQ(listener.codes.size(), 200u);
+    bench.ports->events.unlisten(&listener);
+}
+
 TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
     boost::asio::io_context disk;
     Doorbell bell(disk);

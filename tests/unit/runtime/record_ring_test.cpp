@@ -25,6 +25,21 @@ TEST(RecordRing, WhatFindsNoRoomIsCountedAndTheRestIsWhole) {
     EXPECT_EQ(ring.lost(), 6u);
 }
 
+TEST(RecordRing, IsEmptiedInParts) {
+    RecordRing ring(1024);
+    for (int i = 0; i < 5; ++i)
+        ASSERT_TRUE(ring.push({FlightKind::event, static_cast<std::uint16_t>(i), at_ns(i), "x"}));
+    std::string seen;
+    const auto take = [&](const FlightRecord& r) { seen += std::to_string(r.index); };
+    EXPECT_FALSE(ring.empty(take, 2));
+    EXPECT_EQ(seen, "01");
+    EXPECT_FALSE(ring.empty(take, 0));
+    EXPECT_TRUE(ring.empty(take, 3)) << "those were all";
+    EXPECT_EQ(seen, "01234");
+    EXPECT_TRUE(ring.empty(take));
+    EXPECT_EQ(seen, "01234");
+}
+
 TEST(RecordRing, KeepsOrderBetweenTwoThreads) {
     RecordRing ring(4096);
     constexpr int many = 200'000;

@@ -23,7 +23,7 @@ namespace {
 namespace json = boost::json;
 namespace fs = std::filesystem;
 constexpr auto look_often = std::chrono::milliseconds(100), look_seldom = std::chrono::milliseconds(500);
-/// In one go, some 20 us: all that a busy site writes in 100 ms is half a millisecond, in which no command would be answered.
+/// In one go, some 10 us: all that a busy site writes in 100 ms is half a millisecond, in which no command would be answered.
 constexpr std::size_t records_per_slice = 64;
 
 /// All that goes into one file, taken on the service thread.

@@ -1,4 +1,4 @@
-// Later: what moves nothing waits here for the turn of what commands. Between two looks at the sockets some of it is done, at most 50 us
+// Later: what moves nothing waits here for the turn of what commands. Between two looks at the sockets some of it is done, at most 15 us
 // and one job more: so a command that has come is taken up before the requests that came before it and that nothing moves by. In: jobs of
 // this thread. Out: their calls, in order, from the io_context. Bound: one job for each connection and one for the live feed, kept by those
 // who give them.

@@ -124,7 +124,7 @@ struct Plant {
 };
 
 /// Axes that move, each asked a hundred times a second, in gateways of a thousand (their register map ends at 1,024) that go on in turn,
-/// half a second each, as they know nothing of one another: all of them in the time of one processor.
+/// a second each, as they know nothing of one another: all of them in the time of one processor.
 bool run_polled(const FamilyEntry& e, std::size_t gateways) {
     constexpr std::size_t axes = 1000;
     constexpr double rate = 100;
@@ -136,9 +136,9 @@ bool run_polled(const FamilyEntry& e, std::size_t gateways) {
     for (std::size_t i = 0; i < gateways; ++i)
         plants.push_back(std::make_unique<Plant>(e, axes, 40, static_cast<int>(2000 / rate)));
     const auto run_for = [&](Duration d) {
-        for (Duration t{}; t < d; t += 500ms) {
+        for (Duration t{}; t < d; t += 1s) {
             for (auto& p : plants)
-                p->run_for(500ms);
+                p->run_for(1s);
         }
     };
     const auto to_all = [&](auto body) {

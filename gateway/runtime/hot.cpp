@@ -21,7 +21,7 @@ constexpr std::size_t job_ring = 256;
 constexpr std::size_t stored_ring = 8192;
 constexpr int handlers_per_turn = 128;
 constexpr int turns_unannounced_limit = 8;
-constexpr Duration reports_period = std::chrono::milliseconds(100);
+constexpr Duration reports_period = std::chrono::milliseconds(100), reports_again = std::chrono::milliseconds(1);
 /// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
 constexpr Duration rest_gathers = std::chrono::milliseconds(5);
 /// What happens on simulated lines by itself is done together with what follows, for the same reason.
@@ -248,7 +248,12 @@ void Hot::publish_reports(Instant now) {
     r->settled = engine_.settled();
     for (const LossCause cause : loss_causes)
         r->losses[static_cast<std::size_t>(cause)] = engine_.losses(cause);
-    reports_.store(std::move(r), std::memory_order_release);
+    std::shared_ptr<const Reports> made = std::move(r);
+    if (const std::unique_lock hold(reports_mutex_, std::try_to_lock); hold) {
+        reports_.swap(made);
+    } else {
+        next_reports_ = now + reports_again;  // they are being read at this moment
+    }
 }
 
 }  // namespace axisgate

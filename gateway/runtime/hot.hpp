@@ -9,6 +9,7 @@
 #include <boost/asio/io_context.hpp>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -76,7 +77,10 @@ public:
     [[nodiscard]] const Image& image_for_readers() const noexcept { return image_; }
     /// Any thread: Outlets::changed is called once, after the next change of an axis' picture.
     void want_change() noexcept { change_wanted_.store(true, std::memory_order_release); }
-    [[nodiscard]] std::shared_ptr<const Reports> reports() const { return reports_.load(std::memory_order_acquire); }
+    [[nodiscard]] std::shared_ptr<const Reports> reports() const {
+        const std::lock_guard hold(reports_mutex_);
+        return reports_;
+    }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
     /// A site is in force: all doors look it up anew. Hot thread, or before start().
@@ -147,7 +151,8 @@ private:
     std::vector<Result> turn_results_;
     std::vector<HotDoor*> doors_;  // by number - 1; nullptr: detached
     EventOutlet events_;
-    std::atomic<std::shared_ptr<const Reports>> reports_{std::make_shared<const Reports>()};
+    mutable std::mutex reports_mutex_;  ///< for as long as a pointer is copied; the hot thread never waits for it
+    std::shared_ptr<const Reports> reports_ = std::make_shared<const Reports>();
     Instant next_reports_{};
     std::atomic<bool> stopping_{false};
     bool finished_ = false;

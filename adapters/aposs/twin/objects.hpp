@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "gateway/core/catalogue.hpp"
@@ -51,7 +54,11 @@ private:
     canopen::Dictionary factory_;
     std::map<Key, Row> rows_;  ///< their places stay: the two below point at them
     std::map<Address, const Row*> places_;
-    std::array<std::map<std::string, const Row*, std::less<>>, axes> names_;
+    struct Hash {
+        using is_transparent = void;
+        [[nodiscard]] std::size_t operator()(std::string_view id) const noexcept { return std::hash<std::string_view>{}(id); }
+    };
+    std::array<std::unordered_map<std::string, const Row*, Hash, std::equal_to<>>, axes> names_;
 };
 
 }  // namespace axisgate::aposs

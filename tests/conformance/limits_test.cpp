@@ -109,6 +109,39 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     rests_at(-limit);
 }
 
+/// The target alone is within the limits; what the word makes of it is not.
+TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
+    begin();
+    const auto write = [&](auto&& fill) {
+        ProcessData d;
+        fill(d);
+        const Result* r = w.wait(w.command(a1, d), 10s);
+        return r ? *r : Result{};
+    };
+    const auto word = [&](int cw) { return write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); }); };
+    order(a1, move_to(limit * 4 / 5));
+    (void)write([](ProcessData& d) {
+        d.mode = cia402::mode_profile_position;
+        d.profile_velocity = 5'000;
+        d.profile_acceleration = d.profile_deceleration = 20'000;
+    });
+    for (const int cw : {0x06, 0x07, 0x0F})
+        ASSERT_TRUE(good(word(cw)));
+    const Result target = write([&](ProcessData& d) { d.target_position = limit / 2; });
+    ASSERT_TRUE(good(target)) << target.text;
+    const Result relative = word(0x5F);
+    EXPECT_EQ(relative.outcome, Outcome::refused) << relative.text;
+    EXPECT_EQ(relative.reason, Reason::out_of_range) << relative.text;
+    EXPECT_NE(relative.text.find("position_max"), std::string::npos) << relative.text;
+    w.run_for(1s);
+    EXPECT_EQ(speed(a1), 0);
+    EXPECT_EQ(now().position, limit * 4 / 5);
+    ASSERT_TRUE(good(word(0x0F)));
+    const Result absolute = word(0x1F);
+    ASSERT_TRUE(good(absolute)) << absolute.text;
+    ASSERT_TRUE(w.run_until_true([&] { return now().position == limit / 2; }, 30s));
+}
+
 TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
     // The gateway that gave the velocity move is gone; the next one knows of no order, and finds it on its way out.
     Site wanted = w.make_site(e, e.cable(), 1, "device");

@@ -33,5 +33,14 @@ inline constexpr Instant time_zero{};
 [[nodiscard]] constexpr std::int64_t milliseconds_of(Duration d) noexcept {
     return std::chrono::duration_cast<std::chrono::milliseconds>(d).count();
 }
+/// `a + b`, or the end of what 64 bits hold: for times that somebody asks for, or that a file tells.
+[[nodiscard]] constexpr std::int64_t saturated_sum(std::int64_t a, std::int64_t b) noexcept {
+    std::int64_t sum = 0;
+    return !__builtin_add_overflow(a, b, &sum) ? sum : b > 0 ? INT64_MAX : INT64_MIN;
+}
+[[nodiscard]] constexpr std::int64_t saturated_difference(std::int64_t a, std::int64_t b) noexcept {
+    std::int64_t difference = 0;
+    return !__builtin_sub_overflow(a, b, &difference) ? difference : b < 0 ? INT64_MAX : INT64_MIN;
+}
 
 }  // namespace axisgate

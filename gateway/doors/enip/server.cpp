@@ -134,6 +134,8 @@ private:
                        reinterpret_cast<const sockaddr*>(&a), sizeof a);
     }
     std::string bind_udp(UdpSocket& socket, std::uint16_t& port);
+    /// TCP and UDP of one number.
+    std::string bind_explicit(std::uint16_t port, const std::string& text);
     void on_ready(std::span<const epoll_event> events);
     void accept();
     /// False: no descriptor is left, and somebody waits in the listen queue.
@@ -180,6 +182,18 @@ std::string Server::Impl::bind_udp(UdpSocket& socket, std::uint16_t& port) {
     return {};
 }
 
+std::string Server::Impl::bind_explicit(std::uint16_t port, const std::string& text) {
+    boost::system::error_code ec;
+    (void)acceptor_.open(tcp::v4(), ec);
+    if (!ec) (void)acceptor_.set_option(Acceptor::reuse_address(true), ec);
+    if (!ec) (void)acceptor_.bind({asio::ip::address_v4(bound_), port}, ec);
+    if (!ec) (void)acceptor_.listen(256, ec);
+    if (!ec) (void)acceptor_.native_non_blocking(true, ec);
+    if (!ec) facts_.port = acceptor_.local_endpoint(ec).port();
+    if (ec) return fmt::format("[enip] bind \"{}\": cannot listen: {}; choose another address or port", text, ec.message());
+    return bind_udp(explicit_, facts_.port);
+}
+
 std::string Server::Impl::open(const std::string& text) {
     const BindAddress b = parse_bind(text);
     if (!b.fault.empty()) return b.fault;
@@ -187,16 +201,16 @@ std::string Server::Impl::open(const std::string& text) {
     bound_ = b.address;
     facts_ = host_facts(b.address);
     boost::system::error_code ec;
-    (void)acceptor_.open(tcp::v4(), ec);
-    if (!ec) (void)acceptor_.set_option(Acceptor::reuse_address(true), ec);
-    if (!ec) (void)acceptor_.bind({asio::ip::address_v4(bound_), b.port}, ec);
-    if (!ec) (void)acceptor_.listen(256, ec);
-    if (!ec) (void)acceptor_.native_non_blocking(true, ec);
-    if (!ec) facts_.port = acceptor_.local_endpoint(ec).port();
-    if (ec) return fmt::format("[enip] bind \"{}\": cannot listen: {}; choose another address or port", text, ec.message());
+    std::string fault;
+    // A free port that the system chooses is free for TCP; another program may have it for UDP.
+    for (int tries = b.port == 0 ? 16 : 1; tries > 0; --tries) {
+        if (fault = bind_explicit(b.port, text); fault.empty()) break;
+        (void)acceptor_.close(ec);
+        (void)explicit_.close(ec);
+    }
+    if (!fault.empty()) return fault;
     facts_.io_port = settings_.io_port;
-    if (auto fault = bind_udp(explicit_, facts_.port); !fault.empty()) return fault;
-    if (auto fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) {
+    if (fault = bind_udp(implicit_, facts_.io_port); !fault.empty()) {
         if (!settings_.another_io_port) return fault;
         implicit_.close(ec);
         facts_.io_port = 0;

@@ -121,8 +121,8 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
         if (!i || *i >= site->axis_ids.size()) return nothing_named("axis", name);
         const AxisSpec& spec = site->site.axes[*i];
         axes.push_back({name, spec.unit, spec.increments_per_unit,
-                        recorder.trend(site->axis_ids[*i], at_ns(from * 1'000'000 - offset), at_ns(to * 1'000'000 - offset),
-                                       static_cast<std::size_t>(columns))});
+                        recorder.trend(site->axis_ids[*i], at_ns(saturated_difference(from * 1'000'000, offset)),
+                                       at_ns(saturated_difference(to * 1'000'000, offset)), static_cast<std::size_t>(columns))});
     }
     if (*liked == 1) {
         Response r;
@@ -154,9 +154,10 @@ Handled get_recorded_steps(Call& c, const ClockPort& clock, RecorderPort& record
         places.push_back(std::move(*place));
     }
     const std::int64_t offset = clock.to_unix_ns(at_ns(0));
-    const Instant begin = at_ns(from * 1'000'000 - offset);
+    const Instant begin = at_ns(saturated_difference(from * 1'000'000, offset));
     // The last word of `to` counts whole.
-    auto record = std::make_shared<RecipeRecord>(std::move(places), begin, at_ns((to + 1) * 1'000'000 - offset - 1));
+    const Instant end = at_ns(saturated_difference(saturated_sum(to * 1'000'000, 999'999), offset));
+    auto record = std::make_shared<RecipeRecord>(std::move(places), begin, end);
     const auto begins = recorder.recorder_state().from;
     recorder.read_stretch(
         begin, [record](const FlightRecord& r) { record->take(r); },

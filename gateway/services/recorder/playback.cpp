@@ -119,12 +119,13 @@ public:
             if (wish_.columns > 0 && r->kind == FlightKind::picture) {
                 if (const auto p = unpack<PictureRecord>(r->payload)) curves_.add(AxisId{r->index}, *p, r->at);
             }
-            if (!wish_.at_unix_ns || ns_of(r->at) + head_.unix_offset_ns <= *wish_.at_unix_ns) take(*r);
+            if (!wish_.at_unix_ns || unix_of(r->at) <= *wish_.at_unix_ns) take(*r);
         }
     }
     [[nodiscard]] json::object document(const Families& families) {
-        const Instant at =
-            wish_.at_unix_ns ? std::clamp(at_ns(*wish_.at_unix_ns - head_.unix_offset_ns), first_.value_or(Instant{}), last_) : last_;
+        const Instant at = wish_.at_unix_ns ? std::clamp(at_ns(saturated_difference(*wish_.at_unix_ns, head_.unix_offset_ns)),
+                                                         first_.value_or(Instant{}), last_)
+                                            : last_;
         return {{"from", time(first_.value_or(Instant{}))},
                 {"to", time(last_)},
                 {"at", time(at)},
@@ -136,7 +137,8 @@ public:
     }
 
 private:
-    [[nodiscard]] json::string time(Instant at) const { return json::string(format_time(ns_of(at) + head_.unix_offset_ns)); }
+    [[nodiscard]] std::int64_t unix_of(Instant at) const { return saturated_sum(ns_of(at), head_.unix_offset_ns); }
+    [[nodiscard]] json::string time(Instant at) const { return json::string(format_time(unix_of(at))); }
     void take(const FlightRecord& r) {
         switch (r.kind) {
             case FlightKind::picture:
@@ -148,7 +150,7 @@ private:
                 if (const auto f = unpack<FrameRecord>(r.payload); f && wish_.frames > 0) {
                     TraceEntry e;
                     e.sequence = ++frame_count_;
-                    e.at_unix_ns = ns_of(r.at) + head_.unix_offset_ns;
+                    e.at_unix_ns = unix_of(r.at);
                     e.to_drive = f->to_drive;
                     e.simulated = r.kind == FlightKind::twin_frame;
                     e.frame = f->frame;
@@ -198,7 +200,7 @@ private:
             const std::string family = !d.family.empty() || !line ? d.family : head_.site.lines[*line].family;
             const auto catalogue = catalogue_of(head_.site, d, families);
             const AxisPicture p = picture_of(was.first, was.second, *spec);
-            out.push_back(axis_document({*spec, d.line, family, catalogue.get(), p, ns_of(p.at) + head_.unix_offset_ns}));
+            out.push_back(axis_document({*spec, d.line, family, catalogue.get(), p, unix_of(p.at)}));
         }
         return out;
     }

@@ -137,6 +137,9 @@ TEST_F(RecordedSteps, WhatIsNoStepIsNamedAndWhatWasNotByHandIsNone) {
     EXPECT_EQ(steps(9s).at("steps").as_array().size(), most_recipe_steps);
     EXPECT_EQ(call("GET", "/api/v1/recorder/steps?axes=nobody").status, 404u);
     EXPECT_EQ(call("GET", "/api/v1/recorder/steps?from=x").status, 400u);
+    for (const auto* times : {"from=0&to=9223372036854", "from=9223372036854&to=9223372036854", "from=9223372036854&to=0"})
+        EXPECT_EQ(call("GET", std::string("/api/v1/recorder/steps?axes=feeder&") + times).status, 200u) << times;
+    EXPECT_EQ(call("GET", "/api/v1/recorder/steps?to=9223372036855").status, 400u) << "no time has that many milliseconds";
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ TEST_F(RecorderOverHttp, WhatIsWrongIsNamed) {
         const auto a = call("GET", std::string("/api/v1/recorder/trends?") + query);
         EXPECT_EQ(a.status, 400u) << query;
     }
+    for (const auto* times : {"from=0&to=9223372036854", "from=9223372036854&to=9223372036854", "from=9223372036854&to=0"})
+        EXPECT_EQ(call("GET", std::string("/api/v1/recorder/trends?axes=feeder&") + times).status, 200u) << times;
     EXPECT_EQ(call("GET", "/api/v1/recorder/trends", "", {{"Accept", "image/png"}}).status, 406u);
     for (const auto* body : {R"({})", R"({"name":"../x"})", R"({"name":1})", R"({"name":"a","x":1})"})
         EXPECT_EQ(call("POST", "/api/v1/recorder/recordings", body).status, 422u) << body;

@@ -45,10 +45,12 @@ std::optional<AxisSnapshot> WarmSnapshots::snapshot(const std::string& axis, std
     return threads_.reader.snapshot(axis, n).value_or(std::nullopt);
 }
 
-void WarmSnapshots::save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) {
+void WarmSnapshots::save_snapshot(AxisSnapshot snapshot, std::string axis,
+                                  std::function<void(std::uint32_t n, std::string fault, bool axis_gone)> then) {
     threads_.on_cold([this, s = std::move(snapshot), axis = std::move(axis), then = std::move(then)](Store& store) {
         const auto n = store.save_snapshot(axis, s.name, s.comment, s.who, s.at_unix_ns, s.parameters);
-        threads_.answer([then, n = n ? *n : 0, fault = n ? std::string() : n.error().text] { then(n, fault); });
+        const bool gone = !n && n.error().kind == StoreError::Kind::not_found;
+        threads_.answer([then, n = n ? *n : 0, fault = n ? std::string() : n.error().text, gone] { then(n, fault, gone); });
     });
 }
 

@@ -26,7 +26,8 @@ public:
     explicit WarmSnapshots(const WarmThreads& threads) : threads_(threads) {}
     [[nodiscard]] std::vector<SnapshotInfo> snapshots(const std::string& axis) const override;
     [[nodiscard]] std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const override;
-    void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) override;
+    void save_snapshot(AxisSnapshot snapshot, std::string axis,
+                       std::function<void(std::uint32_t n, std::string fault, bool axis_gone)> then) override;
     void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) override;
 
 private:

@@ -89,6 +89,7 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
                 fed = [t for t, text in manager.read() if text == "WATCHDOG=1"]
                 assert len(fed) > 2 and max(b - a for a, b in zip(fed, fed[1:])) < 1.0, "within half of its time"
                 os.kill(g.process.pid, 19)
+                time.sleep(0.5)  # what it said before has come
                 before = len([1 for _, text in manager.read() if text == "WATCHDOG=1"])
                 time.sleep(1.2)
                 assert len([1 for _, text in manager.read() if text == "WATCHDOG=1"]) == before

@@ -279,8 +279,8 @@ Handled take_snapshot(Call& c, AxisPort& axes, const ClockPort& clock, EventPort
         snapshots.save_snapshot(
             taken, axis.spec().name,
             [&events, &sites, respond, axis, taken, left_out = std::move(left_out), not_read = std::move(not_read)](
-                std::uint32_t n, const std::string& fault) mutable {
-                if (!fault.empty() && !find_axis(sites, axis.spec().name)) return respond(nothing_named("axis", axis.spec().name));
+                std::uint32_t n, const std::string& fault, bool axis_gone) mutable {
+                if (axis_gone) return respond(nothing_named("axis", axis.spec().name));
                 if (!fault.empty()) return respond(problem(507, "not_stored", fault));
                 taken.n = n;
                 note_snapshot(events, taken, axis.spec().name, taken.who, fmt::format("taken: {} values", taken.values));

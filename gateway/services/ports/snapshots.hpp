@@ -19,8 +19,9 @@ public:
     /// In order of n, without their values.
     [[nodiscard]] virtual std::vector<SnapshotInfo> snapshots(const std::string& axis) const = 0;
     [[nodiscard]] virtual std::optional<AxisSnapshot> snapshot(const std::string& axis, std::uint32_t n) const = 0;
-    /// `then`: its number, or 0 and why it could not be stored.
-    virtual void save_snapshot(AxisSnapshot snapshot, std::string axis, std::function<void(std::uint32_t n, std::string fault)> then) = 0;
+    /// `then`: its number, or 0 and why it could not be stored; `axis_gone`: the axis was removed before it was.
+    virtual void save_snapshot(AxisSnapshot snapshot, std::string axis,
+                               std::function<void(std::uint32_t n, std::string fault, bool axis_gone)> then) = 0;
     virtual void delete_snapshot(std::string axis, std::uint32_t n, std::function<void(std::string fault)> then) = 0;
 };
 

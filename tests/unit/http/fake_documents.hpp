@@ -90,11 +90,13 @@ public:
         }
         return std::nullopt;
     }
-    void save_snapshot(AxisSnapshot s, std::string name, std::function<void(std::uint32_t, std::string)> then) override {
-        if (!keep_fault.empty()) return then(0, keep_fault);
+    bool axis_gone = false;  ///< the store has seen the axis removed, and this thread has not
+    void save_snapshot(AxisSnapshot s, std::string name, std::function<void(std::uint32_t, std::string, bool)> then) override {
+        if (axis_gone) return then(0, "the axis was removed meanwhile", true);
+        if (!keep_fault.empty()) return then(0, keep_fault, false);
         s.n = static_cast<std::uint32_t>(kept_snapshots[name].size() + 1);
         kept_snapshots[name].push_back(s);
-        then(s.n, "");
+        then(s.n, "", false);
     }
     void delete_snapshot(std::string name, std::uint32_t n, std::function<void(std::string)> then) override {
         std::erase_if(kept_snapshots[name], [n](const auto& s) { return s.n == n; });

@@ -57,6 +57,17 @@ TEST_F(Keep, ASnapshotReadsEverythingThatCanBeRead) {
     }
 }
 
+TEST_F(Keep, AnAxisThatIsRemovedBeforeItsSnapshotIsStoredIsNotFound) {
+    drive_answers();
+    gateway.axis_gone = true;
+    const auto a = do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"late"})");
+    EXPECT_EQ(a.status, 404u) << a.text;
+    gateway.axis_gone = false;
+    gateway.keep_fault = "there is no room for it";
+    EXPECT_EQ(do_call("POST", "/api/v1/axes/feeder/snapshots", R"({"name":"late"})").status, 507u);
+    EXPECT_TRUE(gateway.noted.empty());
+}
+
 TEST_F(Keep, ASilentDriveGivesNoHalfSnapshot) {
     int asked = 0;
     gateway.at_once = [&asked](const Command&) {

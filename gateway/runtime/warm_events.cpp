@@ -9,6 +9,8 @@ namespace axisgate {
 namespace {
 /// In one go, some 5 us each: a whole commit's are half a millisecond, in which no command would be answered.
 constexpr std::size_t events_per_slice = 4;
+/// And a part of those that wait, so that more than this thread has time for do not heap up: the more wait, the sooner they are told.
+constexpr std::size_t waiting_per_slice = 64;
 }  // namespace
 
 void WarmEvents::note(Event event) {
@@ -45,7 +47,7 @@ void WarmEvents::tell(std::size_t most) {
 }
 
 void WarmEvents::tell_some() {
-    tell(events_per_slice);
+    tell(std::max(events_per_slice, numbered_.size() / waiting_per_slice));
     if (!numbered_.empty()) threads_.answer([this] { tell_some(); });  // behind what has come for others meanwhile
 }
 

@@ -299,7 +299,7 @@ void TwinBus::on_deadline(Instant now) {
     running_ = false;
 }
 
-void TwinBus::step(const Event& e) {
+void TwinBus::step(Event e) {
     processed_ = e.at;
     if (e.kind == Event::Kind::end) return finish_one();
     if (e.kind == Event::Kind::start) return start(e.at);

@@ -126,7 +126,7 @@ private:
     [[nodiscard]] Instant first_end() const noexcept;
     [[nodiscard]] std::uint16_t run_end(const Transmission& x) const noexcept;
     void give_run(Transmission& x);
-    void step(const Event& e);
+    void step(Event e);
     void start(Instant t);
     void start_can(Instant t);
     void begin(Number sender, SendQueue& queue, Instant t);

@@ -23,6 +23,16 @@ protected:
         order(a1, Enable{});
     }
     const Result* jog(std::int64_t velocity) { return ask(a1, move_to(velocity, Move::Kind::velocity), false); }
+    /// What registers write, and what is answered.
+    Result write(auto&& fill) {
+        ProcessData d;
+        fill(d);
+        const Result* r = w.wait(w.command(a1, d), 10s);
+        return r ? *r : Result{};
+    }
+    Result word(int cw) {
+        return write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
+    }
     /// Where a drive has no velocity mode: it says so, and a positioning beyond the limit is refused, so that nothing leads out of it.
     void no_velocity_leads_nowhere(const Result& refusal) {
         EXPECT_EQ(refusal.reason, Reason::not_supported);
@@ -90,18 +100,12 @@ TEST_P(LimitLaws, ARampThatIsTheDrivesOwnIsReckonedWith) {
 
 TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     begin();
-    const auto write = [&](auto&& fill) {
-        ProcessData d;
-        fill(d);
-        const Result* r = w.wait(w.command(a1, d), 10s);
-        return r ? *r : Result{};
-    };
     (void)write([](ProcessData& d) {
         d.mode = cia402::mode_profile_velocity;
         d.profile_acceleration = d.profile_deceleration = 20'000;
     });
     for (const int cw : {0x06, 0x07, 0x0F})
-        (void)write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
+        (void)word(cw);
     const Result go = write([](ProcessData& d) { d.target_velocity = -5'000; });
     if (go.reason == Reason::not_supported) return no_velocity_leads_nowhere(go);
     ASSERT_TRUE(good(go)) << go.text;
@@ -112,13 +116,6 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
 /// The target alone is within the limits; what the word makes of it is not.
 TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
     begin();
-    const auto write = [&](auto&& fill) {
-        ProcessData d;
-        fill(d);
-        const Result* r = w.wait(w.command(a1, d), 10s);
-        return r ? *r : Result{};
-    };
-    const auto word = [&](int cw) { return write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); }); };
     order(a1, move_to(limit * 4 / 5));
     (void)write([](ProcessData& d) {
         d.mode = cia402::mode_profile_position;

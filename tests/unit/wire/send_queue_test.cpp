@@ -79,6 +79,23 @@ TEST(SendQueue, seesOnlyWhatHasComeByAnInstant) {
     EXPECT_EQ(drain(q), (std::vector<std::uint32_t>{2}));
 }
 
+TEST(SendQueue, givesTheFrameThatItRemoves) {
+    SendQueue q;
+    (void)q.push(can(1), Priority::poll, at_ns(10));
+    (void)q.push(can(2), Priority::urgent, at_ns(20));
+    (void)q.push(can(3), Priority::command, at_ns(10));
+    Frame f;
+    q.take(f, at_ns(15));
+    EXPECT_EQ(f.id, 3u) << "of those that have come by then";
+    q.take(f, at_ns(20));
+    EXPECT_EQ(f.id, 2u);
+    EXPECT_EQ(q.earliest(), at_ns(10));
+    q.take(f, at_ns(20));
+    EXPECT_EQ(f.id, 1u);
+    EXPECT_TRUE(q.empty());
+    EXPECT_EQ(q.earliest(), never);
+}
+
 TEST(SendQueue, throwsAwayWhatIsTooOld) {
     SendQueue q;
     (void)q.push(can(1), Priority::poll, at_ns(10));

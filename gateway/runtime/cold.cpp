@@ -27,6 +27,7 @@ Cold::~Cold() { stop(); }
 void Cold::start() {
     thread_ = std::thread([this] {
         enter_thread("axisgate-cold", cold_stands_back);
+        take_short_turns(cold_turn_ns);  // to give way costs the rest of a turn
         io_.run();
     });
 }

@@ -103,6 +103,7 @@ int Service::open_store() {
         return exit_failed;
     }
     so.migrations = *migrations;
+    so.between = []() noexcept { give_way_after(cold_piece_ns); };
     if (const std::string fault = take_waiting_backup(so); !fault.empty()) {
         complain(fault);
         return exit_failed;

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cstdint>
@@ -31,7 +32,7 @@ inline bool go_first() noexcept {
 /// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one;
 /// without it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it
 /// needs no privilege (sched_setattr(2): sched_runtime of a thread of the normal policy, 0.1 to 100 ms).
-inline constexpr std::uint64_t hot_turn_ns = 100'000, warm_turn_ns = 300'000;
+inline constexpr std::uint64_t hot_turn_ns = 100'000, warm_turn_ns = 300'000, cold_turn_ns = 100'000;
 inline void take_short_turns(std::uint64_t turn_ns) noexcept {
     struct Attributes {  // struct sched_attr, first published form: the C library has no name for it
         std::uint32_t size = 48, policy = SCHED_OTHER;
@@ -45,6 +46,19 @@ inline void take_short_turns(std::uint64_t turn_ns) noexcept {
     a.nice = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
     if (sched_getscheduler(0) == SCHED_OTHER) (void)syscall(SYS_sched_setattr, 0, &a, 0U);  // a real-time policy given from outside stays
 }
+/// Lets others in if this thread has used its processor for `piece_ns` since it last did. To be called between small pieces of work. A
+/// waking thread of the normal policy only comes before a running one if it has not had more than its share, and the kernel looks again no
+/// sooner than at its next tick, 1 to 4 ms later.
+inline void give_way_after(std::int64_t piece_ns) noexcept {
+    static thread_local std::int64_t given_way_ns = 0;
+    timespec used{};
+    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    const std::int64_t used_ns = used.tv_sec * std::int64_t{1'000'000'000} + used.tv_nsec;
+    if (used_ns - given_way_ns < piece_ns) return;
+    given_way_ns = used_ns;
+    (void)sched_yield();
+}
+inline constexpr std::int64_t cold_piece_ns = 50'000;
 inline constexpr int hot_stands_back = 0;
 inline constexpr int warm_stands_back = 5;  ///< where the hot thread has no rank of its own
 inline constexpr int cold_stands_back = 10;

@@ -45,6 +45,7 @@ inline constexpr std::size_t max_batch_rows = 10'000;       ///< writes, events 
 inline constexpr std::size_t max_snapshot_values = 65'536;  ///< also of one twin's memory
 inline constexpr std::size_t max_snapshots = 1'000;         ///< per axis
 inline constexpr std::uint64_t max_event_id = 1ull << 53;   ///< exact as a JSON number
+inline constexpr int steps_between = 100;                   ///< steps of SQLite's virtual machine; a row that is written takes some 40
 inline constexpr std::size_t max_answer_rows = 10'000;      ///< of history and events: more are read in pages
 
 struct StoreOptions {
@@ -52,6 +53,9 @@ struct StoreOptions {
     std::vector<Migration> migrations;  ///< see migrations_among; their SQL text outlives the call
     StoreLimits limits;
     std::string vfs;  ///< SQLite file layer by name; empty: the usual one
+    /// Called every `steps_between` steps of every statement (some 10 us), also of those that open, check and upgrade the file; none:
+    /// nullptr.
+    void (*between)() noexcept = nullptr;
 };
 
 /// A write that a drive acknowledged.

@@ -53,6 +53,14 @@ Db::~Db() {
     sqlite3_close(handle_);
 }
 
+void Db::between(int steps, void (*call)() noexcept) noexcept {
+    const auto handler = [](void* what) -> int {
+        reinterpret_cast<void (*)() noexcept>(what)();
+        return 0;  // go on
+    };
+    sqlite3_progress_handler(handle_, steps, handler, reinterpret_cast<void*>(call));
+}
+
 StoreError Db::error(int rc, int system) {
     if (handle_ == nullptr) return sqlite_failure(rc, 0, sqlite3_errstr(rc), place_);
     // A constraint or a damaged page reports its extended code; rc alone may be the primary one.

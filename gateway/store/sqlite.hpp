@@ -52,6 +52,8 @@ public:
     [[nodiscard]] bool in_transaction() const noexcept { return sqlite3_get_autocommit(handle_) == 0; }
     [[nodiscard]] sqlite3* handle() noexcept { return handle_; }
     [[nodiscard]] const std::string& file() const noexcept { return place_.file; }
+    /// Has `call` called every `steps` steps of a statement from now on.
+    void between(int steps, void (*call)() noexcept) noexcept;
     /// For messages when SQLITE_FULL comes from PRAGMA max_page_count.
     void set_max_bytes(std::uint64_t bytes) noexcept { place_.max_bytes = bytes; }
     /// The error of the last call, in words. `system`: errno right after it; SQLite forgets that of a failed COMMIT.

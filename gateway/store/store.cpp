@@ -68,6 +68,7 @@ StoreResult<> Store::open_database() {
     auto db = Db::open(files_.database, Db::Mode::read_write, options_.vfs);
     if (!db) return fail(db);
     db_ = std::move(*db);
+    if (options_.between) db_->between(steps_between, options_.between);
     if (sqlite3_db_readonly(db_->handle(), "main") == 1) {  // SQLite falls back to reading where it may not write
         return fail(Kind::read_only,
                     fmt::format("{} cannot be written. Give the service's user the right to write it, or mount its file system for "

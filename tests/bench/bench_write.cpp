@@ -107,7 +107,7 @@ int run(const std::string& program_path, int count) {
             (void)drive.pump(polls);
     }
     if (missed != 0 || frame.us.empty()) give_up(std::to_string(missed) + " writes caused no frame, or had no answer");
-    Distribution bare = relay(count / 4, processors > 1 ? 0 : -1, 500'000, false);
+    Distribution bare = relay(count / 4, processors > 1 ? 0 : -1, 500'000);
     (void)::sched_setaffinity(0, sizeof all, &all);
 
     std::printf("the real program: Modbus write (FC 16) to the frame on the drive's line (TCP), %zu writes\n", frame.us.size());

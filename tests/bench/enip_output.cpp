@@ -127,7 +127,7 @@ bool output_to_frame(const std::string& program_path, int count) {
         for_a_while(1'000'000 + static_cast<std::int64_t>(random() % 2'000'000), polls);
     }
     if (missed != 0 || frame.us.empty()) give_up(std::to_string(missed) + " datagrams caused no frame");
-    Distribution bare = relay(count / 4, processors > 1 ? 0 : -1, 500'000, false);
+    Distribution bare = relay(count / 4, processors > 1 ? 0 : -1, 500'000);
     (void)::sched_setaffinity(0, sizeof all, &all);
     const bool kept = say("output to frame, p99", frame.at(0.99) / p99_us, "<=", 1, "axisgate", frame.at(0.99), "limit", p99_us, "us");
     std::printf("    %-34s axisgate %.0f / %.0f / %.0f us, bare TCP relay %.0f / %.0f / %.0f us, %zu datagrams\n", "median / 99 / 99.9 %",

@@ -295,11 +295,11 @@ double Distribution::at(double share) {
     return us[std::min(us.size() - 1, static_cast<std::size_t>(static_cast<double>(us.size()) * share))];
 }
 
-Distribution relay(int count, int cpu, std::int64_t pause_ns, bool sleeping) {
+Relay::Relay(int cpu, bool sleeping) : sleeping_(sleeping) {
     std::uint16_t in_port = 0, out_port = 0;
     const int in = listening_socket(in_port), out = listening_socket(out_port);
-    const pid_t pid = ::fork();
-    if (pid == 0) {
+    pid_ = ::fork();
+    if (pid_ == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (sleeping) (void)go_first();  // as the program's hot thread does
         if (cpu >= 0) {
@@ -322,31 +322,42 @@ Distribution relay(int count, int cpu, std::int64_t pause_ns, bool sleeping) {
         }
         ::_exit(0);
     }
-    const int a = connected_socket(in_port), b = connected_socket(out_port);
+    in_ = connected_socket(in_port);
+    out_ = connected_socket(out_port);
+    ::close(in);
+    ::close(out);
+}
+Relay::~Relay() {
+    ::close(in_);
+    ::close(out_);
+    int status = 0;
+    ::kill(pid_, SIGTERM);
+    ::waitpid(pid_, &status, 0);
+}
+double Relay::once_us() {
+    std::uint8_t buffer[64] = {};
+    const std::int64_t begun = clock_ns();
+    (void)!::send(in_, buffer, 17, MSG_NOSIGNAL);
+    std::int64_t came = 0;
+    while (receive(out_, buffer, came) <= 0) {
+        if (clock_ns() - begun > 5'000'000'000) give_up("the relay does not answer");
+        if (sleeping_) wait_for({out_}, 1000);
+    }
+    return static_cast<double>(came - begun) * 1e-3;
+}
+
+Distribution relay(int count, int cpu, std::int64_t pause_ns) {
+    Relay relay(cpu, false);
     std::mt19937 random(1);
     Distribution d;
-    std::uint8_t buffer[64] = {};
     for (int i = 0; i < count; ++i) {
         const std::int64_t begun = clock_ns();
-        (void)!::send(a, buffer, 17, MSG_NOSIGNAL);
-        std::int64_t came = 0;
-        while (receive(b, buffer, came) <= 0) {
-            if (clock_ns() - begun > 5'000'000'000) give_up("the relay does not answer");
-            if (sleeping) wait_for({b}, 1000);
-        }
-        d.us.push_back(static_cast<double>(came - begun) * 1e-3);
+        d.us.push_back(relay.once_us());
         const std::int64_t next =
             begun + pause_ns + (pause_ns ? static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(4 * pause_ns)) : 0);
         while (clock_ns() < next) {
         }
     }
-    ::close(a);
-    ::close(b);
-    ::close(in);
-    ::close(out);
-    int status = 0;
-    ::kill(pid, SIGTERM);
-    ::waitpid(pid, &status, 0);
     return d;
 }
 

@@ -109,8 +109,22 @@ struct Distribution {
     [[nodiscard]] double at(double share);  ///< 1: the longest
 };
 
-/// The least that any gateway needs: a process that sleeps until bytes come on one connection and writes them to another. `pause_ns` is
-/// waited between two, at most so long again by chance; `cpu` < 0: on any processor. `sleeping`: the prober sleeps as well.
-[[nodiscard]] Distribution relay(int count, int cpu, std::int64_t pause_ns, bool sleeping);
+/// The least that any gateway needs: a process that sleeps until bytes come on one connection and writes them to another. `cpu` < 0: on any
+/// processor. `sleeping`: the prober sleeps as well.
+class Relay {
+public:
+    Relay(int cpu, bool sleeping);
+    ~Relay();
+    Relay(const Relay&) = delete;
+    Relay& operator=(const Relay&) = delete;
+    /// What one message took.
+    [[nodiscard]] double once_us();
+
+private:
+    bool sleeping_;
+    int pid_ = 0, in_ = -1, out_ = -1;
+};
+/// Messages of a relay from a prober that does not sleep. `pause_ns` is waited between two, and up to four times as long again by chance.
+[[nodiscard]] Distribution relay(int count, int cpu, std::int64_t pause_ns);
 
 }  // namespace axisgate::bench

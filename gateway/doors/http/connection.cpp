@@ -311,6 +311,16 @@ void Connection::on_header(ErrorCode ec) {
 void Connection::read_body() {
     phase_ = Phase::body;
     timed_out_ = false;
+    if (buffer_.size() > 0 && !parser_->is_done()) {
+        // What came with the head is taken at once: a read that finds all of it here would call back behind everything that is ready by
+        // then.
+        ErrorCode ec;
+        parser_->eager(true);
+        const auto used = parser_->put(buffer_.data(), ec);
+        buffer_.consume(used);
+        host_->counters.bytes_in += used;
+        if (ec && ec != beast::http::error::need_more) return on_body(ec);
+    }
     if (parser_->is_done()) return on_body({});
     set_timer(host_->settings.body_limit);
     beast::http::async_read(socket_, buffer_, *parser_, [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {

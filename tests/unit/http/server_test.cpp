@@ -67,6 +67,34 @@ TEST_F(HttpServer, RequestsInSinglePieces) {
     EXPECT_EQ(door.on([&] { return std::get<WriteParameter>(door.gateway.submitted.back().body).value; }), Value{std::int64_t{25}});
 }
 
+TEST_F(HttpServer, ACommandThatCameWholeIsGivenWhereItIsRead) {
+    door.open();
+    Client c(door.port);
+    ASSERT_EQ(c.get("/healthz").status(), 200u);
+    std::promise<std::size_t> given;
+    door.on([&] {
+        ASSERT_TRUE(c.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})")));
+        // Behind this: a look at the sockets, the first of these two, what was found at the sockets, and the second.
+        asio::post(door.context(), [&] { asio::post(door.context(), [&] { given.set_value(door.gateway.waiting.size()); }); });
+    });
+    EXPECT_EQ(given.get_future().get(), 1u) << "a command waited for what became ready after it";
+}
+
+TEST_F(HttpServer, ABodyInTwoPiecesIsWhole) {
+    door.open();
+    door.on([&] { door.gateway.at_once = [](const Command&) { return good_result(); }; });
+    Client c(door.port);
+    const std::string text = Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"halt"})");
+    for (std::size_t cut = text.find("\r\n\r\n") + 3; cut < text.size(); ++cut) {
+        const auto before = door.on([&] { return door.server().counters().bytes_in; });
+        ASSERT_TRUE(c.send(text.substr(0, cut)));
+        ASSERT_TRUE(door.until([&] { return door.server().counters().bytes_in > before || cut < text.find("\r\n\r\n") + 4; }));
+        ASSERT_TRUE(c.send(text.substr(cut)));
+        ASSERT_EQ(c.receive().status(), 200u) << cut;
+        EXPECT_EQ(door.on([&] { return door.server().counters().bytes_in; }) - before, text.size()) << cut;
+    }
+}
+
 TEST_F(HttpServer, HeadAndStatusesWithoutABody) {
     door.open();
     Client c(door.port);

@@ -54,6 +54,7 @@ public:
         return false;
     }
     Server& server() { return *server_; }
+    asio::io_context& context() { return context_; }
     std::uint16_t port = 0;
 
 private:

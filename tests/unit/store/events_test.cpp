@@ -38,6 +38,25 @@ TEST(Events, EveryFieldComesBack) {
                 ElementsAre(e.kind, e.axis, e.drive, e.line, e.text, e.who, e.door, e.parameter, e.old_value, e.new_value));
 }
 
+std::uint64_t calls_between = 0;
+
+TEST(Events, OthersAreLetInBetweenTheRowsOfABatch) {
+    const TempDir dir;
+    auto options = options_for(dir.path());
+    options.between = []() noexcept { ++calls_between; };
+    const auto store = open_store(options);
+    const std::vector<Event> few(20, an_event("write", "feeder", 1)), many(400, few[0]);
+    calls_between = 0;
+    EXPECT_EQ(must(store->append_events(few)), 20u);
+    const auto of_few = calls_between;
+    calls_between = 0;
+    EXPECT_EQ(must(store->append_events(many)), 420u);
+    // Every three rows or so, however many there are: no batch keeps a processor to itself.
+    EXPECT_GE(of_few, 3u);
+    EXPECT_GE(calls_between, 100u);
+    EXPECT_EQ(must(store->events({})).size(), 200u);
+}
+
 TEST(Events, EveryMixOfFiltersFindsWhatAPlainWalkFinds) {
     const TempDir dir;
     const auto store = open_store(dir);

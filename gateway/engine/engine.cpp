@@ -64,7 +64,7 @@ Instant Engine::deadline() const {
     return std::min(machine.lines.empty() ? never : next_housekeeping_, machine.sides.earliest());
 }
 
-Instant Engine::wake_at(Duration twins_wait) const {
+Instant Engine::wake_at() const {
     constexpr std::size_t most_looked_at = 32;  // more orders than that are on their way to every line
     const auto& orders = parts_->pending.orders;
     Machine& machine = parts_->machine;

@@ -99,9 +99,11 @@ public:
 
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
-    /// When a clock on the wall should call on_deadline: what simulated drives say on a line to which no order is on its way is seen to so
-    /// much later, together with what follows. Each of it keeps its own instant.
-    [[nodiscard]] Instant wake_at(Duration twins_wait) const;
+    /// A wake-up costs more than what it finds.
+    static constexpr Duration twins_wait = std::chrono::microseconds(250);
+    /// When to call on_deadline where each call costs a wake-up: what simulated drives say on a line to which no order is on its way is
+    /// seen to so much later, together with what follows. Each of it keeps its own instant.
+    [[nodiscard]] Instant wake_at() const;
     /// Nothing moves, nobody waits for an answer, and for a second nothing was commanded, found or lost: what is due may be met together
     /// with what is due a little later.
     [[nodiscard]] bool at_rest(Instant now) const noexcept;

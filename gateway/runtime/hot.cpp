@@ -24,8 +24,6 @@ constexpr int turns_unannounced_limit = 8;
 constexpr Duration reports_period = std::chrono::milliseconds(100), reports_again = std::chrono::milliseconds(1);
 /// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
 constexpr Duration rest_gathers = std::chrono::milliseconds(5);
-/// What happens on simulated lines by itself is done together with what follows, for the same reason.
-constexpr Duration twins_gather = std::chrono::microseconds(250);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
 
@@ -149,7 +147,7 @@ void Hot::end_turn() {
     }
     if (t >= next_reports_) publish_reports(t);
     turns_.count(t);
-    Instant next = std::min(engine_.wake_at(twins_gather), next_reports_);
+    Instant next = std::min(engine_.wake_at(), next_reports_);
     if (engine_.at_rest(t)) next = std::max(next, t + rest_gathers);
     turns_.arm(submitted_.empty() && results_.empty() ? next : t);
 }

@@ -100,9 +100,10 @@ struct Plant {
         c.origin.door = Door::http;
         engine.on_command(std::move(c), now);
     }
+    /// As the hot thread does.
     void run_for(Duration d) {
         const Instant end = now + d;
-        for (Instant due; (due = engine.deadline()) <= end;) {
+        for (Instant due; (due = engine.wake_at()) <= end;) {
             now = std::max(now, due);
             engine.on_deadline(now);
             ++turns;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/json/basic_parser_impl.hpp>
 #include <boost/json/value_stack.hpp>
+#include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
@@ -114,7 +115,8 @@ public:
         return ended();
     }
     bool on_double(double d, json::string_view, Error&) {
-        stack_.push_double(d);
+        // The library makes "0e999" of nothing times infinity, which is no number: it would pass every comparison with a limit.
+        stack_.push_double(std::isnan(d) ? 0.0 : d);
         return ended();
     }
     bool on_bool(bool b, Error&) {

@@ -5,10 +5,25 @@
 
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
+#include <cmath>
 
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace axisgate;
+
+namespace {
+/// The library makes 0e999 of nothing times infinity, which is no number; it is nothing.
+boost::json::value with_numbers(boost::json::value v) {
+    if (v.is_double() && std::isnan(v.get_double())) return 0.0;
+    if (auto* a = v.if_array())
+        for (auto& item : *a)
+            item = with_numbers(std::move(item));
+    if (auto* o = v.if_object())
+        for (auto& member : *o)
+            member.value() = with_numbers(std::move(member.value()));
+    return v;
+}
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
@@ -17,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     JsonFault unread;
     const auto read = read_json(text, unread);
     fuzz::require(read.has_value() || !unread.text.empty(), "a value, or a fault");
-    fuzz::require(!read.has_value() || (!ec && *read == plain), "what is read is what the library reads");
+    fuzz::require(!read.has_value() || (!ec && *read == with_numbers(plain)), "what is read is what the library reads");
     fuzz::require(read.has_value() || ec || unread.twice, "JSON is refused for a member that stands twice alone");
     if (!read) return 0;
     const auto& document = *read;

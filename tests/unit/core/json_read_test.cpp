@@ -36,6 +36,16 @@ TEST(JsonRead, GivesWhatTheLibraryGives) {
     }
 }
 
+TEST(JsonRead, NothingTimesAnyPowerOfTenIsNothing) {
+    for (const std::string_view text : {"0e999", "-0e400", "0.0e15554", R"([{"position": 0E+999}])"}) {
+        JsonFault fault;
+        auto value = read_json(text, fault);
+        ASSERT_TRUE(value) << text << ": " << fault.text;
+        if (value->is_array()) value = value->get_array().at(0).at("position");
+        EXPECT_EQ(value->as_double(), 0) << text;
+    }
+}
+
 TEST(JsonRead, WhatIsNoJsonIsSaidInTheParsersWords) {
     for (const std::string_view text : {"", " ", "{", "{\"a\":}", "[1,]", "{} {}", "nul", "{'a':1}", "\"\xFF\"", "{\"a\":1}x", "// x\n1"}) {
         const auto fault = fault_of(text);

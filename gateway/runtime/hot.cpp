@@ -39,21 +39,22 @@ Hot::~Hot() { stop(); }
 
 Instant Hot::now() const { return turns_.now(); }
 
-bool Hot::start() {
+int Hot::start() {
     turns_.live(now());
-    std::promise<bool> first;
+    std::promise<int> first;
     auto ranked = first.get_future();
     thread_ = std::thread([this, first = std::move(first)]() mutable {
         enter_thread("axisgate-hot", hot_stands_back);
-        const bool goes_first = settings_.spin_us == 0 && go_first();
-        if (!goes_first) take_short_turns(hot_turn_ns);
+        int rank = 0;
+        if (settings_.spin_us == 0) rank = ranked_from_outside() ? 1 : go_first(hot_rank) ? hot_rank : go_first() ? 1 : 0;
+        if (rank == 0) take_short_turns(hot_turn_ns);
         if (settings_.cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);
             CPU_SET(static_cast<unsigned>(settings_.cpu), &set);
             (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // a wish: without the processor it runs anywhere
         }
-        first.set_value(goes_first);
+        first.set_value(rank);
         run();
     });
     return ranked.get();

@@ -88,8 +88,8 @@ public:
     /// The doors of this thread that are attached; before start(), or when no door comes or goes.
     [[nodiscard]] std::vector<HotDoor*> doors() const;
 
-    /// Returns whether its thread has a rank before all those of the normal policy.
-    bool start();
+    /// Returns the real-time rank of its thread; 0: it has none.
+    int start();
     /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
     void stop();
     /// How its turns go. Any thread reads it.

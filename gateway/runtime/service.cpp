@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <future>
 #include <map>
+#include <thread>
 
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/dds/door.hpp"
@@ -28,6 +29,7 @@
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/log.hpp"
 #include "gateway/runtime/modbus_doors.hpp"
+#include "gateway/runtime/service_rank.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
 #include "gateway/runtime/site_trial.hpp"
@@ -445,6 +447,24 @@ void Service::take_down() {
     cold->stop();
     ports->events.tell_all();
 }
+/// As `context.run()`, with the rank that ServiceRank allows: what wakes the thread finds it before others, a flood of work does not.
+void run_ranked(boost::asio::io_context& context) {
+    ServiceRank rank;
+    bool first = false;
+    while (!context.stopped()) {
+        const bool worked = context.poll_one() > 0;
+        if (context.stopped()) break;
+        const bool may = (first || !worked) && rank.may_go_first(monotonic_now(), Duration(used_of_processor_ns()));
+        if (first && !may) {
+            go_with_others();
+            take_short_turns(warm_turn_ns);
+            first = false;
+        } else if (!first && may) {
+            first = go_first(warm_rank);
+        }
+        if (!worked) context.run_one();  // sleeps
+    }
+}
 }  // namespace
 
 int command_serve(const ServeOptions& options) {
@@ -490,13 +510,17 @@ int command_serve(const ServeOptions& options) {
         if (!ec) s.warm.stop();
     });
     s.cold->start();
-    const bool hot_goes_first = s.hot->start();
+    const int rank_of_hot = s.hot->start();
     s.watch();
     // After the others have been started: a new thread begins with its maker's rank. Nobody need stand back for a hot thread that goes
     // first.
-    enter_thread("axisgate-warm", hot_goes_first ? 0 : warm_stands_back);
+    enter_thread("axisgate-warm", rank_of_hot > 0 ? 0 : warm_stands_back);
     take_short_turns(warm_turn_ns);
-    s.warm.run();
+    // With one processor alone the database would have to wait for it, too.
+    if (rank_of_hot > warm_rank && !ranked_from_outside() && std::thread::hardware_concurrency() > 1)
+        run_ranked(s.warm);
+    else
+        s.warm.run();
     s.warm.restart();
     s.take_down();
     spdlog::info("stopped");

@@ -20,14 +20,21 @@ inline void enter_thread(const char* name, int nice_by) noexcept {
     if (nice_by > 0)
         (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + nice_by);
 }
-/// Asks to go before every thread of the normal policy (the lowest real-time rank, in turn with others of it), where the system grants that
-/// (RLIMIT_RTPRIO, systemd's LimitRTPRIO=1). Only for a thread that sleeps: one that spins would keep its processor for itself. False: not
-/// granted; a policy that was given from outside stays, too.
-inline bool go_first() noexcept {
-    if (sched_getscheduler(0) != SCHED_OTHER) return true;
+/// Whether a real-time policy was given to this thread from outside: it stays as it is.
+inline bool ranked_from_outside() noexcept { return (sched_getscheduler(0) & ~SCHED_RESET_ON_FORK) != SCHED_OTHER; }
+/// Asks to go before every thread of the normal policy, in turn with others of this real-time rank, where the system grants that
+/// (RLIMIT_RTPRIO, systemd's LimitRTPRIO=2). Only for a thread that sleeps: one that spins would keep its processor for itself. False: not
+/// granted.
+inline bool go_first(int rank = 1) noexcept {
+    if (ranked_from_outside()) return true;
     sched_param p{};
-    p.sched_priority = 1;
+    p.sched_priority = rank;
     return sched_setscheduler(0, SCHED_RR | SCHED_RESET_ON_FORK, &p) == 0;
+}
+/// Takes the rank of go_first back.
+inline void go_with_others() noexcept {
+    const sched_param p{};
+    (void)sched_setscheduler(0, SCHED_OTHER | SCHED_RESET_ON_FORK, &p);
 }
 /// Asks for short turns on the processor. Linux since 6.12 lets a waking thread with a shorter slice in before one with a longer one;
 /// without it a thread that only stands back by nice may still end its own slice of some milliseconds first. Earlier kernels ignore it; it
@@ -43,22 +50,28 @@ inline void take_short_turns(std::uint64_t turn_ns) noexcept {
     } a;
     static_assert(sizeof(Attributes) == 48);
     a.runtime_ns = turn_ns;
+    a.flags = (sched_getscheduler(0) & SCHED_RESET_ON_FORK) != 0 ? 1 : 0;  // what is set stays: to take it back needs a privilege
     a.nice = getpriority(PRIO_PROCESS, static_cast<id_t>(gettid()));
-    if (sched_getscheduler(0) == SCHED_OTHER) (void)syscall(SYS_sched_setattr, 0, &a, 0U);  // a real-time policy given from outside stays
+    if (!ranked_from_outside()) (void)syscall(SYS_sched_setattr, 0, &a, 0U);  // a real-time policy given from outside stays
+}
+/// What this thread has used of its processor since it began.
+inline std::int64_t used_of_processor_ns() noexcept {
+    timespec used{};
+    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+    return used.tv_sec * std::int64_t{1'000'000'000} + used.tv_nsec;
 }
 /// Lets others in if this thread has used its processor for `piece_ns` since it last did. To be called between small pieces of work. A
 /// waking thread of the normal policy only comes before a running one if it has not had more than its share, and the kernel looks again no
 /// sooner than at its next tick, 1 to 4 ms later.
 inline void give_way_after(std::int64_t piece_ns) noexcept {
     static thread_local std::int64_t given_way_ns = 0;
-    timespec used{};
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
-    const std::int64_t used_ns = used.tv_sec * std::int64_t{1'000'000'000} + used.tv_nsec;
+    const std::int64_t used_ns = used_of_processor_ns();
     if (used_ns - given_way_ns < piece_ns) return;
     given_way_ns = used_ns;
     (void)sched_yield();
 }
 inline constexpr std::int64_t cold_piece_ns = 50'000;
+inline constexpr int hot_rank = 2, warm_rank = 1;
 inline constexpr int hot_stands_back = 0;
 inline constexpr int warm_stands_back = 5;  ///< where the hot thread has no rank of its own
 inline constexpr int cold_stands_back = 10;

@@ -301,7 +301,7 @@ Relay::Relay(int cpu, bool sleeping) : sleeping_(sleeping) {
     pid_ = ::fork();
     if (pid_ == 0) {
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-        if (sleeping) (void)go_first();  // as the program's hot thread does
+        if (sleeping) (void)go_first();  // as the program's threads do
         if (cpu >= 0) {
             cpu_set_t set;
             CPU_ZERO(&set);

@@ -125,3 +125,26 @@ def test_an_upgrade_waits_until_no_axis_moves():
         time.sleep(0.3)
         status.write_text("3 axes, 3 online, 0 moving\n")
         assert waiting.wait(10) == 0
+
+
+def test_the_threads_have_the_ranks_that_the_system_grants(folder):
+    """Drives before HTTP, HTTP before all others, the database never: policy 2 is SCHED_RR, 0 the normal one (proc(5))."""
+    granted = os.fork()
+    if granted == 0:
+        try:
+            os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(2))
+        except PermissionError:
+            os._exit(1)
+        os._exit(0)
+    ranks = os.waitstatus_to_exitcode(os.waitpid(granted, 0)[1]) == 0
+    with Gateway(folder) as g:
+        def rank(name):
+            for task in pathlib.Path(f"/proc/{g.process.pid}/task").iterdir():
+                if (task / "comm").read_text().strip() == name:
+                    fields = (task / "stat").read_text().rsplit(")", 1)[1].split()
+                    return int(fields[37]), int(fields[38])  # rt_priority, policy
+            return None
+        http = (1, 2) if ranks and len(os.sched_getaffinity(0)) > 1 else (0, 0)
+        until(lambda: rank("axisgate-warm") == http, 5, "the rank of the thread that serves HTTP")
+        assert rank("axisgate-hot") == ((2, 2) if ranks else (0, 0)), rank("axisgate-hot")
+        assert rank("axisgate-cold") == (0, 0), rank("axisgate-cold")

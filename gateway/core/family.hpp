@@ -47,6 +47,20 @@ struct Decoder {
     virtual ~Decoder() = default;
 };
 
+/// What a native statement, an action or a parameter write asks of an axis, as far as its family can read it before it is sent.
+struct Stated {
+    enum class Kind : std::uint8_t {
+        nothing,  ///< a question, a setting, a stop, or anything else that cannot begin a motion
+        motion,   ///< `move` begins
+        homing,   ///< a search for the zero begins
+        unread    ///< it may begin a motion that cannot be read here: a program, a trigger, bytes that mean nothing to the family
+    };
+    Kind kind = Kind::unread;
+    int channel = 0;    ///< of the axis within the drive that it concerns; 0: the axis that was addressed
+    Move move{};        ///< target, speed and rates that it names, in the axis' increments
+    DriveRates sets{};  ///< rates that it changes for later motions; 0: not these
+};
+
 struct Family {
     std::string_view name;  ///< folder and catalogue name: "uim342"
 
@@ -83,6 +97,9 @@ struct Family {
     /// SYNC, the gateway's own node) is then one thing for all of them. It tells them apart by the catalogues in their DriveSetup.
     /// nullptr: its own.
     const Family& (*served_by)() = nullptr;
+    /// Reads a Native, an Action or a WriteParameter body for the axis of this channel. Pure; never throws; what it cannot read is
+    /// `unread`. nullptr: native statements and actions of this family are `unread`, parameter writes are `nothing`.
+    Stated (*stated)(const Catalogue&, int channel, const CommandBody&) = nullptr;
 };
 [[nodiscard]] inline const Family& serving_family(const Family& f) noexcept { return f.served_by ? f.served_by() : f; }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "gateway/core/command.hpp"
+#include "gateway/core/drive_limits.hpp"
 #include "gateway/core/drive_watchdog.hpp"
 #include "gateway/core/ids.hpp"
 #include "gateway/core/instant.hpp"
@@ -42,6 +43,23 @@ enum class DemandSource : std::uint8_t {
 /// "none", "drive", "computed", "open_loop".
 [[nodiscard]] std::string_view name_of(DemandSource source) noexcept;
 
+/// The speed and the ramps that a drive uses where an order names none, as the drive has reported or acknowledged them. 0: not known, and
+/// never assumed: an adapter that lets a statement through which may have changed one sets it to 0 and asks the drive for it again.
+struct DriveRates {
+    std::int64_t velocity = 0;      ///< of a positioning move, increments/s
+    std::int64_t acceleration = 0;  ///< increments/s^2
+    std::int64_t deceleration = 0;  ///< of a halt and of the end of a move, increments/s^2
+    std::int64_t quick_stop = 0;    ///< of a quick stop, increments/s^2
+    bool operator==(const DriveRates&) const = default;
+};
+
+/// How the motion under way ends, as far as the drive tells it.
+enum class Course : std::uint8_t {
+    unknown,    ///< the drive does not say
+    to_target,  ///< it ends at a target
+    endless     ///< it goes on at a speed, or follows a stream, until the drive is told otherwise
+};
+
 /// The axis as its drive shows it now: the part of the CiA 402 picture that only the drive can know.
 /// An adapter sends the whole struct each time any of it was read anew; `at` is the instant of the newest part.
 struct AxisFeedback {
@@ -68,6 +86,11 @@ struct AxisFeedback {
     std::optional<std::uint16_t> statusword{};
     /// What answers for it is simulated by somebody else than this gateway: an axis of another gateway that is served by a twin there.
     bool simulated = false;
+    /// An input that takes power or motion away acts now (the family's page of data names it under `safe_inputs`): STO, an external stop,
+    /// an enable input that is open.
+    bool safe_stop = false;
+    Course course = Course::unknown;  ///< of the motion under way; of an axis at rest it means nothing
+    DriveRates rates{};
     Instant at{};
 };
 
@@ -86,6 +109,7 @@ struct DriveLink {
     Duration retry_pause{};              ///< present pause between attempts while it is silent
     std::string text;                    ///< why, for people
     DriveWatchdog watchdog{};
+    DriveLimits limits{};
     DriveBeats beats{};
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,8 @@ struct AxisSetup {
     /// Zero: asked in the line's rhythm. Else it is looked at closely for a while: asked so often as far as the line has room for it, with
     /// what others are owed first. Never makes two setups of a drive different.
     Duration look_period{};
+    /// The site's limits of position, increments: for a drive that has software limits of its own. Absent: the site gives none.
+    std::optional<std::int64_t> position_min{}, position_max{};
 };
 
 struct DriveSetup {

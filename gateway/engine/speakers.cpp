@@ -57,8 +57,10 @@ LineSetup Speakers::setup_for(const Speaker& speaker) const {
         ds.address = d.spec.address;
         ds.options = d.spec.options;
         ds.catalogue = d.catalogue;
-        for (const AxisId a : d.axes)
-            ds.axes.push_back({a, machine_.axes[index_of(a)]->spec.channel, machine_.axes[index_of(a)]->look_period});
+        for (const AxisId id_of_axis : d.axes) {
+            const Axis& a = *machine_.axes[index_of(id_of_axis)];
+            ds.axes.push_back({id_of_axis, a.spec.channel, a.look_period, a.limits.position_min, a.limits.position_max});
+        }
         s.drives.push_back(std::move(ds));
     }
     s.drives.insert(s.drives.end(), speaker.probes.begin(), speaker.probes.end());

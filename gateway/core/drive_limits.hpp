@@ -1,0 +1,22 @@
+// Drive limits: the software limits of position that a drive keeps by itself, as its adapter has programmed them from the site's limits.
+// In: the drive's acknowledgement. Out: values for people. Never a promise for a drive that was set up again by somebody else since.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace axisgate {
+
+struct DriveLimits {
+    enum class State : std::uint8_t {
+        unknown,  ///< the drive has not been set up yet, its family has no such limits, or the site gives none
+        off,      ///< the drive's option `drive_limits` has switched them off
+        armed,    ///< programmed for each axis that the site limits, and acknowledged
+        refused   ///< the drive does not take them; `text` says why
+    };
+    State state = State::unknown;
+    std::string text{};  ///< for people; empty unless refused
+    bool operator==(const DriveLimits&) const = default;
+};
+
+}  // namespace axisgate

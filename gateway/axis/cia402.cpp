@@ -23,28 +23,33 @@ void Cia402Axis::forget_motion(State& s) {
     s.active.reset();
     s.buffered.reset();
     s.ordered_velocity = 0;
-    s.target_velocity = 0;
+    forget_velocity(s);
     s.setpoint_acknowledged = false;
     s.halted = false;
     leave_stream(s);
+}
+
+void Cia402Axis::forget_velocity(State& s) {
+    s.target_velocity = 0;
+    ++s.forgotten;
 }
 
 /// Back to the mode before it, unless somebody has chosen another one since.
 void Cia402Axis::leave_stream(State& s) {
     if (!std::exchange(s.following, false) || !is_streamed(s.mode)) return;
     s.mode = s.mode_before;
-    s.target_velocity = 0;
+    forget_velocity(s);
 }
 
-void Cia402Axis::order_on(State& s, const AuthorityClient& by, Decision& d) {
+void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
     forget_motion(s);
     // The actual position is the first target: nothing moves because something was enabled. What this very client has written for the
     // set-point that it is about to give is kept; what was written or used before by anybody is not.
-    bool kept = false;
-    for (Written& w : s.written) {
-        w.target_known = w.target_pending && w.target_by == by;
-        w.target_pending = w.target_known;
-        kept = kept || w.target_known;
+    const bool kept = own && own->enables == s.enables && own->target_pending;
+    ++s.enables;
+    if (own) {
+        own->target_known = own->target_pending = kept;
+        own->enables = s.enables;
     }
     if (!kept) s.target_position = static_cast<std::int32_t>(s.feedback.position);
     s.power_pending = 1;
@@ -77,15 +82,46 @@ void Cia402Axis::order_reset(State& s, Decision& d) {
     }
 }
 
-/// Nobody answers, or nobody has said yet where the axis is: it may be moving all the same. What stops is sent, and its answer is the
+bool Cia402Axis::Request::enables_anew() const noexcept {
+    constexpr std::uint16_t on_bits = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
+    return data.controlword && known && (word & on_bits) == on_bits && (before & on_bits) != on_bits;
+}
+
+bool Cia402Axis::Request::is_fresh() const noexcept {
+    const bool by_word = data.controlword && known && ((rising() & cw_new_setpoint) || (falling() & cw_halt) || enables_anew());
+    return by_word || (data.target_velocity && own.velocity_known && own.target_velocity != *data.target_velocity);
+}
+
+/// The words of a client.
+Cia402Axis::Client& Cia402Axis::client(const AuthorityClient& who) {
+    auto found = std::ranges::find(clients_, who, &Client::who);
+    if (found == clients_.end()) {
+        if (clients_.size() < most_clients) {
+            found = clients_.emplace(clients_.end());
+        } else {
+            found = std::ranges::min_element(clients_, {}, &Client::used);
+        }
+        *found = Client{who, {}, 0};
+        if (!s_.stopped) found->words.turn = s_.turn;
+    }
+    // It is not known what it wrote before a stop; since somebody has enabled or moved the axis it would have been heard.
+    if (!s_.stopped) {
+        if (!found->words.controlword) found->words.controlword = s_.controlword;
+        found->words.velocity_known = true;
+    }
+    found->used = ++uses_;
+    return *found;
+}
+
+/// The drive is offline or has not reported a position yet, so it may still be moving. A word that stops is sent, and its answer is the
 /// drive's; everything else is refused, for there is nobody who could do it. False: refused, and `d` says why.
-bool Cia402Axis::change_unreceived(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const {
-    if (!(cw & cw_enable_voltage)) {
+bool Cia402Axis::change_unreceived(State& s, const Request& r, Decision& d) const {
+    if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
-    } else if (!(cw & cw_quick_stop)) {
+    } else if (!(r.word & cw_quick_stop)) {
         forget_motion(s);
         d.orders.emplace_back(QuickStop{});
-    } else if ((cw & cw_halt) && !(before & cw_halt)) {
+    } else if ((r.word & cw_halt) && (!r.known || (r.rising() & cw_halt))) {
         forget_motion(s);
         s.halted = true;
         d.orders.emplace_back(Halt{});
@@ -97,14 +133,39 @@ bool Cia402Axis::change_unreceived(State& s, std::uint16_t before, std::uint16_t
     return true;
 }
 
-void Cia402Axis::change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const {
+/// It is shown without power, or in fault, and moves or may move all the same: what a word would end in operation enabled it ends here.
+void Cia402Axis::stop_in_any_state(State& s, const Request& r, Decision& d) const {
+    const bool repeated = r.known && r.before == r.word;
+    if (repeated && s.feedback.power == AxisFeedback::Power::off) return;  // it has been switched off already, and runs down
+    if (!(r.word & cw_enable_voltage)) {
+        order_off_blindly(s, d);
+    } else if (!(r.word & cw_quick_stop)) {
+        forget_motion(s);
+        d.orders.emplace_back(QuickStop{});
+    } else if (r.stops_by(cw_switch_on) || r.stops_by(cw_enable_operation)) {
+        order_off_blindly(s, d);
+    } else if ((r.word & cw_halt) && (!r.known || (r.rising() & cw_halt))) {
+        forget_motion(s);
+        s.halted = true;
+        d.orders.emplace_back(Halt{});
+    }
+}
+
+void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
+    const std::uint16_t cw = r.word;
     const bool so = cw & cw_switch_on, ev = cw & cw_enable_voltage, qs = cw & cw_quick_stop, eo = cw & cw_enable_operation;
-    constexpr std::uint16_t on_bits = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
     const bool off_by_word = !ev || !qs || !so || !eo;
+    const bool may_rise = r.current || r.enables_anew();  // repeated words do not undo what somebody else has ended
     if (s.power_pending == 1 && off_by_word && s.state != PowerState::operation_enabled && s.state != PowerState::quick_stop_active) {
         // On its way to being switched on: that is taken back, not waited for.
         s.virtual_step = !ev || !qs ? 0 : !so ? 1 : 2;
         return order_off(s, d);
+    }
+    const bool powered = s.state == PowerState::operation_enabled || s.state == PowerState::quick_stop_active;
+    if (!powered && (s.feedback.moving || s.feedback.homing || s.recorded)) {
+        const auto orders = d.orders.size();
+        stop_in_any_state(s, r, d);
+        if (d.orders.size() != orders) return;
     }
     switch (s.state) {
         case PowerState::not_ready_to_switch_on:
@@ -117,11 +178,11 @@ void Cia402Axis::change_power(State& s, std::uint16_t before, std::uint16_t cw, 
         case PowerState::ready_to_switch_on:
             if (!ev || !qs) {
                 s.virtual_step = 0;  // 7
-            } else if (so && eo) {
+            } else if (so && eo && may_rise) {
                 s.virtual_step = 3;
-                order_on(s, by, d);  // 3 and 4 together
+                order_on(s, &r.own, d);  // 3 and 4 together
                 return;
-            } else if (so) {
+            } else if (so && !eo) {
                 s.virtual_step = 2;  // 3
             }
             return settle(s);
@@ -130,9 +191,9 @@ void Cia402Axis::change_power(State& s, std::uint16_t before, std::uint16_t cw, 
                 s.virtual_step = 0;  // 10
             } else if (!so) {
                 s.virtual_step = 1;  // 6
-            } else if (eo) {
+            } else if (eo && may_rise) {
                 s.virtual_step = 3;
-                order_on(s, by, d);  // 4
+                order_on(s, &r.own, d);  // 4
                 return;
             }
             return settle(s);
@@ -155,33 +216,78 @@ void Cia402Axis::change_power(State& s, std::uint16_t before, std::uint16_t cw, 
             if (!ev) {
                 s.virtual_step = 0;  // 12
                 order_off(s, d);
-            } else if (qs && so && eo && (before & on_bits) != on_bits) {
-                // An edge: a controller that writes the same word again and again does not undo a stop that was made at the drive.
+            } else if (!qs && (s.feedback.moving || s.recorded)) {
+                d.orders.emplace_back(QuickStop{});  // said again while it still moves
+            } else if (r.enables_anew()) {
+                // An edge: a controller that writes the same word again and again does not undo a stop, whoever made it.
                 s.virtual_step = 3;
-                order_on(s, by, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
+                order_on(s, &r.own, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
             }
             return;
     }
 }
 
+/// A rising edge of bit 4 in profile position mode. False: refused, and `d` says why.
+bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
+    Words& own = r.own;
+    if (s.halted) {
+        d = refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+        return false;
+    }
+    if (own.velocity == 0) {
+        d = refuse(Reason::out_of_range,
+                   "the profile velocity (registers 36 and 37) is 0 or was never written by this client: write it before the set-point");
+        return false;
+    }
+    Move m;
+    m.kind = (r.word & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
+    if (m.kind == Move::Kind::relative && !own.target_known) {
+        d = refuse(
+            Reason::out_of_range,
+            "a relative set-point (bit 6) needs a distance: this client has not written a target position since the axis was enabled");
+        return false;
+    }
+    m.target = own.target_known ? own.target_position : s.feedback.position;
+    m.velocity = own.velocity;
+    if (own.acceleration) m.acceleration = own.acceleration;
+    if (own.deceleration) m.deceleration = own.deceleration;
+    own.target_pending = false;
+    s.target_position = static_cast<std::int32_t>(m.target);
+    const bool under_way = s.active && s.feedback.moving && !s.feedback.target_reached;
+    if (!(r.word & cw_change_immediately) && under_way) {
+        if (s.buffered) {
+            d = refuse(Reason::busy, "one set-point waits already: wait until bit 12 of the status word is 0, or set bit 5");
+            return false;
+        }
+        s.buffered = d.waits = m;
+        s.setpoint_acknowledged = true;
+        ++s.setpoints_accepted;
+    } else {
+        s.buffered.reset();
+        d.orders.emplace_back(m);
+    }
+    return true;
+}
+
 /// Halt, new set-points, homing start. False: refused, and `d` says why.
-bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own, Decision& d) const {
-    const std::uint16_t rising = cw & static_cast<std::uint16_t>(~before), falling = before & static_cast<std::uint16_t>(~cw);
+bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
+    const std::uint16_t rising = r.rising(), falling = r.falling();
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
+    const bool halts = (r.word & cw_halt) && r.data.controlword && (!r.known || (rising & cw_halt));
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
     if (falling & cw_new_setpoint) s.setpoint_acknowledged = false;
     if (!enabled || d.orders.size() > 0) {
         // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or
         // resets is not refused for it: what ends a motion never depends on the bits that would begin one.
-        if ((rising & cw_new_setpoint) && std::ranges::none_of(d.orders, ends) &&
-            (s.mode == mode_profile_position || s.mode == mode_homing)) {
+        const bool asks = (r.word & cw_new_setpoint) && r.data.controlword && (!r.known || (rising & cw_new_setpoint));
+        if (asks && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
             d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
             return false;
         }
-        s.halted = cw & cw_halt;
+        if (r.data.controlword) s.halted = (r.word & cw_halt) || (s.halted && !(falling & cw_halt));
         return true;
     }
-    if (rising & cw_halt) {
+    if (halts) {
         s.halted = true;
         s.ordered_velocity = 0;
         d.orders.emplace_back(Halt{});
@@ -192,113 +298,132 @@ bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw,
             ++s.repeated_moves;
         }
     }
-    if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !(rising & cw_halt)) {
-        if (s.halted) {
-            d = refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
-            return false;
-        }
-        if (own.velocity == 0) {
-            d = refuse(Reason::out_of_range,
-                       "the profile velocity (registers 36 and 37) is 0 or was never written by this door: write it before the set-point");
-            return false;
-        }
-        Move m;
-        m.kind = (cw & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
-        m.target = own.target_known ? own.target_position : s.target_position;
-        m.velocity = own.velocity;
-        if (own.acceleration) m.acceleration = own.acceleration;
-        if (own.deceleration) m.deceleration = own.deceleration;
-        own.target_pending = false;
-        s.target_position = static_cast<std::int32_t>(m.target);
-        const bool under_way = s.active && s.feedback.moving && !s.feedback.target_reached;
-        if (!(cw & cw_change_immediately) && under_way) {
-            if (s.buffered) {
-                d = refuse(Reason::busy, "one set-point waits already: wait until bit 12 of the status word is 0, or set bit 5");
+    if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !halts && !new_set_point(s, r, d)) return false;
+    if (s.mode == mode_homing) {
+        if ((rising & cw_new_setpoint) && !halts) {
+            if (Decision no = may_home(s); no.refused) {
+                d = std::move(no);
                 return false;
             }
-            s.buffered = d.waits = m;
-            s.setpoint_acknowledged = true;
-            ++s.setpoints_accepted;
-        } else {
-            s.buffered.reset();
-            d.orders.emplace_back(m);
+            d.orders.emplace_back(Home{s.homing_method});
         }
-    }
-    if (s.mode == mode_homing) {
-        if ((rising & cw_new_setpoint) && !(rising & cw_halt)) d.orders.emplace_back(Home{s.homing_method});
         const bool under_way = s.feedback.homing || (s.feedback.moving && !s.feedback.homing_attained);
         if ((falling & cw_new_setpoint) && under_way) d.orders.emplace_back(Halt{});
     }
-    if (s.mode == mode_profile_velocity && !s.halted) {
-        const bool released = falling & cw_halt;
-        if ((data.target_velocity || released) && s.target_velocity != s.ordered_velocity) {
+    if (s.mode == mode_profile_velocity && !s.halted && (r.current || r.fresh)) {
+        const bool released = (falling & cw_halt) && r.own.velocity_forgotten == s.forgotten;
+        if ((r.data.target_velocity || released) && r.own.target_velocity != s.ordered_velocity) {
             Move m;
             m.kind = Move::Kind::velocity;
-            m.target = s.target_velocity;
-            if (own.acceleration) m.acceleration = own.acceleration;
-            if (own.deceleration) m.deceleration = own.deceleration;
+            m.target = r.own.target_velocity;
+            if (r.own.acceleration) m.acceleration = r.own.acceleration;
+            if (r.own.deceleration) m.deceleration = r.own.deceleration;
             d.orders.emplace_back(m);
         }
     }
     return true;
 }
 
-Cia402Axis::Decision Cia402Axis::on_process_data(const ProcessData& data, const Origin& by) {
-    State s = s_;
-    Decision d;
-    const AuthorityClient who = AuthorityClient::of(by);
-    Written& own = s.written[std::min(static_cast<std::size_t>(by.door), doors - 1)];
+/// What the block says but its word: targets, profile and mode.
+void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
+    const ProcessData& data = r.data;
+    Words& own = r.own;
+    if (own.enables != s.enables) own.target_known = own.target_pending = false;
+    own.enables = s.enables;
     if (data.target_position) {
         s.target_position = own.target_position = *data.target_position;
         own.target_known = own.target_pending = true;
-        own.target_by = who;
     }
     if (data.profile_velocity) s.profile_velocity = own.velocity = *data.profile_velocity;
     if (data.profile_acceleration) s.profile_acceleration = own.acceleration = *data.profile_acceleration;
     if (data.profile_deceleration) s.profile_deceleration = own.deceleration = *data.profile_deceleration;
-    if (data.target_velocity) s.target_velocity = *data.target_velocity;
     if (data.homing_method) s.homing_method = *data.homing_method;
-    if (data.mode && *data.mode != s.mode) {
-        if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
-            s.ordered_velocity = 0;
-            d.orders.emplace_back(Halt{});
-        }
-        s.mode = *data.mode;
-        if (s.following) s.mode_before = s.mode;
-        s.setpoint_acknowledged = false;
-        s.buffered.reset();
-        if (!data.target_velocity) s.target_velocity = 0;  // an old speed must not start the axis in its new mode
+    if (!data.mode) return;
+    // A mode that is merely repeated does not end what somebody else does in another one; at rest it is taken.
+    const bool busy = s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0;
+    const bool repeated = own.mode ? *own.mode == *data.mode : !r.known;
+    own.mode = *data.mode;
+    if (*data.mode == s.mode || (busy && repeated && !r.current)) return;
+    if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
+        s.ordered_velocity = 0;
+        d.orders.emplace_back(Halt{});
     }
-    const std::uint16_t before = s.controlword;
-    const std::uint16_t cw = data.controlword.value_or(before);
-    s.controlword = cw;
+    s.mode = *data.mode;
+    if (s.following) s.mode_before = s.mode;
+    s.setpoint_acknowledged = false;
+    s.buffered.reset();
+    forget_velocity(s);  // an old speed must not start the axis in its new mode
+}
+
+Cia402Axis::Decision Cia402Axis::on_process_data(const ProcessData& data, const Origin& by, const Look& look) {
+    State s = s_;
+    Decision d;
+    Client& me = client(AuthorityClient::of(by));
+    Words own = me.words;
+    Request r{data, own};
+    r.known = own.controlword.has_value();
+    r.word = data.controlword.value_or(own.controlword.value_or(s.controlword));
+    r.before = own.controlword.value_or(r.word);
+    r.current = own.turn == s.turn;
+    latch_values(s, r, d);
+    r.fresh = r.is_fresh();
+    if (data.target_velocity) {
+        s.target_velocity = own.target_velocity = *data.target_velocity;
+        own.velocity_known = true;
+        own.velocity_forgotten = s.forgotten;
+    }
+    if (data.controlword) own.controlword = s.controlword = r.word;
+    const auto keep = [&] {
+        const bool acts = !d.orders.empty() || d.waits;
+        if (acts) ++s.turn;
+        if (acts || r.fresh) own.turn = s.turn;
+        if (std::ranges::any_of(d.orders, [](const CommandBody& o) { return is_urgent(o); })) {
+            s.stopped = true;
+        } else if (acts) {
+            s.stopped = false;
+        }
+        s_ = std::move(s);
+        me.words = own;
+    };
     Decision power;
     if (data.controlword) {
         if (s.state == PowerState::not_ready_to_switch_on) {
-            if (!change_unreceived(s, before, cw, power)) return power;
+            if (!change_unreceived(s, r, power)) return power;
             for (auto& o : power.orders)
                 d.orders.push_back(std::move(o));
-            s_ = std::move(s);
+            keep();
             return d;
         }
-        if ((cw & cw_fault_reset) && !(before & cw_fault_reset)) order_reset(s, power);
-        change_power(s, before, cw, who, power);
+        if ((r.word & cw_fault_reset) && (!r.known || !(r.before & cw_fault_reset))) order_reset(s, power);
+        change_power(s, r, power);
     }
-    const bool homes = s.mode == mode_homing && (cw & cw_new_setpoint) && !(before & cw_new_setpoint);
-    if (!change_motion(s, before, cw, data, own, power)) {
+    const bool homes = s.mode == mode_homing && (r.rising() & cw_new_setpoint);
+    if (!change_motion(s, r, power)) {
         s_.homing_refused = s_.homing_refused || homes;
         return power;
     }
     for (auto& o : power.orders)
         d.orders.push_back(std::move(o));
     d.waits = power.waits;
-    s_ = std::move(s);
+    if (look) {
+        if (auto no = look(d)) return refuse(no->reason, std::move(no->text));
+    }
+    keep();
     return d;
+}
+
+Cia402Axis::Decision Cia402Axis::may_home(const State& s) const {
+    if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it before homing");
+    if (s.state == PowerState::quick_stop_active)
+        return refuse(Reason::wrong_state, "the axis is in quick stop: enable it again before homing");
+    return {};
 }
 
 Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origin& by) {
     State s = s_;
     Decision d;
+    const AuthorityClient who = AuthorityClient::of(by);
+    Words* const own = who.door == Door::internal || who.door == Door::none ? nullptr : &client(who).words;
     const bool present = s.presence != Presence::offline && s.seen;
     const auto faulty = [&] {
         return refuse(Reason::wrong_state,
@@ -312,7 +437,9 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
         if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
             s.virtual_step = 3;
-            order_on(s, AuthorityClient::of(by), d);
+            order_on(s, own, d);
+        } else if (s.halted) {
+            forget_motion(s);  // a halt bit that its client has left behind ends here, and nothing goes on for that
         }
     } else if (std::holds_alternative<Disable>(body)) {
         s.controlword = 0;
@@ -326,7 +453,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         s.active.reset();
         s.buffered.reset();
         s.ordered_velocity = 0;
-        s.target_velocity = 0;
+        forget_velocity(s);
         d.orders.emplace_back(Halt{});
     } else if (std::holds_alternative<ResetFault>(body)) {
         order_reset(s, d);
@@ -335,6 +462,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
             s_.homing_refused = true;
             return faulty();
         }
+        if (Decision no = may_home(s); no.refused) return no;
         s.buffered.reset();
         s.active.reset();
         s.mode = mode_homing;
@@ -350,7 +478,8 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
             return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
         }
-        if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+        if (s.halted)
+            return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it, or enable the axis again, first");
         s.buffered.reset();
         if (move->kind == Move::Kind::velocity) {
             s.mode = mode_profile_velocity;
@@ -367,6 +496,14 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
     } else {
         return refuse(Reason::not_supported, "this is not a command of the axis profile");
     }
+    const bool moves =
+        std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body);
+    const bool enables = std::holds_alternative<Enable>(body);
+    if (moves || enables || is_urgent(body)) {
+        ++s.turn;
+        s.stopped = is_urgent(body);
+        if (own) own->turn = s.turn;
+    }
     s_ = std::move(s);
     return d;
 }
@@ -381,7 +518,7 @@ Cia402Axis::Decision Cia402Axis::may_follow() const {
                       fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
     if (s.state != PowerState::operation_enabled || s.power_pending == 0)
         return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
-    if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it first");
+    if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it, or enable the axis again, first");
     return {};
 }
 
@@ -389,6 +526,8 @@ void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     State& s = s_;
     if (!s.following) {
         forget_motion(s);
+        ++s.turn;
+        s.stopped = false;
         s.following = true;
         s.mode_before = s.mode;
     }

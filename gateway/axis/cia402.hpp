@@ -3,12 +3,14 @@
 // Never knows a family, a clock or a door. A refused request changes nothing.
 #pragma once
 
-#include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gateway/axis/authority.hpp"
+#include "gateway/axis/guard.hpp"
 #include "gateway/axis/image.hpp"
 #include "gateway/core/command.hpp"
 #include "gateway/core/sample.hpp"
@@ -70,13 +72,24 @@ public:
         std::string text;
     };
 
-    /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels. A word that ends
-    /// a motion or the power is followed even if something else in it cannot be; without a drive that answers only such a word is sent.
-    /// `by`: whose registers these are. A set-point moves with the target and the profile that its own door has written, never with
-    /// another's; a profile velocity that this door has not written, or wrote as 0, is refused with the set-point.
-    [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {});
+    /// Looks at the orders of a request before anything is changed; a refusal leaves the axis as it was.
+    using Look = std::function<std::optional<Refusal>(const Decision&)>;
+
+    /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels: edges of what
+    /// this client has written itself. What was stopped, enabled or set in motion by somebody else since is not undone by words that are
+    /// merely repeated: it takes a fresh edge (bit 4 rises, bit 8 falls, the enabling bits come back, another target velocity). Of a client
+    /// that was not heard since a stop it is not known what it wrote before, so that its first words are no edge. A word that ends a motion
+    /// or the power is followed even if something else in it cannot be, in whatever state the axis is shown while it moves or may move;
+    /// without a drive that answers only such a word is sent. `by`: whose registers these are. A set-point moves with the target and the
+    /// profile that its own client has written, never with another's; a profile velocity that this client has not written, or wrote as 0,
+    /// is refused with the set-point.
+    [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {}, const Look& look = {});
     /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
     [[nodiscard]] Decision on_command(const CommandBody& body, const Origin& by = {});
+    /// Whether a record of motion exists for the axis (the engine's word): it may be moving, whatever the drive says of its state.
+    void on_motion(bool recorded) noexcept { s_.recorded = recorded; }
+    /// Whether bit 8 (halt) is set, and keeps the axis from moving.
+    [[nodiscard]] bool halted() const noexcept { return s_.halted; }
     /// Whether the axis may follow streamed set-points now: `refused` and why not, or not.
     [[nodiscard]] Decision may_follow() const;
     /// It follows this one: the mode is the set-point's until the stream ends. A motion under way is forgotten with the first.
@@ -103,15 +116,26 @@ public:
     void fill(AxisPicture& picture) const noexcept;
 
 private:
-    /// What one door has written into registers 34..41. Kept apart per door, so that one client's values never move the axis for another.
-    struct Written {
+    /// What one client has written into registers 32..47. Kept apart, so that one client's values never move the axis for another.
+    struct Words {
+        std::optional<std::uint16_t> controlword;  // absent: not known, since a stop came between
+        std::optional<std::int16_t> mode;
         std::int32_t target_position = 0;
-        bool target_known = false;    // since the last enable
-        bool target_pending = false;  // written, and no set-point has used it yet
-        AuthorityClient target_by;
+        bool target_known = false;                                       // since the last enable
+        bool target_pending = false;                                     // written, and no set-point has used it yet
         std::uint32_t velocity = 0, acceleration = 0, deceleration = 0;  // 0: never written, or written as 0
+        std::int32_t target_velocity = 0;
+        bool velocity_known = false;           // false: not known, since a stop came between
+        std::uint64_t velocity_forgotten = 0;  // State::forgotten when the target velocity was written
+        std::uint64_t enables = 0;             // State::enables that `target_known` belongs to
+        std::uint64_t turn = 0;                // State::turn that this client has seen, or made
     };
-    static constexpr std::size_t doors = 6;
+    struct Client {
+        AuthorityClient who;
+        Words words;
+        std::uint64_t used = 0;
+    };
+    static constexpr std::size_t most_clients = 32;  // the one that wrote longest ago makes room; it counts as not known then
     struct State {
         PowerState state = PowerState::not_ready_to_switch_on;
         Presence presence = Presence::offline;
@@ -120,7 +144,11 @@ private:
         Presence received = Presence::offline;  // whose feedback is kept: offline, nobody's
         std::uint16_t controlword = 0;
         std::int16_t mode = cia402::mode_none;
-        std::array<Written, doors> written;  // by Door
+        std::uint64_t enables = 0;    // grows when the axis is enabled: written targets of others are forgotten
+        std::uint64_t forgotten = 0;  // grows when a target velocity is forgotten
+        std::uint64_t turn = 1;       // grows with what the repeated words of other clients must not undo
+        bool stopped = true;          // the last turn was a stop, a loss or a beginning, not somebody's order to move or to enable
+        bool recorded = false;        // on_motion
         // As registers 34..41 show it: written last, or in force since the last motion that a drive took, whoever gave it.
         std::int32_t target_position = 0;
         std::uint32_t profile_velocity = 0;
@@ -148,18 +176,42 @@ private:
 
     [[nodiscard]] static PowerState state_when_off(const State& s) noexcept;
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
-    [[nodiscard]] bool change_unreceived(State& s, std::uint16_t before, std::uint16_t cw, Decision& d) const;
-    void change_power(State& s, std::uint16_t before, std::uint16_t cw, const AuthorityClient& by, Decision& d) const;
-    [[nodiscard]] bool change_motion(State& s, std::uint16_t before, std::uint16_t cw, const ProcessData& data, Written& own,
-                                     Decision& d) const;
+    /// One block of registers while it is looked at: the word, this client's word before it, and what it asks for.
+    struct Request {
+        const ProcessData& data;
+        Words& own;
+        std::uint16_t before = 0;
+        std::uint16_t word = 0;
+        bool known = true;    // what this client wrote before is known
+        bool current = true;  // nobody has stopped, enabled or moved the axis since; else only an edge acts
+        bool fresh = false;   // its words ask for motion or power by an edge of their own
+        [[nodiscard]] std::uint16_t rising() const noexcept { return word & static_cast<std::uint16_t>(~before); }
+        [[nodiscard]] std::uint16_t falling() const noexcept { return before & static_cast<std::uint16_t>(~word); }
+        /// A bit that stops by being 0 counts as falling where the word before is not known: a stop is never missed for that.
+        [[nodiscard]] bool stops_by(std::uint16_t bit) const noexcept { return !(word & bit) && (!known || (before & bit)); }
+        [[nodiscard]] bool enables_anew() const noexcept;
+        [[nodiscard]] bool is_fresh() const noexcept;
+    };
+    [[nodiscard]] Client& client(const AuthorityClient& who);
+    void latch_values(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] bool change_unreceived(State& s, const Request& r, Decision& d) const;
+    void change_power(State& s, const Request& r, Decision& d) const;
+    void stop_in_any_state(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] bool change_motion(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] bool new_set_point(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] Decision may_home(const State& s) const;
     void settle(State& s) const;
-    static void order_on(State& s, const AuthorityClient& by, Decision& d);
+    static void order_on(State& s, Words* own, Decision& d);
     static void order_off(State& s, Decision& d);
     static void order_off_blindly(State& s, Decision& d);
     static void order_reset(State& s, Decision& d);
     static void forget_motion(State& s);
+    static void forget_velocity(State& s);
+    static void end_turn(State& s) noexcept;
     static void leave_stream(State& s);
     State s_;
+    std::vector<Client> clients_;
+    std::uint64_t uses_ = 0;
 };
 
 }  // namespace axisgate

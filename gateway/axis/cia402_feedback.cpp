@@ -57,6 +57,7 @@ void Cia402Axis::settle(State& s) const {
     const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
     if (s.feedback.fault) {
         const bool reported = own == PowerState::fault || own == PowerState::fault_reaction_active;
+        if (s.state != PowerState::fault && s.state != PowerState::fault_reaction_active) end_turn(s);
         s.state = reported ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
         s.virtual_step = 0;
         s.quick_stopped = false;
@@ -69,7 +70,10 @@ void Cia402Axis::settle(State& s) const {
         // The drive may have been stopped at itself: by its own panel, an input, or another master. It is left like any quick stop.
         const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
         const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
-        if (stopped && s.state == PowerState::operation_enabled) forget_motion(s);
+        if (stopped && s.state == PowerState::operation_enabled) {
+            forget_motion(s);
+            if (!s.quick_stopped) end_turn(s);
+        }
         s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
         return;
     }
@@ -77,9 +81,16 @@ void Cia402Axis::settle(State& s) const {
     if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
         s.virtual_step = 0;
         forget_motion(s);
+        end_turn(s);
     }
     s.quick_stopped = false;
     s.state = state_when_off(s);
+}
+
+/// The drive has ended by itself what anybody was about: nobody's repeated words begin it again.
+void Cia402Axis::end_turn(State& s) noexcept {
+    ++s.turn;
+    s.stopped = true;
 }
 
 /// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
@@ -103,6 +114,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         } else {
             s.virtual_step = 0;
             s.controlword &= static_cast<std::uint16_t>(~cw_enable_operation);
+            end_turn(s);
         }
         settle(s);
     } else if (std::holds_alternative<Disable>(order)) {
@@ -204,9 +216,9 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.repeated_moves = 0;
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
-    for (Written& w : s_.written)
-        w.target_known = w.target_pending = false;
+    ++s_.enables;  // written targets count no more
     forget_motion(s_);
+    end_turn(s_);
     settle(s_);
 }
 

@@ -62,6 +62,7 @@ AxisLimits AxisLimits::of(const AxisSpec& a) {
     l.position_max = increments(a.position_max, a.increments_per_unit);
     l.velocity_max = increments(a.velocity_max, a.increments_per_unit);
     l.acceleration_max = increments(a.acceleration_max, a.increments_per_unit);
+    l.deceleration_min = increments(a.deceleration_min, a.increments_per_unit);
     return l;
 }
 
@@ -90,6 +91,25 @@ std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64
     if (auto r = check_rate("velocity", m.velocity, l.velocity_max, l, "/s")) return r;
     if (auto r = check_rate("acceleration", m.acceleration, l.acceleration_max, l, "/s^2")) return r;
     return check_rate("deceleration", m.deceleration, l.acceleration_max, l, "/s^2");
+}
+
+std::optional<Refusal> guard_rates(const DriveRates& r, const AxisLimits& l) {
+    const auto rate = [&](std::string_view what, std::int64_t v, std::optional<std::int64_t> max, std::string_view per) {
+        return v == 0 ? std::nullopt : check_rate(what, v, max, l, per);
+    };
+    if (auto no = rate("velocity", r.velocity, l.velocity_max, "/s")) return no;
+    if (auto no = rate("acceleration", r.acceleration, l.acceleration_max, "/s^2")) return no;
+    return rate("deceleration", r.deceleration, l.acceleration_max, "/s^2");
+}
+
+void name_rates(Move& m, const AxisLimits& l, const DriveRates& drive) {
+    const auto name = [](std::optional<std::int64_t>& named, const std::optional<std::int64_t>& max, std::int64_t own) {
+        if (!named && max && *max > 0 && (own == 0 || own > *max))
+            named = std::min<std::int64_t>(*max, std::numeric_limits<std::uint32_t>::max());
+    };
+    if (m.kind != Move::Kind::velocity) name(m.velocity, l.velocity_max, drive.velocity);
+    name(m.acceleration, l.acceleration_max, drive.acceleration);
+    name(m.deceleration, l.acceleration_max, drive.deceleration);
 }
 
 std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_t> offered) {

@@ -38,6 +38,8 @@ struct AxisPicture {
     std::uint16_t flags = 0;
     /// Register 22: the LossCause for which the axis was stopped without a command, until the next command.
     std::uint16_t fail_safe_cause = 0;
+    /// Register 23: 0 latched after a stop of somebody else; 1 by a fail-safe or the supervisor, 2 by another client, 3 by a safe input.
+    std::uint16_t stop_latch = 0;
     // set-points as last accepted (registers 32..47 read back)
     std::uint16_t controlword = 0;
     std::int16_t mode = 0;  ///< modes of operation

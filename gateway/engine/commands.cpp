@@ -9,10 +9,10 @@
 #include "gateway/engine/command_authority.hpp"
 #include "gateway/engine/commands.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/twins.hpp"
-#include "gateway/engine/velocity_moves.hpp"
 
 namespace axisgate::engine {
 
@@ -23,6 +23,7 @@ struct Commands::Plan {
     bool motion = false;        ///< a command of CiA 402's, by word or by name
     bool stops = false;         ///< it ends motion and nothing else: free for everybody
     bool lets_go = false;       ///< see Client
+    bool unread = false;        ///< a statement whose motion, if it begins one, nobody has compared with the limits
     bool answered = false;      ///< nothing is left to do
     [[nodiscard]] bool empty() const { return orders.empty() && !waits; }
 };
@@ -75,6 +76,7 @@ void Commands::answer_hand(const Axis& a, const Command& c, const Hand& hand, In
 /// Nothing, with the plan; or why not.
 std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Instant now) {
     if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
+        if (auto no = beyond_reading(a, c.body, plan)) return no;
         plan.orders.push_back(c.body);
         return std::nullopt;
     }
@@ -83,7 +85,26 @@ std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Insta
     return plan_motion(a, c, plan, now);
 }
 
-std::optional<Refusal> Commands::plan_parameter(const Axis& a, CommandBody& body, Plan& plan) {
+/// A statement in the drive's own language passes the same limits as an order where its family can read it.
+std::optional<Refusal> Commands::beyond_reading(const Axis& a, const CommandBody& body, Plan& plan) const {
+    const Stated said = Orders::stated(a, body);
+    const Axis& about = orders_.concerned(a, said);
+    const bool begins = said.kind == Stated::Kind::motion || said.kind == Stated::Kind::homing;
+    if (begins && about.stops.bars_motion()) return behind_a_stop();
+    if (auto no = orders_.beyond_limits(a, body)) return no;
+    if (said.kind != Stated::Kind::unread) return std::nullopt;
+    if (!a.spec.unread_statements)
+        return Refusal{Reason::not_supported,
+                       "the gateway cannot read whether this begins a motion, and the site refuses such statements (unread_statements)"};
+    plan.unread = a.limits.position_min || a.limits.position_max || a.limits.velocity_max;
+    return std::nullopt;
+}
+
+Refusal Commands::behind_a_stop() {
+    return {Reason::wrong_state, "a quick stop is on its way to the drive: nothing is begun until it is answered"};
+}
+
+std::optional<Refusal> Commands::plan_parameter(const Axis& a, CommandBody& body, Plan& plan) const {
     const Catalogue& catalogue = *a.drive->catalogue;
     auto* write = std::get_if<WriteParameter>(&body);
     const Point point = write ? write->point : std::get<ReadParameter>(body).point;
@@ -95,6 +116,7 @@ std::optional<Refusal> Commands::plan_parameter(const Axis& a, CommandBody& body
         auto checked = catalogue.check_write(point, write->value);
         if (!checked.fault.empty()) return Refusal{Reason::out_of_range, std::move(checked.fault)};
         write->value = std::move(checked.value);
+        if (auto no = orders_.beyond_limits(a, body)) return no;
     }
     plan.orders.push_back(body);
     return std::nullopt;
@@ -114,13 +136,23 @@ std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, In
         plan.lets_go = a.drive->spec.presence == PresenceRule::automatic && a.drive->serving == Presence::device && !a.drive->device_online;
     }
     if (auto no = orders_.beyond_limits(a, c.body)) return no;
-    if (velocity_moves_.hold_on(a, c, now)) {
+    if (motions_.hold_on(a, c, now)) {
         plan.answered = true;
         return std::nullopt;
     }
-    const auto before = data ? std::optional(a.profile) : std::nullopt;
     const std::int64_t buffered_from = a.profile.active_target().value_or(a.profile.feedback().position);
-    auto decision = data ? a.profile.on_process_data(*data, c.origin) : a.profile.on_command(c.body, c.origin);
+    // A set-point that starts with this word, or waits because of it, is looked at as what it is.
+    const auto look = [&](const Cia402Axis::Decision& d) -> std::optional<Refusal> {
+        for (const auto& o : d.orders) {
+            if (auto no = begins_too_early(a, o)) return no;
+            if (auto no = orders_.beyond_limits(a, o)) return no;
+        }
+        return d.waits ? guard_move(*d.waits, a.limits, buffered_from) : std::nullopt;
+    };
+    if (!data) {
+        if (auto no = begins_too_early(a, c.body)) return no;
+    }
+    auto decision = data ? a.profile.on_process_data(*data, c.origin, look) : a.profile.on_command(c.body, c.origin);
     if (decision.refused) {
         const Side* side = machine_.side_of(*a.drive);
         if (decision.reason == Reason::no_answer && side && !side->up)
@@ -129,14 +161,37 @@ std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, In
     }
     plan.orders = std::move(decision.orders);
     plan.waits = std::move(decision.waits);
-    if (!data) return std::nullopt;
-    std::optional<Refusal> no;  // a set-point that starts with this word, or waits because of it, is looked at as what it is
-    for (const auto& o : plan.orders) {
-        if (!no) no = orders_.beyond_limits(a, o);
+    for (auto& o : plan.orders) {
+        if (auto* move = std::get_if<Move>(&o)) complete(a, *move);
     }
-    if (!no && plan.waits) no = guard_move(*plan.waits, a.limits, buffered_from);
-    if (no) a.profile = *before;
-    return no;
+    return std::nullopt;
+}
+
+/// Nothing is begun behind a quick stop that has no answer yet, and no prepared move of an axis that is not free to move.
+std::optional<Refusal> Commands::begins_too_early(const Axis& a, const CommandBody& body) const {
+    const auto* together = std::get_if<StartTogether>(&body);
+    const bool begins = std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<Enable>(body);
+    if ((begins || together) && a.stops.bars_motion()) return behind_a_stop();
+    if (!together) return std::nullopt;
+    for (const AxisId id : together->axes) {
+        const Axis* x = machine_.axis(id);
+        if (!x) continue;
+        if (x->stops.bars_motion()) return behind_a_stop();
+        if (auto no = x->profile.may_follow(); no.refused)
+            return Refusal{no.reason, fmt::format("axis {}: {}", x->spec.name, std::move(no.text))};
+    }
+    return std::nullopt;
+}
+
+/// What a move does not say: rates that the site limits, and, out of a running motion, the place from which a distance counts.
+void Commands::complete(const Axis& a, Move& move) {
+    name_rates(move, a.limits, a.profile.feedback().rates);
+    if (move.kind != Move::Kind::relative || !a.motion.runs() || !a.profile.feedback().moving) return;
+    const std::int64_t from = a.profile.active_target().value_or(a.profile.feedback().position);
+    std::int64_t target = 0;
+    if (__builtin_add_overflow(from, move.target, &target)) return;  // refused by its width already
+    move.kind = Move::Kind::absolute;
+    move.target = target;
 }
 
 ProcessData Commands::stop_alone(const ProcessData& data) {
@@ -179,7 +234,15 @@ void Commands::note_command(const Axis& a, const Command& c, const Plan& plan, I
     if (plan.waits)
         e.text += fmt::format("{}{} {} waits for the running motion", e.text.empty() ? "" : ", ", name_of(CommandBody{*plan.waits}),
                               plan.waits->target);
+    if (plan.unread) e.text += " (not compared with the axis' limits, because it cannot be read; the motion is watched)";
     publisher_.event(std::move(e), now);
+}
+
+/// Who moves the axis finds it stopped by somebody else: what registers and documents show of that.
+void Commands::note_stop(Axis& a, const AuthorityClient& by) {
+    if (by.door == Door::internal || a.owner().door == Door::none || a.owner() == by) return;
+    a.latch.bits = StopLatch::latched | StopLatch::by_client;
+    a.latch.by = by;
 }
 
 void Commands::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
@@ -196,7 +259,9 @@ void Commands::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
     if (const auto* data = std::get_if<ProcessData>(&client->body);
         data && data->controlword && (*data->controlword & cia402::cw_new_setpoint))
         a.setpoint_ticket = client->ticket;
-    if (plan.motion && !plan.stops && !plan.empty()) a.loss = LossCause::none;
+    if (plan.motion && !plan.stops && !plan.empty()) a.latch.cause = LossCause::none;
+    if (plan.waits) a.waiting = c.origin;
+    if (std::ranges::any_of(plan.orders, is_urgent)) note_stop(a, AuthorityClient::of(c.origin));
     if (plan.orders.empty()) {
         client->accepted = true;
         client->accepted_at = now;

@@ -9,15 +9,15 @@ namespace axisgate::engine {
 
 class Commands {
 public:
-    Commands(Machine& machine, Pending& pending, Publisher& publisher, Twins& twins, Orders& orders, Clients& clients,
-             VelocityMoves& velocity_moves, CommandAuthority& authority)
+    Commands(Machine& machine, Pending& pending, Publisher& publisher, Twins& twins, Orders& orders, Clients& clients, Motions& motions,
+             CommandAuthority& authority)
         : machine_(machine),
           pending_(pending),
           publisher_(publisher),
           twins_(twins),
           orders_(orders),
           clients_(clients),
-          velocity_moves_(velocity_moves),
+          motions_(motions),
           authority_(authority) {}
     void on_command(Command command, Instant now);
 
@@ -26,8 +26,13 @@ private:
     [[nodiscard]] static std::optional<Refusal> turned_away(const Axis& axis, const Command& command, Instant now);
     void answer_hand(const Axis& axis, const Command& command, const Hand& hand, Instant now);
     [[nodiscard]] std::optional<Refusal> plan_for(Axis& axis, Command& command, Plan& plan, Instant now);
-    [[nodiscard]] static std::optional<Refusal> plan_parameter(const Axis& axis, CommandBody& body, Plan& plan);
+    [[nodiscard]] std::optional<Refusal> beyond_reading(const Axis& axis, const CommandBody& body, Plan& plan) const;
+    [[nodiscard]] static Refusal behind_a_stop();
+    [[nodiscard]] std::optional<Refusal> plan_parameter(const Axis& axis, CommandBody& body, Plan& plan) const;
     [[nodiscard]] std::optional<Refusal> plan_motion(Axis& axis, Command& command, Plan& plan, Instant now);
+    [[nodiscard]] std::optional<Refusal> begins_too_early(const Axis& axis, const CommandBody& body) const;
+    static void complete(const Axis& axis, Move& move);
+    static void note_stop(Axis& axis, const AuthorityClient& by);
     [[nodiscard]] static ProcessData stop_alone(const ProcessData& data);
     void give_the_stop_alone(const Command& command, Instant now);
     [[nodiscard]] static bool needs_authority(const Command& command, const Plan& plan);
@@ -40,7 +45,7 @@ private:
     Twins& twins_;
     Orders& orders_;
     Clients& clients_;
-    VelocityMoves& velocity_moves_;
+    Motions& motions_;
     CommandAuthority& authority_;
 };
 

@@ -120,10 +120,10 @@ void Engine::housekeeping(Instant now) {
             p.publisher.publish(a, now);
         }
         if (!a.clients.empty()) p.clients.track(a, now);
-        p.velocity_moves.check_hold(a, now);
+        p.motions.check(a, now);
         p.loss.check_watchdog(a, now);
         p.streams.check(a, now);
-        const bool led = a.authority.holder() == a.authority.commander();
+        const bool led = a.authority.holder() == a.owner();
         if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) {
             if (led) p.loss.act(a, LossCause::lease_ended, now);
             p.authority.changed(a, v, nullptr, now);

@@ -9,6 +9,7 @@
 #include "gateway/engine/fast_look.hpp"
 #include "gateway/engine/loss_of_command.hpp"
 #include "gateway/engine/machine.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/presences.hpp"
 #include "gateway/engine/publisher.hpp"
@@ -18,8 +19,8 @@
 #include "gateway/engine/site_in_force.hpp"
 #include "gateway/engine/speakers.hpp"
 #include "gateway/engine/streams.hpp"
+#include "gateway/engine/supervisor.hpp"
 #include "gateway/engine/twins.hpp"
-#include "gateway/engine/velocity_moves.hpp"
 
 namespace axisgate {
 
@@ -27,17 +28,18 @@ struct Engine::Parts {
     Parts(Families families, EngineHost& host, Image& image, std::size_t trace_frames)
         : machine(std::move(families), image),
           publisher(machine, host),
-          routing(machine, publisher, presences, orders, clients, velocity_moves, loss, streams),
+          routing(machine, publisher, presences, orders, clients, motions, supervisor, loss, streams),
           speakers(machine, host, routing, trace_frames),
           twins(machine, host, publisher),
-          presences(machine, pending, publisher, routing, speakers, twins, clients, streams),
+          presences(machine, pending, publisher, routing, speakers, twins, clients, streams, motions),
           clients(machine, pending, publisher),
-          orders(machine, pending, host, publisher, routing, twins, presences, clients, velocity_moves, streams),
-          velocity_moves(publisher, orders),
+          orders(machine, pending, host, publisher, routing, twins, presences, clients, motions, streams, loss),
+          motions(publisher, orders, clients, streams, loss),
+          supervisor(publisher, orders),
           authority(machine, publisher),
-          loss(machine, host, publisher, orders, streams),
-          streams(machine, publisher, routing, orders, clients, authority, loss),
-          commands(machine, pending, publisher, twins, orders, clients, velocity_moves, authority),
+          loss(machine, pending, host, publisher, orders, streams),
+          streams(machine, publisher, routing, orders, authority, loss, motions),
+          commands(machine, pending, publisher, twins, orders, clients, motions, authority),
           scans(machine, publisher, speakers),
           looks(machine, publisher, speakers),
           site_in_force(machine, pending, publisher, speakers, twins, presences, clients, scans),
@@ -52,7 +54,8 @@ struct Engine::Parts {
     engine::Presences presences;
     engine::Clients clients;
     engine::Orders orders;
-    engine::VelocityMoves velocity_moves;
+    engine::Motions motions;
+    engine::Supervisor supervisor;
     engine::CommandAuthority authority;
     engine::LossOfCommand loss;
     engine::Streams streams;

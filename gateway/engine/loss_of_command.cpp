@@ -37,6 +37,12 @@ std::string why_lost(LossCause cause, Duration limit) {
             return limit > Duration::zero()
                        ? fmt::format("has missed the deadline of its set-points over DDS: none for {} ms", milliseconds_of(limit))
                        : "is gone from the DDS domain: nobody writes for it any more";
+        case LossCause::enip_session_closed:
+            return "has closed the EtherNet/IP session by which it commanded";
+        case LossCause::enip_silent:
+            return fmt::format("has sent no EtherNet/IP message for {} ms", milliseconds_of(limit));
+        case LossCause::motion_unowned:
+            return "the axis moves all the same";
         case LossCause::none:
         case LossCause::modbus_closed:
             break;
@@ -53,17 +59,20 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
         // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on. And set-points
         // over DDS have a deadline of their own: they go on while they are renewed, whoever else does not write for their client any more.
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
-        if (feed ? !streams : a->authority.commander() != who || (cause == LossCause::dds_deadline && streams)) continue;
+        if (feed ? !streams : a->owner() != who || (cause == LossCause::dds_deadline && streams)) continue;
         act(*a, feed ? silence_of(who) : cause, now);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
+    }
+    for (auto& [ticket, order] : pending_.orders) {  // what the drive takes now begins without its owner
+        if (order.motion && order.motion->who == who) order.owner_lost = cause;
     }
 }
 
 AtLoss LossOfCommand::at_loss(const Axis& a) {
     const AxisFeedback& f = a.profile.feedback();
     AtLoss at;
-    at.endless = a.run.velocity != 0 || a.stream.on;  // set-points have no end of their own
-    at.moving = f.moving || f.homing || a.profile.active_target().has_value() || a.run.velocity != 0;
+    at.endless = a.motion.endless(f.course);
+    at.moving = f.moving || f.homing || (a.motion.runs() && !a.motion.over);
     at.powered = a.profile.commanded();
     return at;
 }
@@ -75,22 +84,27 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
         at.powered = at.powered || before->powered;
     }
     const auto action = a.spec.fail_safe.action(cause, at);
-    if (machine_.closing || action == FailSafeAction::nothing || a.loss != LossCause::none) return;
-    a.loss = cause;
+    if (machine_.closing || action == FailSafeAction::nothing) return;
+    // One loss acts once on one motion; on an axis at rest, once until somebody commands it again.
+    const LossCause before = a.motion.runs() ? a.motion.ended_for : a.latch.cause;
+    if (before != LossCause::none && cause != LossCause::gateway_ends) return;
+    a.motion.ended_for = a.latch.cause = cause;
+    a.latch.bits = StopLatch::latched | StopLatch::by_fail_safe;
+    a.latch.by = {};
     ++losses_[static_cast<std::size_t>(cause)];
     const CommandBody body = action == FailSafeAction::halt         ? CommandBody{Halt{}}
                              : action == FailSafeAction::quick_stop ? CommandBody{QuickStop{}}
                                                                     : CommandBody{Disable{}};
     Event e;
-    e.severity = Severity::warning;
+    e.severity = cause == LossCause::motion_unowned ? Severity::alarm : Severity::warning;
     e.kind = "fail_safe";
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
-    const Duration limit = cause == LossCause::modbus_silent ? a.spec.fail_safe.watchdog(machine_.watchdog)
-                           : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for
-                               ? a.stream.good_for
-                               : Duration::zero();
-    const AuthorityClient& who = a.stream.on ? a.stream.who : a.authority.commander();
+    const Duration limit =
+        cause == LossCause::modbus_silent || cause == LossCause::enip_silent ? a.spec.fail_safe.watchdog(machine_.watchdog)
+        : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for ? a.stream.good_for
+                                                                                                         : Duration::zero();
+    const AuthorityClient& who = a.stream.on ? a.stream.who : a.owner();
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
                          why_lost(cause, limit));
     publisher_.event(std::move(e), now);
@@ -98,11 +112,22 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
     publisher_.publish(a, now);
 }
 
+void LossOfCommand::unowned(Axis& a, Instant now) {
+    if (a.spec.fail_safe.action(LossCause::motion_unowned, at_loss(a)) != FailSafeAction::nothing)
+        return act(a, LossCause::motion_unowned, now);
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "motion";
+    e.axis = a.spec.name;
+    e.text = "the axis moves, and no client of this gateway has ordered it; it is left to its end, and stopped at the site's limits";
+    publisher_.event(std::move(e), now);
+}
+
 /// Looked at with every housekeeping, so an action comes at most one of its periods late.
 void LossOfCommand::check_watchdog(Axis& a, Instant now) {
-    const AuthorityClient& who = a.authority.commander();
+    const AuthorityClient& who = a.owner();
     const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
-    if (who.door != Door::modbus || limit <= Duration::zero() || !a.profile.commanded()) return;
+    if (who.door != Door::modbus || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
     const auto received = host_.last_received(who);
     if (FlightTap* tap = publisher_.tap()) tap->last_received(received, now);
     if (received && now - *received > limit) act(a, LossCause::modbus_silent, now);
@@ -114,7 +139,6 @@ void LossOfCommand::shut_down(Instant now) {
     if (machine_.closing) return;
     for (auto& a : machine_.axes) {
         if (!a || a->drive->serving == Presence::offline) continue;
-        a->loss = LossCause::none;  // whatever was lost before: this is the last that can be done
         act(*a, LossCause::gateway_ends, now);
     }
     machine_.closing = true;

@@ -1,6 +1,6 @@
 // Loss of command: an axis whose commander is gone, or silent for too long, is halted, stopped or switched off as its site entry says.
 // In: doors' word that a client is gone, the instant at which a client was heard last. Out: the action, an event, register 22, a count.
-// Never touches an axis that somebody else has commanded since.
+// A loss concerns the motion of the client that is lost, whoever has spoken to the axis since; and an axis at rest that it commanded last.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -9,11 +9,13 @@ namespace axisgate::engine {
 
 class LossOfCommand {
 public:
-    LossOfCommand(Machine& machine, EngineHost& host, Publisher& publisher, Orders& orders, Streams& streams)
-        : machine_(machine), host_(host), publisher_(publisher), orders_(orders), streams_(streams) {}
+    LossOfCommand(Machine& machine, Pending& pending, EngineHost& host, Publisher& publisher, Orders& orders, Streams& streams)
+        : machine_(machine), pending_(pending), host_(host), publisher_(publisher), orders_(orders), streams_(streams) {}
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
     /// What the axis' site entry says to this cause.
     void act(Axis& axis, LossCause cause, Instant now);
+    /// It moves, and nobody has ordered it: what the site says to that, told either way.
+    void unowned(Axis& axis, Instant now);
     void check_watchdog(Axis& axis, Instant now);
     /// Stops every axis that is not at rest: the gateway's own end is a loss of command.
     void shut_down(Instant now);
@@ -26,6 +28,7 @@ public:
 
 private:
     Machine& machine_;
+    Pending& pending_;
     EngineHost& host_;
     Publisher& publisher_;
     Orders& orders_;

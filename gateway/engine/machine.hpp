@@ -18,6 +18,7 @@
 #include "gateway/axis/guard.hpp"
 #include "gateway/core/histogram.hpp"
 #include "gateway/engine/engine.hpp"
+#include "gateway/engine/motion.hpp"
 #include "gateway/site/fail_safe.hpp"
 #include "gateway/wire/twin_bus.hpp"
 
@@ -27,6 +28,7 @@ class Clients;
 class CommandAuthority;
 class Commands;
 class LossOfCommand;
+class Motions;
 class Orders;
 class Presences;
 class Publisher;
@@ -35,8 +37,8 @@ class Scans;
 class SiteInForce;
 class Speakers;
 class Streams;
+class Supervisor;
 class Twins;
-class VelocityMoves;
 
 struct LineUnit;
 struct Side;
@@ -301,26 +303,21 @@ struct Axis {
     Drive* drive = nullptr;
     AxisLimits limits;
     Cia402Axis profile;
-    /// The dead-man time-out of a velocity move under way; `until` is `never` if there is none.
-    struct Held {
-        Instant until = never;      ///< runs from the drive's acknowledgement on
-        Duration time{};            ///< 0: no hold
-        std::int64_t velocity = 0;  ///< increments/s
-        AuthorityClient who;
-    } held;
-    /// The velocity move under way, watched at the site's limits of position.
-    struct Run {
-        std::int64_t velocity = 0;      ///< increments/s; 0: none
-        std::int64_t acceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
-        std::int64_t deceleration = 0;  ///< increments/s^2; 0: the drive's own, not known here
-        std::int64_t position = 0;      ///< as last told, and when it became that
-        Instant since{};
-        bool found = false;  ///< it moved when it was first heard, and who ordered it is gone: watched until it rests
-        double round_s = 0;  ///< between the last two positions: how late the next may be, and a halt on the same line
-    } run;
-    std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: none since it came
+    Motion motion;                    ///< what moves it
+    std::size_t motions_asked = 0;    ///< orders on their way that make another record if the drive takes them
+    Motion asked;                     ///< the newest of those: the drive may carry it out before its answer is here
+    std::optional<Motion> suspected;  ///< of an order that left and was answered as failed: it may begin all the same
+    std::optional<Motion> statement;  ///< whose motion begins if the axis moves without an order: it came after an unread statement
+    Origin waiting;                   ///< whose set-point waits behind the running motion, or waited last
+    Stops stops;
+    StopLatch latch;
+    Watch watch;
+    Instant moves_since{};               ///< without a record, or against its state; the beginning of time: it does not
+    std::int64_t speed_then = 0;         ///< at that instant, increments/s
+    bool contradicts = false;            ///< it moves against its state, and an alarm has told of it
     std::optional<Move> prepared;        ///< taken by the drive, starts with StartTogether
-    /// Set-points that one client renews.
+    std::int64_t last_deceleration = 0;  ///< of the last move that named one and was taken: a drive keeps it; 0: not known
+    /// Set-points that one client renews: what becomes of them. The motion that they make is `motion`.
     struct Stream {
         bool on = false;
         SetPoint::Mode mode = SetPoint::Mode::position;
@@ -341,14 +338,14 @@ struct Axis {
     Ticket setpoint_ticket =
         no_ticket;            ///< the set-point that came last by a control word: it may wait and begin later, without its client
     Instant leaving_until{};  ///< a site change takes it away: until then nothing begins here any more
-    bool at_limit = false;    ///< a velocity move was ended at a limit, and no motion has begun since
+    bool at_limit = false;    ///< a motion was ended at a limit, and none has begun since
     AxisAuthority authority;
-    LossCause loss = LossCause::none;  ///< why it was stopped without a command, until the next command to it
-    std::optional<AtLoss> lost_line;   ///< its drive went silent while this axis was commanded, and has not spoken since
-    Duration look_period{};            ///< zero: asked in the line's rhythm
+    std::optional<AtLoss> lost_line;  ///< its drive went silent while this axis was commanded, and has not spoken since
+    Duration look_period{};           ///< zero: asked in the line's rhythm
     Instant look_until{};
     bool stale = true;
     bool was_fault = false;
+    bool was_safe_stop = false;
     std::string homing_why;  ///< why the last search for a zero failed, by the adapter's notice
     std::uint16_t last_error = 0;
     std::vector<std::uint64_t> clients;  ///< commands on their way or being watched, oldest first; bounded
@@ -356,6 +353,15 @@ struct Axis {
     std::map<Point, Value> reported;     ///< what who speaks for it said last; bounded by the catalogue
     std::uint64_t authority_shown = 0;   ///< AxisAuthority::revision whose names stand in its picture
     std::uint32_t source = 0;            ///< AxisPicture::source
+
+    /// The ramp with which it brakes now, increments/s^2: named by its motion, told by its drive, or the site's worst. 0: nobody knows.
+    [[nodiscard]] std::int64_t deceleration() const noexcept {
+        if (motion.runs() && motion.deceleration > 0) return motion.deceleration;
+        if (const auto told = profile.feedback().rates.deceleration; told > 0) return told;
+        return last_deceleration > 0 ? last_deceleration : limits.deceleration_min.value_or(0);
+    }
+    /// Whose loss ends what it does: the owner of its motion; of an axis at rest, who commanded it last.
+    [[nodiscard]] const AuthorityClient& owner() const noexcept { return motion.runs() ? motion.who : authority.commander(); }
 };
 
 /// One client's command on its way.
@@ -383,6 +389,10 @@ struct OrderRecord {
     Result kept;   ///< what the drive said, while the store works
     Value before;  ///< of a write: what was there, as far as it is known
     Instant given_at{};
+    AxisId mover = no_axis;                  ///< whose record: a native statement may move another axis of its drive
+    std::optional<Motion> motion;            ///< the record that it makes if the drive takes it
+    LossCause owner_lost = LossCause::none;  ///< its client was lost while it was on its way
+    bool repeated = false;                   ///< a stop that is said again: its failure is not told each time
     /// Its drive has not answered yet.
     [[nodiscard]] bool at_drive() const noexcept { return !known(kept.value); }
 };

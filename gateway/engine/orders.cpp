@@ -7,13 +7,14 @@
 
 #include "gateway/engine/clients.hpp"
 #include "gateway/engine/flight_record.hpp"
+#include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/presences.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/routing.hpp"
 #include "gateway/engine/streams.hpp"
 #include "gateway/engine/twins.hpp"
-#include "gateway/engine/velocity_moves.hpp"
 
 namespace axisgate::engine {
 
@@ -21,6 +22,61 @@ void Orders::give_own(Axis& a, const CommandBody& body, Instant now) {
     auto decision = a.profile.on_command(body);
     for (auto& o : decision.orders)
         give(a, nullptr, std::move(o), {}, now);
+}
+
+Stated Orders::stated(const Axis& a, const CommandBody& body) {
+    Stated nothing;
+    nothing.kind = Stated::Kind::nothing;
+    const bool in_its_language = std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body);
+    if (!in_its_language && !std::holds_alternative<WriteParameter>(body)) return nothing;
+    if (const auto read = a.drive->family.family->stated) return read(*a.drive->catalogue, a.spec.channel, body);
+    return in_its_language ? Stated{} : nothing;
+}
+
+/// The same stop is on its way already: this one shares its place and gets its answer, so that no crowd of stops keeps another one out.
+bool Orders::join_stop(Axis& a, Client* client, const CommandBody& body) {
+    constexpr std::size_t most = 1024;  // of those that wait for one answer; who comes after them is told that the stop is on its way
+    const auto kind = Stops::of(body);
+    if (!kind || a.stops.of(*kind).order == no_ticket) return false;
+    if (!client) return true;
+    auto& joined = a.stops.of(*kind).joined;
+    if (joined.size() < most) {
+        joined.push_back(client->number);
+        return true;
+    }
+    Result r = client->result;
+    r.outcome = Outcome::accepted;
+    r.text = fmt::format("axis {}: the same stop is on its way already", a.spec.name);
+    clients_.finish(client->number, std::move(r));
+    return true;
+}
+
+void Orders::begin_stop(Axis& a, const OrderRecord& record, Ticket ticket, Instant now) {
+    const auto kind = Stops::of(record.body);
+    if (!kind) return;
+    a.stops.of(*kind).order = ticket;
+    if (a.stops.wanted && *a.stops.wanted > *kind) return;
+    if (a.stops.wanted != kind || a.stops.acknowledged) {
+        a.stops.first_at = now;
+        a.stops.speed_then = std::llabs(a.profile.feedback().velocity);
+    }
+    a.stops.wanted = kind;
+    a.stops.acknowledged = false;
+    a.stops.given_at = now;
+}
+
+void Orders::stop_again(Axis& a, Instant now) {
+    OrderRecord record;
+    record.axis = a.id;
+    record.body = Stops::body(*a.stops.wanted);
+    record.given_at = now;
+    record.repeated = true;
+    const Ticket ticket = make_ticket(engine_itself, pending_.next++);
+    CommandBody body = record.body;
+    a.stops.of(*a.stops.wanted).order = ticket;
+    a.stops.given_at = now;
+    pending_.orders.emplace(ticket, std::move(record));
+    send(a, nullptr, ticket, std::move(body), {}, now);
 }
 
 /// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
@@ -36,23 +92,10 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
             return publisher_.event(std::move(e), now);
         }
     }
-    if (std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || is_urgent(body)) {
+    if (is_urgent(body)) {
         streams_.end(a, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
         clients_.supersede(a, client ? client->number : 0, name_of(body));
-        a.held = {};  // another motion, or a stop: nobody's finger holds this one
-        a.run = {};
-        a.at_limit = false;
-        if (const auto* m = std::get_if<Move>(&body); m && m->kind == Move::Kind::velocity)
-            a.run = {m->target, m->acceleration.value_or(0), m->deceleration.value_or(a.last_deceleration), a.profile.feedback().position,
-                     now};
-        a.homing_why.clear();
-        const auto* move = client ? std::get_if<Move>(&client->body) : nullptr;
-        if (move && move->hold_ms) velocity_moves_.begin_hold(a, *move, client->origin);
-    }
-    if (const auto* together = std::get_if<StartTogether>(&body)) {
-        for (const AxisId id : together->axes) {
-            if (Axis* x = machine_.axis(id)) streams_.end(*x, Reason::interrupted, fmt::format("ended by {}", name_of(body)), now);
-        }
+        if (join_stop(a, client, body)) return;
     }
     const Ticket ticket = make_ticket(engine_itself, pending_.next++);
     OrderRecord record;
@@ -60,6 +103,15 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     record.axis = a.id;
     record.body = body;
     record.given_at = now;
+    Axis& moves = concerned(a, stated(a, body));
+    record.motion = Motions::asked(moves, body, origin);
+    record.mover = moves.id;
+    if (record.motion) {
+        record.motion->asked_at = now;
+        ++moves.motions_asked;
+        moves.asked = *record.motion;
+    }
+    begin_stop(a, record, ticket, now);
     if (const auto* write = std::get_if<WriteParameter>(&body)) {
         // Looked at now: the acknowledgement may come with the new value said already.
         const auto reported = a.reported.find(write->point), stored = a.stored.find(write->point);
@@ -69,6 +121,10 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
             record.before = stored->second;
     }
     pending_.orders.emplace(ticket, std::move(record));
+    send(a, client, ticket, std::move(body), std::move(origin), now);
+}
+
+void Orders::send(Axis& a, Client* client, Ticket ticket, CommandBody body, Origin origin, Instant now) {
     Side* side = machine_.side_of(*a.drive);
     if (!side || !side->up) {
         Result r;
@@ -116,85 +172,138 @@ void Orders::result(const Result& given, Instant now) {
         return;
     }
     Result r = given;
-    OrderRecord& record = it->second;
-    Axis* a = machine_.axis(record.axis);
+    Axis* a = machine_.axis(it->second.axis);
     const bool is_good = good(r);
-    if (a && is_good) remember_ramp(*a, record.body);
-    if (const auto* write = std::get_if<WriteParameter>(&record.body); write && is_good && a) {
-        // Acknowledged by the drive; the client hears of it when it is on disk.
-        StoreOrder order;
-        order.ticket = given.ticket;
-        order.axis = record.axis;
-        order.axis_name = a->spec.name;
-        const Catalogue& cat = *a->drive->catalogue;
-        order.parameter = cat.id_of(write->point);
-        order.storage = cat.parameter(write->point)->storage;
-        order.value = known(r.value) ? r.value : write->value;
-        order.previous = record.before;
-        if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) order.origin = c->second->origin;
-        r.value = order.value;
-        record.kept = r;
-        for (auto& [ticket, other] : pending_.orders) {  // those given behind it find what it left
-            const auto* later = std::get_if<WriteParameter>(&other.body);
-            if (later && ticket != given.ticket && other.axis == record.axis && later->point == write->point && !known(other.kept.value))
-                other.before = order.value;
+    if (a && is_good) remember_ramp(*a, it->second.body);
+    if (a && is_good && std::holds_alternative<WriteParameter>(it->second.body)) {
+        if (auto motion = std::exchange(it->second.motion, std::nullopt)) {
+            OrderRecord moved;
+            moved.motion = std::move(motion);
+            moved.mover = it->second.mover;
+            moved.client = it->second.client;
+            moved.body = it->second.body;
+            moved.owner_lost = it->second.owner_lost;
+            record_motion(*a, moved, no_ticket, r, now);
         }
-        // The drive has it, whether the disk takes it or not.
-        Sample s;
-        s.axis = record.axis;
-        s.point = write->point;
-        s.value = order.value;
-        s.at = now;
-        s.source = a->source;
-        a->reported[s.point] = s.value;
-        publisher_.sample(s, now);
-        twins_.save_memory(*a->drive);  // a twin's EEPROM goes to disk along with the value that it took
-        host_.on_store(std::move(order));
-        return;
+        return store_write(*a, it->second, r, given.ticket, now);
     }
-    const CommandBody body = std::move(record.body);
-    const std::uint64_t number = record.client;
+    OrderRecord record = std::move(it->second);
     pending_.orders.erase(it);
     if (!a) return;
-    const auto owner = pending_.clients.find(number);
-    // A set-point that had to wait begins by an order of the engine's own: it is still the motion of whoever gave it.
+    const auto owner = pending_.clients.find(record.client);
+    // A set-point that had to wait begins by an order of the engine's own: it is still the motion of its client.
     const Ticket mover = owner != pending_.clients.end() ? owner->second->ticket : a->setpoint_ticket;
-    if (std::holds_alternative<StartTogether>(body)) {
-        for (const AxisId id : std::get<StartTogether>(body).axes) {
-            if (Axis* other = machine_.axis(id)) {
-                if (is_good) machine_.image.picture(id).motion_ticket = mover;
-                publisher_.publish(*other, now);
-            }
-        }
-    }
-    if (const auto* move = std::get_if<Move>(&body); is_good && ((move && !move->prepare_only) || std::holds_alternative<Home>(body)))
-        machine_.image.picture(a->id).motion_ticket = mover;
-    if (is_good && is_urgent(body)) machine_.image.picture(a->id).motion_ticket = no_ticket;
-    if (is_good) remember_prepared(*a, body);
-    a->profile.on_order_result(body, is_good, now);
-    if (std::holds_alternative<Move>(body)) {
-        if (!is_good)
-            a->held = {};
-        else if (a->held.time > Duration::zero())
-            a->held.until = now + a->held.time;
-    }
+    record_motion(*a, record, mover, r, now);
+    if (is_good) remember_prepared(*a, record.body);
+    a->profile.on_order_result(record.body, is_good, now);
+    if (is_good && std::holds_alternative<Enable>(record.body)) a->latch.bits = 0;
     publisher_.publish(*a, now);
-    const auto c = pending_.clients.find(number);
-    if (c == pending_.clients.end()) {
-        if (!is_good && number == 0 && !std::holds_alternative<ReadParameter>(body)) {
-            Event e;
-            e.severity = Severity::warning;
-            e.kind = "command";
-            e.axis = a->spec.name;
-            e.code = r.code;
-            e.text = fmt::format("{} was not carried out: {}", name_of(body), r.text);
-            publisher_.event(std::move(e), now);
-        }
-        return;
+    std::vector<std::uint64_t> joined;
+    if (const auto kind = Stops::of(record.body); kind && a->stops.of(*kind).order == given.ticket) {
+        a->stops.of(*kind).order = no_ticket;
+        joined = std::exchange(a->stops.of(*kind).joined, {});
     }
+    if (!pending_.clients.contains(record.client) && !is_good && record.client == 0 && !record.repeated)
+        not_carried_out(*a, record.body, r, now);
+    answer(record.client, *a, r, now);
+    for (const auto number : joined)
+        answer(number, *a, r, now);
+}
+
+/// Acknowledged by the drive; the client hears of it when it is on disk.
+void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket, Instant now) {
+    const auto& write = std::get<WriteParameter>(record.body);
+    StoreOrder order;
+    order.ticket = ticket;
+    order.axis = record.axis;
+    order.axis_name = a.spec.name;
+    const Catalogue& cat = *a.drive->catalogue;
+    order.parameter = cat.id_of(write.point);
+    order.storage = cat.parameter(write.point)->storage;
+    order.value = known(r.value) ? r.value : write.value;
+    order.previous = record.before;
+    if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) order.origin = c->second->origin;
+    r.value = order.value;
+    record.kept = r;
+    for (auto& [other_ticket, other] : pending_.orders) {  // those given behind it find what it left
+        const auto* later = std::get_if<WriteParameter>(&other.body);
+        if (later && other_ticket != ticket && other.axis == record.axis && later->point == write.point && !known(other.kept.value))
+            other.before = order.value;
+    }
+    // The drive has it, whether the disk takes it or not.
+    Sample s;
+    s.axis = record.axis;
+    s.point = write.point;
+    s.value = order.value;
+    s.at = now;
+    s.source = a.source;
+    a.reported[s.point] = s.value;
+    publisher_.sample(s, now);
+    twins_.save_memory(*a.drive);  // a twin's EEPROM goes to disk along with the value that it took
+    host_.on_store(std::move(order));
+}
+
+/// What the drive's answer makes of the records of motion.
+void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Result& r, Instant now) {
+    const bool is_good = good(r);
+    if (const auto* together = std::get_if<StartTogether>(&record.body)) {
+        for (const AxisId id : together->axes) {
+            Axis* other = machine_.axis(id);
+            if (!other) continue;
+            if (is_good) machine_.image.picture(id).motion_ticket = mover;
+            if (is_good && other != &a) {
+                if (auto m = Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{})) {
+                    m->asked_at = record.given_at;
+                    motions_.acknowledged(*other, std::move(*m), record.client, name_of(record.body), now);
+                }
+            }
+            publisher_.publish(*other, now);
+        }
+    }
+    if (record.motion) {
+        Axis* const moves = machine_.axis(record.mover);
+        if (!moves) return;
+        if (moves->motions_asked > 0) --moves->motions_asked;
+        if (moves->motions_asked == 0) moves->asked = {};
+        if (is_good) {
+            machine_.image.picture(moves->id).motion_ticket = mover;
+            motions_.acknowledged(*moves, std::move(*record.motion), record.client, name_of(record.body), now);
+            if (record.owner_lost != LossCause::none) loss_.act(*moves, record.owner_lost, now);
+        } else if (r.outcome == Outcome::failed) {
+            motions_.suspect(*moves, std::move(*record.motion));
+        }
+    } else if (const auto kind = Stops::of(record.body)) {
+        if (is_good) {
+            machine_.image.picture(a.id).motion_ticket = no_ticket;
+            motions_.stop_acknowledged(a, *kind, now);
+        }
+    } else if (is_good && stated(a, record.body).kind == Stated::Kind::unread) {
+        Motion m;
+        m.kind = Motion::Kind::statement;
+        if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) m.origin = c->second->origin;
+        m.who = AuthorityClient::of(m.origin);
+        a.statement = std::move(m);
+    }
+}
+
+void Orders::not_carried_out(const Axis& a, const CommandBody& body, const Result& r, Instant now) {
+    if (std::holds_alternative<ReadParameter>(body)) return;
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "command";
+    e.axis = a.spec.name;
+    e.code = r.code;
+    e.text = fmt::format("{} was not carried out: {}", name_of(body), r.text);
+    publisher_.event(std::move(e), now);
+}
+
+/// One of a client's orders has its answer; with the last one the client has its own, or goes on to wait for the end.
+void Orders::answer(std::uint64_t number, Axis& a, const Result& r, Instant now) {
+    const auto c = pending_.clients.find(number);
+    if (c == pending_.clients.end()) return;
     Client& client = *c->second;
     if (client.waiting > 0) --client.waiting;
-    if (!is_good) {
+    if (!good(r)) {
         if (good(client.result)) client.result = r;
     } else if (good(client.result)) {
         client.result.value = r.value;
@@ -209,13 +318,13 @@ void Orders::result(const Result& given, Instant now) {
         client.result.outcome = Outcome::accepted;
         client.result.text = fmt::format(
             "axis {}: nobody answers; it is taken as disabled and its twin takes over, but whether the real drive is off is not known",
-            a->spec.name);
+            a.spec.name);
         return clients_.finish(number, client.result);
     }
     if (!good(client.result)) return clients_.finish(number, client.result);
     client.accepted = true;
     client.accepted_at = now;
-    clients_.track(*a, now);
+    clients_.track(a, now);
 }
 
 void Orders::on_stored(Ticket order, const std::string& fault, Instant now) {
@@ -280,6 +389,8 @@ std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& b
         probe.target = set->position;
         return guard_move(probe, AxisLimits{}, 0);
     }
+    if (const Stated said = stated(a, body); said.kind == Stated::Kind::motion || said.sets != DriveRates{})
+        return beyond_by_statement(a, said);
     if (const auto* together = std::get_if<StartTogether>(&body)) {
         for (const AxisId id : together->axes) {
             const Axis* x = machine_.axis(id);
@@ -291,6 +402,23 @@ std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& b
         }
     }
     return std::nullopt;
+}
+
+/// A statement in the drive's own language names places and speeds like any order.
+std::optional<Refusal> Orders::beyond_by_statement(const Axis& a, const Stated& said) const {
+    const Axis& about = concerned(a, said);
+    if (said.kind == Stated::Kind::motion) {
+        if (auto no = beyond_limits(about, said.move)) return no;
+    }
+    return guard_rates(said.sets, about.limits);
+}
+
+/// Of the axes of the drive the one that the statement is about.
+Axis& Orders::concerned(const Axis& a, const Stated& said) const {
+    for (const AxisId id : a.drive->axes) {
+        if (Axis* x = machine_.axis(id); x && said.channel != 0 && said.channel == x->spec.channel) return *x;
+    }
+    return *machine_.axis(a.id);
 }
 
 /// What a drive was told to brake with it keeps; whatever else is said to it may have changed that.

@@ -7,6 +7,7 @@
 
 #include "gateway/engine/clients.hpp"
 #include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/presences.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/routing.hpp"
@@ -73,7 +74,7 @@ void Presences::link(Side& side, const DriveLink& l, Instant now) {
     if (changed && !l.online && mine) {
         for (const AxisId id : d->axes) {
             Axis& a = *machine_.axes[index_of(id)];
-            if (!a.profile.commanded()) continue;
+            if (!a.profile.commanded() && !a.motion.runs()) continue;
             d->device_lost_while_commanded = !side.twin;
             a.lost_line = LossOfCommand::at_loss(a);  // nothing can be told to it now: what it does is judged when it has spoken again
         }
@@ -183,8 +184,9 @@ void Presences::serve(Drive& d, Presence by, std::string why, Instant now) {
         streams_.end(a, Reason::interrupted, by == Presence::twin ? "the twin takes over" : "the device takes over", now);
         a.profile.on_presence(Presence::offline);
         if (online) a.profile.on_presence(by);
+        motions_.forget(a);
         a.stale = true;
-        a.was_fault = false;
+        a.was_fault = a.was_safe_stop = false;
         publisher_.publish(a, now);
         clients_.track(a, now);
     }

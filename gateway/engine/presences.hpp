@@ -10,7 +10,7 @@ namespace axisgate::engine {
 class Presences {
 public:
     Presences(Machine& machine, Pending& pending, Publisher& publisher, Routing& routing, Speakers& speakers, Twins& twins,
-              Clients& clients, Streams& streams)
+              Clients& clients, Streams& streams, Motions& motions)
         : machine_(machine),
           pending_(pending),
           publisher_(publisher),
@@ -18,7 +18,8 @@ public:
           speakers_(speakers),
           twins_(twins),
           clients_(clients),
-          streams_(streams) {}
+          streams_(streams),
+          motions_(motions) {}
     void line_state(Side& side, bool up, const std::string& why, Instant now);
     void link(Side& side, const DriveLink& link, Instant now);
     void decide(Drive& drive, Instant now);
@@ -38,6 +39,7 @@ private:
     Twins& twins_;
     Clients& clients_;
     Streams& streams_;
+    Motions& motions_;
 };
 
 }  // namespace axisgate::engine

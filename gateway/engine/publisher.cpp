@@ -36,13 +36,14 @@ void Publisher::publish(Axis& a, Instant now) {
     const bool simulated = a.drive->serving == Presence::twin || a.profile.feedback().simulated, stale = a.stale || !online;
     put(p.flags, flag_online, online);
     if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
-    p.fail_safe_cause = static_cast<std::uint16_t>(a.loss);
+    p.fail_safe_cause = static_cast<std::uint16_t>(a.latch.cause);
+    p.stop_latch = a.latch.bits;
     p.streaming = a.stream.on;
     p.stream_mode = a.stream.mode;
     p.set_points = a.stream.taken;
     p.set_points_refused = a.stream.refused;
     p.set_point_refusal = a.stream.refusal;
-    put(p.flags, flag_fail_safe, a.loss != LossCause::none);
+    put(p.flags, flag_fail_safe, a.latch.cause != LossCause::none);
     put(p.flags, flag_simulated, simulated);
     put(p.flags, flag_stale, stale);
     put(p.statusword, cia402::sw_simulated, simulated);

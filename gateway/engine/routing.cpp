@@ -8,13 +8,14 @@
 #include "gateway/engine/clients.hpp"
 #include "gateway/engine/flight_record.hpp"
 #include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/presences.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/routing.hpp"
 #include "gateway/engine/scans.hpp"
 #include "gateway/engine/streams.hpp"
-#include "gateway/engine/velocity_moves.hpp"
+#include "gateway/engine/supervisor.hpp"
 
 namespace axisgate::engine {
 
@@ -111,7 +112,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
     const bool first = !machine_.image.picture(id).current;
     auto next = a->profile.on_feedback(value, now);
     a->stale = now - value.at > a->drive->line->stale_after;
-    if (first) a->run.found = value.moving && a->run.velocity == 0, a->last_deceleration = 0;  // its power may have been off
+    if (first) a->last_deceleration = 0;  // its power may have been off
     if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
         // It is back and has said that nothing is under way any more: its next silence is judged by what it does then.
         lost = std::ranges::any_of(a->drive->axes, [&](AxisId x) {
@@ -119,6 +120,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
             return p.commanded() || p.state() == PowerState::not_ready_to_switch_on;
         });
     }
+    motions_.look(*a, now);
     if (a->lost_line) loss_.act(*a, LossCause::line_lost, now);
     if (value.fault != a->was_fault || (value.fault && value.error_code != a->last_error)) {
         Event e;
@@ -143,7 +145,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
     }
     if (a->stream.on && a->profile.state() != PowerState::operation_enabled)
         streams_.end(*a, Reason::wrong_state, fmt::format("the axis is {} now", name_of(a->profile.state())), now);
-    velocity_moves_.check_run(*a, now);
+    supervisor_.look(*a, now);
     publisher_.publish(*a, now);
     if (next) {
         if (std::holds_alternative<QuickStop>(*next)) {
@@ -155,7 +157,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
             e.text = "the drive reports a fault and still moves: it is stopped";
             publisher_.event(std::move(e), now);
         }
-        orders_.give(*a, nullptr, std::move(*next), {}, now);
+        orders_.give(*a, nullptr, std::move(*next), a->waiting, now);
     }
     clients_.track(*a, now);
 }

@@ -12,14 +12,15 @@ namespace axisgate::engine {
 
 class Routing {
 public:
-    Routing(Machine& machine, Publisher& publisher, Presences& presences, Orders& orders, Clients& clients, VelocityMoves& velocity_moves,
-            LossOfCommand& loss, Streams& streams)
+    Routing(Machine& machine, Publisher& publisher, Presences& presences, Orders& orders, Clients& clients, Motions& motions,
+            Supervisor& supervisor, LossOfCommand& loss, Streams& streams)
         : machine_(machine),
           publisher_(publisher),
           presences_(presences),
           orders_(orders),
           clients_(clients),
-          velocity_moves_(velocity_moves),
+          motions_(motions),
+          supervisor_(supervisor),
           loss_(loss),
           streams_(streams) {}
     /// One call of an adapter, and what it gave back handed on.
@@ -57,7 +58,8 @@ private:
     Presences& presences_;
     Orders& orders_;
     Clients& clients_;
-    VelocityMoves& velocity_moves_;
+    Motions& motions_;
+    Supervisor& supervisor_;
     LossOfCommand& loss_;
     Streams& streams_;
     std::deque<Out> outs_;

@@ -88,7 +88,7 @@ void SiteChange::put_in_force(Instant now) {
 bool SiteChange::under_way(const Axis& a) const {
     if (!a.drive->answers()) return a.drive->device_lost_while_commanded;  // it may be moving: nobody knows
     const AxisFeedback& f = a.profile.feedback();
-    return f.moving || f.homing || a.stream.on || a.profile.active_target() || a.run.velocity != 0 || awaits_answer(a);
+    return f.moving || f.homing || a.stream.on || (a.motion.runs() && !a.motion.over) || awaits_answer(a);
 }
 
 /// An order that may set it in motion, or end that, has not been answered yet.

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "gateway/engine/clients.hpp"
 #include "gateway/engine/command_authority.hpp"
 #include "gateway/engine/flight_record.hpp"
 #include "gateway/engine/loss_of_command.hpp"
+#include "gateway/engine/motions.hpp"
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/routing.hpp"
@@ -62,14 +62,12 @@ std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
     s.unpublished = false;
     ++s.taken;
     a->profile.follow(p, stream_mode(*a->drive->catalogue, p.mode));
-    if (p.mode == SetPoint::Mode::velocity) {  // watched at the limits of position like any velocity move
-        a->run.velocity = p.value;
-        a->run.acceleration = p.acceleration.value_or(0);
-        if (p.deceleration) a->last_deceleration = *p.deceleration;
-        a->run.deceleration = a->last_deceleration;
-    } else {
-        a->run.velocity = 0;
-    }
+    Motion& m = a->motion;
+    m.stream = p.mode;
+    m.target = p.value;
+    m.velocity = p.velocity.value_or(0);
+    m.acceleration = p.acceleration.value_or(0);
+    if (p.deceleration) m.deceleration = a->last_deceleration = *p.deceleration;
     publisher_.publish(*a, now);
     Speaker& by = Machine::speaker_of(*machine_.side_of(*a->drive), *a->drive);
     routing_.ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
@@ -105,6 +103,8 @@ std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const 
     } else if (p.value < -32767 || p.value > 32767) {
         return Refusal{Reason::out_of_range, fmt::format("torque {} is outside -32767..32767 thousandths", p.value)};
     }
+    if (a.motions_asked > 0) return Refusal{Reason::busy, "another motion is on its way to the drive"};
+    if (a.stops.bars_motion()) return Refusal{Reason::wrong_state, "a quick stop is on its way to the drive: wait for its answer"};
     if (auto d = a.profile.may_follow(); d.refused) return Refusal{d.reason, std::move(d.text)};
     const Side* side = machine_.side_of(*a.drive);
     if (!side || !side->up) return Refusal{Reason::line_down, "its line is down"};
@@ -133,14 +133,13 @@ std::optional<Refusal> Streams::too_far(const Axis& a, const SetPoint& p, const 
 /// What a motion of a command would end ends here, too.
 void Streams::begin(Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) {
     authority_.note_commander(a, p.origin, now);
-    clients_.supersede(a, 0, "streamed set-points");
-    a.held = {};
-    a.run = {};
-    a.run.position = a.profile.feedback().position;
-    a.run.since = now;
-    a.at_limit = false;
-    a.loss = LossCause::none;
-    a.homing_why.clear();
+    Motion m;
+    m.kind = Motion::Kind::stream;
+    m.who = who;
+    m.origin = p.origin;
+    m.asked_at = now;
+    motions_.acknowledged(a, std::move(m), 0, "streamed set-points", now);
+    a.latch.cause = LossCause::none;
     a.prepared.reset();
     machine_.image.picture(a.id).motion_ticket = no_ticket;
     a.stream.on = true;
@@ -158,7 +157,9 @@ void Streams::end(Axis& a, Reason reason, const std::string& why, Instant now) {
     s.ended_received = now;
     s.ended_why = why;
     a.profile.end_following();
-    a.run.velocity = 0;
+    Motion& m = a.motion;
+    const bool pushes = m.stream != SetPoint::Mode::position && m.target != 0;  // it may begin to move yet
+    if (m.kind == Motion::Kind::stream && a.profile.at_rest() && !pushes) m.over = true;
     tell(a, s.origin, reason == Reason::none ? Severity::info : Severity::warning, fmt::format("streamed set-points end: {}", why), now);
     publisher_.publish(a, now);
 }
@@ -167,11 +168,8 @@ void Streams::end(Axis& a, Reason reason, const std::string& why, Instant now) {
 void Streams::refused(const Side& side, const Out::StreamEnd& by_drive, Instant now) {
     Axis* a = machine_.axis(by_drive.axis);
     if (!a || !a->stream.on || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
-    const bool was_running = a->run.velocity != 0;
     end(*a, by_drive.reason, by_drive.text, now);
-    if (was_running || a->profile.feedback().moving) {
-        orders_.give_own(*a, Halt{}, now);
-    }
+    if (a->motion.kind == Motion::Kind::stream && !a->motion.over) orders_.give_own(*a, Halt{}, now);
 }
 
 /// Looked at with every housekeeping, so an end comes at most one of its periods late.

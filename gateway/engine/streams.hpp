@@ -9,15 +9,15 @@ namespace axisgate::engine {
 
 class Streams {
 public:
-    Streams(Machine& machine, Publisher& publisher, Routing& routing, Orders& orders, Clients& clients, CommandAuthority& authority,
-            LossOfCommand& loss)
+    Streams(Machine& machine, Publisher& publisher, Routing& routing, Orders& orders, CommandAuthority& authority, LossOfCommand& loss,
+            Motions& motions)
         : machine_(machine),
           publisher_(publisher),
           routing_(routing),
           orders_(orders),
-          clients_(clients),
           authority_(authority),
-          loss_(loss) {}
+          loss_(loss),
+          motions_(motions) {}
     /// Nothing: it was handed on; else why not.
     std::optional<Refusal> on_set_point(const SetPoint& set_point, Instant now);
     void end(Axis& axis, Reason reason, const std::string& why, Instant now);
@@ -35,9 +35,9 @@ private:
     Publisher& publisher_;
     Routing& routing_;
     Orders& orders_;
-    Clients& clients_;
     CommandAuthority& authority_;
     LossOfCommand& loss_;
+    Motions& motions_;
 };
 
 }  // namespace axisgate::engine

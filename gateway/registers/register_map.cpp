@@ -27,6 +27,7 @@ constexpr std::array rows{
     RegisterRow{reg::refusal_reason, u16, false, "refusal_reason", "reason of the last refusal"},
     RegisterRow{reg::refusals, u16, false, "refusals", "refusals"},
     RegisterRow{reg::fail_safe_cause, u16, false, "fail_safe_cause", "cause of the last fail-safe action"},
+    RegisterRow{reg::stop_latch, u16, false, "stop_latch", "stop latch"},
     RegisterRow{reg::controlword, u16, true, "controlword", "controlword"},
     RegisterRow{reg::mode, i16, true, "mode", "modes of operation"},
     RegisterRow{reg::target_position, i32, true, "target_position", "target position"},
@@ -79,6 +80,7 @@ void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrde
     word(reg::authority, static_cast<std::uint16_t>(picture.authority));
     pair(reg::mapping_revision, mapping_revision);
     word(reg::fail_safe_cause, picture.fail_safe_cause);
+    word(reg::stop_latch, picture.stop_latch);
     word(reg::controlword, picture.controlword);
     word(reg::mode, static_cast<std::uint16_t>(picture.mode));
     pair(reg::target_position, static_cast<std::uint32_t>(picture.target_position));

@@ -24,10 +24,10 @@ inline constexpr std::size_t block_size = 2 * registers_per_axis;  ///< bytes
 namespace reg {
 inline constexpr std::uint16_t statusword = 0, mode_display = 1, position = 2, velocity = 4, position_demand = 6, error_code = 8, flags = 9,
                                native_status = 10, age = 12, heartbeat = 14, family = 15, setpoints_accepted = 16, authority = 17,
-                               mapping_revision = 18, refusal_reason = 20, refusals = 21, fail_safe_cause = 22, controlword = 32, mode = 33,
-                               target_position = 34, profile_velocity = 36, profile_acceleration = 38, profile_deceleration = 40,
-                               target_velocity = 42, homing_method = 44, channel_selector = 48, channel_request = 50, channel_state = 51,
-                               channel_value = 52, channel_error = 54;
+                               mapping_revision = 18, refusal_reason = 20, refusals = 21, fail_safe_cause = 22, stop_latch = 23,
+                               controlword = 32, mode = 33, target_position = 34, profile_velocity = 36, profile_acceleration = 38,
+                               profile_deceleration = 40, target_velocity = 42, homing_method = 44, channel_selector = 48,
+                               channel_request = 50, channel_state = 51, channel_value = 52, channel_error = 54;
 }  // namespace reg
 
 struct RegisterRow {

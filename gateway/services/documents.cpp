@@ -2,6 +2,8 @@
 // In: values of the core. Out: JSON. What was never told by a drive is null here, not 0. Never asks the gateway.
 #include "gateway/services/documents.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
@@ -99,6 +101,20 @@ json::value to_json(const Value& value) {
     return nullptr;
 }
 
+/// Whose stop holds the axis, and what moves it again; null: none does.
+json::value stop_latch_text(std::uint16_t bits) {
+    constexpr std::uint16_t by_fail_safe = 1u << 1, by_client = 1u << 2, by_safe_input = 1u << 3;  // register 23
+    const std::string_view by = bits & by_safe_input  ? "a safe input has taken power or motion away"
+                                : bits & by_client    ? "another client has stopped it"
+                                : bits & by_fail_safe ? "the gateway has stopped it"
+                                                      : "";
+    if (by.empty()) return nullptr;
+    return json::value(
+        fmt::format("{}: it moves again by a new command, or when a controller changes its own words (a new set-point, the halt bit or the "
+                    "enable bits)",
+                    by));
+}
+
 json::object axis_document(const AxisView& v) {
     const AxisPicture& p = v.picture;
     const double scale = v.spec.increments_per_unit;
@@ -139,6 +155,8 @@ json::object axis_document(const AxisView& v) {
     o["warning"] = flag(flag_warning);
     o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
     o["fail_safe_cause"] = p.fail_safe_cause == 0 ? json::value(nullptr) : json::value(name_of(static_cast<LossCause>(p.fail_safe_cause)));
+    o["stop_latch"] = p.stop_latch;
+    o["stop_latch_text"] = stop_latch_text(p.stop_latch);
     o["position"] = in_unit(p.position);
     const bool demanded = p.demand_source != DemandSource::none;
     o["demand_known"] = demanded;

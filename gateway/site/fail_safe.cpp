@@ -7,8 +7,8 @@
 namespace axisgate {
 namespace {
 constexpr std::array<std::string_view, loss_causes.size() + 1> cause_names{
-    "none",           "modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed",
-    "enip_timed_out", "enip_idle",     "line_lost",     "gateway_ends",      "dds_deadline"};
+    "none",      "modbus_closed", "modbus_silent", "set_points_silent", "lease_ended",         "enip_closed", "enip_timed_out",
+    "enip_idle", "line_lost",     "gateway_ends",  "dds_deadline",      "enip_session_closed", "enip_silent", "motion_unowned"};
 constexpr std::array<std::string_view, 4> action_names{"nothing", "halt", "quick_stop", "disable"};
 }  // namespace
 
@@ -27,6 +27,7 @@ FailSafeAction FailSafe::action(LossCause cause, const AtLoss& axis) const {
     if (!wanted) {
         if (!axis.moving) return FailSafeAction::nothing;
         if (cause == LossCause::gateway_ends) return FailSafeAction::quick_stop;
+        if (cause == LossCause::motion_unowned) return axis.endless ? FailSafeAction::quick_stop : FailSafeAction::nothing;
         return axis.endless ? FailSafeAction::halt : FailSafeAction::nothing;
     }
     if (*wanted == FailSafeAction::disable) return axis.powered || axis.moving ? FailSafeAction::disable : FailSafeAction::nothing;

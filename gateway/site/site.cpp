@@ -157,6 +157,8 @@ json::object to_json(const AxisSpec& a) {
     put_optional(o, "position_max", a.position_max);
     put_optional(o, "velocity_max", a.velocity_max);
     put_optional(o, "acceleration_max", a.acceleration_max);
+    if (a.deceleration_min) put_optional(o, "deceleration_min", a.deceleration_min);
+    if (!a.unread_statements) o["unread_statements"] = "refuse";
     if (!a.group.empty()) o["group"] = a.group;
     if (a.trend_on_disk) o["trend_on_disk"] = true;
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);

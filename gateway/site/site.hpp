@@ -66,6 +66,9 @@ struct AxisSpec {
     std::optional<double> position_max;
     std::optional<double> velocity_max;  ///< unit/s, > 0
     std::optional<double> acceleration_max;
+    /// unit/s^2, > 0: the weakest ramp that its drive may brake with, for what is reckoned where the drive does not tell its own.
+    std::optional<double> deceleration_min{};
+    bool unread_statements = true;  ///< native statements and actions that may begin a motion that nobody can read beforehand are taken
     AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
     StoredParameters stored_parameters = StoredParameters::ignore;  ///< what was written is compared when the drive answers, or written
     FailSafe fail_safe;                                             ///< what happens when the client that commands it is lost

@@ -434,14 +434,22 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
         if (const auto x = f.number("increments_per_unit", "3200")) {
             a.increments_per_unit = *x;
-            if (!(*x > 0))
-                f.fault("increments_per_unit", "increments_per_unit must be above 0",
+            if (!(*x >= 1e-9 && *x <= 1e12))
+                f.fault("increments_per_unit", "increments_per_unit must be above 0, from 1e-9 to 1e12",
                         "write how many increments of the drive make one unit; turn the direction round in the drive");
         }
         a.position_min = f.number("position_min", "-100");
         a.position_max = f.number("position_max", "100");
         a.velocity_max = f.number("velocity_max", "50");
         a.acceleration_max = f.number("acceleration_max", "500");
+        a.deceleration_min = f.number("deceleration_min", "20");
+        if (const auto* word = f.get("unread_statements")) {
+            const bool refuse = word->is_string() && word->get_string() == "refuse";
+            if (!refuse && !(word->is_string() && word->get_string() == "allow"))
+                f.fault("unread_statements", fmt::format("axis {}: this is no rule for statements that cannot be read", a.name),
+                        "use allow or refuse");
+            a.unread_statements = !refuse;
+        }
         if (const auto* mode = f.get("authority_mode")) {
             if (mode->is_string() && mode->get_string() == "lease") {
                 a.authority_mode = AuthorityMode::lease;
@@ -460,8 +468,17 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
             f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
         }
-        for (const auto& [key, x] : {std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max}}) {
+        for (const auto& [key, x] : {std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max},
+                                     std::pair{"deceleration_min", a.deceleration_min}}) {
             if (x && !(*x > 0)) f.fault(key, fmt::format("axis {}: {} must be above 0", a.name, key), "leave it out for no limit");
+        }
+        // A limit that does not fit into a count would be no limit.
+        for (const auto& [key, x] : {std::pair{"position_min", a.position_min}, std::pair{"position_max", a.position_max},
+                                     std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max},
+                                     std::pair{"deceleration_min", a.deceleration_min}}) {
+            if (x && !(std::fabs(*x * a.increments_per_unit) < 9.2e18))
+                f.fault(key, fmt::format("axis {}: {} is more increments than can be counted", a.name, key),
+                        "check increments_per_unit and the limit");
         }
         return a;
     });

@@ -131,8 +131,9 @@ TEST_P(FailSafeLaws, WithoutAChoiceAMotionWithoutAnEndIsEnded) {
         EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(cause));
         at_rest();
         if (cause == LossCause::line_lost) continue;
-        EXPECT_EQ(power_state_of(now().statusword),
-                  cause == LossCause::gateway_ends ? PowerState::quick_stop_active : PowerState::operation_enabled);
+        EXPECT_EQ(power_state_of(now().statusword), cause == LossCause::gateway_ends || cause == LossCause::motion_unowned
+                                                        ? PowerState::quick_stop_active
+                                                        : PowerState::operation_enabled);
     }
 }
 

@@ -139,35 +139,74 @@ TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
     ASSERT_TRUE(w.run_until_true([&] { return now().position == limit / 2; }, 30s));
 }
 
-TEST_P(LimitLaws, AnAxisThatIsFoundInMotionIsHaltedAtTheLimit) {
-    // The gateway that gave the velocity move is gone; the next one knows of no order, and finds it on its way out.
-    Site wanted = w.make_site(e, e.cable(), 1, "device");
-    wanted.axes[0].position_min = -100;
-    wanted.axes[0].position_max = 100;
-    site = w.apply(wanted);
-    a1 = site->axis_ids.at(0);
-    w.plug_in("line", DriveId{0}, e, addresses(e, 1)[0], e.kind());
-    ASSERT_TRUE(w.run_until_true([&] { return online(a1); }, 20s));
-    w.run_for(1s);
-    order(a1, Enable{});
-    const Result* r = jog(-1'000);
-    ASSERT_TRUE(r);
-    if (r->reason == Reason::not_supported) return lacks_velocity(*r);
-    ASSERT_TRUE(good(*r)) << r->text;
-    ASSERT_TRUE(w.run_until_true([&] { return now().position < -500; }, 5s));
-    const bool ends_alone = e.catalogue->document().at("drive_watchdog").as_object().contains("stops_velocity_moves");
-    World next(2, w.plant);
-    next.now = w.now + 300ms;
-    site = next.apply(wanted);
-    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_online) != 0; }, 8s));
-    EXPECT_NE(next.picture(a1).flags & flag_moving, 0);
-    ASSERT_TRUE(next.run_until_true([&] { return (next.picture(a1).flags & flag_moving) == 0; }, 15s))
-        << "it goes on at " << next.picture(a1).position;
-    next.run_for(500ms);
-    EXPECT_LE(std::llabs(next.picture(a1).position), limit + 300);
-    if (ends_alone) return;  // nobody renews it, so it rests before the limit
-    EXPECT_GE(std::llabs(next.picture(a1).position), limit - 1'500) << "found is not stopped: it goes on to the limit";
-    EXPECT_EQ(std::ranges::count_if(next.events, [](const Event& v) { return v.kind == "limit" && v.severity == Severity::warning; }), 1);
+/// The gateway that gave a velocity move is gone; the next one knows of no order, and finds the axis on its way out.
+class FoundLaws : public LimitLaws {
+protected:
+    /// The next gateway, as soon as it has heard the drive; null where the drive has no velocity move, or ends it by itself.
+    std::unique_ptr<World> found(FailSafeAction rule) {
+        Site wanted = w.make_site(e, e.cable(), 1, "device");
+        wanted.axes[0].position_min = -100;
+        wanted.axes[0].position_max = 100;
+        if (rule == FailSafeAction::nothing) wanted.axes[0].fail_safe.of(LossCause::motion_unowned) = rule;
+        site = w.apply(wanted);
+        a1 = site->axis_ids.at(0);
+        w.plug_in("line", DriveId{0}, e, addresses(e, 1)[0], e.kind());
+        EXPECT_TRUE(w.run_until_true([&] { return online(a1); }, 20s));
+        w.run_for(1s);
+        order(a1, Enable{});
+        const Result* r = jog(-1'000);
+        EXPECT_TRUE(r);
+        if (r->reason == Reason::not_supported) {
+            lacks_velocity(*r);
+            return nullptr;
+        }
+        EXPECT_TRUE(good(*r)) << r->text;
+        EXPECT_TRUE(w.run_until_true([&] { return now().position < -500; }, 5s));
+        auto next = std::make_unique<World>(2, w.plant);
+        next->now = w.now + 300ms;
+        site = next->apply(wanted);
+        EXPECT_TRUE(next->run_until_true([&] { return (next->picture(a1).flags & flag_online) != 0; }, 8s));
+        EXPECT_NE(next->picture(a1).flags & flag_moving, 0);
+        if (e.catalogue->document().at("drive_watchdog").as_object().contains("stops_velocity_moves")) return nullptr;
+        return next;
+    }
+    static std::ptrdiff_t alarms(const World& next, std::string_view kind) {
+        return std::ranges::count_if(next.events, [&](const Event& v) { return v.kind == kind && v.severity == Severity::alarm; });
+    }
+    static std::ptrdiff_t events_of(const World& next, std::string_view kind) {
+        return std::ranges::count_if(next.events, [&](const Event& v) { return v.kind == kind; });
+    }
+    static bool rests(World& next, AxisId axis) {
+        return next.run_until_true([&] { return (next.picture(axis).flags & flag_moving) == 0; }, 15s);
+    }
+};
+
+TEST_P(FoundLaws, AMotionThatNobodyOwnsIsStoppedAndTold) {
+    const auto next = found(FailSafeAction::quick_stop);
+    if (!next) return;
+    const std::int64_t place = next->picture(a1).position;
+    ASSERT_TRUE(rests(*next, a1)) << "it goes on at " << next->picture(a1).position;
+    EXPECT_LE(std::llabs(next->picture(a1).position - place), 3'000) << "at once, and not at its limit";
+    EXPECT_EQ(alarms(*next, "fail_safe"), 1);
+    EXPECT_EQ(next->picture(a1).fail_safe_cause, static_cast<std::uint16_t>(LossCause::motion_unowned));
+    next->run_for(2s);
+    EXPECT_EQ(next->picture(a1).flags & flag_moving, 0);
+}
+
+TEST_P(FoundLaws, WhereTheSiteLetsItGoOnItIsStoppedAtTheLimit) {
+    const auto next = found(FailSafeAction::nothing);
+    if (!next) return;
+    const bool enabled = power_state_of(next->picture(a1).statusword) == PowerState::operation_enabled;
+    ASSERT_TRUE(rests(*next, a1)) << "it goes on at " << next->picture(a1).position;
+    next->run_for(500ms);
+    EXPECT_LE(std::llabs(next->picture(a1).position), limit + 300);
+    if (!enabled) {  // the drive does not tell that it has power, and moves: that contradicts itself, whatever the site lets go on
+        EXPECT_EQ(alarms(*next, "state"), 1);
+        return;
+    }
+    EXPECT_GE(std::llabs(next->picture(a1).position), limit - 1'500) << "found is not stopped: it goes on to the limit";
+    EXPECT_EQ(alarms(*next, "limit"), 1);
+    EXPECT_EQ(events_of(*next, "motion"), 1) << "and it is told that it moves";
 }
 
 /// Each order that would lead beyond is refused with its limit, at rest and on the way, whoever it comes from; and the shaft has never been
@@ -243,6 +282,7 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LimitLaws, testing::ValuesIn(law_subjects()), name_of_subject);
+INSTANTIATE_TEST_SUITE_P(Families, FoundLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace
 }  // namespace axisgate::test

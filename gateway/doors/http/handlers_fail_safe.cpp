@@ -45,6 +45,12 @@ std::string_view described(LossCause cause) {
             return "the gateway is told to end";
         case LossCause::dds_deadline:
             return "who commands it does so over DDS, and its set-points have missed their deadline or nobody writes for it any more";
+        case LossCause::enip_session_closed:
+            return "who commands it does so by EtherNet/IP messages, and its last session has ended";
+        case LossCause::enip_silent:
+            return "who commands it does so by EtherNet/IP messages, and has sent none for longer than watchdog_ms";
+        case LossCause::motion_unowned:
+            return "it moves and no client of this gateway has ordered it: found at the start, or begun at the drive";
         case LossCause::none:
             break;
     }

@@ -2760,6 +2760,13 @@ export interface components {
             velocity_max?: number;
             /** @description unit/s^2 */
             acceleration_max?: number;
+            /** @description unit/s^2: the weakest ramp that the drive may brake with, for the limits of position where the drive does not tell its own */
+            deceleration_min?: number;
+            /**
+             * @description native statements and actions that may begin a motion which cannot be read beforehand. Left out: allow
+             * @enum {string}
+             */
+            unread_statements?: "allow" | "refuse";
             fail_safe?: components["schemas"]["FailSafe"];
             /**
              * @description the machine part that it belongs to, for people; left out: none
@@ -2791,6 +2798,9 @@ export interface components {
             line_lost?: components["schemas"]["FailSafeAction"];
             gateway_ends?: components["schemas"]["FailSafeAction"];
             dds_deadline?: components["schemas"]["FailSafeAction"];
+            enip_session_closed?: components["schemas"]["FailSafeAction"];
+            enip_silent?: components["schemas"]["FailSafeAction"];
+            motion_unowned?: components["schemas"]["FailSafeAction"];
             /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
@@ -2813,6 +2823,9 @@ export interface components {
             line_lost?: components["schemas"]["FailSafeWish"];
             gateway_ends?: components["schemas"]["FailSafeWish"];
             dds_deadline?: components["schemas"]["FailSafeWish"];
+            enip_session_closed?: components["schemas"]["FailSafeWish"];
+            enip_silent?: components["schemas"]["FailSafeWish"];
+            motion_unowned?: components["schemas"]["FailSafeWish"];
             watchdog_ms?: number | null;
         };
         FailSafeRow: {
@@ -2846,7 +2859,7 @@ export interface components {
         FailSafeMatrix: {
             causes: {
                 /** @enum {string} */
-                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline";
+                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned";
                 /** @description as register 22 of the axis has it */
                 number: number;
                 description: string;
@@ -2862,7 +2875,7 @@ export interface components {
              * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything
              * @enum {string}
              */
-            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "gateway_gone";
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | "gateway_gone";
             /** @description what the site names; null: the default */
             chosen: string | null;
             taken: components["schemas"]["FailSafeAction"];
@@ -2967,7 +2980,11 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | null;
+            /** @description register 23: bit 0 latched, 1 by a fail-safe or a limit, 2 by another client, 3 by a safe input. While it is latched, words that a controller merely repeats do not move the axis */
+            readonly stop_latch: number;
+            /** @description who has stopped the axis and what moves it again; null - it is not latched */
+            readonly stop_latch_text: string | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */

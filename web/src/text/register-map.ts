@@ -45,6 +45,7 @@ export const standardRegisters: readonly StandardRegister[] = [
   row(20, 'u16', 'refusal_reason', t('reason of the last refusal')),
   row(21, 'u16', 'refusals', t('refusals')),
   row(22, 'u16', 'fail_safe_cause', t('cause of the last fail-safe action')),
+  row(23, 'u16', 'stop_latch', t('stop latch')),
   row(32, 'u16', 'controlword', t('controlword'), true),
   row(33, 'i16', 'mode', t('modes of operation'), true),
   row(34, 'i32', 'target_position', t('target position'), true),

@@ -92,6 +92,9 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'fail_safe.line_lost', label: t('When it could not be reached'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.gateway_ends', label: t('When the gateway ends'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.dds_deadline', label: t('When its DDS client misses a deadline or is gone'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_session_closed', label: t('When the EtherNet/IP session of its client is closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_silent', label: t('When its EtherNet/IP client is silent'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.motion_unowned', label: t('When it moves without an order'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.watchdog_ms', label: t('Silent after, ms'), kind: 'integer', min: 0, max: 600000, more: true, placeholder: t('the gateway\'s'), hint: t('0: silence is not watched') },
     {
       key: 'stored_parameters',

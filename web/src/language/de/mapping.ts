@@ -49,6 +49,7 @@ export const mapping: Table = {
   'axisgate register list · mapping revision {hash} (registers 18 and 19 of each axis) · {n} mappings': 'axisgate Registerliste · Stand der Zuordnungen {hash} (Register 18 und 19 jeder Achse) · {n} Zuordnungen',
   'Can be undone': 'Kann rückgängig gemacht werden',
   'cause of the last fail-safe action': 'Ursache der letzten Reaktion auf Befehlsausfall',
+  'stop latch': 'Haltesperre',
   'Change mapping {id}': 'Zuordnung {id} ändern',
   'Change {id}': '{id} ändern',
   'Changed {id}': 'Geändert: {id}',

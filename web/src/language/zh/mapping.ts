@@ -49,6 +49,7 @@ export const mapping: Table = {
   'axisgate register list · mapping revision {hash} (registers 18 and 19 of each axis) · {n} mappings': 'axisgate 寄存器列表 · 映射版本号 {hash}（各轴的寄存器 18 和 19）· {n} 个映射',
   'Can be undone': '可撤销',
   'cause of the last fail-safe action': '上次失效安全动作的原因',
+  'stop latch': '停止锁定',
   'Change mapping {id}': '更改映射 {id}',
   'Change {id}': '更改 {id}',
   'Changed {id}': '已更改：{id}',

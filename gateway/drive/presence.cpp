@@ -78,12 +78,17 @@ void Presence::beats(DriveBeats beats, Out& out) {
     if (reported_.drive == drive_) report(reported_.text, out);
 }
 
+void Presence::limited(DriveLimits limits, Out& out) {
+    limits_ = std::move(limits);
+    if (reported_.drive == drive_) report(reported_.text, out);
+}
+
 void Presence::report(std::string text, Out& out) {
     const Duration pause = phase_ == Phase::absent ? retry_pause_ : Duration{};
     if (reported_.drive == drive_ && reported_.online == online() && reported_.retry_pause == pause && reported_.text == text &&
-        reported_.watchdog == watchdog_ && reported_.beats == beats_)
+        reported_.watchdog == watchdog_ && reported_.limits == limits_ && reported_.beats == beats_)
         return;
-    reported_ = {drive_, online(), silent_, pause, std::move(text), watchdog_, beats_};
+    reported_ = {drive_, online(), silent_, pause, std::move(text), watchdog_, limits_, beats_};
     out.links.push_back(reported_);
 }
 

@@ -70,6 +70,11 @@ public:
     /// What its own watchdog was programmed to; said with the next report.
     void watched(DriveWatchdog watchdog) { watchdog_ = std::move(watchdog); }
     [[nodiscard]] const DriveWatchdog& watchdog() const noexcept { return watchdog_; }
+    /// What became of the site's limits in the drive; said with the next report.
+    void limited(DriveLimits limits) { limits_ = std::move(limits); }
+    /// The same, said at once if the drive has been spoken of.
+    void limited(DriveLimits limits, Out& out);
+    [[nodiscard]] const DriveLimits& limits() const noexcept { return limits_; }
     /// The beats in which it tells; said at once if it has been spoken of.
     void beats(DriveBeats beats, Out& out);
     /// Says whether it is online, and why, unless exactly that was said last.
@@ -85,6 +90,7 @@ private:
     Instant next_probe_ = never;
     DriveLink reported_;
     DriveWatchdog watchdog_;
+    DriveLimits limits_;
     DriveBeats beats_;
 };
 

@@ -27,6 +27,7 @@ const Family& family_aposs() {
         false,
         false,
         family_cia402,
+        cia402_drive::stated,
     };
     return family;
 }

@@ -52,6 +52,7 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
       heartbeat_(node.number) {
     drive::OptionReader options(node.setup.options);
     node.keep_quick_stop = options.flag("quick_stop_stays", true, "yes", "no");
+    node.keep_limits = options.flag("drive_limits", true, "on", "off");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
     Watch& watch = node.watch;
     watch.action = options.word("watchdog_action", {"quick_stop", "disable", "fault", "none"});
@@ -65,6 +66,13 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
 void Drive::fit_axes() {
     for (const AxisSetup& a : node.setup.axes)
         if (a.channel >= 1 && a.channel <= node.dialect.channels && !of(a.id)) axes.push_back(std::make_unique<Axis>(node, a));
+}
+void Drive::look(const DriveSetup& setup) {
+    (void)pace_.take(setup);
+    bool others = false;
+    for (const AxisSetup& s : setup.axes)
+        if (Axis* a = of(s.id)) others = a->set_limits(s) || others;
+    if (others && node.presence.is(Phase::ready)) start.begin();
 }
 void Drive::set_axes(const DriveSetup& setup, Turn& t) {
     node.setup = setup;
@@ -251,7 +259,7 @@ void Drive::look_soon(Instant now) noexcept {
 void Drive::unanswered(Turn& t) {
     Presence& presence = node.presence;
     const Ask& ask = exchanges.ask();
-    if (ask.axis < axes.size()) axes[ask.axis]->unanswered(ask);
+    if (ask.axis < axes.size()) axes[ask.axis]->unanswered(ask, t);
     node.tickets.failed(ask.ticket, Reason::no_answer,
                         canopen::to_text(ask.step.address) + " was not answered: whether the drive took it is not known", t.out);
     if (presence.online()) {

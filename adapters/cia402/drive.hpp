@@ -31,7 +31,8 @@ public:
     void line_down(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
-    void look(const DriveSetup& setup) noexcept { (void)pace_.take(setup); }
+    /// The same drive in another site: how closely its axes are looked at, and their limits, which are set up anew if they are others.
+    void look(const DriveSetup& setup);
     void on_frame(const Frame& frame, Turn& t);
     void before_sync(Turn& t);  ///< the next targets go out
     void after_sync() noexcept;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace axisgate::cia402_drive {
 using drive::Want;
 using Phase = Presence::Phase;
@@ -14,6 +16,7 @@ void Axis::forget() {
     stream.end();
     feedback.forget();
     turns.forget();
+    rates.forget();
 }
 
 bool Axis::submit(const Command& c, Turn& t) {
@@ -39,7 +42,7 @@ bool Axis::submit(const Command& c, Turn& t) {
 Want Axis::wants(Instant now) const noexcept {
     if (const Stop* stop = stops_.first()) return !stop->job || now >= stop->job->wait_until ? Want::urgent : Want::nothing;
     if (!node.presence.is(Phase::ready)) return Want::nothing;
-    if (feedback.needs_error_code() || turns.wants(now)) return Want::quick_poll;
+    if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
@@ -60,6 +63,7 @@ std::optional<Ask> Axis::next(Turn& t) {
     }
     if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
     if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
+    if (rates.wants()) return Ask{Ask::Why::rates, rates.next(), no_ticket, retries};
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
     if (!job_ && stream.waits()) job_ = stream.begin(t);
@@ -98,10 +102,14 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
         case Ask::Why::turns:
             turns.answered(end.done(), t);
             return News::none;
+        case Ask::Why::rates:
+            rates.answered(end, t);
+            return News::none;
         case Ask::Why::step:
             if (job_ && job_->command.ticket == ask.ticket && job_->at < job_->steps.size() &&
                 asked(job_->steps[job_->at]) == ask.step.address)
                 return step_done(*job_, end, t);
+            if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // of a job that has ended
             return News::none;
         case Ask::Why::stop:
             if (Stop* stop = stops_.first(); stop && stop->job && stop->command.ticket == ask.ticket) return step_done(*stop->job, end, t);
@@ -112,13 +120,23 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
 }
 Address Axis::asked(const Step& s) const { return s.literal ? s.address : of_axis(s.address, place_); }
 
-void Axis::unanswered(const Ask& ask) {
+void Axis::unanswered(const Ask& ask, Turn& t) {
+    if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // it may have been taken
     if (Stop* stop = stops_.first(); ask.why == Ask::Why::stop && stop) stops_.remove(stop);
     if (ask.why == Ask::Why::turns) turns.forget();
     if (ask.why == Ask::Why::step && job_) {
         if (job_->stream) stream.end();
         job_.reset();
     }
+}
+
+void Axis::withdraw() {
+    if (!stops_.empty()) return;  // it takes the word back, or is newer than this
+    Stop stop;
+    stop.command = Command{no_ticket, id_, Disable{}, false, {}};
+    stop.job.emplace().command = stop.command;
+    stop.job->word(0);
+    (void)stops_.add(std::move(stop));
 }
 
 void Axis::drop(const Job& job) noexcept {
@@ -149,6 +167,9 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
     if (sent(object::mode)) known.mode = static_cast<int>(signed_of(s.bytes));
+    if (end.done() && s.kind == Step::Kind::write)
+        rates.written(of_first_axis(s.address), static_cast<std::int64_t>(canopen::low_first(s.bytes)),
+                      std::holds_alternative<Move>(job.command.body), t);
     if (s.kind == Step::Kind::read) {
         job.here = signed_of(end.data);
         job.data = end.data;
@@ -167,14 +188,19 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
 
 /// The value is not the one that is waited for, and this is not the end of the step: it is looked at again, or the job has failed.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
-    if ((canopen::low_first(end.data) & s.mask) == s.want) return false;
+    if (s.away_from) {
+        const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
+        if (std::llabs(at - want) <= std::llabs(at - *s.away_from)) return feedback.on_position(at, t), false;
+    } else if ((canopen::low_first(end.data) & s.mask) == s.want) {
+        return false;
+    }
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;
     if (s.optional) return false;
-    node.tickets.failed(
-        job.command.ticket, Reason::drive_refused,
-        fmt::format("the drive has acknowledged, and stays in another state: status word {:04X}h", canopen::low_first(end.data)), t.out);
+    const std::string shown = s.away_from ? fmt::format("still shows position {}", signed_of(end.data))
+                                          : fmt::format("stays in another state: status word {:04X}h", canopen::low_first(end.data));
+    node.tickets.failed(job.command.ticket, Reason::drive_refused, "the drive has acknowledged, and " + shown, t.out);
     drop(job);
     return true;
 }

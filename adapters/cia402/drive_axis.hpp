@@ -4,11 +4,14 @@
 // Never sends a request by itself: the drive has one transfer with the node at a time, and gives it to one axis after the other.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/cia402/demand.hpp"
+#include "adapters/cia402/drive_rates.hpp"
 #include "adapters/cia402/drive_turns.hpp"
 #include "adapters/cia402/feedback.hpp"
 #include "gateway/drive/command_queue.hpp"
@@ -17,7 +20,16 @@ namespace axisgate::cia402_drive {
 
 class Axis {
 public:
-    Axis(Node& of_node, const AxisSetup& setup) : node(of_node), id_(setup.id), place_(static_cast<std::size_t>(setup.channel - 1)) {}
+    Axis(Node& of_node, const AxisSetup& setup)
+        : node(of_node), id_(setup.id), place_(static_cast<std::size_t>(setup.channel - 1)), limits_(limits_of(setup)) {}
+
+    using Limits = std::array<std::optional<std::int64_t>, 2>;  ///< of the site: lowest and highest position, increments
+    /// True: the site has others than before; they go out with the next set-up.
+    bool set_limits(const AxisSetup& setup) {
+        const Limits before = std::exchange(limits_, limits_of(setup));
+        return limits_ != before;
+    }
+    [[nodiscard]] bool limited() const noexcept { return limits_[0] || limits_[1]; }
 
     // start.cpp
     void first_reads(std::vector<Step>& steps) const;
@@ -30,6 +42,12 @@ public:
     void forget();
     void forget_stops() noexcept { stops_.clear(); }
 
+    /// Its drive has left operation by itself while the control word still enables it: the word is taken back, so that the power comes
+    /// again by a new order alone.
+    void withdraw();
+    /// An Enable is on its way.
+    [[nodiscard]] bool enabling() const noexcept { return job_ && std::holds_alternative<Enable>(job_->command.body); }
+
     /// False: the command is answered, or waits; true: it was a stop, and whatever is on the way is not repeated.
     bool submit(const Command& command, Turn& t);
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
@@ -38,7 +56,7 @@ public:
     [[nodiscard]] std::optional<Ask> next(Turn& t);
     enum class News : std::uint8_t { none, deaf, node_resets };
     News answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t);
-    void unanswered(const Ask& ask);
+    void unanswered(const Ask& ask, Turn& t);
 
     [[nodiscard]] AxisId id() const noexcept { return id_; }
     [[nodiscard]] std::size_t place() const noexcept { return place_; }  ///< among the axes of the node, from 0
@@ -50,6 +68,7 @@ public:
     AxisKnown known;
     Feedback feedback{*this};
     PdoTurns turns{*this};
+    Rates rates{*this};
     SetPointStream stream{*this};
 
 private:
@@ -58,6 +77,7 @@ private:
         std::optional<Job> job;
     };
 
+    [[nodiscard]] static Limits limits_of(const AxisSetup& setup) { return {setup.position_min, setup.position_max}; }
     void begin(Command command, Turn& t);
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
@@ -72,6 +92,7 @@ private:
 
     AxisId id_;
     std::size_t place_;
+    Limits limits_;
     drive::CommandQueue queue_;
     drive::StopLane<Stop, 8> stops_;
     std::optional<Job> job_;

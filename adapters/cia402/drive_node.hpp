@@ -102,6 +102,7 @@ struct Node {
     std::uint8_t number;
     int slot = -1;  ///< its beats by the line's plan
     bool keep_quick_stop = true;
+    bool keep_limits = true;  ///< option drive_limits: the site's limits of position go into 607Dh
     Watch watch;
     Places places;
     Presence presence;

@@ -23,6 +23,7 @@ struct Step {
     bool optional = false;                        ///< a refusal is no reason to stop
     bool from_here = false;                       ///< write: the bytes are a distance from the position that the step before read
     bool literal = false;                         ///< the address is that of the node, whose axis it may be
+    std::optional<std::int64_t> away_from{};      ///< until: the value is nearer to `want` than to this one
     Duration patience = std::chrono::seconds(2);  ///< until
     canopen::NmtCommand nmt = canopen::NmtCommand::start;
 };
@@ -46,13 +47,19 @@ struct Job {
     void until(std::uint32_t mask, std::uint32_t want) { steps.push_back({Step::Kind::until, object::statusword, {}, mask, want}); }
     /// Until it stands still, for as long as `patience`; a drive that does not tell its velocity is not waited for.
     void until_standstill(Duration patience = std::chrono::seconds(2)) {
-        steps.push_back({Step::Kind::until, object::velocity, {}, 0xFFFFFFFFu, 0, true, false, false, patience});
+        steps.push_back({Step::Kind::until, object::velocity, {}, 0xFFFFFFFFu, 0, true, false, false, {}, patience});
+    }
+    /// Until the actual position is `there` rather than `before`: an axis in a control loop is never quite on it.
+    void until_position(std::int64_t there, std::int64_t before) {
+        Step s{Step::Kind::until, object::position, {}, 0xFFFFFFFFu, static_cast<std::uint32_t>(there)};
+        s.away_from = before;
+        steps.push_back(std::move(s));
     }
 };
 
 /// One transfer, and who wants its answer.
 struct Ask {
-    enum class Why : std::uint8_t { probe, start, check, error, turns, flush, step, stop } why = Why::probe;
+    enum class Why : std::uint8_t { probe, start, check, error, turns, rates, flush, step, stop } why = Why::probe;
     Step step;
     Ticket ticket = no_ticket;
     int left = 0;          ///< repeats

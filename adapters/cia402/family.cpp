@@ -45,6 +45,9 @@ const Family& family_cia402() {
         cia402_drive::own_catalogue,
         cia402_drive::identifiers,
         true,
+        false,
+        nullptr,
+        cia402_drive::stated,
     };
     return family;
 }

@@ -16,5 +16,7 @@ namespace axisgate::cia402_drive {
 [[nodiscard]] ScanPlan scan_nodes(const ScanWish& wish);
 /// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
 [[nodiscard]] std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses);
+/// Family::stated, by the numbers of the objects: an object of another axis of the node names that axis' channel.
+[[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);
 
 }  // namespace axisgate::cia402_drive

@@ -70,7 +70,8 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
 
 void Feedback::begin(Instant now) {
     deaf_ = 0;
-    status_new_ = motion_new_ = false;
+    status_new_ = motion_new_ = seen_ = false;
+    fallen_ = 0;
     if (drive_.known.profile) check_at_ = now + std::max<Duration>(8 * drive_.node.line.cycle(), std::chrono::milliseconds(200));
 }
 void Feedback::forget() noexcept {
@@ -113,6 +114,13 @@ void Feedback::on_status_word(std::uint32_t word, Turn& t) {
     drive_.known.fb.native_status = word;
     judge(t);
 }
+/// The axis stands, so its demand has gone the same way.
+void Feedback::on_position(std::int64_t position, Turn& t) {
+    AxisFeedback& fb = drive_.known.fb;
+    fb.position_demand += position - fb.position;
+    fb.position = position;
+    emit(t);
+}
 
 void Feedback::after_sync() noexcept {
     if (!drive_.turns.apart()) status_new_ = motion_new_ = false;
@@ -153,7 +161,45 @@ void Feedback::learnt(Turn& t) {
     node.presence.answered();
     ++node.line.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
     check_at_ = t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150));
+    seen_ = true;
+    watch_power(drive_.known.fb.native_status);
     judge(t);
+}
+
+/// A drive whose power was taken (STO, a safe enable, its own switch) falls to switch on disabled, and its control word still says enable
+/// operation: one that goes back by itself would run again. Two pictures, since one may be older than the word.
+void Feedback::watch_power(unsigned sw) {
+    const unsigned low = sw & 0x4Fu, six = sw & 0x6Fu;
+    const bool off = low == 0x40 || low == 0 || six == 0x21 || six == 0x23;
+    const bool fell = off && (drive_.known.cw & 0x0Fu) == 0x0F && !drive_.enabling();
+    fallen_ = fell ? fallen_ + 1 : 0;
+    if (fallen_ == 2) {
+        power_lost_ = true;
+        drive_.withdraw();
+    }
+    if ((sw & 0x10u) || six == 0x27) power_lost_ = false;
+}
+
+/// By the mode that the drive shows: velocity, torque and the modes that follow a stream have no end of their own.
+Course Feedback::course() const noexcept {
+    switch (drive_.known.mode) {
+        case 1:
+            return Course::to_target;
+        case 2:
+        case 3:
+        case 4:
+        case 7:
+        case 8:
+        case 9:
+        case 10:
+            return Course::endless;
+        default:
+            return Course::unknown;
+    }
+}
+
+void Feedback::tell_rates(Turn& t) {
+    if (seen_ && drive_.rates.in_force() != drive_.known.fb.rates) emit(t);
 }
 
 void Feedback::judge(Turn& t) {
@@ -205,6 +251,9 @@ void Feedback::judge_order(unsigned sw) {
 
 void Feedback::emit(Turn& t) {
     drive_.known.fb.at = t.now;
+    drive_.known.fb.rates = drive_.rates.in_force();
+    drive_.known.fb.course = course();
+    drive_.known.fb.safe_stop = power_lost_;
     t.out.feedback.push_back({drive_.id(), drive_.known.fb});
 }
 

@@ -47,6 +47,7 @@ std::string plan_set_position(const AxisKnown& known, Job& job, const SetPositio
     job.write(object::home_offset, set.position, 4);
     plan_homing(known, job, 37);
     job.until(0x1000, 0x1000);
+    job.until_position(set.position, known.fb.position);
     job.word(on_word);
     if (known.homing_method != 37) job.write(object::homing_method, known.homing_method, 1, true);
     return {};

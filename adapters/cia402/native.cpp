@@ -26,42 +26,53 @@ std::string plan_parameter(const Node& node, std::size_t axis, Job& job, Reason&
     return {};
 }
 
-/// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, as they are on the wire.
-std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason) {
-    reason = Reason::out_of_range;
-    constexpr const char* help =
-        "write 6064:00? to read an object, 6081:00=20000 to write one of the catalogue, 2100:01=x01FF for bytes of any";
-    const std::string_view s(reinterpret_cast<const char*>(native.send.data()), native.send.size());
+namespace {
+bool hex(std::string_view text, unsigned& n) {
+    const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n, 16);
+    return ec == std::errc{} && p == text.data() + text.size();
+}
+/// "6064:00" at the beginning of a line that goes on.
+std::optional<Address> address_in(std::string_view s) {
     unsigned index = 0, sub = 0;
-    const auto hex = [](std::string_view text, unsigned& n) {
-        const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n, 16);
-        return ec == std::errc{} && p == text.data() + text.size();
-    };
-    if (s.size() < 8 || s[4] != ':' || !hex(s.substr(0, 4), index) || !hex(s.substr(5, 2), sub)) return help;
-    const Address a{static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
-    if (s[7] == '?' && s.size() == 8) {
-        job.read(a);
-        job.steps.back().literal = true;
-        return {};
-    }
-    if (s[7] != '=' || s.size() > 300) return help;
+    if (s.size() < 8 || s[4] != ':' || !hex(s.substr(0, 4), index) || !hex(s.substr(5, 2), sub)) return std::nullopt;
+    return Address{static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
+}
+}  // namespace
+
+std::optional<ObjectWrite> object_write(const Catalogue& catalogue, std::string_view s) {
+    const auto a = address_in(s);
+    if (!a || s[7] != '=' || s.size() > 300) return std::nullopt;
     const std::string_view text = s.substr(8);
     std::vector<std::uint8_t> bytes;
     if (text.starts_with('x')) {
         for (std::size_t i = 1; i < text.size(); i += 2) {
             unsigned b = 0;
-            if (i + 2 > text.size() || !hex(text.substr(i, 2), b)) return help;
+            if (i + 2 > text.size() || !hex(text.substr(i, 2), b)) return std::nullopt;
             bytes.push_back(static_cast<std::uint8_t>(b));
         }
     } else {
-        const Parameter* p = parameter_at(node.catalogue(), a);
+        const Parameter* p = parameter_at(catalogue, *a);
         const auto value = p ? parse_value(text, p->type) : std::nullopt;
         auto encoded = value ? canopen::encode(*type_of(p->type), *value) : std::nullopt;
-        if (!encoded) return help;
+        if (!encoded) return std::nullopt;
         bytes = std::move(*encoded);
     }
-    if (bytes.empty()) return help;
-    job.steps.push_back({Step::Kind::write, a, std::move(bytes)});
+    if (bytes.empty()) return std::nullopt;
+    return ObjectWrite{*a, std::move(bytes)};
+}
+
+/// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, as they are on the wire.
+std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason) {
+    const std::string_view s(reinterpret_cast<const char*>(native.send.data()), native.send.size());
+    if (const auto a = address_in(s); a && s[7] == '?' && s.size() == 8) {
+        job.read(*a);
+        job.steps.back().literal = true;
+        return {};
+    }
+    auto write = object_write(node.catalogue(), s);
+    reason = Reason::out_of_range;
+    if (!write) return "write 6064:00? to read an object, 6081:00=20000 to write one of the catalogue, 2100:01=x01FF for bytes of any";
+    job.steps.push_back({Step::Kind::write, write->address, std::move(write->bytes)});
     job.steps.back().literal = true;
     return {};
 }

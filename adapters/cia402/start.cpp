@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "adapters/cia402/drive.hpp"
 
 namespace axisgate::cia402_drive {
@@ -37,8 +39,10 @@ void Start::begin() {
     at_ = 0;
     for (const Address a : {object::vendor, object::product, object::revision, object::watched_heartbeat})
         steps_.push_back({{Step::Kind::read, a, {}, 0, 0, true}});
-    for (const auto& a : drive_.axes)
+    for (const auto& a : drive_.axes) {
         a->begin_anew();
+        a->rates.forget();
+    }
     add_axes();
 }
 
@@ -67,10 +71,39 @@ void Start::set_up() {
         for (Step& s : writes)
             steps_.push_back({std::move(s), a.get()});
     }
+    set_up_limits();
     set_up_watch();
     Step go;
     go.kind = Step::Kind::nmt;
     steps_.push_back({go});
+}
+
+/// Nothing is written where the site limits nothing; what was armed before stays in the drive until somebody writes it.
+void Start::set_up_limits() {
+    Presence& presence = drive_.node.presence;
+    limits_open_ = 0;
+    for (const auto& s : steps_)
+        if (s.axis && s.step.kind == Step::Kind::write && s.step.address.index == object::position_min_limit.index) ++limits_open_;
+    const bool wanted = std::ranges::any_of(drive_.axes, [](const auto& a) { return a->limited(); });
+    presence.limited({!wanted                    ? DriveLimits::State::unknown
+                      : !drive_.node.keep_limits ? DriveLimits::State::off
+                                                 : presence.limits().state,
+                      wanted && drive_.node.keep_limits ? presence.limits().text : std::string()});
+    if (limits_open_ > 0) presence.limited({});
+}
+
+void Start::limit_set(const Step& step, const Axis& axis, const canopen::SdoEnd& end, Turn& t) {
+    Presence& presence = drive_.node.presence;
+    if (limits_open_ > 0) --limits_open_;
+    if (presence.limits().state == DriveLimits::State::refused) return;
+    if (end.done()) {
+        if (limits_open_ == 0) presence.limited({DriveLimits::State::armed, {}});
+        return;
+    }
+    std::string text = fmt::format("axis {} of {}: the drive does not take the site's limit of position ({}): {}", axis.place() + 1,
+                                   drive_.node.setup.name, canopen::to_text(step.address), canopen::to_text(end));
+    drive_.notice(Severity::warning, "drive_limits", 0, text, t);
+    presence.limited({DriveLimits::State::refused, std::move(text)});
 }
 
 /// 1016h:01 holds the number of the node that is watched and the time in ms; the watch begins with its first heartbeat after that. What it
@@ -140,7 +173,9 @@ void Start::answered(const canopen::SdoEnd& end, Turn& t) {
         return drive_.forget(Reason::drive_refused, "the drive cannot be set up: " + canopen::to_text(end), t);
     }
     ++at_;
-    if (axis) {
+    if (axis && step.kind == Step::Kind::write && step.address.index == object::position_min_limit.index) {
+        limit_set(step, *axis, end, t);
+    } else if (axis) {
         axis->first_read(step, end);
     } else if (step.address == object::heartbeat) {
         drive_.beats(end.done() ? drive_.heartbeat_period() : Duration::zero());
@@ -167,14 +202,17 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
 
 void Axis::first_reads(std::vector<Step>& steps) const {
     for (const Address a : {object::statusword, object::modes, object::controlword, object::homing_method, object::profile_velocity,
-                            object::profile_acceleration, object::profile_deceleration, object::error_code, object::quick_stop_option,
-                            object::cycle, object::cycle_index})
+                            object::profile_acceleration, object::profile_deceleration, object::quick_stop_deceleration, object::error_code,
+                            object::quick_stop_option, object::cycle, object::cycle_index})
         steps.push_back({Step::Kind::read, a, {}, 0, 0, true});
 }
 
 void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
+    if (step.kind == Step::Kind::write && step.address == object::quick_stop_option && end.done()) rates.take(step.address, 6);
     if (step.kind != Step::Kind::read) return;
     const Address a = step.address;
+    if (end.done())
+        rates.take(a, a == object::quick_stop_option ? signed_of(end.data) : static_cast<std::int64_t>(canopen::low_first(end.data)));
     const auto raw = static_cast<std::int64_t>(end.done() ? canopen::low_first(end.data) : 0);
     if (a == object::statusword) known.profile = end.done() || !node.dialect.profile_optional;
     if (a == object::modes) known.modes = static_cast<std::uint32_t>(raw);
@@ -198,6 +236,10 @@ void Axis::set_up(std::vector<Step>& steps) {
         steps.push_back({Step::Kind::write, a, std::move(bytes), 0, 0, optional});
     };
     if (change_quick_stop_) add(object::quick_stop_option, bytes_of(6, 2), true);
+    if (node.keep_limits)
+        for (const auto& [place, limit] :
+             {std::pair{object::position_max_limit, limits_[1]}, std::pair{object::position_min_limit, limits_[0]}})
+            if (limit) add(place, bytes_of(std::clamp<std::int64_t>(*limit, INT32_MIN, INT32_MAX), 4), true);
     for (auto p : {status_pdo(node.number, place_), motion_pdo(node.number, place_)}) {
         p.settings.transmission = static_cast<std::uint8_t>(every);
         for (const auto& w : canopen::writes_of(p))

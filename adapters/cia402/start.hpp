@@ -41,6 +41,8 @@ private:
     void set_up();
     void set_up_watch();
     void watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t);
+    void set_up_limits();
+    void limit_set(const Step& step, const Axis& axis, const canopen::SdoEnd& end, Turn& t);
     void identity_read(Address address, const canopen::SdoEnd& end);
     void done(Turn& t);
 
@@ -49,7 +51,8 @@ private:
     std::string identity_;
     ExpectedIdentity expected_;  ///< of the description, if the site names one
     Identity reported_;
-    std::uint32_t watched_ = 0;  ///< 1016h:01 as it was found
+    std::size_t limits_open_ = 0;  ///< writes of 607Dh that are not answered yet
+    std::uint32_t watched_ = 0;    ///< 1016h:01 as it was found
 };
 
 }  // namespace axisgate::cia402_drive

@@ -27,8 +27,9 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
     vendor{0x1018, 1}, product{0x1018, 2}, revision{0x1018, 3}, store{0x1010, 1}, restore{0x1011, 1}, connection_lost_option{0x6007, 0},
     error_code{0x603F, 0}, controlword{0x6040, 0}, statusword{0x6041, 0}, quick_stop_option{0x605A, 0}, mode{0x6060, 0},
     position{0x6064, 0}, velocity{0x606C, 0}, target_torque{0x6071, 0}, target_position{0x607A, 0}, home_offset{0x607C, 0},
-    profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0}, profile_deceleration{0x6084, 0}, homing_method{0x6098, 0},
-    interpolated_position{0x60C1, 1}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0}, modes{0x6502, 0};
+    profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0}, profile_deceleration{0x6084, 0}, quick_stop_deceleration{0x6085, 0},
+    position_min_limit{0x607D, 1}, position_max_limit{0x607D, 2}, homing_method{0x6098, 0}, interpolated_position{0x60C1, 1},
+    cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0}, modes{0x6502, 0};
 }  // namespace object
 
 /// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3
@@ -46,6 +47,14 @@ inline constexpr int most_axes = 2;  ///< four transmit PDOs in the connection s
 [[nodiscard]] std::vector<std::uint8_t> bytes_of(std::int64_t value, std::size_t size);
 [[nodiscard]] std::int64_t signed_of(std::span<const std::uint8_t> bytes) noexcept;
 
+/// A line of the native language that writes an object: "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" as bytes on the
+/// wire. Nothing: it is none.
+struct ObjectWrite {
+    Address address;
+    std::vector<std::uint8_t> bytes;
+};
+[[nodiscard]] std::optional<ObjectWrite> object_write(const Catalogue& catalogue, std::string_view line);
+
 /// Indexes of a catalogue's rows, and what a site says that they are on its drive.
 using Places = std::map<std::uint16_t, std::uint16_t>;
 
@@ -56,6 +65,10 @@ using Places = std::map<std::uint16_t, std::uint16_t>;
 /// Objects of the profile stand 800h higher for each further axis (CiA 402, several devices in one node).
 [[nodiscard]] constexpr Address of_axis(Address a, std::size_t axis) noexcept {
     return a.index >= 0x6000 && a.index < 0xA000 ? Address{static_cast<std::uint16_t>(a.index + 0x800 * axis), a.sub} : a;
+}
+/// The same object of the first axis.
+[[nodiscard]] constexpr Address of_first_axis(Address a) noexcept {
+    return a.index >= 0x6800 && a.index < 0xA000 ? Address{static_cast<std::uint16_t>(0x6000 + (a.index - 0x6000) % 0x800), a.sub} : a;
 }
 [[nodiscard]] std::optional<canopen::DataType> type_of(ValueType type) noexcept;
 /// The entry of the catalogue for an object; nullptr: none.

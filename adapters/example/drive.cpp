@@ -2,7 +2,10 @@
 // In: telegrams. Out: telegrams, the state of an axis. Takes an answer by its address, axis and item, and a write's by its value, too.
 #include "adapters/example/drive.hpp"
 
+#include <algorithm>
 #include <cstdio>
+
+#include "gateway/core/text.hpp"
 
 namespace axisgate::example {
 using Kind = Telegram::Kind;
@@ -26,10 +29,25 @@ Telegram Drive::write(int channel, std::string item, std::int64_t value) const {
     return {address_, channel, std::move(item), Kind::value, std::to_string(value)};
 }
 
+/// R06 speed, R07 acceleration, R08 deceleration, R09 deceleration of a quick stop: whoever has read or written them. A value that is not
+/// acknowledged as it was sent is no value.
+bool Drive::learn_rate(const Telegram& answer) {
+    if (answer.kind != Kind::value || answer.axis < 1 || answer.axis > channels) return false;
+    DriveRates& rates = axis(answer.axis).rates;
+    std::int64_t* const rate = answer.item == "R06"   ? &rates.velocity
+                               : answer.item == "R07" ? &rates.acceleration
+                               : answer.item == "R08" ? &rates.deceleration
+                               : answer.item == "R09" ? &rates.quick_stop
+                                                      : nullptr;
+    if (rate) *rate = std::max<std::int64_t>(parse_whole(answer.text, 0, INT64_MAX).value_or(0), 0);
+    return rate != nullptr;
+}
+
 /// S00: "bits,position,velocity,demand,fault". Bits: 0 on, 1 moves, 2 at its target, 3 referenced.
 int Drive::learn(const Telegram& answer) {
     unsigned bits = 0, fault = 0;
     long long position = 0, velocity = 0, demand = 0;
+    if (learn_rate(answer)) return answer.axis;
     if (answer.item != "S00" || std::sscanf(answer.text.c_str(), "%u,%lld,%lld,%lld,%u", &bits, &position, &velocity, &demand, &fault) != 5)
         return 0;
     AxisFeedback& fb = axis(answer.axis);

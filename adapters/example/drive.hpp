@@ -23,6 +23,7 @@ private:
     [[nodiscard]] std::string title(const Telegram* answer) const override;
     [[nodiscard]] Telegram poll(int channel) const override { return read(channel, "S00"); }
     [[nodiscard]] int learn(const Telegram& answer) override;
+    [[nodiscard]] bool learn_rate(const Telegram& answer);
     // motion.cpp
     [[nodiscard]] Telegram stop(const Command& command) const override;
     [[nodiscard]] std::string plan(Job& job, Reason& reason) const override;

@@ -2,6 +2,7 @@
 // In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
 #include "adapters/example/adapter.hpp"
 #include "adapters/example/decoder.hpp"
+#include "adapters/example/native.hpp"
 #include "adapters/example/twin/twin.hpp"
 #include "gateway/drive/scan_range.hpp"
 
@@ -21,6 +22,12 @@ const Family& family_example() {
         true,
         0,
         [](const ScanWish& wish) { return drive::scan_range(wish, 1, 99, example::check_address); },
+        nullptr,
+        nullptr,
+        false,
+        false,
+        nullptr,
+        example::stated,
     };
     return family;
 }

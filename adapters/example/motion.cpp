@@ -71,6 +71,7 @@ std::string Drive::plan_native(Job& job, const Native& native, Reason& reason) c
 
 void Drive::acted(const CommandBody& body, AxisFeedback& axis) {
     if (std::holds_alternative<Home>(body)) axis.homing_attained = axis.referenced = true;
+    if (const auto* move = std::get_if<Move>(&body)) axis.course = move->kind == Move::Kind::velocity ? Course::endless : Course::to_target;
 }
 
 std::string Drive::words_of(const Telegram& request) const {

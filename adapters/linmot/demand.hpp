@@ -22,6 +22,8 @@ public:
     void forget() noexcept { demand_.forget(); }
     void at_status(AxisFeedback& feedback, Turn& t);
 
+    /// Of the last move, in counts of 1e-5 m/s^2; 0: none.
+    [[nodiscard]] std::uint32_t ordered_deceleration() const noexcept { return d_; }
     /// Of the last move; else the drive's own; else 1 m/s^2. Counts of 1e-5 m/s^2.
     [[nodiscard]] std::uint32_t deceleration() const noexcept;
     /// Where it should be now if it moves, else where it is.

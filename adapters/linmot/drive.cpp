@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "gateway/drive/option_reader.hpp"
 
 namespace axisgate::linmot {
@@ -15,6 +17,7 @@ DriveOptions drive_options(const DriveSetup& setup, const Bus& bus) {
     DriveOptions o;
     o.warn_inferred = read.word("warn_word", {"off", "inferred"}) == "inferred";
     o.inferred = read.flag("inferred", true);
+    o.keeps_limits = read.flag("drive_limits", true, "on", "off");
     o.stop_by_off3 = read.word("quick_stop", {"abort", "off3"}) == "off3";
     const auto set_points = read.word("set_points", {"moves", "auto", "stream"});
     o.streams = set_points != "moves";
@@ -53,6 +56,7 @@ void Drive::remove(std::string_view why, Turn& t) {
 }
 
 void Drive::lost(Turn& t, std::string why) {
+    if (jobs.is(motion)) motion.given_up(jobs.job().count);
     jobs.forget();
     stops.forget();
     stream.forget();
@@ -65,6 +69,16 @@ void Drive::lost(Turn& t, std::string why) {
     if (why.empty()) return;
     tickets.fail_all(Reason::no_answer, why, t.out);
     presence.report(std::move(why), t.out);
+}
+
+void Drive::look(const DriveSetup& setup) {
+    if (pace.take(setup)) poll.hurry();
+    const auto other = [](const AxisSetup& a, const AxisSetup& b) {
+        return a.position_min != b.position_min || a.position_max != b.position_max;
+    };
+    const bool others = !std::ranges::equal(setup_.axes, setup.axes, [&](const auto& a, const auto& b) { return !other(a, b); });
+    setup_.axes = setup.axes;
+    if (others && ready()) start.set_limits();
 }
 
 void Drive::follow(const SetPoint& p) {

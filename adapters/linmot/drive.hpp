@@ -30,9 +30,7 @@ public:
     void line_down(std::string_view why, Turn& t);
     void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
-    void look(const DriveSetup& setup) noexcept {
-        if (pace.take(setup)) poll.hurry();
-    }
+    void look(const DriveSetup& setup);
     void follow(const SetPoint& set_point);
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant deadline() const noexcept { return exchanges.deadline(); }

@@ -78,6 +78,10 @@ void Jobs::look_later(Turn& t) noexcept {
 void Jobs::silent(Turn& t) {
     if (idle() || drive_.transfers.again()) return;
     drive_.motion.no_target();
+    if (is(drive_.motion)) drive_.motion.given_up(job_.count);
+    const CommandBody& body = job_.command.body;
+    if (std::holds_alternative<WriteParameter>(body) || std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body))
+        drive_.start.read_again();
     drive_.demand.forget();
     fail(Reason::no_answer, fmt::format("drive {} does not answer", drive_.title()), t);
 }

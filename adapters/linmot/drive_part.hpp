@@ -31,6 +31,7 @@ struct DriveOptions {
     bool warn_inferred = false;       ///< warn_word = inferred
     bool inferred = true;             ///< messages that stand in no page of the maker may be sent
     bool stop_by_off3 = false;        ///< quick_stop = off3
+    bool keeps_limits = true;         ///< drive_limits: the site's limits of position go into its RAM
     bool streams = false;             ///< set_points = auto or stream
     std::vector<std::string> faults;  ///< options that could not be read
 };

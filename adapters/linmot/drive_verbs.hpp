@@ -53,18 +53,28 @@ public:
     [[nodiscard]] Telegram telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const;
     [[nodiscard]] std::uint8_t next_count() noexcept { return count_ = static_cast<std::uint8_t>((count_ + 1) & 0x0F); }
     /// A default response is here.
-    void seen(const Status& status) noexcept;
+    void seen(const Status& status, Turn& t);
     void found() noexcept { count_ = 0; }
-    void has_target(bool target) noexcept { to_target_ = target; }
-    void no_target() noexcept { to_target_ = false; }
-    void forget() noexcept { fresh_ = to_target_ = false; }
+    void has_target(bool target) noexcept { to_target_ = target, wanted_ = target ? Course::to_target : Course::unknown; }
+    /// The motion that is being sent is a move to the end of the numbers: it runs until it is told otherwise.
+    void endless() noexcept { wanted_ = Course::endless; }
+    void no_target() noexcept { to_target_ = false, course_ = wanted_ = Course::unknown; }
+    void forget() noexcept { fresh_ = to_target_ = false, course_ = wanted_ = Course::unknown; }
+    /// Of the last motion that the drive has taken.
+    [[nodiscard]] Course course() const noexcept { return course_; }
+    /// A move was answered as failed: should the drive show its count all the same, it is stopped.
+    void given_up(std::uint8_t count) noexcept { orphan_ = count; }
+    /// Counts are somebody else's from here on.
+    void no_orphan() noexcept { orphan_.reset(); }
     [[nodiscard]] bool fresh() const noexcept { return fresh_; }
     [[nodiscard]] bool to_target() const noexcept { return to_target_; }
 
 private:
-    std::uint8_t count_ = 0;  ///< of the last motion command, as the drive shows it in state 8
-    bool fresh_ = false;      ///< taken, and not yet seen by a poll
-    bool to_target_ = false;  ///< the last motion has a target
+    std::uint8_t count_ = 0;                                      ///< of the last motion command, as the drive shows it in state 8
+    bool fresh_ = false;                                          ///< taken, and not yet seen by a poll
+    bool to_target_ = false;                                      ///< the last motion has a target
+    Course course_ = Course::unknown, wanted_ = Course::unknown;  ///< of the motion that was taken; of the one that is being sent
+    std::optional<std::uint8_t> orphan_;                          ///< count of a move that was answered as failed
 };
 
 /// motion.cpp: Move, SetPosition.
@@ -105,6 +115,7 @@ public:
     using Verb::Verb;
     std::optional<Telegram> request(Turn& t) override;
     void answered(const Telegram& telegram, Turn& t) override;
+    void without_success(drive::Failure& how, Turn& t) override;
 
 private:
     [[nodiscard]] Point point();

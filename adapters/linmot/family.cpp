@@ -3,6 +3,7 @@
 // Never decides anything about a drive.
 #include "adapters/linmot/adapter.hpp"
 #include "adapters/linmot/decoder.hpp"
+#include "adapters/linmot/native.hpp"
 #include "adapters/linmot/twin/twin.hpp"
 #include "gateway/drive/scan_range.hpp"
 
@@ -23,6 +24,12 @@ const Family& family_linmot() {
         true,
         0,
         [](const ScanWish& wish) { return drive::scan_range(wish, 0, 255, linmot::check_address); },
+        nullptr,
+        nullptr,
+        false,
+        false,
+        nullptr,
+        linmot::stated,
     };
     return family;
 }

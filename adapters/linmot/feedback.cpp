@@ -32,7 +32,7 @@ void Feedback::sample(std::string_view id, Value value, Turn& t) {
 }
 
 void Feedback::forget() noexcept {
-    known_ = false;
+    known_ = operated_ = false;
     track_.clear();
 }
 
@@ -40,19 +40,69 @@ void Feedback::learn(const Status& s, Turn& t) {
     const bool first = !std::exchange(known_, true);
     const Status before = std::exchange(status_, s);
     ControlWord& control = drive_.control;
-    drive_.motion.seen(s);
+    drive_.motion.seen(s, t);
     control.shown(s);
+    keep_error();
     watch_errors(t);
     if (!first && s.state() == state::not_ready && before.state() > state::disabled && drive_.jobs.idle() && control.word() != cw_off) {
         drive_.notice(Severity::warning, "presence", 0, fmt::format("drive {} has restarted", drive_.title()), t);
         control.cleared();
+        operated_ = kept_ = braked_ = false;
     }
+    watch_power(t);
+    // The place has another name from here on: the difference is no way that was gone.
+    if (before.state() == state::homing && before.sub_state() != finished && (s.state() != state::homing || s.sub_state() == finished))
+        track_.clear();
     track(s, t.now);
     drive_.homing.watch(t);
     publish(t);
     if (drive_.axis() == no_axis) return;
     if (first || before.status != s.status) sample("StatusWord", std::int64_t{s.status}, t);
     if (first || before.state_var != s.state_var) sample("StateVar", std::int64_t{s.state_var}, t);
+}
+
+/// Status bit 3 stands while the motor brakes by an error; without bit 0 or 1 of the control word the drive never comes to its error state.
+void Feedback::keep_error() noexcept {
+    const Status& s = status_;
+    if (in_error()) {
+        braked_ = kept_ = false;
+    } else if (s.state() >= state::enabled && s.bit(bit::error)) {
+        braked_ = true;
+    } else if (braked_ && s.state() < state::enabled) {
+        braked_ = false;
+        kept_ = true;
+    } else if (braked_ && s.state() == state::enabled) {
+        braked_ = false;
+    }
+}
+
+/// Safe voltage enable or another input has taken the power, and the control word would give it back with the input: it is withdrawn.
+void Feedback::watch_power(Turn& t) {
+    const Status& s = status_;
+    if (s.state() >= state::enabled) {
+        operated_ = true;
+        return;
+    }
+    if (in_error()) return;
+    if ((drive_.control.word() & 0x0F) != 0x0F) operated_ = false;  // it does not ask for operation: OFF1, OFF3
+    if (!operated_ || drive_.jobs.is(drive_.power) || drive_.jobs.is(drive_.reset) || !drive_.stops.empty()) return;
+    operated_ = false;
+    drive_.stops.take_back(Disable{}, t);
+    drive_.notice(
+        Severity::warning, "power", 0,
+        fmt::format("drive {} has left operation by itself ({}): enable it again when that is over", drive_.title(), state_text()), t);
+}
+
+/// A halt brakes with what the last move had (demand.hpp), a move without a rate of its own with the drive's: the lower of them is shown.
+DriveRates Feedback::rates() const noexcept {
+    const Limits& own = drive_.limits;
+    DriveRates r;
+    r.velocity = std::int64_t{10} * own.velocity.value_or(0);
+    r.acceleration = std::int64_t{100} * own.acceleration.value_or(0);
+    const std::int64_t of_drive = std::int64_t{100} * own.deceleration.value_or(0),
+                       of_move = std::int64_t{100} * drive_.demand.ordered_deceleration();
+    r.deceleration = of_drive > 0 && of_move > 0 ? std::min(of_drive, of_move) : std::max(of_drive, of_move);
+    return r;
 }
 
 void Feedback::watch_errors(Turn& t) {
@@ -78,7 +128,11 @@ void Feedback::publish(Turn& t) {
     const Status& s = status_;
     const std::uint8_t main = s.state(), sub = s.sub_state();
     fb_.power = main >= state::enabled ? AxisFeedback::Power::on : AxisFeedback::Power::off;
-    fb_.fault = in_error();
+    fb_.fault = in_error() || kept_;
+    fb_.rates = rates();
+    fb_.course = drive_.stream.on() ? Course::endless : drive_.motion.course();
+    // Status bit 4 mirrors bit 1 of the effective control word, to which X4.12 (SVE) is always mapped [L4400].
+    fb_.safe_stop = (drive_.control.word() & 2) != 0 && !s.bit(4) && main != state::not_ready;
     fb_.warning = s.bit(bit::warning);
     fb_.referenced = s.bit(bit::homed);
     fb_.error_code = in_error() ? sub : std::uint16_t{0};

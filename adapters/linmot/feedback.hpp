@@ -27,6 +27,10 @@ public:
     [[nodiscard]] bool known() const noexcept { return known_; }
     [[nodiscard]] const Status& status() const noexcept { return status_; }
     [[nodiscard]] const AxisFeedback& fb() const noexcept { return fb_; }
+    /// An error that the drive has shown while it braked and does not show any more, because its power was taken before it came to its
+    /// error state: it stands here until it is reset.
+    [[nodiscard]] bool error_kept() const noexcept { return kept_; }
+    void error_reset() noexcept { kept_ = braked_ = false; }
     [[nodiscard]] bool in_error() const noexcept { return status_.state() == state::error || status_.state() == state::setup_error; }
     [[nodiscard]] std::string error_text() const;
     [[nodiscard]] std::string state_text() const;
@@ -34,6 +38,9 @@ public:
 
 private:
     void watch_errors(Turn& t);
+    void watch_power(Turn& t);
+    void keep_error() noexcept;
+    [[nodiscard]] DriveRates rates() const noexcept;
     void track(const Status& status, Instant now);
     void judge_motion();
     void sample(std::string_view id, Value value, Turn& t);
@@ -42,6 +49,9 @@ private:
     Status status_;
     AxisFeedback fb_;
     std::uint8_t reported_error_ = 0;
+    bool braked_ = false;                                 ///< it brakes by an error
+    bool kept_ = false;                                   ///< that error is gone from its status without a reset
+    bool operated_ = false;                               ///< it was enabled, and its word was not taken back since
     std::deque<std::pair<Instant, std::int32_t>> track_;  ///< places of the last 100 ms
 };
 

@@ -66,6 +66,7 @@ void Moves::begin_move(const Move& move, Turn& t) {
     if (relative && std::llabs(feedback.status().position + target) > far)
         return wrong(Reason::out_of_range, "the target is beyond what the drive can count");
     drive_.motion.has_target(!endless);
+    if (endless) drive_.motion.endless();
     drive_.demand.ordered(move, static_cast<std::uint32_t>(v), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(d));
     drive_.motion.begin_motion(*drive_.bus.motions.named(relative ? "011xh" : "010xh"), {target, v, a, d});
 }
@@ -85,8 +86,15 @@ Telegram MotionOrders::telegram(const Motion& motion, std::uint8_t count, std::s
     return telegram;
 }
 
-void MotionOrders::seen(const Status& s) noexcept {
+void MotionOrders::seen(const Status& s, Turn& t) {
     fresh_ = false;
+    // It had no answer, and the drive has taken it: who ordered it was told that it failed.
+    if (orphan_ && s.state() == state::enabled && (s.sub_state() & 0x0F) == *orphan_ && s.bit(bit::moving)) {
+        orphan_.reset();
+        drive_.notice(Severity::warning, "motion", 0,
+                      fmt::format("drive {} has begun a motion that was answered as failed: it is halted", drive_.title()), t);
+        drive_.stops.take_back(Halt{}, t);
+    }
     if (s.state() == state::enabled && !drive_.jobs.is(*this)) count_ = s.sub_state() & 0x0F;
 }
 
@@ -94,6 +102,7 @@ void MotionOrders::seen(const Status& s) noexcept {
 std::optional<Telegram> MotionOrders::request(Turn&) {
     if (job().step > 0) return linmot::request(drive_.id(), Main::response, 1);
     job().step = 1;
+    orphan_.reset();
     job().count = next_count();
     std::vector<std::uint8_t> bytes = job().motion;
     bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | job().count);
@@ -130,12 +139,15 @@ void MotionOrders::answered(const Telegram&, Turn& t) {
             return;
         }
         no_target();
+        given_up(j.count);
         return fail(Reason::drive_refused,
                     fmt::format("drive {} did not execute {}: its count stays {} instead of {}", drive_.title(), j.text,
                                 s.sub_state() & 0x0F, j.count),
                     t);
     }
     fresh_ = true;
+    course_ = wanted_;
+    if (std::holds_alternative<Action>(j.command.body)) drive_.start.read_again();
     if (std::holds_alternative<Move>(j.command.body))
         drive_.demand.moves(t);
     else if (std::holds_alternative<Action>(j.command.body))

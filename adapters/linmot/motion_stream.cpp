@@ -47,6 +47,7 @@ void PositionStream::begin(Turn& t) {
     state_.lead.begin(drive_.demand.place(t.now));
     state_.next = state_.received = t.now;
     drive_.motion.no_target();
+    drive_.motion.no_orphan();
     drive_.demand.forget();
 }
 

@@ -1,25 +1,26 @@
 // Native exchanges: a telegram of the client's own, completed by the drive's ID, length and frame.
 // In: hex text "sub main data...", or bytes: the same, or a whole telegram for this ID. Out: the answer in hex and in bytes.
 // Never sends to another ID. A motion command whose count did not change is sent, and the answer says that it was not executed.
+#include "adapters/linmot/native.hpp"
+
 #include <fmt/format.h>
 
 #include "adapters/linmot/drive.hpp"
 #include "gateway/core/text.hpp"
 
 namespace axisgate::linmot {
-namespace {
-std::optional<std::vector<std::uint8_t>> hex_bytes(std::span<const std::uint8_t> text) {
+
+std::optional<std::vector<std::uint8_t>> native_bytes(std::span<const std::uint8_t> text) {
     std::string digits(text.begin(), text.end());
     std::erase_if(digits, [](char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\n'; });
     return from_hex(digits);
 }
-}  // namespace
 
 std::optional<Telegram> NativeTelegram::request(Turn& t) {
     const auto& native = std::get<Native>(job().command.body);
     const Status& status = drive_.feedback.status();
     const auto wrong = [&](std::string text) { return refused(Reason::out_of_range, std::move(text), t); };
-    const auto bytes = native.is_text ? hex_bytes(native.send) : std::optional(native.send);
+    const auto bytes = native.is_text ? native_bytes(native.send) : std::optional(native.send);
     if (!bytes || bytes->size() < 2)
         return wrong("write sub ID, main ID and data as pairs of hex digits: \"01 00\" asks for the default response");
     Telegram telegram;
@@ -44,12 +45,17 @@ std::optional<Telegram> NativeTelegram::request(Turn& t) {
         (telegram.u16(0) & 0x0F) == (status.sub_state() & 0x0F))
         job().text = fmt::format(" (the count is {} as before: the drive has not executed it)", telegram.u16(0) & 0x0F);
     if (telegram.main == static_cast<std::uint8_t>(Main::control_word)) drive_.control.forget();
+    if (telegram.main == static_cast<std::uint8_t>(Main::motion)) drive_.motion.no_orphan();
     if (telegram.main == static_cast<std::uint8_t>(Main::motion) || telegram.main == static_cast<std::uint8_t>(Main::control_word))
         drive_.demand.forget();
+    // A live parameter is written by a motion command, others by the messages of their group, all of them by a restart.
+    const auto main = static_cast<Main>(telegram.main);
+    job().number = main == Main::motion || main == Main::parameters || main == Main::program ? 1 : 0;
     return telegram;
 }
 
 void NativeTelegram::answered(const Telegram& telegram, Turn& t) {
+    if (job().number != 0) drive_.start.read_again();
     job().bytes = pack(telegram, drive_.bus.checksum);
     std::string text;
     for (const auto b : job().bytes)

@@ -49,8 +49,18 @@ Point Parameters::point() {
 }
 
 void Parameters::done(Value v, Turn& t) {
+    const Place p = place_of(drive_.bus.catalogue, point());
+    const bool rate = std::ranges::find(Limits::upids, p.upid) != std::end(Limits::upids);
+    if (rate && !p.rom && std::holds_alternative<WriteParameter>(job().command.body)) drive_.start.read_again();
     t.out.samples.push_back({drive_.axis(), point(), v, Quality::good, t.now, 0});
+    if (job().command.ticket == no_ticket) drive_.start.limit_set({}, t);
     succeed({}, t, std::move(v));
+}
+
+/// A write that nobody has ordered is one of the site's limits.
+void Parameters::without_success(drive::Failure& how, Turn& t) {
+    Verb::without_success(how, t);
+    if (job().command.ticket == no_ticket) drive_.start.limit_set(how.text, t);
 }
 
 /// A text of the command table or of a curve: what is to be written is checked as a whole, before the drive is asked anything.

@@ -32,7 +32,13 @@ std::optional<Telegram> Power::request(Turn& t) {
     if (job().limit == never) job().limit = t.now + enable_limit;
     if (feedback.in_error())
         return refused(Reason::wrong_state, fmt::format("drive {} is in {}", drive_.title(), feedback.error_text()), t, s.sub_state());
+    if (feedback.error_kept())
+        return refused(Reason::wrong_state,
+                       fmt::format("drive {} has braked by an error and was switched off before it showed which: reset the fault first",
+                                   drive_.title()),
+                       t);
     if (t.now >= job().limit) {
+        drive_.stops.take_back(Disable{}, t);  // what is answered as failed must not come about later
         fail(Reason::drive_refused,
              fmt::format("drive {} stays in {}; control word bits may be held by its inputs, its parameters or another tool",
                          drive_.title(), feedback.state_text()),
@@ -75,6 +81,10 @@ std::optional<Telegram> FaultReset::request(Turn& t) {
     switch (job().step++) {
         case 0:
             if (!feedback.in_error()) {
+                if (feedback.error_kept()) {
+                    drive_.feedback.error_reset();
+                    drive_.feedback.publish(t);
+                }
                 accept({}, t);
                 return std::nullopt;
             }

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "adapters/linmot/drive.hpp"
 
 namespace axisgate::linmot {
@@ -62,8 +64,45 @@ void Start::read_silent(Turn& t) {
     if (reading_.done()) ready("; it does not answer reads of RAM values", t);
 }
 
+/// RAM is as at power-on after each restart of the drive, and that is a start here, too.
+void Start::set_limits() {
+    const auto& axes = drive_.setup().axes;
+    const Catalogue& page = drive_.bus.catalogue;
+    limits_open_ = 0;
+    if (axes.empty() || drive_.axis() == no_axis || (!axes[0].position_min && !axes[0].position_max)) return drive_.presence.limited({});
+    if (!drive_.options.keeps_limits) return drive_.presence.limited({DriveLimits::State::off, {}});
+    drive_.presence.limited({});
+    for (const auto& [id, limit] : {std::pair{"146Eh", axes[0].position_min}, std::pair{"146Fh", axes[0].position_max}}) {
+        const auto point = limit ? page.find(id) : std::nullopt;
+        if (!point) continue;
+        Command own;
+        own.axis = drive_.axis();
+        own.body = WriteParameter{*point, Value{std::clamp<std::int64_t>(*limit, INT32_MIN, INT32_MAX)}};
+        if (drive_.jobs.queue.push(std::move(own))) ++limits_open_;
+    }
+}
+
+void Start::limit_set(std::string fault, Turn& t) {
+    if (limits_open_ > 0) --limits_open_;
+    drive::Presence& presence = drive_.presence;
+    if (presence.limits().state == DriveLimits::State::refused) return;
+    if (!fault.empty()) {
+        drive_.notice(Severity::warning, "drive_limits", 0, "the drive does not take the site's limit of position: " + fault, t);
+        return presence.limited({DriveLimits::State::refused, std::move(fault)}, t.out);
+    }
+    if (limits_open_ == 0) presence.limited({DriveLimits::State::armed, {}}, t.out);
+}
+
+void Start::read_again() {
+    if (!drive_.presence.is(drive::Presence::Phase::ready) || drive_.axis() == no_axis) return;
+    drive_.limits = {};
+    reading_.begin(std::size(Limits::upids), std::size(Limits::upids));
+}
+
 void Start::ready(std::string_view more, Turn& t) {
+    if (drive_.presence.is(drive::Presence::Phase::ready)) return drive_.feedback.publish(t);  // read again
     drive_.presence.made_ready();
+    set_limits();
     drive_.feedback.publish(t);
     drive_.presence.report(fmt::format("LinMot drive, {}{}", drive_.feedback.state_text(), more), t.out);
     drive_.poll.begin(t.now, drive_.bus.timing.poll_period, drive_.slot());

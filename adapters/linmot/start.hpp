@@ -25,12 +25,19 @@ public:
     void read_next(Turn& t);
     void read(const Telegram& telegram, Turn& t);
     void read_silent(Turn& t);
+    /// The site's limits of position into 146Eh and 146Fh (RAM), as writes of the drive's own that stand behind what waits.
+    void set_limits();
+    /// One of them has ended. `fault`: empty, or why the drive does not take it.
+    void limit_set(std::string fault, Turn& t);
+    /// The limits of predefined moves may be others now: unknown, and asked again at once.
+    void read_again();
 
 private:
     void ready(std::string_view more, Turn& t);
 
     drive::Reading reading_;
-    std::string not_ours_;  ///< why a drive that answers cannot be served
+    std::size_t limits_open_ = 0;  ///< writes that have not ended
+    std::string not_ours_;         ///< why a drive that answers cannot be served
 };
 
 }  // namespace axisgate::linmot

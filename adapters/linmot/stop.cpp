@@ -20,6 +20,17 @@ void Stops::add(const Command& command, Turn& t) {
                                t.out);
 }
 
+void Stops::take_back(CommandBody stop, Turn& t) {
+    if (!empty()) return;  // an order of somebody's is on its way, and is newer
+    Command own;
+    own.axis = drive_.axis();
+    own.body = std::move(stop);
+    const auto moves = [](const Command& c) { return drive::is_motion(c.body) || std::holds_alternative<Action>(c.body); };
+    drive_.jobs.interrupt(moves, std::holds_alternative<Disable>(own.body) ? "the loss of its power" : "a motion that was not expected", t);
+    drive_.motion.no_target();
+    (void)lane_.add({std::move(own)});
+}
+
 void Stops::over(Outcome outcome, Reason reason, std::string text, Turn& t) {
     drive_.tickets.answer(lane_.first()->command.ticket, outcome, reason, std::move(text), t.out);
     lane_.remove(lane_.first());

@@ -22,6 +22,8 @@ public:
     using Part::Part;
 
     void add(const Command& command, Turn& t);
+    /// The gateway's own: a motion that nobody waits for, or a control word that would give the power back by itself.
+    void take_back(CommandBody stop, Turn& t);
     /// Of the first one; nothing: none of them has anything to stop, and they are answered.
     [[nodiscard]] std::optional<Telegram> request(Turn& t);
     void answered(Turn& t);

@@ -107,6 +107,7 @@ void Drive::came(std::string identity, Turn& t) {
 // --- what it wants ---------------------------------------------------------------------------------------------------------------
 
 void Drive::submit(const Command& c, Turn& t) {
+    if (drive::refused_behind(stops.locking(), c, jobs.queue, t)) return;
     const auto* action = std::get_if<Action>(&c.body);
     if (action && action->name == "line.setup" && !ready() && !presence.is(drive::Presence::Phase::down) && jobs.idle()) {
         // It makes the drive ready: it does not wait for that.
@@ -248,12 +249,15 @@ void Drive::line_ended(std::string_view line, Verdict v, bool own) {
     AxisDemand& demand = feedback.demand;
     if (v == Verdict::refused) return demand.refused();
     program.line_taken(line);
-    if (v == Verdict::waiting || v == Verdict::garbled) return demand.doubt(line);
-    demand.published(line, feedback.received_at, own);
     const auto w = word_of(line);
+    // By somebody's text, or nobody knows whether it was taken: what the next move would find is read anew.
+    constexpr std::array<std::string_view, 11> values{"VI", "VM", "A", "D", "EE", "AS", "MS", "IP", "FD", "IC", "DC"};
+    if (v == Verdict::waiting || v == Verdict::garbled) {
+        if (std::ranges::find(values, w) != values.end()) feedback.relearn = true;
+        return demand.doubt(line);
+    }
+    demand.published(line, feedback.received_at, own);
     if (w == "EX") feedback.program_ran();
-    // By somebody's text: what the next move would find is read anew.
-    constexpr std::array<std::string_view, 10> values{"VI", "VM", "A", "D", "EE", "AS", "MS", "IP", "IC", "DC"};
     if (!own && std::ranges::find(values, w) != values.end()) feedback.relearn = true;
 }
 

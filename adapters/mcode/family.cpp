@@ -5,6 +5,7 @@
 
 #include "adapters/mcode/adapter.hpp"
 #include "adapters/mcode/decoder.hpp"
+#include "adapters/mcode/native.hpp"
 #include "adapters/mcode/parameters_variables.hpp"
 #include "adapters/mcode/twin/twin.hpp"
 
@@ -50,6 +51,11 @@ const Family& family_mcode() {
         0,
         mcode_scan,
         mcode::own_catalogue,
+        nullptr,
+        false,
+        false,
+        nullptr,
+        mcode::stated,
     };
     return family;
 }

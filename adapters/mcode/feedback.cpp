@@ -198,6 +198,9 @@ void Feedback::emit(Turn& t) {
     if (drive_.axis() == no_axis || !seen_) return;
     fb_.at = read_at_;  // what an acknowledgement or an error code adds is newer
     fb_.homing = motion_.kind == Motion::Kind::home && (!motion_.ended || zero_after_home_);
+    // A halt and a quick stop are SL 0, which brakes with D [L861, L4110]. A program may set others while it runs: read behind it.
+    fb_.rates = relearn || flags_.by || program_ran_ ? DriveRates{} : DriveRates{values.vm, values.a, values.d, values.d};
+    fb_.course = course();
     t.out.feedback.push_back({drive_.axis(), fb_});
     if (fb_.power != AxisFeedback::Power::on) {
         // DE is 1 from the factory: as long as this gateway has not enabled it the axis is shown as off, and nobody wants it anywhere.
@@ -205,6 +208,16 @@ void Feedback::emit(Turn& t) {
         shown.demand_source = DemandSource::none;
         shown.position_demand = shown.position;
     }
+}
+
+/// What was ordered and acknowledged; else what MP says, "moving to position": MV without it is a slew.
+Course Feedback::course() const noexcept {
+    using Kind = Motion::Kind;
+    if (torque()) return Course::endless;
+    if (!motion_.ended && motion_.kind == Kind::velocity) return Course::endless;
+    if (flags_.mp || (!motion_.ended && motion_.kind == Kind::position)) return Course::to_target;
+    if (motion_.kind == Kind::home && !motion_.ended) return Course::unknown;
+    return flags_.mv && (fb_.velocity != 0 || flags_.vc) ? Course::endless : Course::unknown;
 }
 
 void Feedback::show(Turn& t) {

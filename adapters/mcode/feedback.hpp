@@ -133,6 +133,7 @@ public:
 private:
     void derive();
     void emit(Turn& t);
+    [[nodiscard]] Course course() const noexcept;
     void read_demand(std::optional<std::int64_t> lag);
     void demand_lost() noexcept;
 

@@ -123,7 +123,10 @@ void Motion::without_success(drive::Failure& how, Turn&) {
         feedback().relearn = feedback().relearn || move;
         return;
     }
-    if (move) now.vi = now.vm = now.a = now.d = 0;
+    if (move) {
+        now.vi = now.vm = now.a = now.d = 0;
+        feedback().relearn = true;
+    }
     feedback().no_zero();
 }
 

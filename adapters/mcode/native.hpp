@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adapters/mcode/drive_job.hpp"
+#include "gateway/core/family.hpp"
 
 namespace axisgate::mcode {
 
@@ -22,5 +23,8 @@ public:
     void plan(const Command& command, Turn& t) override;
     void done(Turn& t) override;
 };
+
+/// Family::stated. A line is read as the drive would, without its program and its variables.
+[[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);
 
 }  // namespace axisgate::mcode

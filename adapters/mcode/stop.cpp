@@ -37,6 +37,14 @@ void Stops::add(const Command& c, Turn& t) {
     }
 }
 
+const CommandBody* Stops::locking() const noexcept {
+    const CommandBody* which = nullptr;
+    lane_.each([&](const Stop& s) {
+        if (!std::holds_alternative<Halt>(s.command.body)) which = &s.command.body;
+    });
+    return which;
+}
+
 /// What stops without a ramp: the escape character if it can be meant for one drive alone, else the bridges.
 std::string_view Stops::at_once() const noexcept {
     return drive_.link().party() && drive_.words.es != 3 ? std::string_view("DE=0") : escape_key;

@@ -21,6 +21,8 @@ public:
     /// Its ticket is open here.
     void add(const Command& command, Turn& t);
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
+    /// A quick stop or a power-off is on its way.
+    [[nodiscard]] const CommandBody* locking() const noexcept;
     [[nodiscard]] Ticket order() const noexcept { return lane_.first()->command.ticket; }
     [[nodiscard]] bool confirming() const noexcept { return !empty() && lane_.first()->confirming; }
     [[nodiscard]] Request next(Instant now);

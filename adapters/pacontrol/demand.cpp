@@ -113,6 +113,14 @@ void Demands::ordered(Axis& a, double start, double target, Instant now) {
     m.computed.move(now, target, speed, m.ramps);
 }
 
+DriveRates Demands::rates(const Axis& a) noexcept {
+    const AxisDemand& m = a.demand;
+    const auto parameter = [&](AxisDemand::Parameter which) { return increments_of(m.parameters[which].value.value_or(0)); };
+    const std::int64_t speed = m.speed_doubted ? 0 : a.speed ? *a.speed : parameter(AxisDemand::traverse_speed);
+    const std::int64_t ramp = m.ramp_doubted ? 0 : a.acceleration ? *a.acceleration : parameter(AxisDemand::acceleration);
+    return {speed, ramp, ramp, ramp};
+}
+
 /// The ramp of the axis takes it to rest [L3756], and the place where it stands is taken over.
 void Demands::brake(Axis& a, Instant now) {
     if (!a.used()) return;

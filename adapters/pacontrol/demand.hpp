@@ -30,6 +30,9 @@ public:
     /// Source and demand that belong to the position that was received last.
     void show(Axis& a, Instant now);
     [[nodiscard]] static std::int64_t following_error(const Axis& a) noexcept;
+    /// What a motion takes and a stop brakes with: the overrides in force, else the axis parameters, which are read in home position alone.
+    /// One acceleration is both ramps and that of a stop [L3756]. 0: not known.
+    [[nodiscard]] static DriveRates rates(const Axis& a) noexcept;
     /// By more than two full steps: the shaft is held, or has lost steps.
     [[nodiscard]] static bool stands_behind(const Axis& a) noexcept;
 

@@ -41,6 +41,7 @@ void Drive::look(const DriveSetup& setup) noexcept {
 
 void Drive::submit(const Command& c, Turn& t) {
     Axis& a = *axis_of(c.axis);  // one of its own: the roster looks
+    if (drive::refused_behind(stops.locking(a), c, a.queue, t)) return;
     if (drive::admit(c, name(), presence, a.queue, tickets, t) == drive::Admission::urgent) stops.submit(a, c, t);
 }
 

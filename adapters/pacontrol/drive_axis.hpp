@@ -131,6 +131,7 @@ struct Axis {
     bool malfunction_published = false;  ///< asking for status 4 anew does not make it news
     std::uint16_t trouble = 0;  ///< PA-CONTROL error of the fault that lasts: status 4 may be read for a while after the number has gone
     int limits = -1;            ///< 1921: bit 0 power pack ready, 1 positive switch free, 2 negative switch free; -1 not read
+    bool power_lost = false;    ///< its power pack went while it was on, and is not ready since
     bool extended_missing = false;  ///< 1921 is not executable here: 1910 is read in its place
     bool reached = false;           ///< the last motion has ended at its target, by the control's counter
     bool running = false;

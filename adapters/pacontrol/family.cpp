@@ -3,6 +3,7 @@
 // Never decides anything: that is for the files beside it.
 #include "adapters/pacontrol/adapter.hpp"
 #include "adapters/pacontrol/decoder.hpp"
+#include "adapters/pacontrol/native.hpp"
 #include "adapters/pacontrol/twin/twin.hpp"
 
 namespace axisgate {
@@ -27,6 +28,12 @@ const Family& family_pacontrol() {
             if (wish.known.empty()) plan.addresses.emplace_back("com1");
             return plan;
         },
+        nullptr,
+        nullptr,
+        false,
+        false,
+        nullptr,
+        pacontrol::stated,
     };
     return family;
 }

@@ -107,6 +107,13 @@ void Feedback::derive(Axis& a, Instant now) {
     f.internal_limit = a.limits >= 0 && (a.limits & 6) != 6;
     // Stopped by the control: by its stop input, by a key, by the malfunction of another axis. Only enable, or a reset there, ends it.
     f.quick_stopping = a.on && !f.fault && is_online(drive_.mode) && drive_.mode != status::online && drive_.mode != status::online_started;
+    f.rates = Demands::rates(a);
+    // A velocity move is one to the end of the traverse area; what others have begun the control does not tell.
+    f.course = a.motion.kind == Motion::Kind::velocity   ? Course::endless
+               : a.motion.kind == Motion::Kind::position ? Course::to_target
+               : a.motion.kind == Motion::Kind::manual   ? Course::to_target
+                                                         : Course::unknown;
+    f.safe_stop = a.power_lost || drive_.mode == status::online_stop;
     f.warning = (a.limits >= 0 && a.on && !(a.limits & 1)) || (drive_.in_trouble() && !f.fault);
     drive_.demands.show(a, now);
     // The control calls it in position by its counter alone; whoever reads the flag means the shaft.
@@ -197,6 +204,7 @@ void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
     Axis& a = drive_.axes[p.axis];
     if (p.code == code::axis_parameter) drive_.demands.parameter_answered(a, p.parameter, reply, t.now);
     if (reply.quit != 0) return poll_refused(a, p, reply, t);
+    int before = -1;
     const double v = number_of(reply).value_or(0);
     const auto n = std::fabs(v) < 4e9 ? static_cast<std::uint32_t>(std::llround(std::fabs(v))) : 0u;
     switch (p.code) {
@@ -211,7 +219,9 @@ void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
             return learn_status(a, static_cast<int>(n), t);
         case code::extended_status:
             // Byte 0, the highest: power pack ready; 1 positive and 2 negative limit switch (1: free); 3 axis status [L3164-L3194].
+            before = a.limits;
             a.limits = static_cast<int>((n >> 24 & 1u) | (n >> 16 & 1u) << 1 | (n >> 8 & 1u) << 2);
+            watch_power(a, before, t);
             return learn_status(a, static_cast<int>(n & 0xFFu), t);
         case code::following_error:
             drive_.demands.following_answered(a, v, t.now);
@@ -222,6 +232,19 @@ void Feedback::poll_answered(const Poll& p, const Reply& reply, Turn& t) {
         default:
             return;
     }
+}
+
+/// The power pack of an axis that is on is not ready any more: the axis is switched off here, or it would be powered again with its pack.
+void Feedback::watch_power(Axis& a, int before, Turn& t) {
+    if ((a.limits & 1) != 0) a.power_lost = false;
+    if (before < 0 || (before & 1) == 0 || (a.limits & 1) != 0 || !a.on) return;
+    a.power_lost = true;
+    if (drive_.mode != status::online || drive_.error != 0) return;  // the way out of a malfunction switches all axes off
+    drive_.stops.add(Stops::Kind::off, a);
+    drive_.notice(
+        Severity::warning, "power", 0,
+        fmt::format("axis {}: its power pack is not ready any more: it is switched off; enable it again when that is over", a.channel), t,
+        a.id);
 }
 
 void Feedback::poll_refused(Axis& a, const Poll& p, const Reply& reply, Turn& t) {

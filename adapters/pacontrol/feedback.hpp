@@ -40,6 +40,7 @@ private:
     void learn_speed(Axis& a, double units, Turn& t);
     void learn_end(Axis& a, double units, Turn& t);
     void derive(Axis& a, Instant now);
+    void watch_power(Axis& a, int before, Turn& t);
     void check_waits(Axis& a, Turn& t);
 };
 

@@ -93,6 +93,15 @@ Request Stops::request_of(const Stop& s) const {
     return request_for(off && s.stopped ? code::axis_off : code::stop_axis, axis);
 }
 
+const CommandBody* Stops::locking(const Axis& a) const noexcept {
+    static const CommandBody quick{QuickStop{}}, off{Disable{}};
+    const CommandBody* which = nullptr;
+    waiting_.each([&](const Stop& s) {
+        if (s.axis == a.place() && s.kind != Kind::halt) which = s.kind == Kind::off ? &off : &quick;
+    });
+    return which;
+}
+
 void Stops::send(Turn& t) {
     sent_ = nullptr;
     waiting_.each([&](Stop& s) {

@@ -21,6 +21,8 @@ public:
     void forget() noexcept { supervise_at_ = never; }
 
     [[nodiscard]] bool ready() const noexcept;
+    /// A quick stop or a power-off of this axis is on its way.
+    [[nodiscard]] const CommandBody* locking(const Axis& a) const noexcept;
     void send(Turn& t);
     void answered(const Sent& sent, const Reply& reply, Turn& t);
     void not_read(const Reply& reply, Turn& t);

@@ -214,6 +214,8 @@ void Drive::learn(const mirror::State& s, Turn& t) {
     fb.velocity = s.velocity;
     fb.error_code = s.error_code;
     fb.native_status = s.statusword;
+    // By the mode that its gateway shows; rates and inputs of its drive are not in the mirror.
+    fb.course = s.mode == 1 ? Course::to_target : s.mode == 3 || (s.mode >= 8 && s.mode <= 10) ? Course::endless : Course::unknown;
     fb.simulated = s.simulated;
     // As old as it is there; what counts as stale there is never fresh here.
     const Duration age = std::max(Duration(std::chrono::milliseconds(std::min<std::int64_t>(s.age_ms, 86'400'000))),

@@ -24,6 +24,9 @@ const Family& family_remote() {
         nullptr,
         false,
         true,  // on a line dds
+        nullptr,
+        // Natives and writes of parameters are refused, and its one action is a question.
+        [](const Catalogue&, int, const CommandBody&) { return Stated{Stated::Kind::nothing}; },
     };
     return family;
 }

@@ -64,6 +64,7 @@ void Drive::break_off(Reason reason, const std::string& text, Turn& t) {
 }
 
 void Drive::submit(const Command& command, Turn& t) {
+    if (drive::refused_behind(stops.locking(), command, jobs.queue, t)) return;
     const std::string who = fmt::format("{} (ID {})", name(), address_);
     if (drive::admit(command, who, presence, jobs.queue, tickets, t) == drive::Admission::urgent) stops.add(command, t);
 }

@@ -140,6 +140,7 @@ void Exchanges::silent(Turn& t) {
     if (e.purpose == Purpose::startup) drive_.start.step_silent();
     if (e.purpose == Purpose::job) drive_.jobs.silent(t);
     if (e.purpose == Purpose::error) drive_.errors.read_again();
+    if (e.mf == 0 && Known::changes_rates(e.message)) drive_.start.read_again();
     if (e.purpose == Purpose::confirm) drive_.notice(Severity::warning, "stop", 0, "a repeated stop was not acknowledged", t);
     if (e.purpose == Purpose::confirm || e.purpose == Purpose::orphan) drive_.polls.soon(t.now);
     count_silence(t);

@@ -118,7 +118,6 @@ public:
 
 private:
     void plan_messages(const std::vector<Message>& messages, Turn& t);
-    [[nodiscard]] std::string script_of(const Action& action) const;
     void restart(Turn& t);
 
     std::optional<std::uint8_t> system_;  ///< index of the SY that it ends with: 1 reboot, 2 factory defaults

@@ -3,6 +3,7 @@
 // Never decides anything: that is for the files beside it.
 #include "adapters/uim342/adapter.hpp"
 #include "adapters/uim342/decoder.hpp"
+#include "adapters/uim342/native.hpp"
 #include "adapters/uim342/twin/twin.hpp"
 #include "gateway/drive/scan_range.hpp"
 
@@ -36,6 +37,10 @@ const Family& family_uim342() {
         [](std::span<const std::string>) {
             return std::vector<CanIdentifiers>{{true, 0, 0}};
         },
+        false,
+        false,
+        nullptr,
+        uim342::stated,
     };
     return family;
 }

@@ -29,8 +29,31 @@ void Feedback::emit(Turn& t) {
     // Status and position are two answers: the picture is as old as the older of them.
     fb_.at = std::min(status_at_, position_at_);
     fb_.homing = drive_.homing.searching();
+    fb_.rates = drive_.known.rates();
+    fb_.course = course();
+    fb_.safe_stop = safe_stop();
     drive_.demand.show(fb_);
     t.out.feedback.push_back({drive_.axis(), fb_});
+}
+
+/// What was ordered and acknowledged; else the mode of the status (JOG or PTP [L875]).
+Course Feedback::course() const noexcept {
+    using Kind = Motion::Kind;
+    if (motion_.kind == Kind::velocity) return Course::endless;
+    if (motion_.kind == Kind::absolute || motion_.kind == Kind::relative) return Course::to_target;
+    return status_.mode == 0 ? Course::endless : status_.mode == 1 ? Course::to_target : Course::unknown;
+}
+
+/// An input stands behind the edge whose action is "driver off" or "emergency stop" (IL[i]: falling in the low byte, rising in the high one
+/// [L1000]). Other stops are those of limit switches, which leave the way back free.
+bool Feedback::safe_stop() const noexcept {
+    const std::array<bool, 3> level{status_.in1, status_.in2, status_.in3};
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        const auto& il = drive_.known.ram.il[i];
+        const unsigned action = il ? (level[i] ? *il >> 8 : *il) & 0x7Fu : 0u;
+        if (action == 1 || action == 2) return true;
+    }
+    return false;
 }
 
 void Feedback::learn(const Message& request, const Message& answer, std::uint8_t mf, bool samples, Turn& t) {
@@ -42,7 +65,11 @@ void Feedback::learn(const Message& request, const Message& answer, std::uint8_t
     if (answer.cw == cw::ER) return drive_.errors.on_latest(answer, t);
     const auto value = value_of(request, answer);
     if (!value || mf != 0) return;
-    if (request.function() != cw::MO) return drive_.known.learn(request, *value, t);
+    if (request.function() != cw::MO) {
+        drive_.known.learn(request, *value, t);
+        if (drive_.known.rates() != fb_.rates || safe_stop() != fb_.safe_stop) emit(t);
+        return;
+    }
     status_.on = *value != 0;
     set_bit(0x04, status_.on);
     power_expected_ = status_.on;
@@ -57,6 +84,7 @@ void Feedback::on_status(const Message& m, Turn& t) {
     status_known_ = true;
     status_at_ = t.now;
     if (!status_.stop) {
+        if (had && before.stop && motion_.seen_moving) motion_.kind = Motion::Kind::unknown;  // an input, or somebody else, has begun it
         motion_.seen_moving = true;
         rest_unread_ = false;
     } else {

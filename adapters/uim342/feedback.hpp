@@ -99,6 +99,8 @@ private:
     void on_input(const Notification& n, Turn& t);
     void on_finished(const Notification& n, Turn& t);
     void set_bit(std::uint32_t bit, bool on) noexcept { status_.raw = on ? status_.raw | bit : status_.raw & ~bit; }
+    [[nodiscard]] Course course() const noexcept;
+    [[nodiscard]] bool safe_stop() const noexcept;
     void suspect_restart(std::string why, Turn& t);
 
     Status status_;

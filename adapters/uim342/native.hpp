@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "adapters/uim342/wire.hpp"
+#include "gateway/core/catalogue.hpp"
+#include "gateway/core/family.hpp"
 
 namespace axisgate::uim342 {
 
@@ -25,6 +27,12 @@ struct NativeScript {
 [[nodiscard]] NativeScript parse_native(std::uint8_t node, std::string_view text);
 /// `CW DL d0..` once or several times, as bytes; CW with or without the acknowledge bit, as the writer wants it.
 [[nodiscard]] NativeScript parse_native(std::uint8_t node, std::span<const std::uint8_t> bytes);
+
+/// The line that an action of the family is: an instruction by its id or name, and what follows it. Empty: there is no such action.
+[[nodiscard]] std::string script_of(const Action& action, const Catalogue& catalogue);
+/// Family::stated. AC and DC are read as pulse/s^2, as the factory has IC[4]; values of an input's group (MF) set nothing for other
+/// motions.
+[[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);
 
 /// "PP[5]", "MO".
 [[nodiscard]] std::string name_of_request(std::uint8_t cw, std::uint8_t index);

@@ -23,7 +23,7 @@ void NativeLines::plan(const Command& command, Turn& t) {
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         script = native->is_text ? parse_native(drive_.address(), text) : parse_native(drive_.address(), bytes);
     } else if (const auto* action = std::get_if<Action>(&command.body)) {
-        const std::string text = script_of(*action);
+        const std::string text = script_of(*action, drive_.bus.catalogue);
         if (text.empty()) {
             return refuse(Reason::unknown_point,
                           fmt::format("{} is not an action of the UIM342; there are reboot, factory_defaults, clear_status, clear_error, "
@@ -39,14 +39,13 @@ void NativeLines::plan(const Command& command, Turn& t) {
     plan_messages(script.messages, t);
 }
 
-/// Empty: there is no such action.
-std::string NativeLines::script_of(const Action& action) const {
+std::string script_of(const Action& action, const Catalogue& catalogue) {
     if (action.name == "reboot") return "SY[1]";
     if (action.name == "factory_defaults") return "SY[2]";
     if (action.name == "clear_status") return "MS[0]=0";
     if (action.name == "clear_error") return "ER[0]=0";
     // Any instruction of the catalogue by its id or name; the argument is what follows it: "[1]", "=5", "[0]=16", or a number.
-    const auto commands = drive_.bus.catalogue.commands();
+    const auto commands = catalogue.commands();
     const auto c = std::ranges::find_if(commands, [&](const auto& row) { return row.id == action.name || row.name == action.name; });
     if (c == commands.end()) return {};
     const std::string& a = action.argument;
@@ -100,7 +99,10 @@ void NativeLines::answered(const Step& step, const Message* answer, Turn& t) {
     s += answer ? describe_answer(*answer) : describe_request(step.message) + " sent";
     if (answer) keep(*answer, job().bytes);
     if (step.message.function() == cw::BG) drive_.feedback.begin_motion({Motion::Kind::unknown}, t);
-    if (!answer) return;
+    if (!answer) {
+        if (Known::changes_rates(step.message)) drive_.start.read_again();
+        return;
+    }
     if (step.message.function() == cw::OG) drive_.feedback.origin_set(false, t);
     drive_.polls.soon(t.now);
 }

@@ -17,6 +17,28 @@ void Known::forget() noexcept {
     ptp_speed.reset();
 }
 
+DriveRates Known::rates() const noexcept {
+    DriveRates r;
+    r.velocity = ptp_speed.value_or(0);
+    r.quick_stop = ram.sd.value_or(0);
+    if (!ram.time_ramps) return r;
+    const auto rate = [&](const std::optional<std::uint32_t>& value) -> std::int64_t {
+        if (!value || !*ram.time_ramps) return value.value_or(0);
+        const std::int64_t step = r.velocity - static_cast<std::int64_t>(ram.ss.value_or(0));
+        return *value == 0 || !ram.ss || step <= 0 ? 0 : 1000 * step / static_cast<std::int64_t>(*value);
+    };
+    r.acceleration = rate(ram.ac);
+    r.deceleration = rate(ram.dc);
+    return r;
+}
+
+bool Known::changes_rates(const Message& request) noexcept {
+    const std::uint8_t f = request.function();
+    if (f == cw::SY) return true;
+    if (form_of(request) != Form::set) return false;
+    return f == cw::AC || f == cw::DC || f == cw::SS || f == cw::SD || (f == cw::IC && request.d[0] == 4);
+}
+
 void Known::learn(const Message& request, std::int64_t value, Turn& t) {
     const std::uint8_t f = request.function(), index = request.dl > 0 ? request.d[0] : 0;
     const auto word = static_cast<std::uint32_t>(value);

@@ -17,6 +17,11 @@ public:
     /// Of group 0.
     void learn(const Message& request, std::int64_t value, Turn& t);
     void forget() noexcept;
+    /// What a positioning move without rates of its own runs with, and a quick stop brakes with: SP, AC, DC, SD in pulse/s and pulse/s^2.
+    /// Times (IC[4] = 1) are converted for the positioning speed. 0: the drive has not told it, or has no ramp there.
+    [[nodiscard]] DriveRates rates() const noexcept;
+    /// This instruction may have changed one of them, and nothing acknowledged it.
+    [[nodiscard]] static bool changes_rates(const Message& request) noexcept;
 
     struct Ram {  ///< may be lost by a restart that nobody has seen
         std::optional<std::uint32_t> ac, dc, ss, sd;

@@ -34,6 +34,15 @@ void Stops::interrupt(std::string_view by, bool power_off, Turn& t) {
     drive_.jobs.interrupt(ends, by, t);
 }
 
+const CommandBody* Stops::locking() const noexcept {
+    static const CommandBody quick{QuickStop{}}, off{Disable{}};
+    const CommandBody* which = nullptr;
+    lane_.each([&](const Stop& s) {
+        if (s.kind != Stop::Kind::halt && !s.by_supervision) which = s.kind == Stop::Kind::off ? &off : &quick;
+    });
+    return which;
+}
+
 void Stops::add_shared(Turn& t) {
     interrupt("global_stop", true, t);
     Stop s;

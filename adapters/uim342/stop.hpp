@@ -53,6 +53,8 @@ public:
     void repeat(Turn& t);
 
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
+    /// A quick stop or a power-off is on its way.
+    [[nodiscard]] const CommandBody* locking() const noexcept;
     [[nodiscard]] bool ramp() const noexcept { return ramp_; }
     template <class F>
     void each(F&& f) {

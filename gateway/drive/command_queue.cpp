@@ -28,6 +28,13 @@ Command CommandQueue::pop() {
     return c;
 }
 
+bool refused_behind(const CommandBody* stop, const Command& command, const CommandQueue& queue, Turn& t) {
+    if (!stop || std::holds_alternative<Halt>(*stop) || !is_motion(command.body) || queue.holds<Enable>(command.axis)) return false;
+    Tickets::refuse(command, Reason::interrupted,
+                    fmt::format("{} of this axis is on its way: enable the axis before it is moved again", name_of(*stop)), t.out);
+    return true;
+}
+
 Admission admit(const Command& command, std::string_view name, const Presence& presence, CommandQueue& queue, Tickets& tickets, Turn& t) {
     const auto refuse = [&](Reason reason, std::string text) {
         Tickets::refuse(command, reason, std::move(text), t.out);

@@ -31,6 +31,13 @@ public:
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
     [[nodiscard]] const Command& front() const noexcept { return waiting_.front(); }
     [[nodiscard]] Command pop();
+    /// One that waits is of this kind and axis.
+    template <class Body>
+    [[nodiscard]] bool holds(AxisId axis) const noexcept {
+        for (const Command& c : waiting_)
+            if (c.axis == axis && std::holds_alternative<Body>(c.body)) return true;
+        return false;
+    }
     /// Forgets them; their tickets are answered by Tickets::fail_all.
     void clear() noexcept { waiting_.clear(); }
 
@@ -65,6 +72,11 @@ enum class Admission : std::uint8_t {
 /// drive that does not answer may still hear.
 [[nodiscard]] Admission admit(const Command& command, std::string_view name, const Presence& presence, CommandQueue& queue,
                               Tickets& tickets, Turn& t);
+
+/// A motion that was ordered while a quick stop or a power-off of its axis is on its way would undo it where the drive itself knows no
+/// quick stop active: it is refused as interrupted, unless an Enable waits before it. `stop`: what is on its way; nullptr: nothing that
+/// counts. True: it has been answered.
+bool refused_behind(const CommandBody* stop, const Command& command, const CommandQueue& queue, Turn& t);
 
 /// Stops on their way, in order of arrival, at places that stay while they are: `Stop` is the family's, and has what one needs of it.
 template <class Stop, std::size_t limit>

@@ -77,8 +77,9 @@ private:
         enum class Why : std::uint8_t { probe, poll, step, stop } why = Why::probe;
         Message message;
         Ticket ticket = no_ticket;
-        int channel = 0;        ///< 0: of the whole drive
-        std::uint64_t job = 0;  ///< whose step it is
+        int channel = 0;                    ///< 0: of the whole drive
+        std::uint64_t job = 0;              ///< whose step it is
+        std::optional<CommandBody> body{};  ///< of a stop that a client has ordered
     };
     struct Axis {
         AxisFeedback feedback;

@@ -35,7 +35,11 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
     if (is_urgent(c.body) || is_motion(c.body)) set_points_.forget(c.axis);
-    if (admit(c, name(), presence, queue_, tickets, t) != Admission::urgent) return;
+    const CommandBody* stop = nullptr;
+    stops_.each([&](const Ask& s) {
+        if (s.channel == channel_of(c.axis) && s.body && !std::holds_alternative<Halt>(*s.body)) stop = &*s.body;
+    });
+    if (refused_behind(stop, c, queue_, t) || admit(c, name(), presence, queue_, tickets, t) != Admission::urgent) return;
     const auto ends = [&](const Command& w) { return w.axis == c.axis && ended_by(c.body, w.body); };
     (void)queue_.interrupt(ends, name_of(c.body), tickets, t);
     if (job_ && ends(job_->command)) {
@@ -45,7 +49,7 @@ void Dialogue<Message, Channels>::submit(const Command& c, Turn& t) {
     const int channel = channel_of(c.axis);
     at(channel).followed = {};
     exchange_.no_repeats();
-    if (!stops_.add({Ask::Why::stop, this->stop(c), c.ticket, channel, 0}))
+    if (!stops_.add({Ask::Why::stop, this->stop(c), c.ticket, channel, 0, c.body}))
         tickets.refused(c.ticket, Reason::busy, fmt::format("{} stops are on their way already", stop_limit), t.out);
 }
 

@@ -26,9 +26,9 @@ bool Follower::in_target(Instant now) const {
 }
 
 double Follower::home(double position, Instant now) {
-    offset_ = position - place(now).position;
+    offset_ = position - place(now).position;  // the demand still counts in the old numbers: the slider stays where it is
     homed_ = true;
-    return actual(now).position;
+    return position;
 }
 
 void Follower::control(bool on) noexcept {

@@ -21,6 +21,9 @@ struct ReadCommand {
     bool range_only = false;  ///< every fault is a value outside its range
 };
 
+/// A word of POST /axes/{name}/commands that stops an axis and leaves it powered. Every door lets whoever it lets in give one.
+[[nodiscard]] constexpr bool is_stop(std::string_view command) noexcept { return command == "halt" || command == "quick_stop"; }
+
 /// `increments_per_unit` > 0. Positions are in the axis' unit, velocities in unit/s, accelerations in unit/s^2; each becomes the nearest
 /// whole number of increments. Velocities and accelerations that would become 0 increments are refused.
 [[nodiscard]] ReadCommand read_command(const boost::json::object& body, double increments_per_unit, std::string_view unit);

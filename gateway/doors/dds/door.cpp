@@ -308,12 +308,13 @@ void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) 
 }
 
 Origin DdsDoor::origin_of(const std::string& source) {
-    auto who = std::make_shared<const std::string>(source);
+    auto who = std::make_shared<const std::string>(source.empty() ? "without a name" : source);
     return {Door::dds, who, who};
 }
 
 bool DdsDoor::to_be_done(const Asked& a) {
     if (a.source.empty() || a.id.empty()) {
+        if (a.stops) return true;  // to stop twice is no harm
         refuse(a, Reason::out_of_range, "a command over DDS has a source and an id, so that it is never carried out twice; name both");
         return false;
     }
@@ -360,7 +361,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
 
 void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const std::string_view name(s.command);
-    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, name == "halt" || name == "quick_stop"};
+    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, is_stop(name)};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -371,7 +372,7 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
         const auto& f = read.faults.front();
         return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
     }
-    note_commander(a, {Topic::axis_command, seen.writer});
+    if (!a.source.empty()) note_commander(a, {Topic::axis_command, seen.writer});
     carry_out(a, *place, std::move(*read.body), s.until_done);
 }
 
@@ -470,9 +471,33 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
 }
 
 void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then) {
+    const auto* word = order.body.if_contains("command");
+    const bool stops = word && word->is_string() && is_stop(word->get_string());
+    if (order.gateway != settings_.name) return fleet_.command(order, std::move(then), clock_());
+    if (!stops) {
+        Result fault;
+        const FleetGateway* g = fleet_.target(order, fault);
+        return g && g->here ? command_here(std::move(order), std::move(then)) : fleet_.command(order, std::move(then), clock_());
+    }
+    // Here at once, and at everybody else who has this name: one result of both.
+    if (!fleet_.has_other(order.gateway)) return command_here(std::move(order), std::move(then));
+    const auto both = [answers = std::make_shared<std::vector<Result>>(), then = std::move(then), name = settings_.name](const Result& r) {
+        answers->push_back(r);
+        if (answers->size() < 2) return;
+        // One that is gone may have been the ghost of a restart.
+        const auto silent = std::ranges::find(*answers, Reason::no_answer, &Result::reason);
+        const auto stopped = std::ranges::find_if(*answers, [](const Result& one) { return good(one); });
+        if (silent == answers->end() || stopped == answers->end()) return then(Fleet::together(*answers, name));
+        Result mixed = *stopped;
+        mixed.text += fmt::format("{}another gateway called {} has not answered", mixed.text.empty() ? "" : "; ", name);
+        then(mixed);
+    };
+    command_here(order, both);
+    fleet_.command(order, both, clock_());
+}
+
+void DdsDoor::command_here(FleetOrder order, std::function<void(const Result&)> then) {
     Result fault;
-    const FleetGateway* g = fleet_.target(order, fault);
-    if (!g || !g->here) return fleet_.command(order, std::move(then), clock_());
     const auto place = find_axis(ports_.get<SitePort>(), order.axis);
     auto read = place ? read_command(order.body, place->spec().increments_per_unit, place->spec().unit) : ReadCommand{};
     if (!read.body) {

@@ -94,6 +94,7 @@ private:
     void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
     [[nodiscard]] bool to_be_done(const Asked& asked);
     void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
+    void command_here(FleetOrder order, std::function<void(const Result&)> then);
     void tell_again(const std::string& axis);
     void tell_mirrors(std::string_view gateway, std::string_view axis);
     void refuse(const Asked& asked, Reason reason, std::string text);

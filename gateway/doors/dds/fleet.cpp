@@ -40,11 +40,22 @@ Event Fleet::lose(Known& k, Instant now) {
     k.lost_at = now;
     std::vector<std::string> unanswered;
     for (const auto& [id, w] : waiting_) {
-        if (w->instance == k.gateway.instance) unanswered.push_back(id);
+        if (w->awaited.erase(k.gateway.instance) > 0 && w->awaited.empty()) unanswered.push_back(id);
     }
-    for (const auto& id : unanswered)
-        end(id, no_result(Outcome::failed, Reason::no_answer,
-                          fmt::format("the gateway {} is gone; nobody knows whether the command was carried out", k.gateway.name)));
+    for (const auto& id : unanswered) {
+        const auto it = waiting_.find(id);
+        if (it == waiting_.end()) continue;  // the end of another one has led to it
+        const Waiting& w = *it->second;
+        std::vector<Result> answers;
+        for (const auto& [instance, answer] : w.answers)
+            answers.push_back(answer);
+        Result r = answers.empty()
+                       ? no_result(Outcome::failed, Reason::no_answer,
+                                   fmt::format("the gateway {} is gone; nobody knows whether the command was carried out", k.gateway.name))
+                       : together(answers, w.gateway);
+        if (good(r)) r.text += fmt::format("{}another gateway called {} is gone without an answer", r.text.empty() ? "" : "; ", w.gateway);
+        end(id, r);
+    }
     Event e;
     e.kind = "fleet";
     e.door = "dds";
@@ -82,6 +93,7 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     g.at_unix_ns = s.at_unix_ns;
     g.clock_ahead_ns = s.at_unix_ns - now_unix_ns;
     g.uptime_ms = s.uptime_ms;
+    k.axes_told = std::min<std::size_t>(s.axes, axes_most);
     if (!found || !other) return std::nullopt;
     e.text = fmt::format("the gateway {} is in the domain", g.name);
     return e;
@@ -133,19 +145,29 @@ void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
 void Fleet::on_result(const axisgate_CommandResult& s) {
     if (!std::string_view(s.source).starts_with(name_)) return;
     const auto it = waiting_.find(s.id);
-    // Its id was this process' own; an answer of another start, or of a namesake, is not this command's.
-    if (it == waiting_.end() || it->second->instance != s.instance || std::string_view(it->second->sample.source) != s.source) return;
+    // Its id was this process' own; an answer of another start, or of a namesake, is not this command's, if it is no stop.
+    if (it == waiting_.end() || std::string_view(it->second->sample.source) != s.source) return;
+    Waiting& w = *it->second;
+    if (!w.stops && !w.awaited.contains(s.instance)) return;
     Result r = no_result(outcome_named(s.outcome), reason_named(s.reason), s.text);
     r.code = s.code;
     if (const auto known = known_.find(s.instance); known != known_.end()) {
         const auto axis = known->second.axes.find(s.axis);
         if (axis != known->second.axes.end()) axis->second.answered = std::max(axis->second.answered, s.count);
     }
-    end(s.id, r);
+    if (!w.stops) return end(s.id, r);
+    w.awaited.erase(s.instance);
+    if (w.answers.size() < gateways_most) w.answers.emplace(s.instance, std::move(r));
+    if (!w.awaited.empty()) return;
+    std::vector<Result> answers;
+    for (const auto& [instance, answer] : w.answers)
+        answers.push_back(answer);
+    end(s.id, together(answers, w.gateway));
 }
 
 std::vector<Event> Fleet::on_turn(Instant now) {
     std::vector<Event> published;
+    if (!opened_) opened_ = now;
     for (auto& [instance, k] : known_) {
         if (instance != instance_ && k.gateway.alive && now - k.received_at > std::chrono::milliseconds(lease_ms))
             published.push_back(lose(k, now));
@@ -160,10 +182,22 @@ std::vector<Event> Fleet::on_turn(Instant now) {
         }
     }
     for (const auto& id : over) {
-        const std::string gateway = waiting_.at(id)->gateway;
-        end(id, no_result(Outcome::failed, Reason::no_answer,
-                          fmt::format("no result from the gateway {} in time; nobody knows whether the command was carried out", gateway)));
+        const auto it = waiting_.find(id);
+        if (it == waiting_.end()) continue;
+        const Waiting& w = *it->second;
+        FleetOrder to;
+        to.gateway = w.gateway;
+        Result r;
+        if (w.unheard && !target(to, r)) {
+            r.text += "; the stop was sent all the same, and nobody has answered it";
+        } else {
+            r = no_result(
+                Outcome::failed, Reason::no_answer,
+                fmt::format("no result from the gateway {} in time; nobody knows whether the command was carried out", w.gateway));
+        }
+        end(id, r);
     }
+    try_unheard(now);
     std::erase_if(known_, [now](const auto& k) { return !k.second.gateway.alive && now - k.second.lost_at >= lost_kept; });
     return published;
 }
@@ -194,15 +228,21 @@ std::int64_t Fleet::age_ms(const FleetGateway& g, const FleetAxis& a, std::int64
 Fleet::Seen Fleet::mirrored(std::string_view gateway, std::string_view axis) const {
     FleetOrder to;
     to.gateway = gateway;
+    const auto no = [&](std::string_view what, bool circle) {
+        return Seen{nullptr, nullptr, fmt::format("{}/{} {}", gateway, axis, what), false, circle};
+    };
+    if (gateway == name_) return no("is an axis of this gateway: it needs no mirror", true);
+    for (const auto& [instance, k] : known_) {
+        const auto of_it = k.gateway.name == gateway ? k.axes.find(std::string(axis)) : k.axes.end();
+        if (of_it != k.axes.end() && of_it->second.family == "remote" && k.gateway.alive)
+            return no("is a mirror itself: name the gateway that has the drive", true);
+    }
     Result fault;
     const FleetGateway* g = target(to, fault);
     if (!g) return {nullptr, nullptr, fault.text};
-    const auto no = [&](std::string_view what) { return Seen{nullptr, nullptr, fmt::format("{}/{} {}", gateway, axis, what)}; };
-    if (g->here) return no("is an axis of this gateway: it needs no mirror");
     const auto& axes = known_.at(g->instance).axes;
     const auto it = axes.find(std::string(axis));
-    if (it == axes.end()) return no("is not there: its gateway has no such axis");
-    if (it->second.family == "remote") return no("is a mirror itself: name the gateway that has the drive");
+    if (it == axes.end()) return no("is not there: its gateway has no such axis", false);
     if (!it->second.online) return {g, nullptr, fmt::format("{}/{} does not answer its own gateway", gateway, axis), true};
     return {g, &it->second, {}};
 }
@@ -228,70 +268,6 @@ const FleetGateway* Fleet::target(const FleetOrder& o, Result& fault) const {
                      : no_result(Outcome::refused, Reason::unknown_point, fmt::format("there is no gateway {} in the domain", o.gateway));
     }
     return found;
-}
-
-void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then, Instant now) {
-    Result fault;
-    const FleetGateway* g = target(o, fault);
-    if (!g) return then(fault);
-    const auto& axes = known_.at(g->instance).axes;
-    const auto axis = axes.find(o.axis);
-    if (axis == axes.end())
-        return then(no_result(Outcome::refused, Reason::unknown_point, fmt::format("{} has no axis {}", o.gateway, o.axis)));
-    // By the same rules as there, so that all that is wrong is said before anything is sent.
-    const auto read = read_command(o.body, axis->second.increments_per_unit, axis->second.unit);
-    if (!read.body) {
-        const auto& f = read.faults.front();
-        return then(no_result(Outcome::refused, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy)));
-    }
-    if (is_urgent(*read.body)) {
-        std::vector<std::string> overtaken;
-        for (const auto& [id, w] : waiting_) {
-            const std::string_view command(w->sample.command);
-            if (w->instance == g->instance && o.axis == w->sample.axis && command != "halt" && command != "quick_stop" &&
-                command != "disable")
-                overtaken.push_back(id);
-        }
-        for (const auto& id : overtaken)
-            end(id, no_result(Outcome::failed, Reason::interrupted,
-                              fmt::format("interrupted by {} before its answer came; whether it was begun is not known", read.name)));
-    } else if (waiting_.size() >= waiting_most)
-        return then(
-            no_result(Outcome::refused, Reason::busy, "too many commands to other gateways wait for their results; try again later"));
-    auto w = std::make_unique<Waiting>();
-    const std::string id = fmt::format("{:x}-{}", instance_, next_++);
-    axisgate_AxisCommand& s = w->sample;
-    put_text(s.gateway, o.gateway);
-    put_text(s.axis, o.axis);
-    put_text(s.source, fmt::format("{} {}", name_, AuthorityClient::of(o.origin).name));
-    put_text(s.id, id);
-    s.instance = w->instance = g->instance;
-    w->gateway = o.gateway;
-    put_text(s.command, read.name);
-    s.until_done = o.until_done;
-    const auto number = [&o](const char* name, auto& place, auto*& member) {
-        const auto* v = o.body.if_contains(name);
-        if (!v || !v->is_number()) return;
-        place = v->to_number<std::remove_reference_t<decltype(place)>>();
-        member = &place;
-    };
-    number("position", w->numbers[0], s.position);
-    number("velocity", w->numbers[1], s.velocity);
-    number("acceleration", w->numbers[2], s.acceleration);
-    number("deceleration", w->numbers[3], s.deceleration);
-    number("method", w->whole[0], s.method);
-    number("hold_ms", w->whole[1], s.hold_ms);
-    const auto flag = [&o](const char* name) {
-        const auto* v = o.body.if_contains(name);
-        return v && v->is_bool() && v->get_bool();
-    };
-    s.prepare = flag("prepare");
-    s.renew = flag("renew");
-    w->sent = now;
-    w->until = now + (o.wait > Duration::zero() ? std::min(o.wait, waits_most) : waits_most);
-    w->then = std::move(then);
-    const auto& kept = *waiting_.emplace(id, std::move(w)).first->second;
-    send_(kept.sample);
 }
 
 void Fleet::end(const std::string& id, const Result& result) {

@@ -1,6 +1,7 @@
 // Fleet: what the gateways of the domain tell, and commands of this one to axes of others until each has its one result.
 // In: samples, orders, time. Out: a list of gateways; events for those that come and go; command samples, sent again until they are
-// answered. Never a second command: what is sent again has the same source and id, and is meant for one start of its gateway.
+// answered. Never a second command: what is sent again has the same source and id, and is meant for one start of its gateway; but a stop is
+// for every gateway of its name.
 #pragma once
 
 #include <array>
@@ -8,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,8 @@ public:
     static constexpr Duration sent_again = std::chrono::milliseconds(500);  ///< while no result has come
     static constexpr Duration waits_most = std::chrono::minutes(5);         ///< less than a gateway remembers a command
     static constexpr Duration lost_kept = std::chrono::minutes(10);
+    /// So long a command waits for an axis, or for a gateway, that may be there and has not been heard of yet. States come twice a second.
+    static constexpr Duration heard_within = std::chrono::milliseconds(lease_ms);
 
     /// `send` puts a command on the bus. `name`, `instance`: of this gateway.
     Fleet(std::string name, std::uint64_t instance, std::function<void(const axisgate_AxisCommand&)> send)
@@ -50,7 +54,8 @@ public:
         const FleetGateway* gateway = nullptr;
         const FleetAxis* axis = nullptr;
         std::string why;
-        bool known = false;  ///< it is there, and its drive does not answer
+        bool known = false;   ///< it is there, and its drive does not answer
+        bool circle = false;  ///< it is this gateway's own or a mirror itself: a command could come back here
     };
     /// Counts gateways that come and go: what was looked up before may have changed.
     [[nodiscard]] std::uint64_t comings() const noexcept { return comings_; }
@@ -58,10 +63,20 @@ public:
     /// What is known of it was told before the newest answer to a command from here.
     [[nodiscard]] static bool outdated(const FleetAxis& axis) noexcept { return axis.sequence != 0 && axis.sequence <= axis.answered; }
     [[nodiscard]] static std::int64_t age_ms(const FleetGateway& gateway, const FleetAxis& axis, std::int64_t now_unix_ns);
-    /// Gives it to another gateway; a stop ends what waits for its axis, which would otherwise be sent again after it. `then` is called
-    /// once, perhaps from inside this call.
+    /// Gives it to another gateway. `then` is called once, perhaps from inside this call.
+    /// A stop (halt, quick_stop) is sent at once, whatever is known of its gateway and axis, to all gateways of the name but this one, and
+    /// ends what waits for its axis, which would otherwise be sent again after it. Its result comes when all that are alive have answered
+    /// or are gone; the worst of their answers counts. Up to 2 * waiting_most orders wait; a stop beyond that is sent once, and answered
+    /// with `busy`.
+    /// Anything else is for one gateway. Where its axis, or in the first moments the gateway, has not been heard of yet, it waits for that,
+    /// `heard_within` or its own `wait` at most.
     void command(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
-    [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
+    [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size() + unheard_.size(); }
+    /// Another gateway that is alive has this name.
+    [[nodiscard]] bool has_other(std::string_view name) const;
+    /// One result of the answers of several gateways of one name to a stop: the first that is not good; one that has no such axis does not
+    /// count if another has. At least one answer.
+    [[nodiscard]] static Result together(const std::vector<Result>& answers, std::string_view gateway);
     /// States of gateways and axes that came when as many as are kept were known.
     [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
 
@@ -69,17 +84,32 @@ private:
     struct Known {
         FleetGateway gateway;
         std::map<std::string, FleetAxis> axes;
+        std::size_t axes_told = 0;  // how many it says that it has
         Instant lost_at = never, received_at{};
     };
     struct Waiting {
         axisgate_AxisCommand sample{};
         std::array<double, 4> numbers{};  // what its optional members point to
         std::array<std::int32_t, 2> whole{};
-        std::uint64_t instance = 0;
+        std::set<std::uint64_t> awaited;          // whose answer is to come
+        std::map<std::uint64_t, Result> answers;  // of a stop
+        bool stops = false, unheard = false;      // `unheard`: a stop to a gateway that was not alive
         std::string gateway;
         Instant sent{}, until{};
         std::function<void(const Result&)> then;
     };
+    struct Unheard {
+        FleetOrder order;
+        Instant until{};
+        std::function<void(const Result&)> then;
+    };
+    /// Why the order can not be given yet, though it may be soon; nothing: now, or never.
+    [[nodiscard]] std::optional<std::string> not_heard_yet(const FleetOrder& order, Instant now) const;
+    void send(const FleetOrder& order, std::set<std::uint64_t> instances, std::string_view word, std::function<void(const Result&)> then,
+              Instant now);
+    void stop(const FleetOrder& order, std::string_view word, std::function<void(const Result&)> then, Instant now);
+    void end_overtaken(const std::string& gateway, const std::string& axis, std::string_view by);
+    void try_unheard(Instant now);
     void end(const std::string& id, const Result& result);
     [[nodiscard]] Event lose(Known& k, Instant now);
 
@@ -88,6 +118,8 @@ private:
     std::function<void(const axisgate_AxisCommand&)> send_;
     std::map<std::uint64_t, Known> known_;                     // by instance
     std::map<std::string, std::unique_ptr<Waiting>> waiting_;  // by id
+    std::vector<Unheard> unheard_;
+    std::optional<Instant> opened_;  // the first turn
     std::uint64_t next_ = 1, left_out_ = 0, comings_ = 0;
 };
 

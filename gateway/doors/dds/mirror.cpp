@@ -64,10 +64,9 @@ void Mirror::request(const Telegram& t, std::int64_t now_unix_ns, Instant now) {
     to.gateway = t.address.substr(0, slash);
     to.axis = t.address.substr(slash + 1);
     const auto axis = fleet_.mirrored(to.gateway, to.axis);
-    // A stop goes to whoever may still hear it; its gateway answers for its drive.
-    const bool stops = order->verb == "halt" || order->verb == "quick_stop" || order->verb == "disable";
-    const bool drive_is_silent = !axis.axis && axis.known;
-    if (!axis.axis && !(stops && drive_is_silent)) return answer(t, {Outcome::refused, Reason::line_down, 0, axis.why});
+    // A stop goes to whoever may still hear it, one that is not known or not alone, too; its gateway answers for its drive.
+    const bool goes_all_the_same = is_stop(order->verb) ? !axis.circle : order->verb == "disable" && axis.known;
+    if (!axis.axis && !goes_all_the_same) return answer(t, {Outcome::refused, Reason::line_down, 0, axis.why});
     to.body = body_of(*order, axis.axis ? axis.axis->increments_per_unit : 1);
     to.wait = std::max(wait_least, Duration(std::chrono::milliseconds(order->wait_ms)));
     static const auto who = std::make_shared<const std::string>("mirror");

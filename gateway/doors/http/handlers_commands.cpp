@@ -57,7 +57,7 @@ Handled command_axis(Call& c, AxisPort& axes, const SitePort& sites) {
     const auto* word = c.body.get_object().if_contains("command");
     const std::string_view wanted = word && word->is_string() ? std::string_view(word->get_string()) : std::string_view();
     // Whoever sees a machine may stop it. To switch it off is no stop: what hangs on it falls.
-    if (wanted != "halt" && wanted != "quick_stop") {
+    if (!is_stop(wanted)) {
         if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
     }
     auto read = read_command(c.body.get_object(), place->spec().increments_per_unit, place->spec().unit);

@@ -6,6 +6,7 @@
 #include "gateway/axis/cia402.hpp"
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/command_reader.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -69,17 +70,10 @@ Handled command_fleet_axis(Call& c, FleetPort& fleet) {
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
     if (fault) return *fault;
-    const auto list = fleet.fleet();
-    const auto gateway = std::ranges::find_if(list, [&](const FleetGateway& g) { return g.name == c.names[0]; });
-    if (gateway == list.end()) return nothing_named("gateway", c.names[0]);
-    if (std::ranges::none_of(list, [&](const FleetGateway& g) {
-            return g.name == c.names[0] && std::ranges::any_of(g.axes, [&](const FleetAxis& a) { return a.name == c.names[1]; });
-        }))
-        return nothing_named("axis", c.names[0] + "/" + c.names[1]);
     const auto* word = c.body.get_object().if_contains("command");
     const std::string name(word && word->is_string() ? std::string_view(word->get_string()) : std::string_view());
     // As for an axis of this gateway: whoever sees a machine may stop it.
-    if (name != "halt" && name != "quick_stop") {
+    if (!is_stop(name)) {
         if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
     }
     FleetOrder order;
@@ -90,6 +84,7 @@ Handled command_fleet_axis(Call& c, FleetPort& fleet) {
     order.origin = c.origin();
     const std::string axis = c.names[0] + "/" + c.names[1];
     fleet.command(std::move(order), [respond = c.respond, axis, name](const Result& r) {
+        if (r.reason == Reason::unknown_point) return respond(problem(404, "not_found", r.text));
         respond(good(r) ? answer_of(r, axis, name) : problem_of(r, axis, name));
     });
     if (wait_s > 0) {

@@ -235,6 +235,48 @@ TEST_F(DdsDoorTest, TwoGatewaysWithOneNameAreToldApartByTheirInstances) {
     ASSERT_TRUE(until([this] { return gateway.submitted.size() == 3; }));
 }
 
+TEST_F(DdsDoorTest, AStopToOnesOwnNameIsCarriedOutHereAndSentToTheOther) {
+    axisgate_GatewayState s{};
+    put_text(s.gateway, "hall");
+    s.instance = 99;
+    ASSERT_TRUE(peer.write(s));
+    ASSERT_TRUE(until([this] { return gateway.noted.size() == 2; }));
+    Bus second([] {});
+    ASSERT_EQ(second.open({test::own_domain(2), "plant", "lo"}, {}, {Topic::axis_command}), "");
+    std::vector<axisgate_AxisCommand> received;
+    std::vector<Result> came;
+    FleetOrder o;
+    o.gateway = "hall";
+    o.axis = "feeder";
+    o.body = {{"command", "halt"}};
+    o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+    door->command(o, [&came](const Result& r) { came.push_back(r); });
+    ASSERT_EQ(gateway.submitted.size(), 1u) << "at once";
+    EXPECT_TRUE(std::holds_alternative<Halt>(gateway.submitted[0].body));
+    Result r;
+    r.outcome = Outcome::accepted;
+    gateway.finish(r);
+    ASSERT_TRUE(until([&] {
+        (void)peer.write(s);
+        (void)second.take<axisgate_AxisCommand>(64, [&](const auto& c, const auto&) { received.push_back(c); });
+        return !received.empty();
+    }));
+    EXPECT_STREQ(received[0].command, "halt");
+    EXPECT_TRUE(came.empty()) << "the other one has not answered";
+    ASSERT_TRUE(until([&] { return !came.empty(); })) << "it is not heard any more";
+    EXPECT_TRUE(good(came[0]));
+    EXPECT_NE(came[0].text.find("another gateway called hall has not answered"), std::string::npos) << came[0].text;
+    second.close();
+}
+
+TEST_F(DdsDoorTest, AStopWithoutSourceOrIdIsCarriedOut) {
+    auto c = command("", "feeder", "quick_stop");
+    put_text(c.source, "");
+    ASSERT_TRUE(peer.write(c));
+    ASSERT_TRUE(until([this] { return gateway.submitted.size() == 1; }));
+    EXPECT_TRUE(std::holds_alternative<QuickStop>(gateway.submitted[0].body));
+}
+
 TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
     axisgate_SetPoint s{};
     put_text(s.gateway, "hall");
@@ -462,6 +504,8 @@ TEST_F(DdsFleetTest, ACommandToThisGatewayStaysHere) {
 }
 
 TEST_F(DdsFleetTest, WhatCannotBeSentIsRefusedBeforeIt) {
+    const Instant settled = now + Fleet::heard_within;
+    ASSERT_TRUE(until([&] { return now > settled; }));
     give(order("nowhere", {{"command", "enable"}}));
     give(order("yard", {{"command", "move_absolute"}}));
     auto other = order("yard", {{"command", "enable"}});

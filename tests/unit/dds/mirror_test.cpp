@@ -157,11 +157,17 @@ TEST_F(MirrorTest, NoMirrorOfAMirrorNorOfOnesOwnAxis) {
                                        {"hall-2/nobody", "has no such axis"}}) {
         published.clear();
         say(address, "state");
-        say(address, "halt wait=5000");
+        say(address, "enable wait=5000");
         ASSERT_EQ(published.size(), 2u) << address;
         EXPECT_EQ(published[0].kind, Telegram::Kind::gone);
         EXPECT_THAT(published[0].body, HasSubstr(why));
         EXPECT_EQ(mirror::answer_of(published[1].body)->outcome, Outcome::refused);
+    }
+    for (const auto* address : {"hall-2/seen", "hall-1/own"}) {
+        published.clear();
+        say(address, "halt wait=5000");
+        ASSERT_EQ(published.size(), 1u) << address;
+        EXPECT_EQ(mirror::answer_of(published[0].body)->outcome, Outcome::refused);
     }
     EXPECT_TRUE(sent.empty());
 }

@@ -61,9 +61,26 @@ TEST_F(FleetOverHttp, ACommandGoesToItsGatewayAndComesBackWithItsOneResult) {
     const auto refused = call("POST", "/api/v1/fleet/hall-2/axes/lift/commands", R"({"command":"home"})");
     EXPECT_EQ(refused.status, 409u);
     EXPECT_NE(refused.text.find("axis lift is not enabled"), std::string::npos) << refused.text;
-    EXPECT_EQ(call("POST", "/api/v1/fleet/hall-9/axes/lift/commands", R"({"command":"enable"})").status, 404u);
-    EXPECT_EQ(call("POST", "/api/v1/fleet/hall-2/axes/nobody/commands", R"({"command":"enable"})").status, 404u);
-    EXPECT_EQ(gateway.orders.size(), 2u);
+    gateway.fleet_result.reason = Reason::unknown_point;
+    gateway.fleet_result.text = "there is no gateway hall-9 in the domain";
+    const auto nobody = call("POST", "/api/v1/fleet/hall-9/axes/lift/commands", R"({"command":"enable"})");
+    EXPECT_EQ(nobody.status, 404u);
+    EXPECT_EQ(nobody.at("reason"), "not_found");
+    gateway.fleet_result.reason = Reason::line_down;
+    gateway.fleet_result.text = "the axis hall-2/nobody has not been heard of yet";
+    EXPECT_EQ(call("POST", "/api/v1/fleet/hall-2/axes/nobody/commands", R"({"command":"enable"})").status, 503u) << "and no 404 before";
+}
+
+TEST_F(FleetOverHttp, AStopIsHandedToTheFleetWhateverIsKnownOfItsGatewayAndAxis) {
+    gateway.gateways.push_back(gateway.gateways[0]);  // two of one name
+    gateway.gateways[1].instance = 18;
+    gateway.fleet_result.outcome = Outcome::accepted;
+    for (const auto* path : {"/api/v1/fleet/hall-2/axes/lift/commands", "/api/v1/fleet/hall-2/axes/nobody/commands",
+                             "/api/v1/fleet/hall-9/axes/lift/commands"}) {
+        gateway.orders.clear();
+        EXPECT_EQ(call("POST", path, R"({"command":"quick_stop"})").status, 200u) << path;
+        EXPECT_EQ(gateway.orders.size(), 1u) << path;
+    }
 }
 
 }  // namespace

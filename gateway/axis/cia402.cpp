@@ -204,7 +204,10 @@ bool Cia402Axis::change_motion(State& s, std::uint16_t before, std::uint16_t cw,
         }
         Move m;
         m.kind = (cw & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
-        m.target = own.target_known ? own.target_position : s.target_position;
+        // A target that this door has not written since the axis was enabled, or since another drive serves it, is nobody's wish: what
+        // register 34 shows may be another client's, or be older. The axis stays where it is.
+        const std::int64_t here = m.kind == Move::Kind::relative ? 0 : s.feedback.position;
+        m.target = own.target_known ? own.target_position : here;
         m.velocity = own.velocity;
         if (own.acceleration) m.acceleration = own.acceleration;
         if (own.deceleration) m.deceleration = own.deceleration;
@@ -309,8 +312,11 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
                       s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
     if (std::holds_alternative<Enable>(body)) {
         if (s.feedback.fault) return faulty();
-        s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
-        if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
+        // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
+        const bool already = s.state == PowerState::operation_enabled && s.power_pending != 0;
+        const unsigned kept = already ? s.controlword : 0;
+        s.controlword = static_cast<std::uint16_t>(kept | cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation);
+        if (!already) {
             s.virtual_step = 3;
             order_on(s, AuthorityClient::of(by), d);
         }

@@ -73,7 +73,8 @@ public:
     /// Registers 32..47: values are latched, then the control word is followed. Set-points act on edges, never on levels. A word that ends
     /// a motion or the power is followed even if something else in it cannot be; without a drive that answers only such a word is sent.
     /// `by`: whose registers these are. A set-point moves with the target and the profile that its own door has written, never with
-    /// another's; a profile velocity that this door has not written, or wrote as 0, is refused with the set-point.
+    /// another's; a profile velocity that this door has not written, or wrote as 0, is refused with the set-point. Without a target
+    /// that it has written since the axis was enabled and the present drive serves it, the axis stays where it is.
     [[nodiscard]] Decision on_process_data(const ProcessData& data, const Origin& by = {});
     /// The commands of POST /axes/{name}/commands (all bodies but ProcessData, parameters and the like).
     [[nodiscard]] Decision on_command(const CommandBody& body, const Origin& by = {});

@@ -291,6 +291,13 @@ void Subject::apply(Event event) {
             d.mode = other;
             d.target_velocity = 77;
             return answer(write(d, plc()));
+        case another_mode_and_back: {
+            const std::int16_t present = picture().mode;
+            d.mode = other;
+            answer(write(d, plc()));
+            d.mode = present;
+            return answer(write(d, plc()));
+        }
         case target_velocity_zero:
             d.target_velocity = 0;
             return answer(write(d, plc()));
@@ -359,7 +366,12 @@ void Subject::apply(Event event) {
         case same_presence:
             return profile.on_presence(picture().presence);
         case another_drive:
-            return profile.on_presence(picture().presence == Presence::device ? Presence::twin : Presence::device);
+        case another_drive_that_is_on:
+            profile.on_presence(picture().presence == Presence::device ? Presence::twin : Presence::device);
+            if (event == another_drive) return;
+            drive.power = Power::on;
+            drive.fault = drive.moving = drive.homing = drive.quick_stopping = false;
+            return said();
         case count:
             return;
     }
@@ -410,6 +422,7 @@ Seen Subject::look() const {
     at(Value::halt) = profile.may_follow().text.find("halt") != std::string::npos ? "1" : "0";
     at(Value::quick_stop) = profile.state() == PowerState::quick_stop_active ? "1" : "0";
     at(Value::referenced) = p.flags & flag_referenced ? "1" : "0";
+    at(Value::position) = std::to_string(p.position);
     at(Value::commanded) = profile.commanded() ? "1" : "0";
     {
         Subject s = *this;

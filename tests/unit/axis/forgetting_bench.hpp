@@ -54,6 +54,7 @@ enum class Event : std::uint8_t {
     same_mode,
     another_mode,
     another_mode_and_velocity,
+    another_mode_and_back,
     target_velocity_zero,
     // of another client
     target_of_another,
@@ -87,6 +88,7 @@ enum class Event : std::uint8_t {
     // who serves the axis
     silence,
     another_drive,
+    another_drive_that_is_on,  // and says so, at rest
     same_presence,
     count
 };
@@ -111,6 +113,7 @@ enum class Value : std::uint8_t {
     target,  // of the next set-point of "plc"
     speeds,  // of the same
     referenced,
+    position,
     commanded,
     count
 };
@@ -134,6 +137,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Event::count)> event_
                                                                                       "same_mode",
                                                                                       "another_mode",
                                                                                       "another_mode_and_velocity",
+                                                                                      "another_mode_and_back",
                                                                                       "target_velocity_zero",
                                                                                       "target_of_another",
                                                                                       "speeds_of_another",
@@ -162,6 +166,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Event::count)> event_
                                                                                       "stopped_at_the_drive",
                                                                                       "silence",
                                                                                       "another_drive",
+                                                                                      "another_drive_that_is_on",
                                                                                       "same_presence"};
 /// Each value's name, and how it looks when it is forgotten.
 constexpr std::array<std::array<const char*, 2>, static_cast<std::size_t>(Value::count)> value_names{{{"controlword", "0"},
@@ -183,6 +188,7 @@ constexpr std::array<std::array<const char*, 2>, static_cast<std::size_t>(Value:
                                                                                                       {"target", "70"},
                                                                                                       {"speeds", "0 0 0"},
                                                                                                       {"referenced", "0"},
+                                                                                                      {"position", "0"},
                                                                                                       {"commanded", "0"}}};
 
 /// A few of an enumeration.

@@ -44,7 +44,7 @@ inline std::vector<Rule> rules() {
     const Events positions{E::move_absolute, E::move_relative}, moves = positions | Events{E::move_velocity, E::move_refused};
     const Events quick_stops{E::quick_stop_bit, E::quick_stop, E::stopped_at_the_drive};
     const Events switch_off = off_words | Events{E::disable, E::power_lost}, homings{E::home, E::home_refused};
-    const Events streamed{E::stream_position, E::stream_velocity}, served{E::silence, E::another_drive};
+    const Events streamed{E::stream_position, E::stream_velocity}, served{E::silence, E::another_drive, E::another_drive_that_is_on};
     const Values motion{V::active, V::waiting, V::end_of_halt, V::bit_12, V::halt, V::ordered_velocity, V::shown_velocity};
     return {
         // ---- words ----
@@ -134,6 +134,18 @@ inline std::vector<Rule> rules() {
          S::halted,
          {},
          {{V::end_of_halt, "velocity 77"}}},
+        {"another mode forgets the speed and what waits, though it is left again",
+         E::another_mode_and_back,
+         any,
+         {V::shown_velocity, V::waiting, V::ordered_velocity}},
+        {"bit 12 falls with the mode", E::another_mode_and_back, any.but(streams), V::bit_12},
+        {"the end of a halt does not go on with an old speed", E::another_mode_and_back, S::turning_halted, V::end_of_halt},
+        {"a mode that is chosen during a stream outlasts it", E::another_mode_and_back, S::following, {}, {{V::mode_after_stream, "8"}}},
+        {"a mode that is chosen during a stream outlasts it",
+         E::another_mode_and_back,
+         S::following_speed,
+         {},
+         {{V::mode_after_stream, "9"}}},
         {"a target velocity is shown", E::target_velocity_zero, any, V::shown_velocity},
         {"a target velocity is ordered", E::target_velocity_zero, S::turning, V::ordered_velocity, {{V::set_points, "+1"}}},
         {"a target velocity under halt is what its end goes on with", E::target_velocity_zero, S::turning_halted, V::end_of_halt},
@@ -184,7 +196,7 @@ inline std::vector<Rule> rules() {
          {E::same_again, E::arrived, E::power_lost, E::fault, E::stopped_at_the_drive},
          S::unheard,
          {},
-         {{V::referenced, "1"}, {V::commanded, "1"}}},
+         {{V::referenced, "1"}, {V::commanded, "1"}, {V::position, "70"}}},
         {"a stop at the drive is seen from its first word on", E::stopped_at_the_drive, S::unheard, {}, {{V::quick_stop, "1"}}},
         {"a motion that has arrived is forgotten", E::arrived, any, V::active},
         {"what waits begins when the motion has arrived", E::arrived, S::waiting, {V::waiting, V::bit_12}},
@@ -200,6 +212,12 @@ inline std::vector<Rule> rules() {
         {"a change of presence forgets all motion", served, any, motion | Values{V::bit_13, V::quick_stop, V::controlword}},
         {"a change of presence forgets written targets", served, any, V::target},
         {"a change of presence forgets what the drive has said", served, any, {V::referenced, V::commanded}},
+        {"silence keeps the last position, another drive begins with its own", E::another_drive, any, V::position},
+        {"another drive is seen by what it says itself",
+         E::another_drive_that_is_on,
+         any,
+         {},
+         {{V::referenced, "1"}, {V::commanded, "1"}, {V::position, "70"}}},
         {"a change of presence ends the stream", served, streams, {}, {{V::mode, "1"}}},
         {"silence that goes on changes nothing", E::silence, S::silent, {}, {}, {}, V::shown_velocity},
         {"who serves it already changes nothing", E::same_presence, any},

@@ -88,5 +88,23 @@ TEST(Forgetting, AMotionOnItsWayIsForgottenWithTheDriveThatWasToTakeIt) {
     }
 }
 
+/// Neither what register 34 shows nor the position itself is a distance.
+TEST(Forgetting, ASetPointWithoutATargetOfItsClientStaysWhereTheAxisIs) {
+    for (const bool relative : {false, true}) {
+        Subject s(Situation::standing);
+        s.apply(Event::another_drive_that_is_on);
+        ProcessData d;
+        d.profile_velocity = 200;
+        d.controlword = 0x0F;
+        (void)s.profile.on_process_data(d);
+        d.controlword = relative ? 0x5F : 0x1F;
+        const auto r = s.profile.on_process_data(d);
+        ASSERT_EQ(r.orders.size(), 1u) << r.text;
+        const auto& m = std::get<Move>(r.orders[0]);
+        EXPECT_EQ(m.kind, relative ? Move::Kind::relative : Move::Kind::absolute);
+        EXPECT_EQ(m.target, relative ? 0 : 70);
+    }
+}
+
 }  // namespace
 }  // namespace axisgate::forgetting

@@ -241,13 +241,10 @@ bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
     }
     Move m;
     m.kind = (r.word & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
-    if (m.kind == Move::Kind::relative && !own.target_known) {
-        d = refuse(
-            Reason::out_of_range,
-            "a relative set-point (bit 6) needs a distance: this client has not written a target position since the axis was enabled");
-        return false;
-    }
-    m.target = own.target_known ? own.target_position : s.feedback.position;
+    // A target that this client has not written since the axis was enabled, or since another drive serves it, is nobody's wish: what
+    // register 34 shows may be another client's, or be older. The axis stays where it is.
+    const std::int64_t here = m.kind == Move::Kind::relative ? 0 : s.feedback.position;
+    m.target = own.target_known ? own.target_position : here;
     m.velocity = own.velocity;
     if (own.acceleration) m.acceleration = own.acceleration;
     if (own.deceleration) m.deceleration = own.deceleration;
@@ -434,8 +431,11 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
                       s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
     if (std::holds_alternative<Enable>(body)) {
         if (s.feedback.fault) return faulty();
-        s.controlword = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
-        if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
+        // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
+        const bool already = s.state == PowerState::operation_enabled && s.power_pending != 0;
+        const unsigned kept = already ? s.controlword & ~unsigned{cw_halt} : 0;
+        s.controlword = static_cast<std::uint16_t>(kept | cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation);
+        if (!already) {
             s.virtual_step = 3;
             order_on(s, own, d);
         } else if (s.halted) {

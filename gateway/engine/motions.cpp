@@ -120,6 +120,7 @@ void Motions::rests(Axis& a, Instant now) {
     if (told_to_end || (a.stops.wanted && !a.motions_asked && rest > rest_ends)) a.stops.wanted.reset();
     if (a.suspected && rest > rest_ends) a.suspected.reset();
     if (!m.runs()) {
+        a.watch = {f.position, now, 0};  // the next position comes one round from here
         a.moves_since = {};
         a.contradicts = m.alarmed = false;
         return;

@@ -29,7 +29,15 @@ Stated Orders::stated(const Axis& a, const CommandBody& body) {
     nothing.kind = Stated::Kind::nothing;
     const bool in_its_language = std::holds_alternative<Native>(body) || std::holds_alternative<Action>(body);
     if (!in_its_language && !std::holds_alternative<WriteParameter>(body)) return nothing;
-    if (const auto read = a.drive->family.family->stated) return read(*a.drive->catalogue, a.spec.channel, body);
+    if (const auto read = a.drive->family.family->stated) {
+        Stated said = read(*a.drive->catalogue, a.spec.channel, body);
+        // An action that is complete when the axis has arrived, or stands, moves it, whatever it is called.
+        const auto* action = std::get_if<Action>(&body);
+        const CatalogueCommand* listed = action ? a.drive->catalogue->command(action->name) : nullptr;
+        const bool moves = listed && (listed->completes == Completion::target_reached || listed->completes == Completion::standstill);
+        if (moves && said.kind == Stated::Kind::nothing) said.kind = Stated::Kind::unread;
+        return said;
+    }
     return in_its_language ? Stated{} : nothing;
 }
 

@@ -7,8 +7,8 @@
 namespace axisgate {
 namespace {
 constexpr std::array<std::string_view, loss_causes.size() + 1> cause_names{
-    "none",           "modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed",
-    "enip_timed_out", "enip_idle",     "line_lost",     "gateway_ends",      "dds_deadline"};
+    "none",      "modbus_closed", "modbus_silent", "set_points_silent", "lease_ended",         "enip_closed", "enip_timed_out",
+    "enip_idle", "line_lost",     "gateway_ends",  "dds_deadline",      "enip_session_closed", "enip_silent"};
 constexpr std::array<std::string_view, 4> action_names{"nothing", "halt", "quick_stop", "disable"};
 }  // namespace
 

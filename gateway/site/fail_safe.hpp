@@ -15,20 +15,23 @@ namespace axisgate {
 /// Why the commander of an axis counts as lost. The numbers are register 22 of the standard map.
 enum class LossCause : std::uint8_t {
     none = 0,
-    modbus_closed = 1,      ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
-    modbus_silent = 2,      ///< connected, but no request for longer than the watchdog time
-    set_points_silent = 3,  ///< it streamed set-points (not over DDS), and the next one did not come in time
-    lease_ended = 4,        ///< it held the axis by a lease, and let it expire
-    enip_closed = 5,        ///< its EtherNet/IP connection was closed, by its scanner or by the gateway
-    enip_timed_out = 6,     ///< its EtherNet/IP connection brought nothing for its time-out (interval x multiplier)
-    enip_idle = 7,          ///< its scanner says that it is in program mode (the run/idle bit)
-    line_lost = 8,          ///< the drive could not be reached while it was commanded; acted upon when it answers again
-    gateway_ends = 9,       ///< the gateway itself is told to end
-    dds_deadline = 10       ///< it commands over DDS: its set-point missed its deadline, or nobody writes for it any more (liveliness)
+    modbus_closed = 1,         ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
+    modbus_silent = 2,         ///< connected, but no request for longer than the watchdog time
+    set_points_silent = 3,     ///< it streamed set-points (not over DDS), and the next one did not come in time
+    lease_ended = 4,           ///< it held the axis by a lease, and let it expire
+    enip_closed = 5,           ///< its EtherNet/IP connection was closed, by its scanner or by the gateway
+    enip_timed_out = 6,        ///< its EtherNet/IP connection brought nothing for its time-out (interval x multiplier)
+    enip_idle = 7,             ///< its scanner says that it is in program mode (the run/idle bit)
+    line_lost = 8,             ///< the drive could not be reached while it was commanded; acted upon when it answers again
+    gateway_ends = 9,          ///< the gateway itself is told to end
+    dds_deadline = 10,         ///< it commands over DDS: its set-point missed its deadline, or nobody writes for it any more (liveliness)
+    enip_session_closed = 11,  ///< it commanded by EtherNet/IP messages, and the last session or connection by which it did has ended
+    enip_silent = 12           ///< it commanded by EtherNet/IP messages, is connected, but sent nothing for longer than the watchdog time
 };
-inline constexpr std::array<LossCause, 10> loss_causes{
-    LossCause::modbus_closed,  LossCause::modbus_silent, LossCause::set_points_silent, LossCause::lease_ended,  LossCause::enip_closed,
-    LossCause::enip_timed_out, LossCause::enip_idle,     LossCause::line_lost,         LossCause::gateway_ends, LossCause::dds_deadline};
+inline constexpr std::array<LossCause, 12> loss_causes{
+    LossCause::modbus_closed, LossCause::modbus_silent,  LossCause::set_points_silent,   LossCause::lease_ended,
+    LossCause::enip_closed,   LossCause::enip_timed_out, LossCause::enip_idle,           LossCause::line_lost,
+    LossCause::gateway_ends,  LossCause::dds_deadline,   LossCause::enip_session_closed, LossCause::enip_silent};
 /// As the enumerator is called: the word of the site's document.
 [[nodiscard]] std::string_view name_of(LossCause cause) noexcept;
 
@@ -50,7 +53,7 @@ struct AtLoss {
 /// stopped quickly. What the site names holds for every motion, and `disable` for an enabled axis at rest as well.
 struct FailSafe {
     std::array<std::optional<FailSafeAction>, loss_causes.size()> chosen;
-    std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not watched; absent: the gateway's [modbus] watchdog_ms
+    std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not watched; absent: the gateway's [modbus] watchdog_ms, for every door
 
     [[nodiscard]] std::optional<FailSafeAction>& of(LossCause cause) { return chosen.at(static_cast<std::size_t>(cause) - 1); }
     [[nodiscard]] const std::optional<FailSafeAction>& of(LossCause cause) const { return chosen.at(static_cast<std::size_t>(cause) - 1); }

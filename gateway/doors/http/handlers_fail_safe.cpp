@@ -45,6 +45,10 @@ std::string_view described(LossCause cause) {
             return "the gateway is told to end";
         case LossCause::dds_deadline:
             return "who commands it does so over DDS, and its set-points have missed their deadline or nobody writes for it any more";
+        case LossCause::enip_session_closed:
+            return "who commands it did so by EtherNet/IP messages, and the last session or connection by which it did has ended";
+        case LossCause::enip_silent:
+            return "who commands it does so by EtherNet/IP messages, and has sent nothing for longer than watchdog_ms";
         case LossCause::none:
             break;
     }

@@ -533,6 +533,49 @@ export interface paths {
         patch: operations["changeModbus"];
         trace?: never;
     };
+    "/api/v1/connections": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Who is connected over EtherNet/IP and Modbus/TCP
+         * @description EtherNet/IP sessions, connections of messages and of implicit data, and Modbus/TCP connections. They are told anew with each request.
+         */
+        get: operations["listConnections"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/connections/{connection}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description its id in the list */
+                connection: string;
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Closes one connection of a client
+         * @description It ends as if its network had ended it. Its client is lost for the axes that it commanded by it, and each of them does what its `fail_safe` says. The client may connect again.
+         */
+        delete: operations["closeConnection"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/eds": {
         parameters: {
             query?: never;
@@ -2791,7 +2834,9 @@ export interface components {
             line_lost?: components["schemas"]["FailSafeAction"];
             gateway_ends?: components["schemas"]["FailSafeAction"];
             dds_deadline?: components["schemas"]["FailSafeAction"];
-            /** @description how long a connected Modbus client may ask nothing; 0: for ever; left out: [modbus] watchdog_ms */
+            enip_session_closed?: components["schemas"]["FailSafeAction"];
+            enip_silent?: components["schemas"]["FailSafeAction"];
+            /** @description how long a connected Modbus client may ask nothing, and one that commands by EtherNet/IP messages may send nothing; 0: for ever; left out: [modbus] watchdog_ms */
             watchdog_ms?: number;
         };
         /** @enum {string} */
@@ -2813,12 +2858,14 @@ export interface components {
             line_lost?: components["schemas"]["FailSafeWish"];
             gateway_ends?: components["schemas"]["FailSafeWish"];
             dds_deadline?: components["schemas"]["FailSafeWish"];
+            enip_session_closed?: components["schemas"]["FailSafeWish"];
+            enip_silent?: components["schemas"]["FailSafeWish"];
             watchdog_ms?: number | null;
         };
         FailSafeRow: {
             axis: string;
             fail_safe: components["schemas"]["FailSafeChoice"];
-            /** @description for how long a connected Modbus client may ask nothing; 0: for ever */
+            /** @description for how long a connected Modbus client may ask nothing, and one that commands by EtherNet/IP messages may send nothing; 0: for ever */
             watchdog_ms_in_force: number;
             /** @description why the gateway stopped the axis without a command, until the next command to it */
             last_cause: string | null;
@@ -2846,7 +2893,7 @@ export interface components {
         FailSafeMatrix: {
             causes: {
                 /** @enum {string} */
-                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline";
+                cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent";
                 /** @description as register 22 of the axis has it */
                 number: number;
                 description: string;
@@ -2862,7 +2909,7 @@ export interface components {
              * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything
              * @enum {string}
              */
-            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "gateway_gone";
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "gateway_gone";
             /** @description what the site names; null: the default */
             chosen: string | null;
             taken: components["schemas"]["FailSafeAction"];
@@ -2967,7 +3014,7 @@ export interface components {
              * @description why the gateway stopped the axis without a command, until the next command to it; null - it did not
              * @enum {string|null}
              */
-            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | null;
+            readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | null;
             /** @description in `unit`; null until the drive has said it */
             readonly position: number | null;
             /** @description whether somebody says where the axis should be now; if not, position_demand and following_error are null */
@@ -3327,6 +3374,27 @@ export interface components {
         };
         ModbusChange: {
             read_only: boolean;
+        };
+        ClientConnection: {
+            /** @description the name of the door and a number; never used again while the gateway runs */
+            id: string;
+            /** @enum {string} */
+            door: "modbus" | "enip";
+            /** @enum {string} */
+            kind: "modbus_tcp" | "session" | "messages" | "exclusive_owner" | "input_only" | "listen_only";
+            /** @description address and port of the client */
+            peer: string;
+            /** Format: date-time */
+            since: string;
+            /**
+             * Format: date-time
+             * @description when something came by it last
+             */
+            received_at: string;
+            /** @description axes that it owns: of an exclusive owner */
+            axes: string[];
+            /** @description its client has commanded by it; of an exclusive owner: it is in run mode */
+            commands: boolean;
         };
         ModbusDoor: {
             bind: string;
@@ -6279,6 +6347,55 @@ export interface operations {
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listConnections: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the connections, by id */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClientConnection"][];
+                };
+            };
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    closeConnection: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description its id in the list */
+                connection: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description it is closed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
             default: components["responses"]["Problem"];
         };
     };

@@ -15,6 +15,8 @@ const causes: Record<Cause, string> = {
   line_lost: t('Drive not reached'),
   gateway_ends: t('Gateway is ended'),
   dds_deadline: t('DDS deadline missed'),
+  enip_session_closed: t('EtherNet/IP session closed'),
+  enip_silent: t('EtherNet/IP client silent'),
 };
 const actions: Record<Action, string> = { nothing: t('Nothing'), halt: t('Halt'), quick_stop: t('Quick stop'), disable: t('Switch off') };
 

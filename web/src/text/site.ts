@@ -92,6 +92,8 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'fail_safe.line_lost', label: t('When it could not be reached'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.gateway_ends', label: t('When the gateway ends'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.dds_deadline', label: t('When its DDS client misses a deadline or is gone'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_session_closed', label: t('When its EtherNet/IP session of messages is closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    { key: 'fail_safe.enip_silent', label: t('When its EtherNet/IP client of messages is silent'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
     { key: 'fail_safe.watchdog_ms', label: t('Silent after, ms'), kind: 'integer', min: 0, max: 600000, more: true, placeholder: t('the gateway\'s'), hint: t('0: silence is not watched') },
     {
       key: 'stored_parameters',

@@ -380,6 +380,8 @@ export const site: Table = {
   'What you typed is kept.': 'Das Eingegebene bleibt erhalten.',
   'When it could not be reached': 'Wenn sie nicht erreichbar war',
   'When its DDS client misses a deadline or is gone': 'Wenn ihr DDS-Client eine Frist versäumt oder weg ist',
+  'When its EtherNet/IP session of messages is closed': 'Wenn ihre EtherNet/IP-Sitzung für Nachrichten geschlossen wird',
+  'When its EtherNet/IP client of messages is silent': 'Wenn ihr EtherNet/IP-Client, der Nachrichten schickt, schweigt',
   'When its EtherNet/IP connection is closed': 'Wenn ihre EtherNet/IP-Verbindung geschlossen wird',
   'When its EtherNet/IP connection times out': 'Wenn die Zeit ihrer EtherNet/IP-Verbindung abläuft',
   'When its EtherNet/IP scanner is idle': 'Wenn ihr EtherNet/IP-Scanner untätig ist',

@@ -380,6 +380,8 @@ export const site: Table = {
   'What you typed is kept.': '您输入的内容已保留。',
   'When it could not be reached': '无法连接该轴时',
   'When its DDS client misses a deadline or is gone': '其 DDS 客户端错过截止时间或消失时',
+  'When its EtherNet/IP session of messages is closed': '其用于消息的 EtherNet/IP 会话关闭时',
+  'When its EtherNet/IP client of messages is silent': '其发送消息的 EtherNet/IP 客户端静默时',
   'When its EtherNet/IP connection is closed': '其 EtherNet/IP 连接关闭时',
   'When its EtherNet/IP connection times out': '其 EtherNet/IP 连接超时时',
   'When its EtherNet/IP scanner is idle': '其 EtherNet/IP 扫描器空闲时',

@@ -141,6 +141,10 @@ TEST(EnipServer, AConnectionFromItsOpeningToItsEnd) {
     EXPECT_TRUE(s.server.adapter().connections().owned()) << "the same site again is no change";
     s.port.set_mapping_revision(99);
     s.put_site();
+    EXPECT_TRUE(s.server.adapter().connections().owned()) << "another mapping somewhere leaves its bytes as they are";
+    s.site.axis_ids.clear();
+    s.site.site.axes.clear();
+    s.put_site();
     EXPECT_FALSE(s.server.adapter().connections().owned());
     EXPECT_NE(s.port.notes.back().first.text.find("site was changed"), std::string::npos);
     h.command = 0x66;

@@ -31,6 +31,16 @@ inline constexpr DoorNumber engine_itself = 0xFF;       ///< the engine's own or
 }
 [[nodiscard]] constexpr DoorNumber door_of(Ticket ticket) noexcept { return static_cast<DoorNumber>(ticket >> 56); }
 
+/// One connection of a client, as other doors show it and close it.
+struct DoorConnection {
+    std::uint64_t number = 0;     ///< within its door; another one of the same door never gets it
+    std::string_view kind;        ///< "modbus_tcp", "session", "messages", "exclusive_owner", "input_only", "listen_only"
+    std::string peer;             ///< "192.0.2.7:51123"
+    Instant since{}, received{};  ///< opened; its last sign of life
+    std::vector<AxisId> axes;     ///< that it owns
+    bool commands = false;        ///< its client has commanded by it
+};
+
 /// A protocol server on the hot thread, or something else there that gives commands. All calls come from that thread, between two turns'
 /// handlers, unless it says otherwise.
 class HotDoor {
@@ -48,6 +58,10 @@ public:
     virtual void on_sample(const Sample& /*sample*/) {}
     /// When a client of this door was last heard; nothing: it has no connection here, or the door does not watch.
     [[nodiscard]] virtual std::optional<Instant> last_received(const AuthorityClient& /*client*/) const { return std::nullopt; }
+    /// Who is connected, in no order; empty where the door has no connections.
+    [[nodiscard]] virtual std::vector<DoorConnection> connections() const { return {}; }
+    /// Ends one of them as if its network had: whoever commanded by it is lost. False: there is none of this number.
+    virtual bool close_connection(std::uint64_t /*number*/) { return false; }
     /// Serves what is there at this moment, for a loop that polls instead of sleeping; false: there was nothing.
     virtual bool serve_now() { return false; }
     /// Its counters as Prometheus text. Any thread.

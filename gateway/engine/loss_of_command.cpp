@@ -17,7 +17,10 @@ namespace {
 std::string why_lost(LossCause cause, Duration limit) {
     switch (cause) {
         case LossCause::modbus_silent:
+        case LossCause::enip_silent:
             return fmt::format("has been silent for {} ms", milliseconds_of(limit));
+        case LossCause::enip_session_closed:
+            return "has closed the EtherNet/IP session by which it commanded";
         case LossCause::set_points_silent:
             return limit > Duration::zero() ? fmt::format("has not renewed its set-points for {} ms", milliseconds_of(limit))
                                             : "has closed the connection by which it gave set-points";
@@ -127,10 +130,11 @@ void LossOfCommand::unowned(Axis& a, Instant now) {
 void LossOfCommand::check_watchdog(Axis& a, Instant now) {
     const AuthorityClient& who = a.owner();
     const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
-    if (who.door != Door::modbus || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
+    const bool by_messages = who.door == Door::ethernet_ip;  // the owner of an implicit connection is heard by that alone: nothing here
+    if ((who.door != Door::modbus && !by_messages) || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
     const auto received = host_.last_received(who);
     if (FlightTap* tap = publisher_.tap()) tap->last_received(received, now);
-    if (received && now - *received > limit) act(a, LossCause::modbus_silent, now);
+    if (received && now - *received > limit) act(a, by_messages ? LossCause::enip_silent : LossCause::modbus_silent, now);
 }
 
 void LossOfCommand::shut_down(Instant now) {

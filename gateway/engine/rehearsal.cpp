@@ -94,6 +94,8 @@ private:
             case LossCause::enip_closed:
             case LossCause::enip_timed_out:
             case LossCause::enip_idle:
+            case LossCause::enip_session_closed:
+            case LossCause::enip_silent:
                 return Door::ethernet_ip;
             case LossCause::dds_deadline:
                 return Door::dds;
@@ -103,6 +105,7 @@ private:
     }
     [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
 
+    [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
     [[nodiscard]] bool gateway_gone() const { return wish_.cause == LossCause::none; }
 
     void step() {
@@ -216,13 +219,14 @@ private:
         if (wish_.cause == LossCause::set_points_silent) stream();
         at_ = now_;
         lost_ = true;
-        if (wish_.cause == LossCause::modbus_silent) received_ = now_;  // the connection stays; else there is none
+        if (silent()) received_ = now_;  // the connection stays; else there is none
         place_at_loss_ = mechanics().position;
         speed_at_loss_ = speed();
         cell_.speed = speed_at_loss_ / spec_.increments_per_unit;
         const AuthorityClient who = AuthorityClient::of(origin());
         switch (wish_.cause) {
             case LossCause::modbus_silent:
+            case LossCause::enip_silent:
             case LossCause::lease_ended:
             case LossCause::set_points_silent:
                 return;  // nothing more comes
@@ -239,10 +243,10 @@ private:
     }
 
     void watch() {
-        const Duration silence = wish_.cause == LossCause::lease_ended     ? wish_.lease
-                                 : wish_.cause == LossCause::modbus_silent ? spec_.fail_safe.watchdog(wish_.watchdog)
-                                 : wish_.cause == LossCause::line_lost     ? wish_.line_away + 10s
-                                                                           : Duration::zero();
+        const Duration silence = wish_.cause == LossCause::lease_ended ? wish_.lease
+                                 : silent()                            ? spec_.fail_safe.watchdog(wish_.watchdog)
+                                 : wish_.cause == LossCause::line_lost ? wish_.line_away + 10s
+                                                                       : Duration::zero();
         const Instant end = at_ + silence + 15s;
         bool back = wish_.cause != LossCause::line_lost;
         std::optional<Instant> slower, still;

@@ -102,6 +102,9 @@ void RegisterWriter::on_result(const Result& result) {
 void RegisterWriter::own_result(const TicketTable::Waiting& waiting, const Result& result) {
     waiting.map->on_own_result(waiting.note, result);
     Refused why = waiting.map->take_refused();
+    // A language shows it in a register of its own; people read events.
+    if (why.reason == Reason::none && result.outcome == Outcome::refused)
+        why = {waiting.axis, result.reason == Reason::none ? Reason::internal : result.reason, result.text, {}, {}};
     if (waiting.who && why.reason != Reason::none) refused(*waiting.who, std::move(why), waiting.request, {}, port_.now());
 }
 

@@ -9,6 +9,7 @@
 #include "gateway/runtime/warm_axes.hpp"
 #include "gateway/runtime/warm_backup.hpp"
 #include "gateway/runtime/warm_captures.hpp"
+#include "gateway/runtime/warm_connections.hpp"
 #include "gateway/runtime/warm_descriptions.hpp"
 #include "gateway/runtime/warm_documents.hpp"
 #include "gateway/runtime/warm_events.hpp"
@@ -46,8 +47,8 @@ public:
     WarmPorts& operator=(const WarmPorts&) = delete;
 
     [[nodiscard]] Ports all() {
-        return {axes,   backup,     captures, clock,     descriptions, documents, drives,    events, fleet, lines,
-                modbus, parameters, recorder, registers, rehearsal,    site,      snapshots, stage,  status};
+        return {axes,  backup, captures,   clock,    connections, descriptions, documents, drives,    events, fleet,
+                lines, modbus, parameters, recorder, registers,   rehearsal,    site,      snapshots, stage,  status};
     }
     /// By which other threads wake this one.
     [[nodiscard]] Doorbell& bell() noexcept { return bell_; }
@@ -71,6 +72,7 @@ public:
     WarmRehearsal rehearsal{threads_, site.families()};
     WarmFleet fleet;
     WarmModbus modbus{threads_, events};
+    WarmConnections connections{threads_, events};
     WarmBackup backup{threads_, events};
     WarmStatus status{threads_, events, site, axes, drives};
 };

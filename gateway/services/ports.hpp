@@ -7,6 +7,7 @@
 #include "gateway/services/ports/backup.hpp"
 #include "gateway/services/ports/captures.hpp"
 #include "gateway/services/ports/clock.hpp"
+#include "gateway/services/ports/connections.hpp"
 #include "gateway/services/ports/descriptions.hpp"
 #include "gateway/services/ports/documents.hpp"
 #include "gateway/services/ports/drives.hpp"
@@ -28,7 +29,7 @@ namespace axisgate {
 
 /// All of them: for whoever puts services and doors together.
 using Ports =
-    PortSet<AxisPort, BackupPort, CapturePort, ClockPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort, LinePort,
-            ModbusPort, ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
+    PortSet<AxisPort, BackupPort, CapturePort, ClockPort, ConnectionPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort,
+            LinePort, ModbusPort, ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;
 
 }  // namespace axisgate

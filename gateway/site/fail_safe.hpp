@@ -56,7 +56,7 @@ struct AtLoss {
 /// motion, and `disable` for an enabled axis at rest as well.
 struct FailSafe {
     std::array<std::optional<FailSafeAction>, loss_causes.size()> chosen;
-    std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not watched; absent: the gateway's [modbus] watchdog_ms
+    std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not watched; absent: the gateway's [modbus] watchdog_ms, for every door
 
     [[nodiscard]] std::optional<FailSafeAction>& of(LossCause cause) { return chosen.at(static_cast<std::size_t>(cause) - 1); }
     [[nodiscard]] const std::optional<FailSafeAction>& of(LossCause cause) const { return chosen.at(static_cast<std::size_t>(cause) - 1); }

@@ -62,7 +62,7 @@ protected:
     struct EnipDoor final : HotDoor {
         EnipDoor(DoorPort& port, RegisterImage& image) : values(port, image, 30) {
             values.use_number(port.attach(*this));
-            values.use([this](cip::Token, cip::General g, cip::View) { published = g; });
+            values.use([this](cip::Token, cip::General g, cip::View, std::uint16_t) { published = g; });
         }
         std::string_view name() const override { return "enip"; }
         void on_result(const Result& r) override { values.on_result(r); }
@@ -121,7 +121,7 @@ protected:
         if (way == Way::modbus) return;
         scanner = std::make_unique<EnipDoor>(port, *image);
         scanner->values.use(
-            enip::Layout({{1, a1, "a1", nullptr}}, 1, {}, enip::windows_of(*site), enip::objects_of(*site, settings.languages)), true);
+            enip::Layout({{1, a1, "a1", nullptr}}, 1, {}, enip::windows_of(*site), enip::objects_of(*site, settings.languages)));
         renewed.resize(spec_of(out_instance).bytes());
         if (way == Way::image) scanner->values.opened(out_instance, plc, 100ms, w.now);
     }

@@ -30,7 +30,7 @@ struct Device1 final : Values, Output {
     const std::vector<std::uint32_t>& assemblies() const override { return list_; }
     void read(std::uint32_t, Instant, Bytes& to) override { to.insert(to.end(), 8, 0); }
     std::uint64_t revision(std::uint32_t) const override { return 0; }
-    General write(std::uint32_t, View data, const Peer&, Instant) override {
+    General write(std::uint32_t, View data, Token, const Peer&, Instant, bool&) override {
         require(data.size() == 8, "an output is written whole");
         return General::success;
     }

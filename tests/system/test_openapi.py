@@ -246,7 +246,7 @@ def test_every_write_answers_as_described(gateway):
     steps = [
         ("takeAuthority", {"axis": "slide"}, {"ttl_s": 5}, 200), ("takeAuthority", {"axis": "slide"}, {"ttl_s": 0}, 422), ("takeAuthority", {"axis": "nobody"}, {}, 404),
         ("handOverAuthority", {"axis": "slide"}, {"to": "anna"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
-        ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
+        ("listConnections", {}, None, 200), ("closeConnection", {"connection": "enip-1"}, None, 404), ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
         ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "disable"}, 200), ("putAxisFailSafe", {"axis": "slide"}, {}, 200), ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "fly"}, 422),
         ("putAxisFailSafe", {"axis": "nobody"}, {}, 404), ("rehearseFailSafe", {}, {"axes": ["slide"]}, 202), ("rehearseFailSafe", {}, {"axes": ["nobody"]}, 409), ("rehearseFailSafe", {}, {"axes": 1}, 422),
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),

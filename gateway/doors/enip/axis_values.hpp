@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "gateway/core/counter.hpp"
+#include "gateway/doors/enip/axis_leases.hpp"
 #include "gateway/doors/enip/layout.hpp"
+#include "gateway/doors/enip/lost_clients.hpp"
+#include "gateway/doors/enip/message_clients.hpp"
 #include "gateway/doors/enip/output_lane.hpp"
 #include "gateway/doors/enip/window.hpp"
 #include "gateway/engine/door.hpp"
@@ -23,7 +26,8 @@ class AxisValues final : public cip::Values {
 public:
     static constexpr std::size_t most_asked = 1024;
     static constexpr Duration patience = std::chrono::seconds(30), lease_renewal = std::chrono::seconds(5);
-    using Answered = std::function<void(cip::Token, cip::General, cip::View)>;
+    /// The last one: a word that follows a bad status, the number of the Reason (register 20); 0: none.
+    using Answered = std::function<void(cip::Token, cip::General, cip::View, std::uint16_t)>;
     struct Counters {
         Counter commands, set_points, set_points_refused, parameters;
     };
@@ -33,10 +37,11 @@ public:
     void use_number(DoorNumber number) noexcept {
         number_ = number;
         writer_.use_number(number);
+        leases_.use_number(number);
     }
     void use(Answered answered) { answered_ = std::move(answered); }
-    /// The layout of the site in force. `anew`: it is another one; its connections have been closed.
-    void use(Layout layout, bool anew);
+    /// The layout of the site in force. Connections whose bytes are others there have been closed; those that are left go on.
+    void use(Layout layout);
     [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
     [[nodiscard]] const registers::Languages& languages() const noexcept { return image_.languages(); }
 
@@ -52,7 +57,10 @@ public:
     [[nodiscard]] const cip::ParameterInfo* parameter(std::uint32_t instance) const override { return layout_.parameter(instance); }
     void read(std::uint32_t instance, Instant now, cip::Bytes& to) override;
     [[nodiscard]] std::uint64_t revision(std::uint32_t instance) const override;
-    [[nodiscard]] cip::General write(std::uint32_t instance, cip::View data, const cip::Peer& who, Instant now) override;
+    [[nodiscard]] cip::General write(std::uint32_t instance, cip::View data, cip::Token token, const cip::Peer& who, Instant now,
+                                     bool& later) override;
+    void messages_ended(const cip::Peer& way) override;
+    [[nodiscard]] bool commands_by(cip::SessionKey session) const override { return clients_.commands_by(session); }
     [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const override;
     [[nodiscard]] bool held_by_another(std::uint32_t output, const cip::Peer& who, Instant now) const override;
     void opened(std::uint32_t output, const cip::Peer& who, Duration time_out, Instant now) override;
@@ -70,6 +78,10 @@ public:
                                        bool& later) override;
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
+    /// Who commands by messages. The owner of an implicit connection is none of these: that connection is how it is heard.
+    [[nodiscard]] const MessageClients& message_clients() const noexcept { return clients_; }
+    /// The gateway itself ends its sessions: nobody has gone.
+    void forget_message_clients() noexcept { clients_.clear(); }
 
 private:
     struct Owner {
@@ -77,50 +89,66 @@ private:
         Duration good_for{};
         std::map<AxisId, OutputLane> lanes;
         std::vector<AxisId> axes;              ///< all that it commands
+        std::vector<AxisId> held;              ///< of them, those that nobody else may command while it runs
+        bool runs = false;                     ///< in run mode
         std::unique_ptr<WindowOutput> window;  ///< of an assembly of the site's own
     };
     /// A write of an attribute, until all that it ordered has been answered.
     struct OwnWrite final : registers::WriteOwner {
-        OwnWrite(AxisValues& of, cip::Token t) : values(of), token(t) {}
+        OwnWrite(AxisValues& of, cip::Token t, Origin by) : values(of), token(t), origin(std::move(by)) { values.lost_.begun(origin); }
+        ~OwnWrite() override { values.lost_.answered(origin); }
+        OwnWrite(const OwnWrite&) = delete;
+        OwnWrite& operator=(const OwnWrite&) = delete;
         void on_written(std::uint8_t slot, AxisId axis, registers::Verdict verdict) override;
         AxisValues& values;
         cip::Token token;
+        Origin origin;
         std::uint16_t left = 0;
-        registers::Verdict verdict = registers::Verdict::good;
+        cip::General general = cip::General::success;  ///< the first bad one
+    };
+    /// A write of an output of axes, the same.
+    struct MessageWrite {
+        void note(Reason why);
+        /// True: it was the last answer.
+        [[nodiscard]] bool answered(const Result& result);
+        std::uint16_t left = 0, extended = 0;
+        cip::General general = cip::General::success;
     };
     struct Asked {
-        cip::Token token = 0;  ///< 0: a command of an output
+        enum class Kind : std::uint8_t { read, write, output };  ///< of a parameter the first two
+        Kind kind = Kind::read;
+        cip::Token token = 0;  ///< of an output, 0: a connection's
         std::uint32_t instance = 0;
         std::uint32_t output = 0;
         AxisId axis = no_axis;
-        bool read = false;
         Origin origin;
         ProcessData data;
         Instant until{};
     };
-    [[nodiscard]] Origin origin_of(std::uint32_t output, const cip::Peer& who) const;
     /// Of a message: the connection's own where it commands this axis, so that one controller is one client.
     [[nodiscard]] Origin origin_for(AxisId axis, const cip::Peer& who) const;
+    /// The same, of one that commands: from here on it can be lost.
+    [[nodiscard]] Origin commander_for(AxisId axis, const cip::Peer& who);
     [[nodiscard]] bool submit(AxisId axis, CommandBody body, Asked asked, Instant now);
     void carry_out(std::uint32_t output, Owner& owner, AxisId axis, OutputLane::Step step, Instant now);
-    void refused(const Asked& asked, const Result& result, Instant now);
     void lose(std::uint32_t output, LossCause cause);
     /// shown_values(), looked up once per site and window.
     [[nodiscard]] const std::vector<registers::MapValue>& shown_of(const LayoutWindow& window) const;
-    template <class Each>
-    void each_axis(std::uint32_t instance, Each&& each) const;
 
     DoorPort& port_;
     registers::RegisterImage& image_;
     registers::RegisterWriter writer_;  // of windows and attributes; its log of refusals and registers 20 and 21 are everybody's
-    std::int64_t lease_s_;
+    AxisLeases leases_;
+    LostClients lost_;
     DoorNumber number_ = 0;
     Answered answered_;
     Layout layout_;
     mutable std::map<std::uint16_t, std::vector<registers::MapValue>> shown_;  // by instance
     std::map<std::uint32_t, Owner> owners_;                                    // by output assembly
     std::map<Ticket, Asked> asked_;
-    std::map<cip::Token, OwnWrite> own_writes_;  // at most most_asked
+    std::map<cip::Token, OwnWrite> own_writes_;          // at most most_asked, with the next
+    std::map<cip::Token, MessageWrite> message_writes_;  // of outputs of axes
+    MessageClients clients_;
     std::size_t questions_ = 0;
     std::uint64_t tickets_ = 0;
     Instant renewed_{};
@@ -131,5 +159,7 @@ private:
 [[nodiscard]] std::string text_of(cip::Endpoint endpoint);
 [[nodiscard]] std::string address_text(std::uint32_t address);
 [[nodiscard]] cip::General general_of(Reason reason) noexcept;
+/// Whose commands an output's connection gives: each output is a client of its own.
+[[nodiscard]] Origin origin_of(std::uint32_t output, const cip::Peer& who);
 
 }  // namespace axisgate::enip

@@ -28,6 +28,7 @@ std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters
     put("connection_opens_malformed_total", "Forward_Open requests that could not be read.", c.open_format);
     put("connection_closes_total", "Forward_Close requests carried out.", c.closed);
     put("connection_timeouts_total", "Connections whose originator was silent.", c.timed_out);
+    put("connections_evicted_total", "Connections closed to make room for those of others.", c.evicted);
     put("implicit_received_total", "Implicit datagrams taken.", c.received);
     put("implicit_sent_total", "Implicit datagrams sent.", c.sent);
     put("implicit_from_wrong_address_total", "Implicit datagrams dropped: not from the originator.", c.from_wrong_address);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/json/serialize.hpp>
 #include <cmath>
 
 #include "gateway/protocols/cip/eds.hpp"
@@ -43,6 +44,8 @@ DataType data_type_of(ValueType type) noexcept {
     }
     return DataType::short_string;
 }
+
+constexpr std::uint8_t device_major = 1, device_minor = 1;
 
 struct Span {
     double low, high;
@@ -162,10 +165,32 @@ Layout::List Layout::list_of(const Catalogue& catalogue) {
     return list;
 }
 
+namespace {
+/// Of a range of a unit's registers: the entries that touch it, in the words of the site's document, without what is for people alone.
+std::string content_of(const Site& site, const AssemblySpec& a) {
+    std::string text;
+    const auto add = [&](boost::json::object entry) {
+        entry.erase("comment");
+        entry.erase("id");
+        text += boost::json::serialize(entry) + "\n";
+    };
+    add(to_json(a));
+    for (const ProfileSpec& p : site.profiles) {
+        if (p.unit == a.unit) add(to_json(p));
+    }
+    if (site.parsed_mappings) {
+        for (const Mapping& m : *site.parsed_mappings) {
+            if (m.unit == a.unit && m.table == a.table && m.address < a.address + a.registers && m.end() > a.address) add(to_json(m));
+        }
+    }
+    return text;
+}
+}  // namespace
+
 std::vector<LayoutWindow> windows_of(const SiteState& state) {
     std::vector<LayoutWindow> list;
     for (auto& a : assemblies_of(state.site)) {
-        LayoutWindow w{a.spec, {}, std::move(a.name), a.partner};
+        LayoutWindow w{a.spec, {}, std::move(a.name), a.partner, content_of(state.site, a.spec)};
         for (const auto& name : a.axes) {
             const auto it = std::ranges::find(state.site.axes, name, &AxisSpec::name);
             const auto i = static_cast<std::size_t>(it - state.site.axes.begin());
@@ -197,9 +222,10 @@ Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, con
     device_.vendor = 0xFFFF;  // no number of an association is claimed
     device_.device_type = 0x0C;
     device_.product_code = 1;
-    // An originator's electronic key refuses another layout than the one that its program was made for.
-    device_.major = static_cast<std::uint8_t>(1 + mapping_revision % 127);
-    device_.minor = static_cast<std::uint8_t>(1 + mapping_revision / 127 % 255);
+    // The device's own, whatever the site is: an originator's electronic key asks which device it is. What its program was made for is
+    // compared where a connection is opened, by the assemblies that it names and their sizes.
+    device_.major = device_major;
+    device_.minor = device_minor;
     device_.consistency = static_cast<std::uint16_t>(mapping_revision ^ mapping_revision >> 16);
     device_.serial = host.serial;
     device_.name = "axisgate";
@@ -244,6 +270,23 @@ Layout::ObjectRow Layout::object_row(std::uint32_t class_id, std::uint32_t insta
         return r.holding && r.object && r.object->class_id == class_id && (attribute == 0 || r.object->attribute == attribute);
     });
     return row == it->page->rows.end() ? ObjectRow{} : ObjectRow{&*it, &*row};
+}
+
+bool Layout::same_bytes(std::uint32_t instance, const Layout& there) const {
+    const auto here_info = assembly(instance), there_info = there.assembly(instance);
+    if (!here_info || !there_info) return here_info.has_value() == there_info.has_value();
+    if (here_info->role != there_info->role || here_info->size != there_info->size) return false;
+    const LayoutWindow *const w = window(instance), *const x = there.window(instance);
+    if (w || x) return w && x && w->axes == x->axes && w->content == x->content;
+    // An axis that was made anew is another one, though it looks the same.
+    const Range r = range_of(instance), s = there.range_of(instance);
+    if (r.first != s.first || r.count != s.count) return false;
+    for (std::uint16_t i = 0; i < r.count; ++i) {
+        const auto number = static_cast<std::uint16_t>(r.first + i);
+        const LayoutAxis *const a = axis(number), *const b = there.axis(number);
+        if ((a ? a->id : no_axis) != (b ? b->id : no_axis)) return false;
+    }
+    return true;
 }
 
 Layout::Range Layout::range_of(std::uint32_t instance) const {

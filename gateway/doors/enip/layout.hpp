@@ -1,6 +1,7 @@
-// Layout: what the EtherNet/IP device is made of by the site in force: its name and revision, its assemblies, its parameters.
-// In: axes with their catalogues, the revision of the mapping, facts of the host. Out: the description that objects and EDS show.
-// Never a value of an axis. Parameters are numbered through, axis after axis; 65535 at most, those beyond are not served.
+// Layout: what the EtherNet/IP device is made of by the site in force: its name, its assemblies, its parameters.
+// In: axes with their catalogues, the revision of the mapping (the device's configuration consistency value), facts of the host. Out: the
+// description that objects and EDS show. Never a value of an axis. Parameters are numbered through, axis after axis; 65535 at most, those
+// beyond are not served.
 #pragma once
 
 #include <map>
@@ -34,6 +35,7 @@ struct LayoutWindow {
     std::vector<AxisId> axes;
     std::string name;           ///< for people
     std::uint16_t partner = 0;  ///< of an output
+    std::string content;        ///< what stands in its bytes, as text to compare: mappings of the range, or the profile
 };
 [[nodiscard]] std::vector<LayoutWindow> windows_of(const SiteState& site);
 /// Classes of another maker's device: an instance of them is a profile.
@@ -75,6 +77,28 @@ public:
         std::uint16_t first = 0, count = 0;
     };
     [[nodiscard]] Range range_of(std::uint32_t instance) const;
+    /// `each(i, id)` for all axes that an assembly shows or commands, in the order of its bytes; no_axis: a gap.
+    template <class Each>
+    void each_axis(std::uint32_t instance, Each&& each) const {
+        if (const auto* w = window(instance)) {
+            for (std::uint16_t i = 0; i < w->axes.size(); ++i)
+                each(i, w->axes[i]);
+            return;
+        }
+        const Range r = range_of(instance);
+        for (std::uint16_t i = 0; i < r.count; ++i) {
+            const LayoutAxis* const a = axis(static_cast<std::uint16_t>(r.first + i));
+            each(i, a ? a->id : no_axis);
+        }
+    }
+    /// The same without gaps.
+    [[nodiscard]] std::vector<AxisId> axes_of(std::uint32_t instance) const {
+        std::vector<AxisId> list;
+        each_axis(instance, [&](std::uint16_t, AxisId id) {
+            if (id != no_axis) list.push_back(id);
+        });
+        return list;
+    }
     /// nullptr: no axis has this number.
     [[nodiscard]] const LayoutAxis* axis(std::uint16_t number) const;
     [[nodiscard]] const std::vector<LayoutAxis>& axes() const noexcept { return axes_; }
@@ -88,6 +112,8 @@ public:
     /// Attribute 0: whether there is the instance, with any row of the class.
     [[nodiscard]] ObjectRow object_row(std::uint32_t class_id, std::uint32_t instance, std::uint32_t attribute) const;
     [[nodiscard]] std::uint32_t mapping_revision() const noexcept { return mapping_revision_; }
+    /// Whether this assembly has the same bytes there: size, what each of them is, and whose.
+    [[nodiscard]] bool same_bytes(std::uint32_t instance, const Layout& there) const;
     /// For people: "axis feeder to the originator".
     [[nodiscard]] std::string name_of(std::uint32_t instance) const;
 

@@ -88,10 +88,7 @@ void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
     const bool another_mode = has(has_mode) && image.mode != base_.mode;
     const bool enables = (image.controlword & ~newest_.controlword & cia402::cw_enable_operation) != 0;
     const bool releases = (newest_.controlword & ~image.controlword & halt) != 0;
-    if (!speed_counts_ && (another_mode || image.target_velocity != base_.target_velocity || enables || releases)) {
-        speed_counts_ = true;
-        speed_due_ = image.mode == velocity_mode;
-    }
+    speed_counts_ = speed_counts_ || another_mode || image.target_velocity != base_.target_velocity || enables || releases;
     const bool another_place =
         image.mode == streamed_position ? image.target_position != base_.target_position : image.target_velocity != base_.target_velocity;
     stream_counts_ = stream_counts_ || another_mode || (streams(image) && another_place);
@@ -130,43 +127,31 @@ OutputLane::Step OutputLane::done() {
 }
 
 OutputLane::Step OutputLane::next() {
-    const bool word = has(has_controlword) && wanted_.controlword != sent_.controlword;
     const bool streamed = streams(wanted_);
-    const bool mode = has(has_mode) && wanted_.mode != sent_.mode && !streamed;
-    // A profile takes its values with an edge; a speed is followed as it changes.
-    Wanted now = wanted_;
-    if (!has(has_controlword)) now.controlword = sent_.controlword;
-    if (!has(has_mode)) now.mode = sent_.mode;
-    if (!speed_counts_) now.target_velocity = sent_.target_velocity;
-    if (streamed) {
-        now = sent_;
-        if (has(has_controlword)) now.controlword = wanted_.controlword;
-    } else if (!word && !mode) {
-        if (wanted_.mode != velocity_mode || on_their_way_ > 0) return {};
-        now.target_position = sent_.target_position;
-        now.homing_method = sent_.homing_method;
-    }
-    const bool due = speed_due_ && wanted_.mode == velocity_mode;
-    if (now == sent_ && !due) return {};
+    const bool word = has(has_controlword) && sent_.controlword != wanted_.controlword;
+    const bool mode = has(has_mode) && !streamed && sent_.mode != wanted_.mode;
     ProcessData d;
-    if (due) {
-        d.target_velocity = sent_.target_velocity = now.target_velocity;
-        speed_due_ = false;
-    }
-    const auto put = [](auto& into, const auto& value, auto& before) {
-        if (value == before) return;
-        into = value;
-        before = value;
+    bool any = false;
+    const auto put = [&](WantedMember member, auto& into, const auto& value, auto& before) {
+        if (!has(member) || before == value) return;
+        into = before = value;
+        any = true;
     };
-    put(d.controlword, now.controlword, sent_.controlword);
-    put(d.mode, now.mode, sent_.mode);
-    put(d.target_position, now.target_position, sent_.target_position);
-    put(d.profile_velocity, now.profile_velocity, sent_.profile_velocity);
-    put(d.profile_acceleration, now.profile_acceleration, sent_.profile_acceleration);
-    put(d.profile_deceleration, now.profile_deceleration, sent_.profile_deceleration);
-    put(d.target_velocity, now.target_velocity, sent_.target_velocity);
-    put(d.homing_method, now.homing_method, sent_.homing_method);
-    return {d, std::nullopt};
+    put(has_controlword, d.controlword, wanted_.controlword, sent_.controlword);
+    // A profile takes its values with an edge; a speed and its ramps are followed as they change, one command at a time.
+    const bool edge = !streamed && (word || mode), follows = !streamed && wanted_.mode == velocity_mode && on_their_way_ == 0;
+    if (edge) {
+        put(has_mode, d.mode, wanted_.mode, sent_.mode);
+        put(has_target_position, d.target_position, wanted_.target_position, sent_.target_position);
+        put(has_homing_method, d.homing_method, wanted_.homing_method, sent_.homing_method);
+    }
+    if (edge || follows) {
+        put(has_profile_velocity, d.profile_velocity, wanted_.profile_velocity, sent_.profile_velocity);
+        put(has_profile_acceleration, d.profile_acceleration, wanted_.profile_acceleration, sent_.profile_acceleration);
+        put(has_profile_deceleration, d.profile_deceleration, wanted_.profile_deceleration, sent_.profile_deceleration);
+        if (speed_counts_) put(has_target_velocity, d.target_velocity, wanted_.target_velocity, sent_.target_velocity);
+    }
+    return any ? Step{d, std::nullopt} : Step{};
 }
 
 }  // namespace axisgate::enip

@@ -1,5 +1,6 @@
 // Output lane: what becomes of the 32 bytes that an originator renews for one axis: edges are commands, what is streamed are set-points.
 // In: registers 32..45 as they were sent, the axis' picture. Out: a ProcessData where something has changed, a SetPoint in modes 8 and 9.
+// The first image is handed on whole, zeros too: a control word of 0 switches off what others have switched on.
 // Never moves anything by the first image: bits 4 and 7 of its control word count as held until they were low once, an axis that stands
 // halted stays so, and its speed and positions are a base: another one counts. Values wait while a command is on its way; a word does not.
 #pragma once
@@ -65,11 +66,11 @@ private:
     [[nodiscard]] bool has(WantedMember m) const noexcept { return (members_ & m) != 0; }
     std::uint8_t members_;
     Wanted base_, newest_;  // images as they came: the first, and the one before the newest
-    Wanted wanted_, sent_;
+    Wanted wanted_;
+    ProcessData sent_;        // what was handed on last; what never was is not known to the axis, not 0
     std::uint16_t held_ = 0;  // bits that were set from the start
     bool halt_held_ = false;  // the axis stood halted at the start, and the first word would have released it
     bool speed_counts_ = false, stream_counts_ = false;
-    bool speed_due_ = false;  // it has begun to count: it is sent even if it is 0
     std::uint32_t on_their_way_ = 0;
     bool any_ = false;
 };

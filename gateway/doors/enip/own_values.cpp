@@ -98,13 +98,16 @@ General AxisValues::set_own(const OwnPlace& place, cip::View value, cip::Token t
     note.count = found.row->width();
     for (std::size_t i = 0; i < found.row->width(); ++i)
         note.values[i] = registers::get16(words + 2 * i);
-    const Origin origin = origin_for(found.object->axis, who);
-    const auto [it, fresh] = own_writes_.try_emplace(token, *this, token);
+    const Origin origin = commander_for(found.object->axis, who);
+    const auto [it, fresh] = own_writes_.try_emplace(token, *this, token, origin);
     if (!fresh) return General::resource_unavailable;
     counters_.parameters.add();
     const auto begun = writer_.write({&it->second, origin.who, origin.client}, 0, *map, registers::Table::holding_registers,
                                      found.row->address, found.row->width(), words, note, now);
     auto why = map->take_refused();
+    const Reason reason = why.reason;
+    // A language may take a write and say in its own error word that it did not do it.
+    if (reason != Reason::none) writer_.refused(*origin.who, std::move(why), note, {}, now);
     if (begun.verdict == Verdict::good && begun.outstanding > 0) {
         it->second.left = begun.outstanding;
         later = true;
@@ -112,19 +115,17 @@ General AxisValues::set_own(const OwnPlace& place, cip::View value, cip::Token t
     }
     own_writes_.erase(it);
     if (begun.verdict == Verdict::good) return General::success;
-    const Reason reason = why.reason;
-    if (reason != Reason::none) writer_.refused(*origin.who, std::move(why), note, {}, now);
     return reason == Reason::none ? general_of(begun.verdict) : enip::general_of(reason);
 }
 
 void AxisValues::OwnWrite::on_written(std::uint8_t, AxisId, Verdict v) {
-    if (v != Verdict::good) verdict = v;
+    if (v != Verdict::good && general == General::success) general = general_of(v);
     if (--left > 0) return;
     AxisValues& of = values;
     const cip::Token t = token;
-    const General g = general_of(verdict);
+    const General g = general;
     of.own_writes_.erase(t);  // this is no more
-    of.answered_(t, g, {});
+    of.answered_(t, g, {}, 0);
 }
 
 }  // namespace axisgate::enip

@@ -39,6 +39,7 @@ using Acceptor = asio::basic_socket_acceptor<tcp, asio::io_context::executor_typ
 using UdpSocket = asio::basic_datagram_socket<udp, asio::io_context::executor_type>;
 
 constexpr Duration sweep_period = std::chrono::seconds(1);
+constexpr std::uint64_t first_session = std::uint64_t{1} << 32;  ///< numbers of sessions begin behind the ids of connections
 
 struct BindAddress {
     std::uint32_t address = 0;
@@ -82,7 +83,9 @@ public:
           explicit_(io.get_executor()),
           implicit_(io.get_executor()),
           timer_(io) {
-        values_.use([this](cip::Token token, cip::General general, cip::View value) { adapter_.answered(token, general, value); });
+        values_.use([this](cip::Token token, cip::General general, cip::View value, std::uint16_t extended) {
+            adapter_.answered(token, general, value, extended);
+        });
         values_.use_number(port_.attach(*this));
     }
     ~Impl() override { port_.detach(*this); }
@@ -97,6 +100,9 @@ public:
         arm();
     }
     void on_site(const SiteState& site) override;
+    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override;
+    [[nodiscard]] std::vector<DoorConnection> connections() const override;
+    bool close_connection(std::uint64_t number) override;
     bool serve_now() override { return poller_.serve_now(); }
     [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters(), accepts_postponed_); }
 
@@ -229,6 +235,7 @@ std::string Server::Impl::open(const std::string& text) {
 
 void Server::Impl::close() {
     open_ = false;
+    values_.forget_message_clients();
     boost::system::error_code ignored;
     acceptor_.close(ignored);
     explicit_.close(ignored);
@@ -240,6 +247,38 @@ void Server::Impl::close() {
     }
 }
 
+std::optional<Instant> Server::Impl::last_received(const AuthorityClient& client) const {
+    std::optional<Instant> newest;
+    if (client.door != Door::ethernet_ip) return newest;
+    for (const cip::SessionKey key : values_.message_clients().sessions_of(client)) {
+        if (const auto at = adapter_.last_received(key)) newest = std::max(newest.value_or(*at), *at);
+    }
+    return newest;
+}
+
+std::vector<DoorConnection> Server::Impl::connections() const {
+    std::vector<DoorConnection> list;
+    for (const auto& s : adapter_.session_reports())
+        list.push_back({first_session + s.key, "session", text_of(s.from), s.since, s.last_received, {}, values_.commands_by(s.key)});
+    const cip::ConnectionManager& manager = adapter_.connections();
+    for (std::size_t i = 0; i < cip::ConnectionManager::most_connections; ++i) {
+        const cip::Connection* const c = manager.at(i);
+        if (!c) continue;
+        const bool owns = c->kind == cip::Connection::Kind::exclusive_owner;
+        list.push_back({c->ot_id, cip::name_of(c->kind), text_of(c->peer.from), c->since, c->last_received,
+                        owns ? values_.layout().axes_of(c->plan.consumed) : std::vector<AxisId>{}, owns && c->running});
+    }
+    return list;
+}
+
+bool Server::Impl::close_connection(std::uint64_t number) {
+    bool closed = number >= first_session && adapter_.close_session(number - first_session);
+    const auto is_it = [&](const cip::Connection& c) { return c.ot_id == number; };
+    closed = adapter_.connections().close_those(is_it, cip::End::by_operator, port_.now()) > 0 || closed;
+    arm();
+    return closed;
+}
+
 void Server::Impl::on_site(const SiteState& site) {
     const std::uint32_t revision = port_.image().mapping_revision;
     std::vector<LayoutAxis> axes;
@@ -248,11 +287,11 @@ void Server::Impl::on_site(const SiteState& site) {
         axes.push_back({port_.image().picture(id).number, id, site.site.axes[i].name, port_.catalogue(id)});
     }
     Layout layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
-    // An axis that was made anew is another one, though it looks the same.
-    const bool changed = revision != values_.layout().mapping_revision() ||
-                         !std::ranges::equal(layout.axes(), values_.layout().axes(), {}, &LayoutAxis::id, &LayoutAxis::id);
-    if (changed) adapter_.close_all(port_.now());
-    values_.use(std::move(layout), changed);
+    const auto goes = [&](const cip::Connection& c) {
+        return c.is_io() && !(values_.layout().same_bytes(c.plan.consumed, layout) && values_.layout().same_bytes(c.plan.produced, layout));
+    };
+    adapter_.connections().close_those(goes, cip::End::by_gateway, port_.now());
+    values_.use(std::move(layout));
     arm();
 }
 

@@ -79,10 +79,10 @@ std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpe
     return hash;
 }
 
-Reason write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a, const Origin& origin,
-                    cip::View data, Instant now) {
+WindowWritten write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a,
+                           registers::WriteOwner& owner, const Origin& origin, cip::View data, Instant now) {
     UnitMap* const map = image.unit(a.unit);
-    if (!map) return Reason::line_down;
+    if (!map) return {Reason::line_down, 0};
     const auto values = map->values(a.table, a.address, a.registers, true);
     std::vector<std::uint8_t> words(a.bytes());
     from_assembly(a, values, data.data(), words.data());
@@ -99,9 +99,9 @@ Reason write_window(registers::RegisterImage& image, registers::RegisterWriter& 
     for (auto& r : refused)
         writer.refused(*origin.who, std::move(r), note, {}, now);
     // A language has taken what was not refused; values of a user map wait for each other.
-    if (why != Reason::none && !map->takes_images()) return why;
-    if (writer.give(client_of(nullptr, origin), 0, *map, plan, note, now).verdict != Verdict::good) return Reason::busy;
-    return why;
+    if (why != Reason::none && !map->takes_images()) return {why, 0};
+    const auto begun = writer.give(client_of(&owner, origin), 0, *map, plan, note, now);
+    return begun.verdict == Verdict::good ? WindowWritten{why, begun.outstanding} : WindowWritten{Reason::busy, 0};
 }
 
 WindowOutput::WindowOutput(DoorPort& port, registers::RegisterImage& image, registers::RegisterWriter& writer, Counter& commands,
@@ -159,6 +159,8 @@ void WindowOutput::take(cip::View data, Instant now) {
     UnitMap* const map = image_.unit(spec_.unit);
     if (!map || data.size() != spec_.bytes()) return;
     from_assembly(spec_, values_, data.data(), newest_.data());
+    // A language that a change of the site has made anew knows nothing of the images before.
+    if (std::exchange(seen_, map) != map && map->takes_images()) any_ = false;
     const bool first = !std::exchange(any_, true);
     if (map->takes_images()) {
         take_image(*map, first, now);

@@ -31,9 +31,13 @@ void show_window(registers::RegisterImage& image, const AssemblySpec& a, const s
 /// Another number after each change of what it shows, but for ages and heartbeats.
 [[nodiscard]] std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a,
                                             const std::vector<registers::MapValue>& values, Instant now);
-/// A write of the whole at once, that of a message. Reason::none: every value of it was handed on; else nothing was.
-[[nodiscard]] Reason write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a,
-                                  const Origin& origin, cip::View data, Instant now);
+/// A write of the whole at once, that of a message.
+struct WindowWritten {
+    Reason why = Reason::none;      ///< none: every value of it was handed on; else nothing was, but what a language has taken
+    std::uint16_t outstanding = 0;  ///< so many calls of the owner's on_written follow
+};
+[[nodiscard]] WindowWritten write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a,
+                                         registers::WriteOwner& owner, const Origin& origin, cip::View data, Instant now);
 
 class WindowOutput final : public registers::WriteOwner {
 public:
@@ -77,6 +81,7 @@ private:
     };
     std::vector<Write> writes_;  // of values_
     bool any_ = false;
+    const registers::UnitMap* seen_ = nullptr;  // whose image it was
     registers::WritePlan plan_;                 // kept, so that nothing is allocated for it
     std::vector<registers::MapValue> changed_;  // as well
     std::vector<registers::Refused> refused_;   // as well

@@ -168,6 +168,9 @@ Handled start_moves(Call&, AxisPort&, const SitePort&);
 // --- handlers_modbus.cpp ----------------------------------------------------------------------------------------------
 Handled get_modbus_door(Call&, ModbusPort&);
 Handled change_modbus_door(Call&, ModbusPort&);
+// --- handlers_connections.cpp -----------------------------------------------------------------------------------------
+Handled list_connections(Call&, ConnectionPort&);
+Handled close_connection(Call&, ConnectionPort&);
 // --- handlers_authority.cpp -------------------------------------------------------------------------------------------
 Handled list_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
 Handled get_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);

@@ -68,6 +68,8 @@ constexpr std::array routes{
     Route{"/api/v1/axes/{axis}/authority/hand-over", Method::post, take<hand_over_authority>, Takes::json}.needs(Role::operating),
     Route{"/api/v1/modbus", Method::get, take<get_modbus_door>},
     Route{"/api/v1/modbus", Method::patch, take<change_modbus_door>, Takes::patch},
+    Route{"/api/v1/connections", Method::get, take<list_connections>},
+    Route{"/api/v1/connections/{connection}", Method::remove, take<close_connection>, Takes::nothing, Gives::nothing},
     Route{"/api/v1/axes/{axis}/parameters", Method::get, take<list_parameters>}.asks("group array first"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::get, take<read_parameter>}.asks("cached history"),
     Route{"/api/v1/axes/{axis}/parameters/{parameter}", Method::put, take<write_parameter>, Takes::json},

@@ -24,6 +24,7 @@ struct Counters {
     Counter connections_refused;      ///< the limit is reached and no connection is idle
     Counter connections_not_allowed;  ///< closed at once: the peer is not on the allow list
     Counter connections_evicted;      ///< closed, the longest idle one, to make room
+    Counter closed_by_operator;       ///< a person has closed it by another door
     Counter closed_idle;              ///< no request for the idle time-out
     Counter closed_not_modbus;        ///< bad protocol id or length
     Counter closed_partial;           ///< half a request, and then nothing for the partial time-out

@@ -81,6 +81,21 @@ public:
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override {
         return client.door == Door::modbus ? received(client.name) : std::nullopt;
     }
+    [[nodiscard]] std::vector<DoorConnection> connections() const override {
+        std::vector<DoorConnection> list;
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Connection* const c = places_[i].connection.get();
+            if (c) list.push_back({c->token(), "modbus_tcp", c->peer(), places_[i].since, times_[i].last_request, {}, c->has_commanded()});
+        }
+        return list;
+    }
+    bool close_connection(std::uint64_t number) override {
+        Connection* const c = place_of(number) < places_.size() ? find(number) : nullptr;
+        if (!c) return false;
+        c->close(&counters().closed_by_operator);
+        bury();
+        return true;
+    }
     bool serve_now() override { return poller_.serve_now(); }
     [[nodiscard]] std::string metrics() const override { return metrics_text(std::as_const(responder_).counters()); }
 
@@ -139,7 +154,7 @@ public:
         }
     }
 
-    [[nodiscard]] std::vector<ConnectionReport> connections() const {
+    [[nodiscard]] std::vector<ConnectionReport> reports() const {
         std::vector<ConnectionReport> list;
         for (const auto& place : places_) {
             if (const Connection* c = place.connection.get())
@@ -390,7 +405,7 @@ Server::~Server() { impl_->close(); }
 std::string Server::open(std::span<const std::string> binds) { return impl_->open(binds); }
 std::vector<std::string> Server::addresses() const { return impl_->addresses(); }
 void Server::close() { impl_->close(); }
-std::vector<Server::ConnectionReport> Server::connections() const { return impl_->connections(); }
+std::vector<Server::ConnectionReport> Server::connections() const { return impl_->reports(); }
 Responder& Server::responder() noexcept { return impl_->responder(); }
 void Server::sweep() { impl_->sweep(); }
 const Counters& Server::counters() const noexcept { return impl_->counters(); }

@@ -38,46 +38,61 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
     router_.add_own(own_);
 }
 
-bool Adapter::make_room(Instant now) {
-    if (sessions_.size() < most_sessions) return true;
-    const auto gives_way = [&](bool registered) {
-        auto oldest = sessions_.end();
-        for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
-            const Session& s = it->second;
-            if (s.leaving || (s.handle != 0) != registered || manager_.uses(it->first)) continue;
-            // Who works is not thrown out by who only knocks.
-            if (registered && now - s.last_received < std::chrono::seconds(1)) continue;
-            if (oldest == sessions_.end() || s.last_received < oldest->second.last_received) oldest = it;
-        }
-        return oldest;
-    };
-    auto victim = gives_way(false);
-    if (victim == sessions_.end()) victim = gives_way(true);
-    if (victim == sessions_.end()) return false;
+/// Who knocks first gives way, then who is silent, from the address that has most sessions; what works goes only if its address has more
+/// than an eighth of all.
+bool Adapter::make_room(Endpoint newcomer, Instant now) {
+    const PlaceRules rules{most_sessions - kept_sessions, kept_sessions};
+    if (sessions_.size() < rules.strangers) return true;
+    std::vector<Guest> guests;
+    std::vector<SessionKey> keys;
+    bool known = manager_.owns(newcomer.address);
+    for (const auto& [key, s] : sessions_) {
+        if (s.leaving) continue;
+        const bool commands = values_.commands_by(key), uses = manager_.uses(key), works = now - s.last_received < std::chrono::seconds(1);
+        known = known || (commands && s.from.address == newcomer.address);
+        const Standing standing = commands || (uses && manager_.owns(s.from.address)) ? Standing::stop_path
+                                  : s.handle == 0                                     ? Standing::stranger
+                                  : uses                                              ? Standing::strangers_work
+                                  : works                                             ? Standing::strangers_work
+                                                                                      : Standing::stranger;
+        guests.push_back({s.from.address, standing, s.last_received});
+        keys.push_back(key);
+    }
+    const auto verdict = find_place(guests, newcomer.address, known, rules, sessions_.size() >= most_sessions);
+    if (!verdict.let_in || !verdict.closes) return verdict.let_in;
     counters_.sessions_evicted.add();
-    const SessionKey key = victim->first;
+    const SessionKey key = keys[*verdict.closes];
     output_.hang_up(key);
     on_disconnected(key);
     return true;
 }
 
 bool Adapter::on_connected(SessionKey key, Endpoint from, Instant now) {
-    if (!make_room(now)) {
+    if (!make_room(from, now)) {
         counters_.sessions_refused.add();
         return false;
     }
     Session& s = sessions_[key];
     s.from = from;
-    s.last_received = now;
+    s.since = s.last_received = now;
     counters_.sessions_opened.add();
     if (next_look_ == never) next_look_ = now + look_period;
     return true;
 }
 
 void Adapter::on_disconnected(SessionKey key) {
-    sessions_.erase(key);
+    const auto it = sessions_.find(key);
+    if (it == sessions_.end()) return;
+    const Peer way{it->second.from, 0, key};
+    sessions_.erase(it);
     manager_.on_session_gone(key);
     std::erase_if(waiting_, [&](const auto& w) { return w.second.route.session == key; });
+    values_.messages_ended(way);
+}
+
+std::optional<Instant> Adapter::last_received(SessionKey key) const {
+    const auto it = sessions_.find(key);
+    return it == sessions_.end() ? std::nullopt : std::optional(it->second.last_received);
 }
 
 void Adapter::hang_up(SessionKey key, Session& session) {
@@ -194,7 +209,7 @@ void Adapter::rr_data(SessionKey key, Session& s, const Header& header, View dat
     }
     Context context;
     context.now = now;
-    context.peer.from = s.from;
+    context.peer = {s.from, 0, key};
     context.session = key;
     if (const Item* to = items->find(item::sockaddr_to)) context.produce_to = endpoint_of(*to);
     Route route;
@@ -215,7 +230,7 @@ void Adapter::unit_data(SessionKey key, const Header& header, View data, Instant
         return counters_.wrong_packets.add();
     Connection* const c = manager_.explicit_connection(Reader(items->list[0].data).u32(), key);
     if (!c) return counters_.wrong_packets.add();
-    manager_.touch(*c, now);
+    c->touch(now);
     Reader body(items->list[1].data);
     const std::uint16_t count = body.u16();
     Route route;
@@ -286,7 +301,7 @@ void Adapter::answer(const Route& route, const Router::Parts& parts) {
     output_.stream(route.session, out_);
 }
 
-void Adapter::answered(Token token, General general, View value) {
+void Adapter::answered(Token token, General general, View value, std::uint16_t extended) {
     const auto it = waiting_.find(token >> token_shift);
     const std::size_t index = token & ((1u << token_shift) - 1);
     if (it == waiting_.end() || index >= it->second.parts.parts.size()) return;
@@ -299,6 +314,7 @@ void Adapter::answered(Token token, General general, View value) {
         if (r.data.size() > it->second.route.most - 4) r = Response::of(General::reply_data_too_large);
     } else {
         r = Response::of(general);
+        if (extended != 0) r.extended.push_back(extended);
     }
     if (--parts.pending > 0) return;
     const Waiting done = std::move(it->second);
@@ -322,6 +338,22 @@ void Adapter::on_datagram(View bytes, Endpoint from, bool broadcast, Instant now
     const auto asked_ms = static_cast<std::uint16_t>(header.context[0] | header.context[1] << 8);
     const std::uint32_t own = values_.device().serial ^ values_.device().address ^ static_cast<std::uint32_t>(ns_of(now));
     late_.push_back({now + spread(asked_ms, own), from, std::move(list)});
+}
+
+std::vector<Adapter::SessionReport> Adapter::session_reports() const {
+    std::vector<SessionReport> list;
+    for (const auto& [key, s] : sessions_) {
+        if (!s.leaving) list.push_back({key, s.from, s.since, s.last_received, s.handle != 0});
+    }
+    std::ranges::sort(list, {}, &SessionReport::key);
+    return list;
+}
+
+bool Adapter::close_session(SessionKey key) {
+    const auto it = sessions_.find(key);
+    if (it == sessions_.end()) return false;
+    hang_up(key, it->second);
+    return true;
 }
 
 void Adapter::on_deadline(Instant now) {

@@ -1,6 +1,7 @@
 // Adapter: one EtherNet/IP device: its sessions, its objects, its connections.
 // In: what arrives on TCP and on the two UDP ports, values that were asked for, time. Out: bytes by `Output`; the next deadline.
-// Never has a socket or a clock. Bounds: `most_sessions` (then one that is not registered, or else does nothing, gives way),
+// Never has a socket or a clock. Bounds: `most_sessions` (then one that is not registered, or else does nothing, gives way, from the
+// address that has most; `kept_sessions` of them for addresses that command),
 // `most_waiting` messages that wait for values (then 0x02), `most_late` answers to broadcasts that wait for their delay (then none).
 #pragma once
 
@@ -24,7 +25,7 @@ struct Output : Carrier {
 
 class Adapter {
 public:
-    static constexpr std::size_t most_sessions = 256, most_waiting = 256, most_late = 32;
+    static constexpr std::size_t most_sessions = 256, kept_sessions = most_sessions / 8, most_waiting = 256, most_late = 32;
     static constexpr Duration unregistered_time_out = std::chrono::seconds(10);
 
     struct Counters {
@@ -43,13 +44,26 @@ public:
     void on_datagram(View bytes, Endpoint from, bool broadcast, Instant now);
     void on_implicit(View datagram, Endpoint from, Instant now) { manager_.on_implicit(datagram, from, now); }
     /// The value that was asked for under this token, or why there is none. Of a written one: no value.
-    void answered(Token token, General general, View value);
+    /// `extended`: a word that follows a bad status; 0: none.
+    void answered(Token token, General general, View value, std::uint16_t extended = 0);
+    /// When something came on this session; nothing: there is no such session.
+    [[nodiscard]] std::optional<Instant> last_received(SessionKey key) const;
 
     void on_deadline(Instant now);
     [[nodiscard]] Instant deadline() const;
 
-    /// Every connection is closed: what they were opened for is no more.
-    void close_all(Instant now) { manager_.close_all(End::by_gateway, now); }
+    /// Sessions and connections as other doors show them, and their ends by a person.
+    struct SessionReport {
+        SessionKey key = 0;
+        Endpoint from;
+        Instant since{}, last_received{};
+        bool registered = false;
+    };
+    [[nodiscard]] std::vector<SessionReport> session_reports() const;
+    /// False: there is no such session.
+    bool close_session(SessionKey key);
+    /// Connections are closed by what they were opened for, and by hand.
+    [[nodiscard]] ConnectionManager& connections() noexcept { return manager_; }
     [[nodiscard]] const ConnectionManager& connections() const noexcept { return manager_; }
     [[nodiscard]] const QosObject& marks() const noexcept { return qos_; }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
@@ -60,7 +74,7 @@ private:
         Framer framer;
         Endpoint from;
         std::uint32_t handle = 0;  ///< 0: not registered
-        Instant last_received{};
+        Instant since{}, last_received{};
         bool leaving = false;
     };
     /// Where an answer goes.
@@ -91,7 +105,7 @@ private:
     void message(View bytes, Route route, Context context);
     void answer(const Route& route, const Router::Parts& parts);
     void say(SessionKey key, const Header& header, PacketStatus status, View data = {});
-    [[nodiscard]] bool make_room(Instant now);
+    [[nodiscard]] bool make_room(Endpoint newcomer, Instant now);
     void hang_up(SessionKey key, Session& session);
 
     Values& values_;

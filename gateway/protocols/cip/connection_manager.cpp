@@ -14,7 +14,45 @@ Endpoint group_address(const Device& d, std::uint16_t number) {
     const std::uint32_t host = ((d.address & ~d.mask) - 1) & 0x3FF;
     return {multicast_base + host * groups_per_device + number % groups_per_device, default_io_port};
 }
+
+Response opened(const Connection& c) {
+    Response r;
+    put32(r.data, c.ot_id);
+    put32(r.data, c.to_id);
+    put16(r.data, c.request.triad.serial);
+    put16(r.data, c.request.triad.vendor);
+    put32(r.data, c.request.triad.originator);
+    put32(r.data, c.request.ot.rpi_us);
+    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(c.interval).count();
+    put32(r.data, c.interval > Duration::zero() ? static_cast<std::uint32_t>(us) : c.request.to.rpi_us);
+    put16(r.data, 0);
+    return r;
+}
+
+/// What it is doing, for the choice of who gives way.
+Standing standing_of(const Connection& c, const Values& values, Instant now) {
+    if (c.kind == Kind::exclusive_owner) return c.received_any ? Standing::stop_path : Standing::known;
+    if (!c.is_io()) {
+        if (values.commands_by(c.session)) return Standing::stop_path;
+        return now - c.last_received < std::chrono::seconds(1) ? Standing::strangers_work : Standing::stranger;
+    }
+    return c.received_any ? Standing::strangers_work : Standing::stranger;
+}
 }  // namespace
+
+std::string_view name_of(Kind kind) noexcept {
+    switch (kind) {
+        case Kind::exclusive_owner:
+            return "exclusive_owner";
+        case Kind::input_only:
+            return "input_only";
+        case Kind::listen_only:
+            return "listen_only";
+        case Kind::explicit_messages:
+            break;
+    }
+    return "messages";
+}
 
 ConnectionManager::ConnectionManager(Values& values, Carrier& carrier, const QosObject& marks, std::uint16_t incarnation)
     : values_(values), carrier_(carrier), marks_(marks), generation_(incarnation) {}
@@ -87,18 +125,23 @@ Response ConnectionManager::open_null(const OpenRequest& request) {
     return opened(none);
 }
 
-Response ConnectionManager::opened(const Connection& c) const {
-    Response r;
-    put32(r.data, c.ot_id);
-    put32(r.data, c.to_id);
-    put16(r.data, c.request.triad.serial);
-    put16(r.data, c.request.triad.vendor);
-    put32(r.data, c.request.triad.originator);
-    put32(r.data, c.request.ot.rpi_us);
-    const auto us = std::chrono::duration_cast<std::chrono::microseconds>(c.interval).count();
-    put32(r.data, c.interval > Duration::zero() ? static_cast<std::uint32_t>(us) : c.request.to.rpi_us);
-    put16(r.data, 0);
-    return r;
+bool ConnectionManager::make_room(const Peer& newcomer, bool known, bool messages, Instant now) {
+    std::vector<Guest> guests;
+    std::vector<Connection*> whose;
+    for (const auto& c : places_) {
+        if (!c || (messages && c->is_io())) continue;
+        guests.push_back({c->peer.from.address, standing_of(*c, values_, now), c->last_received});
+        whose.push_back(c.get());
+    }
+    const std::size_t most = messages ? most_explicit : most_connections, spared = messages ? kept_explicit : kept;
+    const auto verdict = find_place(guests, newcomer.from.address, known, {most - spared, spared, most_connections});
+    if (!verdict.let_in || !verdict.closes) return verdict.let_in;
+    Connection& goes = *whose[*verdict.closes];
+    // Who has most of them already does not change one of his own for another: he is told that there is no place.
+    if (goes.peer.from.address == newcomer.from.address) return false;
+    counters_.evicted.add();
+    close(goes, End::to_make_room, now);
+    return true;
 }
 
 Connection* ConnectionManager::place_for(const OpenRequest& request, const Context& context) {
@@ -112,9 +155,10 @@ Connection* ConnectionManager::place_for(const OpenRequest& request, const Conte
     ++generation_;
     c.ot_id = (std::uint32_t{generation_} << 16) | c.number;
     c.to_id = request.to.id;
-    c.peer = {context.peer.from, c.ot_id};
+    c.peer = {context.peer.from, c.ot_id, context.session};
     c.session = context.session;
-    c.expires = context.now + std::max(request.time_out(), first_data);
+    c.since = c.last_received = context.now;
+    c.expires = context.now + (request.transport_class() == 3 ? std::max(request.time_out(), first_data) : first_data);
     return &c;
 }
 
@@ -132,8 +176,9 @@ Response ConnectionManager::open_explicit(const OpenRequest& request, Context& c
         r.extended.push_back(most_message);
         return r;
     }
-    const auto messages = std::ranges::count_if(places_, [](const auto& c) { return c && !c->is_io(); });
-    if (static_cast<std::size_t>(messages) >= most_explicit) return Response::refused(Extended::object_out_of_connections);
+    const bool known = owns(context.peer.from.address) || values_.commands_by(context.session);
+    if (!make_room(context.peer, known, true, context.now)) return Response::refused(Extended::object_out_of_connections);
+    if (!make_room(context.peer, known, false, context.now)) return Response::refused(Extended::out_of_connections);
     Connection* const c = place_for(request, context);
     if (!c) return Response::refused(Extended::out_of_connections);
     c->kind = Kind::explicit_messages;
@@ -160,6 +205,8 @@ Response ConnectionManager::open_io(const OpenRequest& request, Context& context
     IoPlan plan;
     if (auto wrong = plan_io(request, values_, plan)) return std::move(*wrong);
     if (const auto wrong = wrong_owner(plan, context.peer, context.now)) return Response::refused(*wrong);
+    const bool known = plan.role == AssemblyInfo::Role::output;
+    if (!make_room(context.peer, known, false, context.now)) return Response::refused(Extended::out_of_connections);
     Connection* const c = place_for(request, context);
     if (!c) return Response::refused(Extended::out_of_connections);
     using Role = AssemblyInfo::Role;
@@ -183,12 +230,6 @@ Response ConnectionManager::open_io(const OpenRequest& request, Context& context
     if (values_.device().io_port != default_io_port) context.consume_at = Endpoint{values_.device().address, values_.device().io_port};
     if (c->kind == Kind::exclusive_owner) values_.opened(plan.consumed, c->peer, request.time_out(), context.now);
     return opened(*c);
-}
-
-Connection* ConnectionManager::group_of(std::uint32_t produced, const Connection* but) const {
-    const auto it = std::ranges::find_if(
-        places_, [&](const auto& c) { return c && c.get() != but && c->multicasts() && c->plan.produced == produced; });
-    return it == places_.end() ? nullptr : it->get();
 }
 
 /// Who reads the same by multicast reads the same datagrams, as often as the quickest of them wants.
@@ -295,10 +336,13 @@ Connection* ConnectionManager::find(const Triad& triad) const {
 
 void ConnectionManager::close(Connection& c, End why, Instant now) {
     const auto gone = std::move(places_[c.number - 1u]);
+    if (!gone->is_io()) values_.messages_ended(gone->peer);
     if (gone->kind == Kind::exclusive_owner) values_.ended(gone->plan.consumed, gone->peer, why, now);
     if (!gone->is_io() || gone->plan.produced == 0) return;
     if (gone->sends && gone->multicasts()) {
-        if (Connection* const heir = group_of(gone->plan.produced, nullptr)) {
+        const auto heirs =
+            std::ranges::find_if(places_, [&](const auto& c) { return c && c->multicasts() && c->plan.produced == gone->plan.produced; });
+        if (Connection* const heir = heirs == places_.end() ? nullptr : heirs->get()) {
             heir->sends = true;
             heir->sent = gone->sent;
             heir->sent_count = gone->sent_count;
@@ -320,6 +364,11 @@ void ConnectionManager::close_all(End why, Instant now) {
     }
 }
 
+bool ConnectionManager::owns(std::uint32_t address) const {
+    return std::ranges::any_of(places_,
+                               [&](const auto& c) { return c && c->kind == Kind::exclusive_owner && c->peer.from.address == address; });
+}
+
 void ConnectionManager::on_session_gone(SessionKey session) {
     for (auto& c : places_) {
         if (!c || c->session != session) continue;
@@ -333,8 +382,6 @@ Connection* ConnectionManager::explicit_connection(std::uint32_t ot_id, SessionK
     Connection* const c = number >= 1 && number <= places_.size() ? places_[number - 1].get() : nullptr;
     return c && c->ot_id == ot_id && !c->is_io() && c->session == session ? c : nullptr;
 }
-
-void ConnectionManager::touch(Connection& c, Instant now) { c.expires = now + c.request.time_out(); }
 
 bool ConnectionManager::uses(SessionKey session) const {
     return std::ranges::any_of(places_, [&](const auto& c) { return c && c->session == session; });

@@ -1,13 +1,15 @@
 // Connection manager: the connections that originators have with this device, their data, their time-outs and their ends.
 // In: Forward_Open and its like, implicit datagrams, time. Out: answers, implicit datagrams by `Carrier`, word to `Values`.
-// Never opens more than `most_connections`: then 0x0113 (`most_explicit` of explicit messages: 0x011A). Data from a wrong address, old, or
-// of a wrong size is dropped and counted.
+// Never opens more than `most_connections`: then 0x0113 (`most_explicit` of explicit messages: 0x011A); no address takes all of them. Data
+// from a wrong address, old, or of a wrong size is dropped and counted.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "gateway/core/counter.hpp"
+#include "gateway/core/places.hpp"
 #include "gateway/protocols/cip/encapsulation.hpp"
 #include "gateway/protocols/cip/forward_open.hpp"
 #include "gateway/protocols/cip/objects.hpp"
@@ -34,6 +36,7 @@ struct Connection {
     bool sends = false;   ///< of a multicast group one connection does
     Duration interval{};  ///< at which it sends
     Duration look{};      ///< at which it looks for a change; zero: it is cyclic
+    Instant since{}, last_received{};
     Instant expires = never, next = never, next_look = never;
     std::uint32_t sent = 0;
     std::uint16_t sent_count = 0;
@@ -45,19 +48,31 @@ struct Connection {
     bool asked_any = false;
     Bytes answered;  ///< ... and its answer, for a repetition
 
+    /// Something has come.
+    void touch(Instant now) noexcept {
+        last_received = now;
+        expires = now + request.time_out();
+    }
     [[nodiscard]] bool is_io() const noexcept { return kind != Kind::explicit_messages; }
     [[nodiscard]] bool multicasts() const noexcept { return is_io() && request.to.type == Half::Type::multicast; }
 };
 
+/// "exclusive_owner", "input_only", "listen_only", "messages".
+[[nodiscard]] std::string_view name_of(Connection::Kind kind) noexcept;
+
 class ConnectionManager final : public Object, public Connections {
 public:
     static constexpr std::size_t most_connections = 128;
-    static constexpr std::size_t most_explicit = 64;                  ///< of them: so that messages never take the last place of an owner
+    static constexpr std::size_t most_explicit = 64;  ///< of them: so that messages never take the last place of an owner
+    /// Of both, a quarter is kept for owners, or for sessions that command: for them one that never brought anything gives way as well, or
+    /// one of the address that has most, if these are more than an eighth (gateway/core/places.hpp). An owner never gives way.
+    static constexpr std::size_t kept = most_connections / 4, kept_explicit = most_explicit / 4;
     static constexpr std::uint16_t most_message = 4002;               ///< bytes of a connection of explicit messages in one direction
-    static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, if the time-out is shorter
+    static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, whatever the time-out is
 
     struct Counters {
         Counter opened, open_format, open_resource, open_other, closed, close_format, close_other, timed_out;
+        Counter evicted;
         Counter received, sent, from_wrong_address, stale, wrong_size, unknown_connection;
     };
 
@@ -78,7 +93,6 @@ public:
 
     /// Of explicit messages; nullptr: there is none with this id by this session.
     [[nodiscard]] Connection* explicit_connection(std::uint32_t ot_id, SessionKey session);
-    void touch(Connection& connection, Instant now);
     [[nodiscard]] bool uses(SessionKey session) const;
 
     [[nodiscard]] std::size_t open() const override;
@@ -89,6 +103,19 @@ public:
     [[nodiscard]] bool running() const override;
     [[nodiscard]] bool owned_by_other(std::uint32_t output, const Peer& than) const override;
     void close_all(End why, Instant now) override;
+    /// Closes those that `goes` says; how many they were.
+    template <class Goes>
+    std::size_t close_those(Goes&& goes, End why, Instant now) {
+        std::size_t closed = 0;
+        for (auto& c : places_) {
+            if (!c || !goes(std::as_const(*c))) continue;
+            close(*c, why, now);
+            ++closed;
+        }
+        return closed;
+    }
+    /// One of this address commands.
+    [[nodiscard]] bool owns(std::uint32_t address) const;
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
     [[nodiscard]] const Connection* at(std::size_t place) const noexcept { return places_[place].get(); }
@@ -102,10 +129,10 @@ private:
     [[nodiscard]] Response forward_close(View data, const Context& context);
     [[nodiscard]] Response connection_data(std::uint8_t service, View data) const;
     [[nodiscard]] std::optional<Extended> wrong_owner(const IoPlan& plan, const Peer& who, Instant now) const;
-    [[nodiscard]] Response opened(const Connection& connection) const;
+    /// Room for one more of this kind; false: there is none, and nobody gives way.
+    [[nodiscard]] bool make_room(const Peer& newcomer, bool known, bool messages, Instant now);
     [[nodiscard]] Connection* place_for(const OpenRequest& request, const Context& context);
     [[nodiscard]] Connection* find(const Triad& triad) const;
-    [[nodiscard]] Connection* group_of(std::uint32_t produced, const Connection* but) const;
     void join_group(Connection& connection, Context& context);
     void close(Connection& connection, End why, Instant now);
     void consume(Connection& connection, View data, Instant now);

@@ -22,13 +22,16 @@ General AssemblyObject::get(std::uint32_t instance, std::uint32_t attribute, con
     return General::success;
 }
 
-General AssemblyObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
+Response AssemblyObject::set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) {
     const AssemblyInfo info = *values_.assembly(instance);
-    if (attribute != 3) return attribute == 4 ? General::attribute_not_settable : General::attribute_not_supported;
-    if (info.role != AssemblyInfo::Role::output) return General::attribute_not_settable;
-    if (data.left() != info.size) return data.left() < info.size ? General::not_enough_data : General::too_much_data;
-    if (connections_.owned_by_other(instance, {})) return General::object_state_conflict;
-    return values_.write(instance, data.take(info.size), context.peer, context.now);
+    if (attribute != 3) return Response::of(attribute == 4 ? General::attribute_not_settable : General::attribute_not_supported);
+    if (info.role != AssemblyInfo::Role::output) return Response::of(General::attribute_not_settable);
+    if (data.size() != info.size) return Response::of(data.size() < info.size ? General::not_enough_data : General::too_much_data);
+    if (connections_.owned_by_other(instance, {})) return Response::of(General::object_state_conflict);
+    Response r;
+    r.general = values_.write(instance, data, context.token, context.peer, context.now, r.pending);
+    r.pending = r.pending && r.good();
+    return r;
 }
 
 namespace {

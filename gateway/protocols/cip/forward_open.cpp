@@ -6,7 +6,13 @@
 
 namespace axisgate::cip {
 namespace {
-constexpr std::uint32_t least_rpi_us = 1000;
+bool rpi_is_wrong(const OpenRequest& q) {
+    const bool messages = q.transport_class() == 3;
+    const std::uint32_t most = messages ? most_message_rpi_us : most_rpi_us;
+    const auto wrong = [&](std::uint32_t rpi_us) { return rpi_us < least_rpi_us || rpi_us > most; };
+    return wrong(q.ot.rpi_us) || (q.to.type != Half::Type::null && wrong(q.to.rpi_us)) ||
+           q.time_out() > (messages ? most_message_time_out : most_time_out);
+}
 
 Half read_half(std::uint32_t id, std::uint32_t rpi_us, std::uint32_t parameters, bool large) {
     Half h;
@@ -111,8 +117,7 @@ std::optional<Extended> wrong_by_itself(const OpenRequest& q, const Device& devi
     if (q.ot.type != Half::Type::point_to_point) return Extended::invalid_ot_type;
     if (q.to.type == Half::Type::reserved) return Extended::invalid_to_type;
     if (q.ot.redundant_owner) return Extended::invalid_ot_redundant_owner;
-    if (q.ot.rpi_us < least_rpi_us) return Extended::rpi_not_supported;
-    if (q.to.type != Half::Type::null && q.to.rpi_us < least_rpi_us) return Extended::rpi_not_supported;
+    if (rpi_is_wrong(q)) return Extended::rpi_not_supported;
     if (q.path.inhibit_ms && std::uint64_t{*q.path.inhibit_ms} * 1000 > q.to.rpi_us) return Extended::rpi_below_inhibit_time;
     return std::nullopt;
 }

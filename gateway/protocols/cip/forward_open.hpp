@@ -48,7 +48,12 @@ struct OpenRequest {
 /// The end of every refusal: whom it concerns, and where the path went wrong.
 [[nodiscard]] Response refuse_open(const Triad& triad, Response why, std::size_t path_words_left = 0);
 
-/// What may stand in any connection: key, multiplier, transport, types.
+/// Whoever is silent for longer is gone, whatever he has asked for: a connection that nobody uses takes a place from others. Connections
+/// of messages end with their TCP session, and clients ask for long time-outs of them without a thought.
+inline constexpr std::uint32_t least_rpi_us = 1000, most_rpi_us = 10'000'000, most_message_rpi_us = 60'000'000;
+inline constexpr Duration most_time_out = std::chrono::minutes(2), most_message_time_out = std::chrono::hours(1);
+
+/// What may stand in any connection: key, multiplier, transport, types, RPI and time-out.
 [[nodiscard]] std::optional<Extended> wrong_by_itself(const OpenRequest& request, const Device& device);
 [[nodiscard]] std::optional<Extended> wrong_key(const ElectronicKey& key, const Device& device);
 /// They name the same objects; route, key and configuration data of a path say nothing about that.

@@ -22,7 +22,7 @@ void ConnectionManager::on_implicit(View datagram, Endpoint from, Instant now) {
     if (implicit->data.size() != right && !only_head) return counters_.wrong_size.add();
     counters_.received.add();
     c->received = implicit->sequence;
-    c->expires = now + c->request.time_out();
+    c->touch(now);
     consume(*c, implicit->data, now);
     c->received_any = true;
 }

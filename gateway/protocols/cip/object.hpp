@@ -11,9 +11,6 @@
 
 namespace axisgate::cip {
 
-/// Number by which whoever carries bytes knows a TCP connection; 0: a datagram.
-using SessionKey = std::uint64_t;
-
 /// What an object may want to know beside the request.
 struct Context {
     Instant now{};

@@ -43,6 +43,8 @@ private:
 class AssemblyObject final : public Object {
 public:
     AssemblyObject(Values& values, const Connections& connections) : values_(values), connections_(connections) {}
+    /// Attribute 3 of an output: answered when those who carry it out have answered. In a list it cannot be set.
+    [[nodiscard]] Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) override;
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::assembly; }
     [[nodiscard]] std::uint16_t revision() const noexcept override { return 2; }
     [[nodiscard]] bool has(std::uint32_t instance) const override { return values_.assembly(instance).has_value(); }
@@ -50,7 +52,6 @@ public:
     [[nodiscard]] std::uint32_t instances() const override;
     [[nodiscard]] std::uint16_t last_attribute() const override { return 4; }
     [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
-    [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
 
 private:
     Values& values_;

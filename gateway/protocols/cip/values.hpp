@@ -74,13 +74,23 @@ struct ParameterInfo {
 /// Names an asked value until it is told.
 using Token = std::uint64_t;
 
+/// Number by which whoever carries bytes knows a TCP connection; 0: a datagram.
+using SessionKey = std::uint64_t;
+
 /// Who asks: the other end's address, and the connection if it is one.
 struct Peer {
     Endpoint from;
     std::uint32_t connection = 0;  ///< id by which the adapter knows the connection; 0: an unconnected message
+    SessionKey session = 0;        ///< by which it came, or was opened
 };
 
-enum class End : std::uint8_t { closed, timed_out, by_gateway };
+enum class End : std::uint8_t {
+    closed,        ///< by its originator
+    timed_out,     ///< its originator was silent
+    by_gateway,    ///< what it was opened for has changed
+    to_make_room,  ///< for a connection of somebody else
+    by_operator    ///< a person has closed it by another door
+};
 
 struct Device {
     std::uint16_t vendor = 0, device_type = 0, product_code = 0;
@@ -112,7 +122,12 @@ struct Values : Description {
     /// Another number after each change of what an input shows, but for what time alone changes.
     [[nodiscard]] virtual std::uint64_t revision(std::uint32_t instance) const = 0;
     /// An explicit write of an output; `data` has the assembly's size. Refused while a connection owns it: the caller sees to that.
-    [[nodiscard]] virtual General write(std::uint32_t instance, View data, const Peer& who, Instant now) = 0;
+    /// `later`: Adapter::answered(token) follows, not from inside this call. `token` 0: nothing can be answered later.
+    [[nodiscard]] virtual General write(std::uint32_t instance, View data, Token token, const Peer& who, Instant now, bool& later) = 0;
+    /// A way by which messages came has ended: a connection of explicit messages, or a session (its connection is 0) with all of them.
+    virtual void messages_ended(const Peer& /*way*/) {}
+    /// Somebody commands by messages of this session.
+    [[nodiscard]] virtual bool commands_by(SessionKey /*session*/) const { return false; }
     /// Two outputs (or one with itself) that command the same thing.
     [[nodiscard]] virtual bool overlap(std::uint32_t a, std::uint32_t b) const = 0;
     /// Another client holds what this output commands.
@@ -124,7 +139,7 @@ struct Values : Description {
     virtual void idle(std::uint32_t output, const Peer& who, Instant now) = 0;
     virtual void ended(std::uint32_t output, const Peer& who, End why, Instant now) = 0;
 
-    /// Asks for a value: Adapter::told(token) follows, not from inside this call. Else why it is not asked.
+    /// Asks for a value: Adapter::answered(token) follows, not from inside this call. Else why it is not asked.
     [[nodiscard]] virtual General ask(std::uint32_t instance, Token token, const Peer& who, Instant now) = 0;
     /// `value` has the right size.
     [[nodiscard]] virtual General set(std::uint32_t instance, View value, Token token, const Peer& who, Instant now) = 0;
@@ -146,7 +161,7 @@ struct Values : Description {
     [[nodiscard]] virtual General get_own(const OwnPlace& /*place*/, Instant /*now*/, Bytes& /*to*/) {
         return General::attribute_not_supported;
     }
-    /// `value` has the right size. `later`: Adapter::told(token) follows, not from inside this call.
+    /// `value` has the right size. `later`: Adapter::answered(token) follows, not from inside this call.
     [[nodiscard]] virtual General set_own(const OwnPlace& /*place*/, View /*value*/, Token /*token*/, const Peer& /*who*/, Instant /*now*/,
                                           bool& /*later*/) {
         return General::attribute_not_supported;

@@ -154,10 +154,19 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
-/// Settings count from the first image on; instructions, and what the position is called, count when they change.
-void LexiumMap::adopted(std::span<const Written> rows, WritePlan&) {
+/// Settings count from the first image on; instructions, and what the position is called, count when they change. What stops or switches
+/// off counts at once: what the axis was told before is not known here.
+void LexiumMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     for (const Written& w : rows) {
         switch (meanings_[w.row]) {
+            case Meaning::enable:
+                if (w.bits == 0 && enabled(0)) order(plan, 0, Disable{}, 0, Answer::client);
+                break;
+            case Meaning::move_velocity:
+                run_ = 0;
+                if (w.bits == 0 && flag(0, flag_moving) && picture(0).mode_display == cia402::mode_profile_velocity)
+                    order(plan, 0, Halt{}, 0, Answer::client);
+                break;
             case Meaning::acceleration:
             case Meaning::deceleration:
             case Meaning::maximum_velocity:
@@ -169,6 +178,8 @@ void LexiumMap::adopted(std::span<const Written> rows, WritePlan&) {
         }
     }
 }
+
+void LexiumMap::out_of_range() { error_ = language().error_of(Reason::out_of_range); }
 
 void LexiumMap::on_own_result(std::uint32_t, const Result& result) {
     if (!good(result)) error_ = language().error_of(result.reason);

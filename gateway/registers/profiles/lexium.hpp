@@ -43,6 +43,7 @@ private:
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
     void adopted(std::span<const Written> rows, WritePlan& plan) override;
     void instruct(const Written& w, Meaning meaning, WritePlan& plan);
+    void out_of_range() override;
     Verdict refuse_with(Reason reason, std::string text);
     /// ER as it reads now: the language's own, else a fault of the axis.
     [[nodiscard]] int error() const;

@@ -119,11 +119,17 @@ void LinMotMap::give(CommandBody body, Asked asked, WritePlan& plan) {
           asked == Asked::enable || asked == Asked::home ? Answer::done : Answer::acknowledged);
 }
 
-void LinMotMap::fail(std::string_view what, WritePlan& plan) {
-    log(what);
+void LinMotMap::fail(Reason why, WritePlan& plan) {
+    log(why, fmt::format("axis {}: the motion command {:03X}h is refused: {}", axis(0).name, buffer_[0] >> 4,
+                         why == Reason::wrong_state ? "the drive is not in operation"
+                                                    : "the axis behind has no such motion, or a value of it is 0"));
     if (flag(0, flag_moving)) give(QuickStop{}, Asked::nothing, plan);
 }
-void LinMotMap::log(std::string_view what) { error_ = static_cast<std::uint16_t>(language().error_of(what)); }
+/// The error word is for the master's program, the words are for people: whoever carries the write tells them.
+void LinMotMap::log(Reason why, std::string text) {
+    error_ = static_cast<std::uint16_t>(language().error_of(why));
+    (void)refused(0, why, std::move(text));
+}
 
 Verdict LinMotMap::taken(std::span<const Written> rows, WritePlan& plan) {
     std::optional<std::uint16_t> control, header;
@@ -162,6 +168,7 @@ void LinMotMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     // Freezing ends with a motion to the old target when its bit comes back: here it was back before.
     if (state_ == State::freezing && (*control & no_freeze) != 0) target_known_ = false;
     control_ = static_cast<std::uint16_t>(control_ | (*control & edges));
+    if (enabled(0)) power_asked_ = true;  // whoever asked for the power: a word that is clear takes it away
     take_control(static_cast<std::uint16_t>(*control & ~unsupported), plan);
 }
 
@@ -242,7 +249,7 @@ void LinMotMap::take_special(std::uint16_t before, WritePlan& plan) {
         return give(Home{}, Asked::home, plan);
     }
     if (rose(jog_plus_bit) || rose(jog_minus_bit)) {
-        if (!axis(0).velocity) return fail("not_supported", plan);
+        if (!axis(0).velocity) return fail(Reason::not_supported, plan);
         state_ = rose(jog_plus_bit) ? State::jog_plus : State::jog_minus;
         run(rose(jog_plus_bit) ? *axis(0).velocity : -*axis(0).velocity, plan);
     }
@@ -257,7 +264,7 @@ void LinMotMap::take_command(std::uint16_t header, WritePlan& plan) {
     if (command == 0x001) return take_control(buffer_[1], plan);
     const State s = state();
     if (command == 0x009) return give(SetPosition{increments(0, parameter(2))}, Asked::motion, plan);
-    if (s == State::ready_to_operate) return fail("wrong_state", plan);
+    if (s == State::ready_to_operate) return fail(Reason::wrong_state, plan);
     if (s == State::enabled) motion_command(header, plan);
 }
 
@@ -287,13 +294,13 @@ void LinMotMap::motion_command(std::uint16_t header, WritePlan& plan) {
     const unsigned group = header >> 8, sub = (header >> 4) & 0xFu;
     const double demand = static_cast<double>(picture(0).position_demand) / axis(0).increments_per_count;
     const bool own = group == 0x01;  // speed and ramps stand in the command, else they are those of the site's entry
-    if (group != 0x01 && group != 0x02) return fail("not_supported", plan);
+    if (group != 0x01 && group != 0x02) return fail(Reason::not_supported, plan);
     if (sub == 0x7) return give(Halt{}, Asked::motion, plan);
     if (group == 0x02 && (sub == 0xE || sub == 0xF)) {
-        if (!axis(0).velocity) return fail("not_supported", plan);
+        if (!axis(0).velocity) return fail(Reason::not_supported, plan);
         return run(sub == 0xE ? *axis(0).velocity : -*axis(0).velocity, plan);
     }
-    if (sub > 0x6 || (group == 0x02 && sub > 0x4)) return fail("not_supported", plan);
+    if (sub > 0x6 || (group == 0x02 && sub > 0x4)) return fail(Reason::not_supported, plan);
     const double value = parameter(2);
     const double target = sub == 1   ? demand + value
                           : sub == 2 ? (target_known_ ? target_ : demand) + value
@@ -303,7 +310,8 @@ void LinMotMap::motion_command(std::uint16_t header, WritePlan& plan) {
         return static_cast<double>(static_cast<std::uint32_t>(static_cast<std::int64_t>(parameter(byte))));
     };
     if (own) {
-        if (unsigned_parameter(6) == 0 || unsigned_parameter(10) == 0 || unsigned_parameter(14) == 0) return fail("not_supported", plan);
+        if (unsigned_parameter(6) == 0 || unsigned_parameter(10) == 0 || unsigned_parameter(14) == 0)
+            return fail(Reason::not_supported, plan);
         return go(target, unsigned_parameter(6) * counts_per_velocity, unsigned_parameter(10) * counts_per_acceleration,
                   unsigned_parameter(14) * counts_per_acceleration, plan);
     }
@@ -315,15 +323,15 @@ void LinMotMap::on_own_result(std::uint32_t note, const Result& result) {
         case Asked::enable:
             if (state_ != State::tests) return;
             state_ = good(result) ? State::enabled : State::locked;
-            if (!good(result)) log(name_of(result.reason));
+            if (!good(result)) log(result.reason, result.text);
             return;
         case Asked::home:
             if (state_ != State::homing) return;
             homed_ = good(result);
-            if (!good(result)) log(name_of(result.reason));
+            if (!good(result)) log(result.reason, result.text);
             return;
         case Asked::motion:  // an order that came after it may have ended it
-            if (!good(result) && (note & 0xFF'FFFFu) == (sequence_ & 0xFF'FFFFu)) log(name_of(result.reason));
+            if (!good(result) && (note & 0xFF'FFFFu) == (sequence_ & 0xFF'FFFFu)) log(result.reason, result.text);
             return;
         case Asked::nothing:
             return;

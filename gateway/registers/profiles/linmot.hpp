@@ -68,8 +68,8 @@ private:
     void run(double velocity, WritePlan& plan);
     void give(CommandBody body, Asked asked, WritePlan& plan);
     /// An error of the page, which ends what moves; log() alone keeps it.
-    void fail(std::string_view what, WritePlan& plan);
-    void log(std::string_view what);
+    void fail(Reason why, WritePlan& plan);
+    void log(Reason why, std::string text);
     void off(State to, WritePlan& plan);
     [[nodiscard]] double parameter(std::size_t byte) const;  ///< 32 bits, signed, at an offset from the header as the manual counts
 

@@ -58,6 +58,12 @@ void PaControlMap::start_task(std::size_t i, WritePlan& plan) {
         a.cmd_error = outside_range;
         return;
     }
+    // E-67: 1 to 1000 per mill, and an acceleration; a reference run has speeds of its own.
+    const std::uint32_t speed_word = values_[axis_rows_[i][2]], acceleration_word = values_[axis_rows_[i][1]];
+    if ((what & motions & ~reference) != 0 && (speed_word == 0 || speed_word > 1000 || acceleration_word == 0)) {
+        a.cmd_error = outside_value;
+        return;
+    }
     if ((what & motions) != 0 && !enabled(i)) {
         a.cmd_error = switched_off;
         return;
@@ -72,10 +78,7 @@ void PaControlMap::start_task(std::size_t i, WritePlan& plan) {
         return;
     }
     if (what == delete_offset || what == reset_displaced) return;
-    const auto permille = [&](std::size_t column, double full) {
-        return full * std::min<double>(values_[axis_rows_[i][column]], column == 2 ? 1000 : 65535) / 1000;
-    };
-    const double speed = permille(2, a.speed), acceleration = permille(1, a.acceleration);
+    const double speed = a.speed * speed_word / 1000, acceleration = a.acceleration * acceleration_word / 1000;
     const auto task = [&](CommandBody body) {
         a.active = true;
         a.task_bit = what;

@@ -135,7 +135,10 @@ Verdict ProfileMap::write(Table table, std::uint16_t address, std::uint16_t coun
         const LanguageRow& row = language().rows[index];
         const std::uint8_t* const at = data + 2 * std::size_t{row.address - std::uint32_t{address}};
         std::uint32_t bits = 0;
-        if (!bits_in(row, at, bits)) return Verdict::bad_value;
+        if (!bits_in(row, at, bits)) {
+            out_of_range();
+            return Verdict::bad_value;
+        }
         written_.push_back({index, bits});
         return Verdict::good;
     });
@@ -209,10 +212,15 @@ void ProfileMap::renew(Table table, std::uint16_t address, std::span<const MapVa
         if (bits_in(*it, data + 2 * std::size_t(v.address - address), bits)) {
             written_.push_back({static_cast<std::size_t>(it - rows.begin()), bits});
         } else {
+            out_of_range();
             refused.push_back(take_refused());
         }
     }
-    if (written_.empty() || taken(written_, plan) == Verdict::good) return;
+    if (written_.empty()) return;
+    if (taken(written_, plan) == Verdict::good) {
+        if (auto why = take_refused(); why.reason != Reason::none) refused.push_back(std::move(why));
+        return;
+    }
     // One of them spoils itself alone: nobody is told, and a stop beside it must not be lost.
     plan.commands.clear();
     refused_ = {};

@@ -63,6 +63,8 @@ protected:
 
     /// The bits that a row shows now; false: this drive cannot say it.
     virtual bool shown(std::size_t row, Instant now, std::uint32_t& bits) = 0;
+    /// A value of a write is out of its row's range: for the language's own error word.
+    virtual void out_of_range() {}
     /// What a write means, rows in order of their addresses, each within its range. Unless it is good, nothing has changed.
     virtual Verdict taken(std::span<const Written> rows, WritePlan& plan) = 0;
 

@@ -54,10 +54,13 @@ std::optional<AssemblyInfo> TestValues::assembly(std::uint32_t instance) const {
     }
 }
 void TestValues::read(std::uint32_t instance, Instant, Bytes& to) { to.insert(to.end(), assembly(instance)->size, shown); }
-General TestValues::write(std::uint32_t instance, View data, const Peer&, Instant) {
+General TestValues::write(std::uint32_t instance, View data, Token token, const Peer&, Instant, bool& later) {
     reported.push_back(fmt::format("write {} {:02x}", instance, fmt::join(data, "")));
+    if (writes_later) asked.push_back(token);
+    later = writes_later;
     return General::success;
 }
+void TestValues::messages_ended(const Peer& way) { reported.push_back(way.connection == 0 ? "session ended" : "messages ended"); }
 void TestValues::opened(std::uint32_t output, const Peer&, Duration, Instant) { reported.push_back(fmt::format("opened {}", output)); }
 void TestValues::consumed(std::uint32_t output, View data, const Peer&, Instant) {
     reported.push_back(fmt::format("consumed {} {:02x}", output, fmt::join(data.first(4), "")));

@@ -35,7 +35,8 @@ struct TestValues final : Values {
     [[nodiscard]] const std::vector<std::uint32_t>& assemblies() const override { return list_; }
     void read(std::uint32_t instance, Instant now, Bytes& to) override;
     [[nodiscard]] std::uint64_t revision(std::uint32_t) const override { return changes; }
-    [[nodiscard]] General write(std::uint32_t instance, View data, const Peer& who, Instant now) override;
+    [[nodiscard]] General write(std::uint32_t instance, View data, Token token, const Peer& who, Instant now, bool& later) override;
+    void messages_ended(const Peer& way) override;
     [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const override { return a == b || a == 150 || b == 150; }
     [[nodiscard]] bool held_by_another(std::uint32_t, const Peer&, Instant) const override { return held; }
     void opened(std::uint32_t output, const Peer& who, Duration time_out, Instant now) override;
@@ -54,6 +55,7 @@ struct TestValues final : Values {
     std::vector<std::string> reported;  ///< "opened 151", "consumed 151 01 02 ..", "idle 151", "ended 151 closed"
     std::vector<Token> asked;
     Bytes set_to;
+    bool writes_later = false;  ///< a write of an output is answered by the test
 
 private:
     std::vector<std::uint32_t> list_{100, 101, 102, 150, 151, 152, 197, 198, 199};

@@ -38,6 +38,12 @@ TEST(CipConnections, EveryExtendedStatus) {
         {"trigger 3", [](Open& o) { o.transport = 0x31; }, {0x011D}},
         {"trigger 7", [](Open& o) { o.transport = 0x73; }, {0x011D}},
         {"RPI under 1 ms", [](Open& o) { o.ot_rpi = 999; }, {0x0111}},
+        {"time-out of 25 days", [](Open& o) { o.ot_rpi = 0xFFFFFFFF, o.multiplier = 7; }, {0x0111}},
+        {"RPI above 10 s", [](Open& o) { o.ot_rpi = 10'000'001; }, {0x0111}},
+        {"time-out above 2 min", [](Open& o) { o.ot_rpi = 300'000, o.multiplier = 7; }, {0x0111}},
+        {"messages, time-out above 1 h",
+         [](Open& o) { o.transport = 0xA3, o.path = "20 02 24 01", o.ot_rpi = 10'000'000, o.multiplier = 7; },
+         {0x0111}},
         {"vendor", [](Open& o) { o.path = "34 04 0100 0000 0000 00 00 " + o.path; }, {0x0114}},
         {"product", [](Open& o) { o.path = "34 04 FFFF 0C00 0900 00 00 " + o.path; }, {0x0114}},
         {"type", [](Open& o) { o.path = "34 04 FFFF 0200 0100 00 00 " + o.path; }, {0x0115}},
@@ -129,7 +135,8 @@ TEST(CipConnections, OneOwnerAndAsManyReadersAsThereIsRoomFor) {
     EXPECT_EQ(b.adapter.connections().open(), 0u) << "who only listens goes with the last one that does not";
     Open reader;
     reader.path = "20 04 24 C7 2C C6 2C 65", reader.ot_size = 2;
-    for (reader.serial = 10; reader.serial < 10 + ConnectionManager::most_connections; ++reader.serial)
+    constexpr std::size_t share = ConnectionManager::most_connections - ConnectionManager::kept;
+    for (reader.serial = 10; reader.serial < 10 + share; ++reader.serial)
         ASSERT_NE(b.opened(reader), 0u);
     EXPECT_EQ(b.open(reader).extended, std::vector<std::uint16_t>{0x0113});
 }
@@ -202,11 +209,57 @@ TEST(CipConnections, ForwardCloseNamesThePathOfTheConnection) {
     EXPECT_EQ(b.ask(router.close()).general, General::success) << "by the three numbers alone, as some clients close";
 }
 
+TEST(CipConnections, WhatNeverBringsAnythingIsClosedInTenSeconds) {
+    Bench b;
+    Open reader;
+    reader.path = "20 04 24 C7 2C C6 2C 65", reader.ot_size = 2, reader.ot_rpi = 200'000, reader.multiplier = 7;
+    const std::uint32_t id = b.opened(reader);
+    reader.serial = 2;
+    const std::uint32_t used = b.opened(reader);
+    ASSERT_NE(id, 0u);
+    b.implicit(used, 1, 1, "");
+    b.pass(std::chrono::seconds(11));
+    EXPECT_EQ(b.adapter.connections().open(), 1u) << "its time-out of 102 s counts from the first datagram on";
+}
+
+TEST(CipConnections, NoAddressTakesThePlacesOfOthers) {
+    Bench b;
+    b.connect(2, Bench::other);
+    b.register_session(2);
+    Open reader;
+    reader.path = "20 04 24 C7 2C C6 2C 65", reader.ot_size = 2, reader.ot_rpi = 100'000;
+    std::size_t taken = 0;
+    for (reader.serial = 10; b.opened(reader, 2) != 0; ++reader.serial)
+        ASSERT_LT(++taken, ConnectionManager::most_connections);
+    EXPECT_EQ(taken, ConnectionManager::most_connections - ConnectionManager::kept);
+    EXPECT_EQ(b.open(reader, 2).extended, std::vector<std::uint16_t>{0x0113});
+    EXPECT_NE(b.opened({}), 0u) << "a quarter is kept for owners";
+    reader.serial = 1;
+    reader.originator = 1;
+    EXPECT_NE(b.opened(reader), 0u) << "one of those that never brought anything gives way";
+    EXPECT_EQ(b.adapter.connections().open(), taken + 1);
+    EXPECT_EQ(b.adapter.connections().counters().evicted.value(), 1u);
+}
+
+TEST(CipConnections, TheEndOfAWayOfMessagesIsTold) {
+    Bench b;
+    Open o;
+    o.transport = 0xA3, o.path = "20 02 24 01", o.ot_size = o.to_size = 500;
+    ASSERT_NE(b.opened(o), 0u);
+    b.pass(std::chrono::seconds(11));
+    EXPECT_EQ(b.values.reported, std::vector<std::string>{"messages ended"}) << "its time-out";
+    ASSERT_NE(b.opened(o), 0u);
+    (void)b.ask(o.close());
+    EXPECT_EQ(b.values.reported.size(), 2u);
+    b.adapter.on_disconnected(1);
+    EXPECT_EQ(b.values.reported.back(), "session ended");
+}
+
 TEST(CipConnections, MessagesNeverTakeTheLastPlaceOfAnOwner) {
     Bench b;
     Open o;
     o.transport = 0xA3, o.path = "20 02 24 01", o.ot_size = o.to_size = 500;
-    for (o.serial = 10; o.serial < 10 + ConnectionManager::most_explicit; ++o.serial)
+    for (o.serial = 10; o.serial < 10 + ConnectionManager::most_explicit - ConnectionManager::kept_explicit; ++o.serial)
         ASSERT_NE(b.opened(o), 0u);
     EXPECT_EQ(b.open(o).extended, std::vector<std::uint16_t>{0x011A});
     EXPECT_NE(b.opened({}), 0u);
@@ -386,7 +439,7 @@ TEST(CipConnections, ConnectionDataAndAWrongClose) {
 TEST(CipConnections, TheGatewayClosesThemWhenTheirAssembliesChange) {
     Bench b;
     ASSERT_NE(b.opened({}), 0u);
-    b.adapter.close_all(b.now);
+    b.adapter.connections().close_all(End::by_gateway, b.now);
     EXPECT_EQ(b.values.reported.back(), "ended 151 by gateway");
     EXPECT_EQ(b.adapter.connections().open(), 0u);
 }

@@ -137,6 +137,19 @@ TEST(CipEncapsulation, SessionsAreBoundedAndTheOwnersStays) {
     EXPECT_TRUE(b.adapter.connections().owned());
 }
 
+TEST(CipEncapsulation, BusySessionsOfOneAddressMakeRoomForAnother) {
+    Bench b;
+    for (SessionKey key = 2; key < 2 + Adapter::most_sessions; ++key) {
+        b.connect(key, Bench::other);
+        b.register_session(key);
+    }
+    EXPECT_GE(b.adapter.sessions(), Adapter::most_sessions - Adapter::kept_sessions);
+    b.connect(1000, Endpoint{0xC0A80003, 50'002});
+    b.register_session(1000);
+    EXPECT_EQ(b.ask(get(1, 1, 1), 1000).general, General::success);
+    EXPECT_EQ(std::count(b.output.hung_up.begin(), b.output.hung_up.end(), 1u), 0) << "who has one only keeps it";
+}
+
 TEST(CipEncapsulation, WhoOnlyKnocksIsClosed) {
     Bench b;
     b.connect(2);

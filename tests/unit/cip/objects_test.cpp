@@ -109,6 +109,15 @@ TEST(CipObjects, AssembliesAreReadAndOutputsWritten) {
     ASSERT_NE(b.opened({}), 0u);
     EXPECT_EQ(status_of(b, get(4, 151, 3, service::set_single, Bytes(32))), General::object_state_conflict) << "a connection owns it";
     EXPECT_EQ(status_of(b, get(4, 152, 3, service::set_single, Bytes(32))), General::success);
+    b.values.writes_later = true;
+    EXPECT_EQ(b.ask(get(4, 152, 3, service::set_single, Bytes(32))).data, Bytes{});
+    ASSERT_EQ(b.values.asked.size(), 1u) << "answered when it has been carried out";
+    b.adapter.answered(b.values.asked[0], General::device_state_conflict, {}, 4);
+    const Bytes& packet = b.output.streams[1];
+    ASSERT_GE(packet.size(), 6u);
+    EXPECT_EQ(Bytes(packet.end() - 6, packet.end()), hex("90 00 10 01 04 00")) << "with a word that says more";
+    EXPECT_EQ(status_of(b, get(4, 152, 0, service::set_list, hex("0100 0300"))), General::attribute_list_error)
+        << "in a list there is no later";
 }
 
 TEST(CipObjects, AParametersValueComesWhenTheDriveHasTold) {

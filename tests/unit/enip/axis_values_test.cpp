@@ -24,6 +24,12 @@ struct Port final : modbus::test::FakePort {
         points.push_back(p);
         return std::nullopt;
     }
+    /// Leases are kept apart: they go with every owner that runs.
+    void submit(Command c) override {
+        if (std::holds_alternative<HoldAxis>(c.body)) return leases.push_back(std::move(c));
+        FakePort::submit(std::move(c));
+    }
+    std::vector<Command> leases;
     std::vector<std::pair<std::string, LossCause>> lost;
     std::vector<SetPoint> points;
 };
@@ -37,9 +43,11 @@ struct AxisValuesBench final : HotDoor {
         three = port.add_axis(3, &*catalogue);
         far = port.add_axis(41, &*catalogue);
         values.use_number(port.attach(*this));
-        values.use([this](cip::Token t, General g, cip::View v) { published.push_back({t, g, Bytes(v.begin(), v.end())}); });
+        values.use([this](cip::Token t, General g, cip::View v, std::uint16_t x) {
+            published.push_back({t, g, Bytes(v.begin(), v.end()), x});
+        });
         std::vector<LayoutAxis> axes{{41, far, "far", &*catalogue}, {1, one, "feeder", &*catalogue}, {3, three, "slide", &*catalogue}};
-        values.use(Layout(std::move(axes), 0x12345678, {}), true);
+        values.use(Layout(std::move(axes), 0x12345678, {}));
     }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
@@ -53,6 +61,7 @@ struct AxisValuesBench final : HotDoor {
         cip::Token token;
         General general;
         Bytes value;
+        std::uint16_t extended = 0;
     };
     std::vector<Published> published;
     cip::Peer plc{{0xC0000207, 50'000}, 1};
@@ -97,7 +106,10 @@ TEST(EnipAxisValues, AnOwnersEdgeIsACommandOfItsClient) {
     d.values.opened(153, d.plc, 40ms, d.port.now());
     Bytes out(32);
     d.values.consumed(153, out, d.plc, d.port.now());
-    EXPECT_TRUE(d.port.commands.empty());
+    ASSERT_EQ(d.port.commands.size(), 1u);
+    EXPECT_EQ(std::get<ProcessData>(d.port.commands.front().body).controlword, 0)
+        << "what was sent last is not known: zeros are a word, too";
+    d.port.answer();
     out[0] = 0x0F;
     d.values.consumed(153, out, d.plc, d.port.now());
     ASSERT_EQ(d.port.commands.size(), 1u);
@@ -146,11 +158,117 @@ TEST(EnipAxisValues, WhoHoldsTheAxisKeepsOthersOut) {
         std::snprintf(p.authority_holder.data(), p.authority_holder.size(), "192.0.2.7 assembly 151");
     });
     EXPECT_FALSE(d.values.held_by_another(151, d.plc, d.port.now())) << "it is this client itself";
+}
+
+TEST(EnipAxisValues, AnOwnerInRunModeHoldsItsAxisAndLetsItGo) {
+    AxisValuesBench d;
+    d.port.time += 1s;
+    const auto kinds = [&] {
+        std::vector<HoldAxis::Kind> list;
+        for (const auto& c : std::exchange(d.port.leases, {}))
+            list.push_back(std::get<HoldAxis>(c.body).kind);
+        return list;
+    };
+    using Kinds = std::vector<HoldAxis::Kind>;
+    using enum HoldAxis::Kind;
+    const auto holds = [&](Door door, const char* who) {
+        d.port.edit(d.one, [&](AxisPicture& p) {
+            p.authority = door;
+            p.authority_until = d.port.now() + 30s;
+            std::snprintf(p.authority_holder.data(), p.authority_holder.size(), "%s", who);
+        });
+    };
     d.values.opened(151, d.plc, 40ms, d.port.now());
+    d.values.sweep(d.port.now());
+    EXPECT_EQ(kinds(), Kinds{}) << "not in run mode yet";
+    d.values.consumed(151, Bytes(32), d.plc, d.port.now());
+    EXPECT_EQ(kinds(), Kinds{take});
+    holds(Door::ethernet_ip, "192.0.2.7 assembly 151");
     d.port.time += 5s;
     d.values.sweep(d.port.now());
-    ASSERT_FALSE(d.port.commands.empty()) << "who goes on holds on";
-    EXPECT_TRUE(std::holds_alternative<HoldAxis>(d.port.commands.back().body));
+    EXPECT_EQ(kinds(), Kinds{take}) << "who goes on holds on";
+    holds(Door::http, "anne");
+    d.port.time += 5s;
+    d.values.sweep(d.port.now());
+    EXPECT_EQ(kinds(), Kinds{}) << "taken over: it is anne's for her time";
+    d.port.time += 31s;
+    d.values.sweep(d.port.now());
+    EXPECT_EQ(kinds(), Kinds{take}) << "and his again";
+    d.values.idle(151, d.plc, d.port.now());
+    EXPECT_EQ(kinds(), Kinds{release});
+    d.values.consumed(151, Bytes(32), d.plc, d.port.now());
+    d.values.ended(151, d.plc, cip::End::closed, d.port.now());
+    EXPECT_EQ(kinds(), (Kinds{take, release}));
+}
+
+TEST(EnipAxisValues, WhoCommandsByMessagesIsLostWithHisLastWay) {
+    using Lost = std::vector<std::pair<std::string, LossCause>>;
+    const Lost gone{{"ethernet_ip 192.0.2.7", LossCause::enip_session_closed}};
+    AxisValuesBench d;
+    const cip::Peer unconnected{{0xC0000207, 50'000}, 0, 5}, connected{{0xC0000207, 50'000}, 9, 5}, other{{0xC0000207, 50'001}, 0, 6};
+    bool later = false;
+    cip::Token token = 1;
+    const auto write = [&](const cip::Peer& by) {
+        EXPECT_EQ(d.values.write(151, Bytes(32), token++, by, d.port.now(), later), General::success);
+        d.port.answer();
+    };
+    EXPECT_EQ(d.values.ask(3, 77, other, d.port.now()), General::success) << "who asks does not command";
+    write(unconnected);
+    write(connected);
+    EXPECT_TRUE(later);
+    EXPECT_TRUE(d.values.commands_by(5));
+    EXPECT_FALSE(d.values.commands_by(6));
+    d.values.messages_ended(other);
+    d.values.messages_ended(connected);
+    EXPECT_EQ(d.port.lost, Lost{});
+    d.values.messages_ended(unconnected);
+    EXPECT_EQ(d.port.lost, gone);
+    d.values.messages_ended(unconnected);
+    EXPECT_EQ(d.port.lost, gone) << "once";
+    // Each way in by which messages command: an output, a parameter.
+    d.port.lost.clear();
+    EXPECT_EQ(d.values.set(3, Bytes{1, 0, 0, 0}, 78, other, d.port.now()), General::success);
+    d.values.messages_ended(other);
+    EXPECT_EQ(d.port.lost, gone) << "told at once";
+    while (d.port.answer()) {
+    }
+    ASSERT_EQ(d.port.lost.size(), 2u) << "and again when the command that was on its way has been answered: it may have begun a motion";
+    // The owner's own messages are the owner's.
+    d.port.lost.clear();
+    d.values.opened(151, d.plc, 40ms, d.port.now());
+    EXPECT_EQ(d.values.set(1, Bytes{1, 0, 0, 0}, 79, unconnected, d.port.now()), General::success);
+    EXPECT_EQ(AuthorityClient::of(d.port.commands.back().origin).text(), "ethernet_ip 192.0.2.7 assembly 151");
+    d.values.messages_ended(unconnected);
+    EXPECT_EQ(d.port.lost, Lost{});
+}
+
+TEST(EnipAxisValues, AWrittenOutputIsAnsweredByWhatWasSaidOfIt) {
+    AxisValuesBench d;
+    const cip::Peer by{{0xC0000207, 50'000}, 0, 5};
+    const std::pair<Reason, std::uint8_t> list[] = {{Reason::authority, 0x0C},     {Reason::out_of_range, 0x09},
+                                                    {Reason::not_supported, 0x09}, {Reason::wrong_state, 0x10},
+                                                    {Reason::busy, 0x02},          {Reason::no_answer, 0x07}};
+    cip::Token token = 1;
+    bool later = false;
+    for (const auto& [reason, status] : list) {
+        d.published.clear();
+        EXPECT_EQ(d.values.write(151, Bytes(32), ++token, by, d.port.now(), later), General::success);
+        EXPECT_TRUE(later && d.published.empty());
+        d.port.refuse(reason);
+        ASSERT_EQ(d.published.size(), 1u);
+        EXPECT_EQ(static_cast<std::uint8_t>(d.published[0].general), status) << name_of(reason);
+        EXPECT_EQ(d.published[0].extended, static_cast<std::uint16_t>(reason));
+    }
+    d.published.clear();
+    EXPECT_EQ(d.values.write(150, Bytes(41 * 32), ++token, by, d.port.now(), later), General::success);
+    d.port.answer();
+    d.port.refuse(Reason::authority);
+    EXPECT_TRUE(d.published.empty()) << "the third axis has not answered";
+    d.port.answer();
+    ASSERT_EQ(d.published.size(), 1u);
+    EXPECT_EQ(d.published[0].general, General::object_state_conflict) << "one that is refused is a refusal";
+    EXPECT_EQ(d.values.write(151, Bytes(32), 0, by, d.port.now(), later), General::resource_unavailable) << "nothing can be answered later";
+    EXPECT_NE(d.port.notes.size(), 0u) << "and each is an event";
 }
 
 TEST(EnipAxisValues, ParametersAreTheDrives) {
@@ -194,9 +312,28 @@ TEST(EnipAxisValues, EachReasonOfADriveHasItsGeneralStatus) {
     EXPECT_EQ(d.published.back().general, General::no_stored_data) << "what the drive told is no number of the parameter's type";
 }
 
-TEST(EnipAxisValues, AnotherLayoutIsAnotherRevision) {
+TEST(EnipAxisValues, AnotherLayoutIsTheSameDevice) {
     const Layout a({}, 1, {}), b({}, 2, {});
-    EXPECT_NE(std::pair(a.device().major, a.device().minor), std::pair(b.device().major, b.device().minor));
+    EXPECT_EQ(std::pair(a.device().major, a.device().minor), std::pair(b.device().major, b.device().minor));
+    EXPECT_NE(a.device().consistency, b.device().consistency);
+}
+
+TEST(EnipAxisValues, AssembliesAreTheSameWhileTheirOwnBytesAre) {
+    const AxisId one{1}, two{2}, anew{3};
+    const Layout before({{1, one, "feeder"}, {2, two, "slide"}}, 1, {}), other_hash({{1, one, "feeder"}, {2, two, "slide"}}, 2, {}),
+        made_anew({{1, one, "feeder"}, {2, anew, "slide"}}, 3, {}),
+        grown({{1, one, "feeder"}, {2, two, "slide"}, {3, anew, "lift"}}, 4, {});
+    for (const std::uint32_t i : before.assemblies())
+        EXPECT_TRUE(before.same_bytes(i, other_hash)) << i;
+    for (const std::uint32_t i : {101u, 151u, 197u, 198u, 199u}) {
+        EXPECT_TRUE(before.same_bytes(i, made_anew)) << i;
+        EXPECT_TRUE(before.same_bytes(i, grown)) << i;
+    }
+    for (const std::uint32_t i : {100u, 150u, 102u, 152u})
+        EXPECT_FALSE(before.same_bytes(i, made_anew)) << i;
+    EXPECT_FALSE(before.same_bytes(100, grown)) << "it is longer";
+    EXPECT_TRUE(before.same_bytes(102, grown));
+    EXPECT_FALSE(grown.same_bytes(103, before)) << "it is gone";
 }
 
 /// A tool's view: entries of the EDS, each a list of fields.

@@ -19,9 +19,21 @@ Wanted wanted(std::uint16_t word, std::int16_t mode = 1, std::int32_t target = 0
     return w;
 }
 
-TEST(EnipOutputLane, NothingAtTheStartWhereAllIsZero) {
+TEST(EnipOutputLane, TheFirstImageIsHandedOnWholeThoughAllIsZero) {
     OutputLane lane;
-    EXPECT_FALSE(lane.take({}, {}).command);
+    for (int i = 0; i < 2; ++i) {
+        const auto step = lane.take({}, enabled_axis());
+        ASSERT_TRUE(step.command);
+        EXPECT_EQ(step.command->controlword, 0) << "whatever others have switched on";
+        EXPECT_EQ(step.command->mode, std::int16_t{0});
+        EXPECT_EQ(step.command->target_position, 0);
+        EXPECT_EQ(step.command->profile_velocity, 0u);
+        EXPECT_FALSE(step.command->target_velocity) << "a speed counts when it changes";
+        EXPECT_FALSE(lane.take({}, enabled_axis()).command) << "renewed, not changed";
+        lane.reset();
+    }
+    OutputLane speed_alone(has_target_velocity);
+    EXPECT_FALSE(speed_alone.take({}, enabled_axis()).command) << "what it has not is never sent";
 }
 
 TEST(EnipOutputLane, AnEdgeCarriesWhatHasChanged) {
@@ -30,7 +42,7 @@ TEST(EnipOutputLane, AnEdgeCarriesWhatHasChanged) {
     ASSERT_TRUE(step.command);
     EXPECT_EQ(step.command->controlword, 0x0F);
     EXPECT_EQ(step.command->mode, std::int16_t{1});
-    EXPECT_FALSE(step.command->target_position);
+    EXPECT_EQ(step.command->target_position, 0);
     EXPECT_FALSE(lane.take(wanted(0x0F), {}).command) << "renewed, not changed";
     EXPECT_FALSE(lane.take(wanted(0x0F, 1, 500), {}).command) << "a target waits for its edge";
     step = lane.take(wanted(0x1F, 1, 500), {});

@@ -133,12 +133,17 @@ TEST(EnipServer, AConnectionFromItsOpeningToItsEnd) {
     s.udp.send_to(asio::buffer(out), s.device);
     for (int i = 0; i < 1000 && s.port.commands.empty(); ++i)
         s.turn();
-    ASSERT_EQ(s.port.commands.size(), 1u);
-    EXPECT_EQ(std::get<ProcessData>(s.port.commands[0].body).controlword, 6);
+    ASSERT_EQ(s.port.commands.size(), 2u);
+    EXPECT_TRUE(std::holds_alternative<HoldAxis>(s.port.commands[0].body)) << "an owner that runs holds its axis";
+    EXPECT_EQ(std::get<ProcessData>(s.port.commands[1].body).controlword, 6);
 
     s.put_site();
     EXPECT_TRUE(s.server.adapter().connections().owned()) << "the same site again is no change";
     s.port.set_mapping_revision(99);
+    s.put_site();
+    EXPECT_TRUE(s.server.adapter().connections().owned()) << "another mapping somewhere leaves its bytes as they are";
+    s.site.axis_ids.clear();
+    s.site.site.axes.clear();
     s.put_site();
     EXPECT_FALSE(s.server.adapter().connections().owned());
     EXPECT_NE(s.port.notes.back().first.text.find("site was changed"), std::string::npos);

@@ -26,6 +26,12 @@ struct WindowPort final : modbus::test::FakePort {
         points.push_back(p);
         return std::nullopt;
     }
+    /// Leases are kept apart: they go with every owner that runs.
+    void submit(Command c) override {
+        if (std::holds_alternative<HoldAxis>(c.body)) return leases.push_back(std::move(c));
+        FakePort::submit(std::move(c));
+    }
+    std::vector<Command> leases;
     std::vector<SetPoint> points;
 };
 
@@ -37,7 +43,7 @@ struct WindowBench : HotDoor {
         one = port.add_axis(1, &*catalogue);
         two = port.add_axis(2, &*catalogue);
         values.use_number(port.attach(*this));
-        values.use([this](cip::Token t, General g, cip::View v) { published.push_back({t, g, Bytes(v.begin(), v.end())}); });
+        values.use([this](cip::Token t, General g, cip::View v, std::uint16_t) { published.push_back({t, g, Bytes(v.begin(), v.end())}); });
         state.axis_ids = {one, two};
         state.site.axes.resize(2);
         state.site.axes[0].name = "feeder";
@@ -97,7 +103,7 @@ struct WindowBench : HotDoor {
         state.site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(maps);
         image.on_site(state);
         std::vector<LayoutAxis> axes{{1, one, "feeder", &*catalogue}, {2, two, "slide", &*catalogue}};
-        values.use(Layout(std::move(axes), ++revision, {}, windows_of(state), objects_of(state, values.languages())), true);
+        values.use(Layout(std::move(axes), ++revision, {}, windows_of(state), objects_of(state, values.languages())));
         port.commands.clear();
     }
     Bytes read(std::uint32_t instance) {

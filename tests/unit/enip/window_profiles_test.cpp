@@ -95,6 +95,19 @@ TEST(EnipWindow, APaControlTakesItsToggleFromTheFirstImage) {
     word(12, 0x4120);  // 10.0
     word(9, 0x0045);
     d.send();
+    EXPECT_EQ(starts(), 0) << "a speed of 0 is refused with 29h, and so is an acceleration of 0";
+    word(9, 0x0041);
+    d.send();
+    word(10, 1000);
+    word(11, 1001);
+    word(9, 0x0045);
+    d.send();
+    EXPECT_EQ(starts(), 0) << "above 1000 per mill as well";
+    word(9, 0x0041);
+    d.send();
+    word(11, 1000);
+    word(9, 0x0045);
+    d.send();
     EXPECT_EQ(starts(), 1);
 }
 
@@ -103,6 +116,9 @@ TEST(EnipWindow, ALinMotTakesItsCountFromTheFirstImageAndStopsByALevel) {
     d.speak(ProfileLanguage::linmot);
     d.put16(0, 0x003E);
     d.send();
+    ASSERT_EQ(d.port.commands.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<Disable>(d.port.commands[0].body)) << "whoever has switched it on: the first word has bit 0 clear";
+    d.port.commands.clear();
     d.put16(0, 0x003F);
     d.send();
     ASSERT_EQ(d.port.commands.size(), 1u) << "power";
@@ -140,6 +156,9 @@ TEST(EnipWindow, TheBlockOfCia402IsAnImageLikeThoseOfTheAxes) {
     const Bytes mine = d.read(400), axis = d.read(101);
     EXPECT_EQ(Bytes(mine.begin(), mine.begin() + 32), axis);
     d.send();
+    ASSERT_EQ(d.port.commands.size(), 1u);
+    EXPECT_EQ(std::get<ProcessData>(d.port.commands[0].body).controlword, 0) << "the first image is handed on whole";
+    d.port.answer();
     d.put16(0, 0x0F);
     d.put16(2, 1);
     d.put32(4, 500);
@@ -188,7 +207,7 @@ struct WindowObjects : WindowProfile {
     WindowObjects() {
         speak(ProfileLanguage::lexium, 3);
         values.ended(401, plc, cip::End::closed, port.now());
-        values.use([this](cip::Token t, General g, cip::View v) { adapter.answered(t, g, v); });
+        values.use([this](cip::Token t, General g, cip::View v, std::uint16_t x) { adapter.answered(t, g, v, x); });
         EXPECT_TRUE(adapter.on_connected(1, plc.from, port.now()));
         cip::Header h;
         h.command = 0x65;

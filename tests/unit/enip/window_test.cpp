@@ -155,7 +155,9 @@ TEST(EnipWindow, AParameterIsWrittenWhenItChangesAndTheNewestWaits) {
     d.values.opened(310, d.plc, 40ms, d.port.now());
     d.out[8] = 50;
     d.send();
-    EXPECT_TRUE(d.port.commands.empty()) << "of the first image it is a base";
+    ASSERT_EQ(d.port.commands.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<ProcessData>(d.port.commands[0].body)) << "of the first image the parameter is a base";
+    d.port.commands.clear();
     const auto written = [&] { return as_integer(std::get<WriteParameter>(d.port.commands.back().body).value); };
     for (const std::uint8_t v : std::initializer_list<std::uint8_t>{60, 70, 80}) {
         d.out[8] = v;
@@ -246,10 +248,17 @@ TEST(EnipWindow, OneOwnerOfAnAxisHoweverItIsMapped) {
 TEST(EnipWindow, AMessageWritesAllOfItOrNothing) {
     WindowOut d;
     const Bytes good{0x06, 0, 1, 0, 0, 0, 0, 0, 50, 0, 0, 0}, bad{0x06, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-    EXPECT_EQ(d.values.write(310, bad, d.plc, d.port.now()), General::invalid_attribute_value) << "AC is 0";
+    bool later = false;
+    EXPECT_EQ(d.values.write(310, bad, 1, d.plc, d.port.now(), later), General::invalid_attribute_value) << "AC is 0";
     EXPECT_TRUE(d.port.commands.empty());
-    EXPECT_EQ(d.values.write(310, good, d.plc, d.port.now()), General::success);
+    EXPECT_FALSE(later);
+    EXPECT_EQ(d.values.write(310, good, 2, d.plc, d.port.now(), later), General::success);
     EXPECT_EQ(d.port.commands.size(), 2u);
+    EXPECT_TRUE(later && d.published.empty());
+    d.port.answer();
+    d.port.refuse(Reason::wrong_state);
+    ASSERT_EQ(d.published.size(), 1u);
+    EXPECT_EQ(d.published[0].general, General::device_state_conflict);
 }
 
 TEST(EnipWindow, TheSheetListsThemWithAConnectionOfTheirOwn) {

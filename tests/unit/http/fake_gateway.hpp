@@ -32,6 +32,7 @@ class FakeGateway final : public FakeClock,
                           public FakeRecorder,
                           public FakeCaptures,
                           public FakeModbus,
+                          public FakeConnections,
                           public FakeBackup {
 public:
     explicit FakeGateway(std::string_view site_text = default_site);

@@ -79,6 +79,15 @@ private:
     const std::string& fault_;
 };
 
+class FakeConnections : public ConnectionPort {
+public:
+    std::vector<ClientConnection> open{{"enip-65537", "enip", "exclusive_owner", "192.0.2.7:50000", 1, 2, {"feeder"}, true}};
+    void list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) override { then(open); }
+    void close_connection(std::string id, Origin, std::function<void(Closed)> then) override {
+        then(std::erase_if(open, [&](const auto& c) { return c.id == id; }) > 0 ? Closed::done : Closed::unknown);
+    }
+};
+
 class FakeBackup : public BackupPort {
 public:
     explicit FakeBackup(const std::string& keep_fault) : fault_(keep_fault) {}

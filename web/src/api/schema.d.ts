@@ -533,6 +533,49 @@ export interface paths {
         patch: operations["changeModbus"];
         trace?: never;
     };
+    "/api/v1/connections": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Who is connected over EtherNet/IP and Modbus/TCP
+         * @description EtherNet/IP sessions, connections of messages and of implicit data, and Modbus/TCP connections. They are told anew with each request.
+         */
+        get: operations["listConnections"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/connections/{connection}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description its id in the list */
+                connection: string;
+            };
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Closes one connection of a client
+         * @description It ends as if its network had ended it. Its client is lost for the axes that it commanded by it, and each of them does what its `fail_safe` says. The client may connect again.
+         */
+        delete: operations["closeConnection"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/eds": {
         parameters: {
             query?: never;
@@ -2831,7 +2874,7 @@ export interface components {
         FailSafeRow: {
             axis: string;
             fail_safe: components["schemas"]["FailSafeChoice"];
-            /** @description for how long a connected Modbus client may ask nothing; 0: for ever */
+            /** @description for how long a connected Modbus client may ask nothing, and one that commands by EtherNet/IP messages may send nothing; 0: for ever */
             watchdog_ms_in_force: number;
             /** @description why the gateway stopped the axis without a command, until the next command to it */
             last_cause: string | null;
@@ -3344,6 +3387,27 @@ export interface components {
         };
         ModbusChange: {
             read_only: boolean;
+        };
+        ClientConnection: {
+            /** @description the name of the door and a number; never used again while the gateway runs */
+            id: string;
+            /** @enum {string} */
+            door: "modbus" | "enip";
+            /** @enum {string} */
+            kind: "modbus_tcp" | "session" | "messages" | "exclusive_owner" | "input_only" | "listen_only";
+            /** @description address and port of the client */
+            peer: string;
+            /** Format: date-time */
+            since: string;
+            /**
+             * Format: date-time
+             * @description when something came by it last
+             */
+            received_at: string;
+            /** @description axes that it owns: of an exclusive owner */
+            axes: string[];
+            /** @description its client has commanded by it; of an exclusive owner: it is in run mode */
+            commands: boolean;
         };
         ModbusDoor: {
             bind: string;
@@ -6296,6 +6360,55 @@ export interface operations {
             503: components["responses"]["Unavailable"];
             504: components["responses"]["NoAnswer"];
             507: components["responses"]["NotStored"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    listConnections: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description the connections, by id */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ClientConnection"][];
+                };
+            };
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
+            default: components["responses"]["Problem"];
+        };
+    };
+    closeConnection: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                /** @description its id in the list */
+                connection: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description it is closed */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            403: components["responses"]["Forbidden"];
+            404: components["responses"]["NotFound"];
+            503: components["responses"]["Unavailable"];
+            504: components["responses"]["NoAnswer"];
             default: components["responses"]["Problem"];
         };
     };

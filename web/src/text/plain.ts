@@ -40,7 +40,7 @@ const spaced = new Set(
     'position_min position_max velocity_max acceleration_max deceleration_max following_error_max silent_limit increments_per_unit fail_safe modbus_units default_bit_rate ' +
     'retry_pause_min_ms retry_pause_max_ms retry_pause_ms reply_timeout_ms poll_period_ms stale_after_ms pause_ms hold_ms watchdog_ms timeout_s ' +
     'target_reached internal_limit position_demand following_error target_position target_velocity position_increments velocity_increments error_code mode_number ' +
-    'not_stored not_run no_answer line_down line_lost lease_ended modbus_closed modbus_silent enip_closed enip_idle enip_timed_out gateway_ends ethernet_ip open_loop ' +
+    'not_stored not_run no_answer line_down line_lost lease_ended modbus_closed modbus_silent enip_closed enip_idle enip_timed_out enip_session_closed enip_silent gateway_ends ethernet_ip open_loop ' +
     'fault_cleared can_error standard_map read_only word_order axis_number'
   ).split(' '),
 );

@@ -27,6 +27,8 @@ export const report: Table = {
   'EtherNet/IP connection closed': 'EtherNet/IP-Verbindung geschlossen',
   'EtherNet/IP connection timed out': 'EtherNet/IP-Verbindung: Zeit abgelaufen',
   'EtherNet/IP scanner idle': 'EtherNet/IP-Scanner untätig',
+  'EtherNet/IP session closed': 'EtherNet/IP-Sitzung geschlossen',
+  'EtherNet/IP client silent': 'EtherNet/IP-Client schweigt',
   'fail-safe actions': 'Aktionen bei Befehlsausfall',
   'Fail-safe rehearsal': 'Probe des Befehlsausfalls',
   'family not known: taken by an older program': 'Familie nicht bekannt: mit einem älteren Programm genommen',

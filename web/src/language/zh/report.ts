@@ -27,6 +27,8 @@ export const report: Table = {
   'EtherNet/IP connection closed': 'EtherNet/IP 连接已关闭',
   'EtherNet/IP connection timed out': 'EtherNet/IP 连接超时',
   'EtherNet/IP scanner idle': 'EtherNet/IP 扫描器空闲',
+  'EtherNet/IP session closed': 'EtherNet/IP 会话已关闭',
+  'EtherNet/IP client silent': 'EtherNet/IP 客户端静默',
   'fail-safe actions': '失控保护动作',
   'Fail-safe rehearsal': '失控保护演练',
   'family not known: taken by an older program': '产品系列未知：由旧版程序创建',

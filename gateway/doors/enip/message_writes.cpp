@@ -1,0 +1,98 @@
+// Axis values, outputs written by messages: each write is answered when all that it ordered has been answered, by what was said of it;
+// whoever commands so is a client that can be lost. In: writes, results, ends of sessions. Out: commands, late answers, losses.
+#include <algorithm>
+
+#include "gateway/doors/enip/axis_values.hpp"
+
+namespace axisgate::enip {
+namespace {
+using cip::General;
+
+/// An output is there and can be set: what speaks against this write is its value, the state of the device, or somebody who holds it.
+General of_output(Reason why) {
+    switch (why) {
+        case Reason::authority:
+            return General::object_state_conflict;
+        case Reason::not_supported:
+        case Reason::unknown_point:
+        case Reason::not_writable:
+            return General::invalid_attribute_value;
+        default:
+            return general_of(why);
+    }
+}
+}  // namespace
+
+Origin AxisValues::origin_for(AxisId axis, const cip::Peer& who) const {
+    for (const auto& [output, owner] : owners_) {
+        if (std::ranges::find(owner.axes, axis) != owner.axes.end() &&
+            owner.origin.client->starts_with(address_text(who.from.address) + " "))
+            return owner.origin;
+    }
+    Origin o;
+    o.door = Door::ethernet_ip;
+    o.who = std::make_shared<const std::string>(text_of(who.from));
+    return o;
+}
+
+Origin AxisValues::commander_for(AxisId axis, const cip::Peer& who) {
+    Origin o = origin_for(axis, who);
+    if (!o.client) clients_.commanded(AuthorityClient::of(o), who);
+    return o;
+}
+
+General AxisValues::write(std::uint32_t instance, cip::View data, cip::Token token, const cip::Peer& who, Instant now, bool& later) {
+    if (token == 0 || message_writes_.size() + own_writes_.size() >= most_asked) return General::resource_unavailable;
+    if (const auto* w = layout_.window(instance)) {
+        const Origin origin = commander_for(w->axes.empty() ? no_axis : w->axes.front(), who);
+        const auto [it, fresh] = own_writes_.try_emplace(token, *this, token, origin);
+        if (!fresh) return General::resource_unavailable;
+        const auto done = write_window(image_, writer_, w->spec, it->second, origin, data, now);
+        const General at_once = of_output(done.why);
+        later = done.outstanding > 0;
+        if (later) {
+            it->second.left = done.outstanding;
+            it->second.general = at_once;
+            return General::success;
+        }
+        own_writes_.erase(it);
+        return at_once;
+    }
+    MessageWrite all;
+    layout_.each_axis(instance, [&](std::uint16_t i, AxisId id) {
+        if (id == no_axis) return;
+        Asked asked;
+        asked.kind = Asked::Kind::output;
+        asked.token = token;
+        asked.origin = commander_for(id, who);
+        asked.data = all_of(read_wanted(data.subspan(std::size_t{i} * bytes_per_axis, bytes_per_axis)));
+        const ProcessData d = asked.data;
+        counters_.commands.add();
+        if (submit(id, d, std::move(asked), now))
+            ++all.left;
+        else
+            all.note(Reason::busy);
+    });
+    if (all.left == 0) return all.general;
+    later = true;
+    message_writes_.emplace(token, all);
+    return General::success;
+}
+
+void AxisValues::MessageWrite::note(Reason why) {
+    if (general != General::success || why == Reason::none) return;
+    general = of_output(why);
+    extended = static_cast<std::uint16_t>(why);
+}
+
+bool AxisValues::MessageWrite::answered(const Result& result) {
+    if (!good(result)) note(result.reason == Reason::none ? Reason::internal : result.reason);
+    return --left == 0;
+}
+
+void AxisValues::messages_ended(const cip::Peer& way) {
+    for (const auto& who : clients_.ended(way))
+        lost_.lost(who, LossCause::enip_session_closed);
+}
+
+}  // namespace axisgate::enip

@@ -1,0 +1,22 @@
+// Warm connections: the connection port: asks the doors of the hot thread, in its turn, and notes who has closed what.
+// In: wishes. Out: lists; events. Never knows a door but by its interface.
+#pragma once
+
+#include "gateway/runtime/warm_events.hpp"
+#include "gateway/runtime/warm_threads.hpp"
+#include "gateway/services/ports/connections.hpp"
+
+namespace axisgate {
+
+class WarmConnections final : public ConnectionPort {
+public:
+    WarmConnections(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
+    void list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) override;
+    void close_connection(std::string id, Origin origin, std::function<void(Closed)> then) override;
+
+private:
+    const WarmThreads& threads_;
+    WarmEvents& events_;
+};
+
+}  // namespace axisgate

@@ -56,8 +56,6 @@ export const text: Table = {
   'enip closed': 'EtherNet/IP geschlossen',
   'enip idle': 'EtherNet/IP untätig',
   'enip timed out': 'EtherNet/IP Zeit abgelaufen',
-  'enip session closed': 'EtherNet/IP-Sitzung geschlossen',
-  'enip silent': 'EtherNet/IP schweigt',
   'EPROM writes': 'EPROM-Schreibvorgänge',
   'error code': 'Fehlercode',
   'error': 'Fehler',

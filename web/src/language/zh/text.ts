@@ -56,8 +56,6 @@ export const text: Table = {
   'enip closed': 'EtherNet/IP 已关闭',
   'enip idle': 'EtherNet/IP 空闲',
   'enip timed out': 'EtherNet/IP 超时',
-  'enip session closed': 'EtherNet/IP 会话已关闭',
-  'enip silent': 'EtherNet/IP 静默',
   'EPROM writes': 'EPROM 写入次数',
   'error code': '错误代码',
   'error': '错误',

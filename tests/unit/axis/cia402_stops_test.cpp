@@ -178,6 +178,103 @@ TEST(Cia402Handshake, TheEndOfAHaltGoesOnWithoutANewSetPoint) {
     EXPECT_EQ(b.picture().setpoints_accepted, 2);
 }
 
+/// A controller writes its speed with every cycle. What somebody else has done since is not undone by that, only by another speed.
+TEST(Cia402Stops, ASpeedThatIsRepeatedDoesNotUndoWhatSomebodyElseHasDone) {
+    Origin panel;
+    panel.door = Door::http;
+    panel.client = std::make_shared<const std::string>("panel");
+    Move slow;
+    slow.kind = Move::Kind::velocity;
+    slow.target = 100;
+    SetPoint streamed;
+    streamed.mode = SetPoint::Mode::velocity;
+    streamed.value = 100;
+    for (const auto* what : {"a stop", "a motion", "a stream"}) {
+        Bench b;
+        b.enable(mode_profile_velocity);
+        ProcessData d;
+        d.controlword = 0x0F;
+        d.target_velocity = 500;
+        ASSERT_TRUE(has<Move>(b.data(d))) << what;
+        if (what == std::string("a stop")) b.obey(b.profile.on_command(Halt{}, panel));
+        if (what == std::string("a motion")) b.obey(b.profile.on_command(slow, panel));
+        if (what == std::string("a stream")) {
+            b.profile.follow(streamed);
+            b.profile.end_following();
+        }
+        EXPECT_TRUE(b.data(d).orders.empty()) << what;
+        EXPECT_TRUE(b.data(d).orders.empty()) << what << ", and again";
+        d.target_velocity = 501;
+        const auto r = b.data(d);
+        ASSERT_TRUE(has<Move>(r)) << what;
+        EXPECT_EQ(std::get<Move>(r.orders.back()).target, 501) << what;
+    }
+}
+
+TEST(Cia402Stops, AModeThatIsRepeatedDoesNotEndWhatSomebodyElseIsAbout) {
+    Origin panel;
+    panel.door = Door::http;
+    panel.client = std::make_shared<const std::string>("panel");
+    Bench b;
+    b.enable(mode_profile_velocity);
+    Move m;
+    m.kind = Move::Kind::absolute;
+    m.target = 500;
+    b.obey(b.profile.on_command(m, panel));
+    ProcessData d;
+    d.mode = mode_profile_velocity;
+    (void)b.data(d);
+    EXPECT_EQ(b.picture().mode, mode_profile_position);
+    b.drive.moving = false;
+    b.say();
+    (void)b.data(d);
+    EXPECT_EQ(b.picture().mode, mode_profile_velocity) << "at rest it is taken";
+}
+
+TEST(Cia402Stops, AnAxisThatRunsDownIsNotSwitchedOffWithEveryWord) {
+    Bench b;
+    b.enable(mode_profile_position);
+    moving_to(b, 1000);
+    EXPECT_TRUE(has<Disable>(b.word(0x00)));
+    ASSERT_TRUE(b.drive.moving);
+    EXPECT_TRUE(b.word(0x00).orders.empty());
+    EXPECT_TRUE(has<Disable>(b.word(0x01))) << "another word that stops";
+}
+
+TEST(Cia402Stops, AFaultThatHasGoneDoesNotEnableByARepeatedWord) {
+    Bench b;
+    b.enable(mode_profile_position);
+    b.drive.fault = true;
+    b.say();
+    b.drive.fault = false;
+    b.drive.power = Power::off;
+    b.drive.statusword = 0x21;  // ready to switch on, from where 0F enables
+    b.say();
+    ASSERT_EQ(b.profile.state(), PowerState::ready_to_switch_on);
+    EXPECT_TRUE(b.word(0x0F).orders.empty());
+    b.word(0x06);
+    EXPECT_TRUE(has<Enable>(b.word(0x0F)));
+}
+
+TEST(Cia402Stops, AStopAtTheDriveIsNotUndoneByARepeatedSpeed) {
+    Bench b;
+    b.enable(mode_profile_velocity);
+    ProcessData d;
+    d.controlword = 0x0F;
+    d.target_velocity = 500;
+    ASSERT_TRUE(has<Move>(b.data(d)));
+    b.drive.quick_stopping = true;
+    b.drive.moving = false;
+    b.say();
+    ASSERT_EQ(b.profile.state(), PowerState::quick_stop_active);
+    b.drive.quick_stopping = false;
+    b.say();
+    ASSERT_EQ(b.profile.state(), PowerState::operation_enabled);
+    EXPECT_TRUE(b.data(d).orders.empty());
+    d.target_velocity = 501;
+    EXPECT_TRUE(has<Move>(b.data(d)));
+}
+
 TEST(Cia402Handshake, ACommandOfSomebodyElseDoesNotAcknowledge) {
     Bench b;
     b.enable(mode_profile_position);

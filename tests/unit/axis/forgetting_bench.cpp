@@ -16,9 +16,6 @@ Origin who(Door door, const char* name) {
     o.client = std::make_shared<const std::string>(name);
     return o;
 }
-Origin plc() { return who(Door::modbus, "plc"); }
-Origin panel() { return who(Door::http, "panel"); }
-
 SetPoint point(SetPoint::Mode mode, std::int64_t value) {
     SetPoint p;
     p.mode = mode;
@@ -38,6 +35,10 @@ std::string speeds_of(const Move& m) {
     return fmt::format("{} {} {}", m.velocity.value_or(0), m.acceleration.value_or(0), m.deceleration.value_or(0));
 }
 }  // namespace
+
+Origin plc() { return who(Door::modbus, "plc"); }
+Origin panel() { return who(Door::http, "panel"); }
+Origin stranger() { return who(Door::modbus, "stranger"); }
 
 Cia402Axis::Decision Subject::write(const ProcessData& d, const Origin& by) {
     auto r = profile.on_process_data(d, by);
@@ -89,6 +90,11 @@ Subject::Subject(Situation situation) {
     drive.position = 70;
     drive.referenced = true;
     say();
+    {
+        ProcessData d;
+        d.controlword = 0x06;
+        obey(write(d, panel()));
+    }
     const auto end_edge = [&] { (void)control(on_word); };
     const auto turn = [&] {
         enabled(mode_profile_velocity);
@@ -311,6 +317,8 @@ void Subject::apply(Event event) {
             return answer(write(d, panel()));
         case enable_operation_by_another:
             return word(on_word, panel());
+        case enable_operation_by_a_stranger:
+            return word(on_word, stranger());
         case enable:
             return answer(profile.on_command(Enable{}, panel()));
         case disable:
@@ -384,6 +392,15 @@ std::string Subject::first_order(const Cia402Axis::Decision& d) const {
     return "none";
 }
 
+/// A mode that its client has not written just before: one that is merely repeated does not end what somebody else is about.
+void Subject::choose(std::int16_t mode, const Origin& by) {
+    ProcessData d;
+    d.mode = picture().mode;
+    obey(write(d, by));
+    d.mode = mode;
+    obey(write(d, by));
+}
+
 /// Leads the axis to operation enabled by the words of "plc", from wherever it is.
 void Subject::enable_again() {
     answer_open();
@@ -441,15 +458,16 @@ Seen Subject::look() const {
         }
     }
     if (profile.state() == PowerState::operation_enabled && p.mode != mode_profile_velocity && at(Value::halt) == "0") {
-        // A speed that costs no order is the one that the drive is thought to have.
+        // A speed that costs no order is the one that the drive is thought to have. Somebody is asked who has not written values before,
+        // and who says the present mode and another speed first, so that mode and speed are new ones of his, not repeated.
         for (const std::int32_t speed : {500, 600, 55, 77}) {
             Subject s = *this;
+            s.choose(mode_profile_velocity, stranger());
             ProcessData d;
-            d.mode = mode_profile_velocity;
-            s.obey(s.write(d, plc()));
-            d = {};
+            d.target_velocity = 1;
+            (void)s.write(d, stranger());
             d.target_velocity = speed;
-            if (s.write(d, plc()).orders.empty() && s.open.empty()) at(Value::ordered_velocity) = std::to_string(speed);
+            if (s.write(d, stranger()).orders.empty() && s.open.empty()) at(Value::ordered_velocity) = std::to_string(speed);
         }
     }
     at(Value::waiting) = at(Value::end_of_halt) = "none";
@@ -468,10 +486,8 @@ Seen Subject::look() const {
     {
         Subject s = *this;
         s.enable_again();
+        s.choose(mode_profile_position, plc());
         ProcessData d;
-        d.mode = mode_profile_position;
-        s.obey(s.write(d, plc()));
-        d = {};
         d.controlword = 0x3F;
         const auto r = s.write(d, plc());
         at(Value::target) = at(Value::speeds) = r.refused ? r.text : "none";

@@ -12,6 +12,12 @@
 
 namespace axisgate::forgetting {
 
+/// Who speaks. "plc" has brought about each situation and written all values; its words are known. "panel" gives the commands; it has
+/// written the word 06 (shutdown) before anything else, so that its next word is an edge. Of "stranger" nobody has heard.
+[[nodiscard]] Origin plc();
+[[nodiscard]] Origin panel();
+[[nodiscard]] Origin stranger();
+
 /// What the axis is doing when the event comes. In each of them the client "plc" has written a target (3000) that no set-point has used
 /// yet, speeds (200, 300, 400), a homing method (17) and, but where the mode moves the axis with it, a target velocity (55).
 enum class Situation : std::uint8_t {
@@ -56,10 +62,11 @@ enum class Event : std::uint8_t {
     another_mode_and_velocity,
     another_mode_and_back,
     target_velocity_zero,
-    // of another client
+    // of other clients
     target_of_another,
     speeds_of_another,
-    enable_operation_by_another,
+    enable_operation_by_another,     // "panel", whose word rises by that
+    enable_operation_by_a_stranger,  // "stranger", of whom it is not known whether it rises
     // commands that the drive takes, and some that it does not
     enable,
     disable,
@@ -142,6 +149,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Event::count)> event_
                                                                                       "target_of_another",
                                                                                       "speeds_of_another",
                                                                                       "enable_operation_by_another",
+                                                                                      "enable_operation_by_a_stranger",
                                                                                       "enable",
                                                                                       "disable",
                                                                                       "quick_stop",
@@ -235,6 +243,7 @@ private:
     void run_to(std::int32_t target);
     void answer(const Cia402Axis::Decision& decision, bool good = true);
     void answer_open();
+    void choose(std::int16_t mode, const Origin& by);
     void enable_again();
     [[nodiscard]] std::string first_order(const Cia402Axis::Decision& decision) const;
 };

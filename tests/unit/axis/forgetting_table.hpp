@@ -34,8 +34,10 @@ inline std::vector<Rule> rules() {
     const Situations turns{S::turning, S::turning_halted}, halts{S::halted, S::turning_halted}, homes{S::searching, S::homing_refused};
     const Situations enabled = Situations{S::standing, S::moving, S::waiting} | halts | turns | homes | streams;
     const Situations free = enabled.but(halts), at_rest{S::standing, S::halted, S::turning_halted, S::homing_refused};
-    const Situations answering = any.but(absent | faults);
-    const Events on_words{E::enable_operation, E::enable_operation_by_another};
+    const Situations answering = any.but(absent | faults), homable = answering.but(halts | S::quick_stopped);
+    const Events on_words{E::enable_operation, E::enable_operation_by_another, E::enable_operation_by_a_stranger};
+    const Events rising_on_words = on_words.but(E::enable_operation_by_a_stranger);
+    const Events own_words_without_halt{E::enable_operation, E::end_of_halt_bit};
     const Events off_words{E::disable_voltage, E::shutdown, E::disable_operation};
     const Events set_points{E::set_point, E::set_point_at_once};
     const Events halt_words{E::halt_bit, E::set_point_with_halt_bit};
@@ -57,14 +59,15 @@ inline std::vector<Rule> rules() {
         {"the halt bit keeps the motion and what waits", halt_words, enabled | S::being_enabled, {}, {{V::halt, "1"}}},
         {"the end of a halt goes on with the motion", halt_words, {S::moving, S::waiting}, {}, {{V::end_of_halt, "to 1000"}}},
         {"or with the speed", halt_words, S::turning, V::ordered_velocity, {{V::end_of_halt, "velocity 500"}}},
-        {"the end of a halt counts once", on_words | E::end_of_halt_bit, halts, {V::end_of_halt, V::halt}},
+        {"the end of a halt counts once, by who has set it", own_words_without_halt, halts, {V::end_of_halt, V::halt}},
         {"a speed that goes on is ordered",
-         on_words | E::end_of_halt_bit,
+         own_words_without_halt,
          S::turning_halted,
          {},
          {{V::ordered_velocity, "500"}, {V::set_points, "+1"}}},
         // bit 4
-        {"bit 12 falls with bit 4", on_words | Events{E::set_point_with_halt_bit, E::end_of_bit_4}, S::moving, V::bit_12},
+        {"bit 12 falls with bit 4, of who has set it or may have",
+         Events{E::enable_operation, E::enable_operation_by_a_stranger, E::set_point_with_halt_bit, E::end_of_bit_4}, S::moving, V::bit_12},
         {"a set-point is counted and acknowledged",
          set_points,
          {S::standing, S::being_enabled},
@@ -96,20 +99,31 @@ inline std::vector<Rule> rules() {
          any,
          {V::active, V::waiting, V::end_of_halt, V::ordered_velocity}},
         {"bit 12 falls with what waited", E::halt, {S::waiting, S::halted}, V::bit_12},
+        {"a word that stops is followed in fault while it moves", off_words | halt_words | E::quick_stop_bit, S::reacting,
+         V::shown_velocity},
         // ---- enabling ----
         {"enable forgets the target velocity",
-         on_words | E::enable,
+         rising_on_words | E::enable,
          {S::switched_on, S::being_enabled, S::quick_stopped},
          V::shown_velocity},
-        {"enable leaves quick stop", on_words | E::enable, S::quick_stopped, V::quick_stop},
-        {"an axis that is being enabled is commanded", on_words | E::enable, S::switched_on, {}, {{V::commanded, "1"}}},
+        {"enable leaves quick stop", rising_on_words | E::enable, S::quick_stopped, V::quick_stop},
+        {"an axis that is being enabled is commanded", rising_on_words | E::enable, S::switched_on, {}, {{V::commanded, "1"}}},
         {"enable by another client forgets the target",
          {E::enable_operation_by_another, E::enable},
          {S::switched_on, S::being_enabled, S::quick_stopped},
          {V::target, V::shown_target}},
         {"enable is shown as a word", E::enable, answering.but(enabled), {}, {}, V::controlword},
         {"enable before a disable is answered begins anew", E::enable, S::being_disabled, {V::shown_velocity, V::target, V::shown_target}},
-        {"enable changes nothing where it is enabled, halted or in fault", E::enable, enabled | faults | absent},
+        {"enable by a word that nobody knows to rise, while an enable is on its way",
+         E::enable_operation_by_a_stranger,
+         S::being_enabled,
+         {V::target, V::shown_target}},
+        {"enable changes nothing where it is enabled or in fault", E::enable, enabled | faults | absent},
+        {"enable ends a halt bit, and nothing goes on for that",
+         E::enable,
+         halts,
+         {V::halt, V::end_of_halt, V::active, V::waiting, V::bit_12, V::shown_velocity},
+         {{V::controlword, "15"}}},
         {"a reset by command forgets nothing", E::reset_fault, any},
         // ---- values ----
         {"the same mode forgets nothing", E::same_mode, any},
@@ -154,12 +168,13 @@ inline std::vector<Rule> rules() {
         // ---- commands ----
         {"homing forgets the motion and what waits",
          homings,
-         answering,
+         homable,
          {V::active, V::waiting, V::end_of_halt, V::bit_12},
          {{V::mode, "6"}, {V::mode_after_stream, "6"}, {V::homing_method, "35"}}},
-        {"homing forgets the speed when the drive has taken it", E::home, answering, {V::bit_13, V::ordered_velocity}},
-        {"homing that is refused is shown", E::home_refused, answering, {}, {{V::bit_13, "1"}}},
-        {"homing is refused in fault, and where nobody is heard", homings, absent | faults},
+        {"homing forgets the speed when the drive has taken it", E::home, homable, {V::bit_13, V::ordered_velocity}},
+        {"homing that is refused is shown", E::home_refused, homable, {}, {{V::bit_13, "1"}}},
+        {"homing is refused in fault, under halt, in quick stop, and where nobody is heard", homings,
+         absent | faults | halts | S::quick_stopped},
         {"set position forgets where the motion ends", E::set_position, any.but({S::waiting, S::halted}), V::active},
         {"set position is refused while a set-point waits", E::set_position, {S::waiting, S::halted}},
         {"set position that is refused forgets nothing", E::set_position_refused, any},

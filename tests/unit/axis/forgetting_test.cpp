@@ -80,7 +80,7 @@ TEST(Forgetting, AMotionOnItsWayIsForgottenWithTheDriveThatWasToTakeIt) {
         Subject s(Situation::halted);
         ProcessData d;
         d.controlword = 0x0F;
-        ASSERT_EQ(s.profile.on_process_data(d).orders.size(), 1u);
+        ASSERT_EQ(s.profile.on_process_data(d, plc()).orders.size(), 1u);
         const auto counted = s.picture().setpoints_accepted;
         if (presence_changes) s.apply(Event::another_drive);
         s.profile.on_order_result(Move{}, true, s.now);
@@ -90,19 +90,21 @@ TEST(Forgetting, AMotionOnItsWayIsForgottenWithTheDriveThatWasToTakeIt) {
 
 /// Neither what register 34 shows nor the position itself is a distance.
 TEST(Forgetting, ASetPointWithoutATargetOfItsClientStaysWhereTheAxisIs) {
-    for (const bool relative : {false, true}) {
-        Subject s(Situation::standing);
-        s.apply(Event::another_drive_that_is_on);
-        ProcessData d;
-        d.profile_velocity = 200;
-        d.controlword = 0x0F;
-        (void)s.profile.on_process_data(d);
-        d.controlword = relative ? 0x5F : 0x1F;
-        const auto r = s.profile.on_process_data(d);
-        ASSERT_EQ(r.orders.size(), 1u) << r.text;
-        const auto& m = std::get<Move>(r.orders[0]);
-        EXPECT_EQ(m.kind, relative ? Move::Kind::relative : Move::Kind::absolute);
-        EXPECT_EQ(m.target, relative ? 0 : 70);
+    for (const Origin& by : {plc(), panel()}) {
+        for (const bool relative : {false, true}) {
+            Subject s(Situation::standing);
+            s.apply(Event::another_drive_that_is_on);
+            ProcessData d;
+            d.profile_velocity = 200;
+            d.controlword = 0x0F;
+            (void)s.profile.on_process_data(d, by);
+            d.controlword = relative ? 0x5F : 0x1F;
+            const auto r = s.profile.on_process_data(d, by);
+            ASSERT_EQ(r.orders.size(), 1u) << r.text;
+            const auto& m = std::get<Move>(r.orders[0]);
+            EXPECT_EQ(m.kind, relative ? Move::Kind::relative : Move::Kind::absolute);
+            EXPECT_EQ(m.target, relative ? 0 : 70);
+        }
     }
 }
 

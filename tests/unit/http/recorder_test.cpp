@@ -48,7 +48,8 @@ TEST_F(RecorderOverHttp, TrendsAreToldInUnitsAndThinnedToColumns) {
 // An axis runs, stands in fault, is silent, and has moved when it is heard again: a thinned stretch says so in each column, and its end is
 // what is known last, not the greatest of the last column.
 TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
-    const AxisId axis = gateway.axis("slide.x");
+    constexpr std::int64_t begins_ms = 10'000;  // behind what the fixture has told
+    const AxisId axis = gateway.axis("feeder");
     const auto tell = [&](std::int64_t ms, std::int64_t position, std::int64_t velocity, std::uint16_t flags = 0) {
         PictureRecord p;
         p.current = true;
@@ -56,7 +57,7 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
         p.velocity = velocity;
         p.statusword = velocity == 0 ? 0x08 : 0x27;
         p.flags = flags;
-        gateway.trends.add(axis, p, at_ns(ms * 1'000'000));
+        gateway.trends.add(axis, p, at_ns((begins_ms + ms) * 1'000'000));
     };
     for (int ms = 0; ms <= 490; ms += 10)
         tell(ms, 88 * ms, ms == 250 ? 99 : 15);
@@ -64,9 +65,8 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     tell(750, 88 * 490, 0, flag_stale);  // nobody answers
     tell(1'520, 88 * 490, 0, flag_stale | flag_warning);
     tell(1'560, 40, 0);
-    const auto answer =
-        call("GET", "/api/v1/recorder/trends?axes=slide.x&columns=20&points=position,velocity&from=" + std::to_string(second_ms) +
-                        "&to=" + std::to_string(second_ms + 2000));
+    const auto answer = call("GET", "/api/v1/recorder/trends?axes=feeder&columns=20&points=position,velocity&from=" +
+                                        std::to_string(second_ms + begins_ms) + "&to=" + std::to_string(second_ms + begins_ms + 2000));
     ASSERT_EQ(answer.status, 200u) << answer.text;
     const auto& trend = answer.object().at("axes").as_array().at(0).as_object();
     ASSERT_TRUE(trend.at("thinned").as_bool());
@@ -79,7 +79,7 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     const auto numbers = [&](std::string_view member) {
         std::vector<double> out;
         for (const auto& v : of("velocity", member))
-            out.push_back(v.is_null() ? -1 : std::round(v.to_number<double>() * 88.8889));
+            out.push_back(v.is_null() ? -1 : std::round(v.to_number<double>() * 3200));
         return out;
     };
     EXPECT_EQ(numbers("first"), (std::vector<double>{15, 15, 15, 15, 15, 0, -1}));
@@ -89,8 +89,8 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     EXPECT_EQ(of("velocity", "low"), of("velocity", "min"));
     EXPECT_EQ(of("velocity", "high"), of("velocity", "max"));
     EXPECT_EQ(trend.at("gaps"), (boost::json::array{false, false, false, false, false, true, true}));
-    EXPECT_EQ(trend.at("until").as_array().at(4).to_number<double>(), static_cast<double>(second_ms) + 495);
-    EXPECT_EQ(trend.at("newest").to_number<double>(), static_cast<double>(second_ms) + 1560);
+    EXPECT_EQ(trend.at("until").as_array().at(4).to_number<double>(), static_cast<double>(second_ms + begins_ms) + 495);
+    EXPECT_EQ(trend.at("newest").to_number<double>(), static_cast<double>(second_ms + begins_ms) + 1560);
 }
 
 // Nobody knows where a silent axis is: no value, whole or thinned, and the newest word is the one before the silence.

@@ -114,8 +114,8 @@ std::string TrendDisk::packed(const Trends& trends, const SiteState& site, Insta
         if (!all && !site.site.axes[i].trend_on_disk) continue;
         std::vector<TrendRow> rows;
         for (const auto& c : trends.read(site.axis_ids[i], written_, now, 0).columns) {
-            rows.push_back(c.low);
-            rows.back().at = at_ns(ns_of(c.low.at) + unix_offset_ns);
+            rows.push_back(c.first);
+            rows.back().at = at_ns(ns_of(c.first.at) + unix_offset_ns);
         }
         if (rows.empty()) continue;
         const std::string coded = pack_rows(rows);

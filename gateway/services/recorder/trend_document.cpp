@@ -14,14 +14,25 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// Smallest (or greatest) value of a point in a column, in units; nothing: it is not known.
-std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, bool high) {
-    const TrendRow& r = high ? c.high : c.low;
+/// What a column tells of a point: the names that the API has for it. `low` and `high` are the older names of `min` and `max`.
+enum class Of : std::uint8_t { first, least, greatest, last };
+struct Told {
+    std::string_view name;
+    Of of;
+};
+constexpr std::array<Told, 6> told{
+    {{"low", Of::least}, {"high", Of::greatest}, {"first", Of::first}, {"min", Of::least}, {"max", Of::greatest}, {"last", Of::last}}};
+
+/// In units; nothing: it is not known.
+std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, Of of) {
+    const bool one = of == Of::first || of == Of::last;
+    const TrendRow& r = of == Of::first ? c.first : of == Of::least ? c.low : of == Of::greatest ? c.high : c.last;
+    if (one ? !r.known() : !c.known) return std::nullopt;
     if (point == "position") return static_cast<double>(r.position) / a.scale;
     if (point == "velocity") return static_cast<double>(r.velocity) / a.scale;
-    if (!c.low.demand_known) return std::nullopt;
+    if (one ? !r.demand_known : !c.demand_known) return std::nullopt;
     if (point == "demand") return static_cast<double>(r.demand) / a.scale;
-    return static_cast<double>(high ? c.greatest_error : c.least_error) / a.scale;
+    return static_cast<double>(one ? r.following_error() : of == Of::least ? c.least_error : c.greatest_error) / a.scale;
 }
 double ms_of(std::int64_t unix_ns) { return static_cast<double>(unix_ns / 1000) / 1000; }
 
@@ -29,55 +40,74 @@ json::value number_or_null(const std::optional<double>& v) { return v && std::is
 }  // namespace
 
 json::object trend_document(const TrendAxis& a, const std::vector<std::string>& points, std::int64_t unix_offset_ns) {
-    json::array at;
-    for (const auto& c : a.stretch.columns)
-        at.emplace_back(ms_of(ns_of(c.low.at) + unix_offset_ns));
+    json::array at, until, gaps;
+    for (const auto& c : a.stretch.columns) {
+        at.emplace_back(ms_of(ns_of(c.first.at) + unix_offset_ns));
+        until.emplace_back(ms_of(ns_of(c.last.at) + unix_offset_ns));
+        gaps.emplace_back(c.gap);
+    }
     json::object shown;
     for (const auto& point : points) {
         if (point == "state") {
             json::array values;
             for (const auto& c : a.stretch.columns)
-                values.emplace_back(name_of(power_state_of(c.high.statusword)));
+                values.emplace_back(name_of(power_state_of(c.last.statusword)));
             shown[point] = json::object{{"values", std::move(values)}};
             continue;
         }
-        json::array low, high;
-        for (const auto& c : a.stretch.columns) {
-            low.push_back(number_or_null(value_of(a, c, point, false)));
-            high.push_back(number_or_null(value_of(a, c, point, true)));
-        }
-        if (a.stretch.thinned)
-            shown[point] = json::object{{"low", std::move(low)}, {"high", std::move(high)}};
-        else
-            shown[point] = json::object{{"values", std::move(low)}};
+        const auto values = [&](Of of) {
+            json::array list;
+            for (const auto& c : a.stretch.columns)
+                list.push_back(number_or_null(value_of(a, c, point, of)));
+            return list;
+        };
+        json::object& values_of_point = shown[point].emplace_object();
+        if (!a.stretch.thinned) values_of_point["values"] = values(Of::last);
+        for (const auto& t : told)
+            if (a.stretch.thinned) values_of_point[t.name] = values(t.of);
     }
-    return {{"axis", a.name},
-            {"unit", a.unit},
-            {"rate_hz", std::round(a.stretch.rate_hz * 10) / 10},
-            {"thinned", a.stretch.thinned},
-            {"oldest", a.stretch.oldest ? json::value(ms_of(ns_of(*a.stretch.oldest) + unix_offset_ns)) : json::value(nullptr)},
-            {"newest", a.stretch.newest ? json::value(ms_of(ns_of(*a.stretch.newest) + unix_offset_ns)) : json::value(nullptr)},
-            {"at", std::move(at)},
-            {"points", std::move(shown)}};
+    json::object out{{"axis", a.name},
+                     {"unit", a.unit},
+                     {"rate_hz", std::round(a.stretch.rate_hz * 10) / 10},
+                     {"thinned", a.stretch.thinned},
+                     {"oldest", a.stretch.oldest ? json::value(ms_of(ns_of(*a.stretch.oldest) + unix_offset_ns)) : json::value(nullptr)},
+                     {"newest", a.stretch.newest ? json::value(ms_of(ns_of(*a.stretch.newest) + unix_offset_ns)) : json::value(nullptr)},
+                     {"at", std::move(at)},
+                     {"points", std::move(shown)}};
+    if (a.stretch.thinned) {
+        out["until"] = std::move(until);
+        out["gaps"] = std::move(gaps);
+    }
+    return out;
 }
 
+/// The members that came later stand behind the older ones: who reads by place finds those where they were.
 std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points, std::int64_t unix_offset_ns) {
     std::string out = "time,axis,unit";
     for (const auto& p : points)
         out += p == "state" ? ",state" : fmt::format(",{0}_low,{0}_high", p);
+    for (const auto& p : points)
+        if (p != "state") out += fmt::format(",{0}_first,{0}_last", p);
     out += "\r\n";
     for (const auto& a : axes) {
         for (const auto& c : a.stretch.columns) {
-            out += fmt::format("{},{},{}", format_time(ns_of(c.low.at) + unix_offset_ns), csv_cell(a.name), csv_cell(a.unit));
+            const auto cell = [&](std::string_view point, Of of) {
+                const auto v = value_of(a, c, point, of);
+                out += v ? fmt::format(",{}", *v) : ",";
+            };
+            out += fmt::format("{},{},{}", format_time(ns_of(c.first.at) + unix_offset_ns), csv_cell(a.name), csv_cell(a.unit));
             for (const auto& p : points) {
                 if (p == "state") {
-                    out += fmt::format(",{}", name_of(power_state_of(c.high.statusword)));
+                    out += fmt::format(",{}", name_of(power_state_of(c.last.statusword)));
                     continue;
                 }
-                for (const bool high : {false, true}) {
-                    const auto v = value_of(a, c, p, high);
-                    out += v ? fmt::format(",{}", *v) : ",";
-                }
+                cell(p, Of::least);
+                cell(p, Of::greatest);
+            }
+            for (const auto& p : points) {
+                if (p == "state") continue;
+                cell(p, Of::first);
+                cell(p, Of::last);
             }
             out += "\r\n";
         }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gateway/axis/image.hpp"
+
 namespace axisgate {
 namespace {
 // What of a row differs from the one before it.
@@ -34,19 +36,34 @@ std::int64_t plus(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
 
-TrendColumn column_of(const TrendRow& r) { return {r, r, r.following_error(), r.following_error()}; }
 void widen(TrendColumn& c, const TrendRow& r) {
-    for (auto member : {&TrendRow::position, &TrendRow::demand, &TrendRow::velocity}) {
-        c.low.*member = std::min(c.low.*member, r.*member);
-        c.high.*member = std::max(c.high.*member, r.*member);
-    }
-    c.least_error = std::min(c.least_error, r.following_error());
-    c.greatest_error = std::max(c.greatest_error, r.following_error());
+    c.last = r;
     for (TrendRow* end : {&c.low, &c.high}) {
-        end->demand_known = end->demand_known && r.demand_known;
         end->statusword = r.statusword;
         end->flags = r.flags;
     }
+    if (!r.known()) {
+        c.gap = true;
+        return;
+    }
+    const auto take = [&r, &c](bool had, auto... members) {
+        for (const auto member : {members...}) {
+            c.low.*member = had ? std::min(c.low.*member, r.*member) : r.*member;
+            c.high.*member = had ? std::max(c.high.*member, r.*member) : r.*member;
+        }
+    };
+    take(std::exchange(c.known, true), &TrendRow::position, &TrendRow::velocity);
+    if (!r.demand_known) return;
+    const bool had = std::exchange(c.demand_known, true);
+    take(had, &TrendRow::demand);
+    c.least_error = had ? std::min(c.least_error, r.following_error()) : r.following_error();
+    c.greatest_error = had ? std::max(c.greatest_error, r.following_error()) : r.following_error();
+}
+TrendColumn column_of(const TrendRow& r) {
+    TrendColumn c;
+    c.first = c.low = c.high = r;
+    widen(c, r);
+    return c;
 }
 }  // namespace
 
@@ -117,6 +134,8 @@ std::optional<std::vector<TrendRow>> unpack_rows(std::span<const char> in) {
     return rows;
 }
 
+bool TrendRow::known() const noexcept { return (flags & flag_stale) == 0; }
+
 TrendRow trend_row(const PictureRecord& p, Instant at) noexcept {
     TrendRow row;
     row.at = at;
@@ -175,8 +194,8 @@ void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
         a.counted = 0;
         a.counted_from = at;
     }
-    a.newest = std::max(a.newest, at);
     const TrendRow row = trend_row(p, a.blocks.empty() ? at : std::max(at, a.blocks.back().tail.at));
+    if (row.known()) a.newest = std::max(a.newest.value_or(at), at);
     if (!a.blocks.empty() && a.blocks.back().tail.same_values(row)) return;
     append(a, row);
     shorten(a, at);
@@ -196,7 +215,8 @@ void Trends::restore(AxisId id, std::span<const TrendRow> rows) {
     Axis& a = axes_[id];
     for (const TrendRow& r : rows)
         append(a, r);
-    a.newest = rows.back().at;
+    const auto known = std::ranges::find_if(rows.rbegin(), rows.rend(), &TrendRow::known);
+    if (known != rows.rend()) a.newest = known->at;
     if (bytes_ > bound_) make_room();
 }
 
@@ -253,11 +273,15 @@ TrendStretch Trends::read(AxisId id, Instant from, Instant to, std::size_t colum
     for (const auto& r : rows) {
         const std::size_t n = place(r.at);
         if (n != last) {
-            // What held when the column began is a part of it.
-            TrendRow first = last == columns ? r : before;
-            first.at = last == columns ? r.at
-                                       : from + Duration(static_cast<std::int64_t>(static_cast<double>(span) * static_cast<double>(n) /
-                                                                                   static_cast<double>(columns)));
+            // What held when the column began is a part of it, unless something new was told at that very instant.
+            TrendRow first = r;
+            const Instant begins =
+                from +
+                Duration(static_cast<std::int64_t>(static_cast<double>(span) * static_cast<double>(n) / static_cast<double>(columns)));
+            if (last != columns && r.at > begins) {
+                first = before;
+                first.at = begins;
+            }
             out.columns.push_back(column_of(first));
             last = n;
         }

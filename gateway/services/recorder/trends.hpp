@@ -1,6 +1,6 @@
 // Trends: the last minutes of every axis: position, demand, velocity, state, each time its drive has told them.
-// In: pictures with their instants, as they come. Out: a stretch of one axis, whole or thinned to columns of smallest and greatest.
-// Bounded: rows older than `keep` go, and the oldest of all axes where `bound` bytes are reached. What does not change costs nothing.
+// In: pictures with their instants, as they come. Out: a stretch of one axis, whole or thinned to columns of first, least, greatest and
+// last. Bounded: rows older than `keep` go, and the oldest of all axes where `bound` bytes are reached. What does not change costs nothing.
 // Never asks a drive, and never makes up a value: between two rows the older one holds.
 #pragma once
 
@@ -25,6 +25,8 @@ struct TrendRow {
     bool demand_known = false;  ///< else `demand` says nothing, and there is no following error
     std::uint16_t statusword = 0, flags = 0;
     [[nodiscard]] std::int64_t following_error() const noexcept { return demand_known ? demand - position : 0; }
+    /// The drive answered and what it had told was not too old; else the numbers are the last ones that were known.
+    [[nodiscard]] bool known() const noexcept;
     [[nodiscard]] bool same_values(const TrendRow& o) const noexcept {
         return position == o.position && demand == o.demand && velocity == o.velocity && demand_known == o.demand_known &&
                statusword == o.statusword && flags == o.flags;
@@ -36,19 +38,23 @@ struct TrendRow {
 [[nodiscard]] std::optional<std::vector<TrendRow>> unpack_rows(std::span<const char> bytes);
 [[nodiscard]] TrendRow trend_row(const PictureRecord& picture, Instant at) noexcept;
 
-/// A column of a thinned stretch: from `low.at` on. Each member of `low` and `high` is the smallest and greatest of its own; state and
-/// flags are the newest ones.
+/// A column of a thinned stretch. `first` held when it began, at `first.at`; `last` is the last row in it, which holds from `last.at` to
+/// the next column. Each member of `low` and `high` is the smallest and greatest of its own, of what was known; their state and flags are
+/// the newest ones.
 struct TrendColumn {
-    TrendRow low, high;
+    TrendRow first, low, high, last;
     std::int64_t least_error = 0, greatest_error = 0;  ///< of following_error()
+    bool known = false;                                ///< something was; else `low` and `high` say nothing
+    bool demand_known = false;                         ///< a demand was; else the demands of `low` and `high` and the errors say nothing
+    bool gap = false;                                  ///< for a part of it nothing was known
 };
 
 struct TrendStretch {
-    std::vector<TrendColumn> columns;  ///< whole: one row each, `low` and `high` the same
+    std::vector<TrendColumn> columns;  ///< whole: one row each, which is `first` and `last`
     bool thinned = false;
     double rate_hz = 0;             ///< how often the drive has told its position lately
     std::optional<Instant> oldest;  ///< of what is kept of this axis
-    std::optional<Instant> newest;  ///< when it was known last, changed or not
+    std::optional<Instant> newest;  ///< when it was known last, changed or not; nothing: it never was
 };
 
 class Trends {
@@ -75,7 +81,8 @@ private:
     };
     struct Axis {
         std::deque<Block> blocks;
-        Instant newest{}, reported{};  // of a picture; of a drive's word
+        std::optional<Instant> newest;  // of a picture that was known
+        Instant reported{};             // of a drive's word
         Instant counted_from{};
         std::uint32_t counted = 0;
         double rate_hz = 0;

@@ -45,11 +45,75 @@ TEST_F(RecorderOverHttp, TrendsAreToldInUnitsAndThinnedToColumns) {
     EXPECT_EQ(columns.at("high").as_array().at(9).to_number<double>(), 99);
 }
 
+// An axis runs, stands in fault, is silent, and has moved when it is heard again: a thinned stretch says so in each column, and its end is
+// what is known last, not the greatest of the last column.
+TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
+    constexpr std::int64_t begins_ms = 10'000;  // behind what the fixture has told
+    const AxisId axis = gateway.axis("feeder");
+    const auto tell = [&](std::int64_t ms, std::int64_t position, std::int64_t velocity, std::uint16_t flags = 0) {
+        PictureRecord p;
+        p.current = true;
+        p.position = position;
+        p.velocity = velocity;
+        p.statusword = velocity == 0 ? 0x08 : 0x27;
+        p.flags = flags;
+        gateway.trends.add(axis, p, at_ns((begins_ms + ms) * 1'000'000));
+    };
+    for (int ms = 0; ms <= 490; ms += 10)
+        tell(ms, 88 * ms, ms == 250 ? 99 : 15);
+    tell(495, 88 * 490, 0);              // the fault: it stands
+    tell(750, 88 * 490, 0, flag_stale);  // nobody answers
+    tell(1'520, 88 * 490, 0, flag_stale | flag_warning);
+    tell(1'560, 40, 0);
+    const auto answer = call("GET", "/api/v1/recorder/trends?axes=feeder&columns=20&points=position,velocity&from=" +
+                                        std::to_string(second_ms + begins_ms) + "&to=" + std::to_string(second_ms + begins_ms + 2000));
+    ASSERT_EQ(answer.status, 200u) << answer.text;
+    const auto& trend = answer.object().at("axes").as_array().at(0).as_object();
+    ASSERT_TRUE(trend.at("thinned").as_bool());
+    const auto& at = trend.at("at").as_array();
+    const auto of = [&](std::string_view point, std::string_view member) -> const boost::json::array& {
+        return trend.at("points").as_object().at(point).as_object().at(member).as_array();
+    };
+    // Columns of 100 ms: five that move, one that loses it, one in which it comes back. What holds in between needs none.
+    ASSERT_EQ(at.size(), 7u) << answer.text;
+    const auto numbers = [&](std::string_view member) {
+        std::vector<double> out;
+        for (const auto& v : of("velocity", member))
+            out.push_back(v.is_null() ? -1 : std::round(v.to_number<double>() * 3200));
+        return out;
+    };
+    EXPECT_EQ(numbers("first"), (std::vector<double>{15, 15, 15, 15, 15, 0, -1}));
+    EXPECT_EQ(numbers("min"), (std::vector<double>{15, 15, 15, 15, 0, 0, 0}));
+    EXPECT_EQ(numbers("max"), (std::vector<double>{15, 15, 99, 15, 15, 0, 0}));
+    EXPECT_EQ(numbers("last"), (std::vector<double>{15, 15, 15, 15, 0, -1, 0}));
+    EXPECT_EQ(of("velocity", "low"), of("velocity", "min"));
+    EXPECT_EQ(of("velocity", "high"), of("velocity", "max"));
+    EXPECT_EQ(trend.at("gaps"), (boost::json::array{false, false, false, false, false, true, true}));
+    EXPECT_EQ(trend.at("until").as_array().at(4).to_number<double>(), static_cast<double>(second_ms + begins_ms) + 495);
+    EXPECT_EQ(trend.at("newest").to_number<double>(), static_cast<double>(second_ms + begins_ms) + 1560);
+}
+
+// Nobody knows where a silent axis is: no value, whole or thinned, and the newest word is the one before the silence.
+TEST_F(RecorderOverHttp, ASilentAxisHasNoValue) {
+    PictureRecord p;
+    p.position = 3200 * 99;
+    p.flags = flag_stale;
+    gateway.trends.add(gateway.axis("feeder"), p, at_ns(1'500'000'000));
+    const auto answer = call("GET", "/api/v1/recorder/trends?axes=feeder&points=position&from=" + std::to_string(second_ms + 900) +
+                                        "&to=" + std::to_string(second_ms + 2000));
+    const auto& trend = answer.object().at("axes").as_array().at(0).as_object();
+    const auto& values = trend.at("points").as_object().at("position").as_object().at("values").as_array();
+    ASSERT_FALSE(values.empty());
+    EXPECT_TRUE(values.back().is_null()) << answer.text;
+    EXPECT_EQ(trend.at("newest").to_number<double>(), static_cast<double>(second_ms) + 990);
+}
+
 TEST_F(RecorderOverHttp, TrendsComeAsCsv) {
     const auto csv = call("GET", stretch("&points=position,state"), "", {{"Accept", "text/csv"}});
     ASSERT_EQ(csv.status, 200u);
-    EXPECT_TRUE(csv.text.starts_with("time,axis,unit,position_low,position_high,state\r\n2026-01-02T03:04:05")) << csv.text.substr(0, 200);
-    EXPECT_NE(csv.text.find(",feeder,mm,99,99,operation_enabled\r\n"), std::string::npos);
+    EXPECT_TRUE(csv.text.starts_with("time,axis,unit,position_low,position_high,state,position_first,position_last\r\n2026-01-02T03:04:05"))
+        << csv.text.substr(0, 200);
+    EXPECT_NE(csv.text.find(",feeder,mm,99,99,operation_enabled,99,99\r\n"), std::string::npos);
 }
 
 TEST_F(RecorderOverHttp, WhatIsWrongIsNamed) {

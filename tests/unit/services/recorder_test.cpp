@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gateway/axis/image.hpp"
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/trends.hpp"
 
@@ -72,6 +73,62 @@ TEST(Trends, ThinnedKeepsEveryPeak) {
     EXPECT_EQ(highest, 1'000'000);
     EXPECT_EQ(lowest, -1'000'000);
     EXPECT_EQ(error, 99);
+}
+
+/// What a plot draws of a thinned stretch at an instant: `last` holds from the end of a column to the next one.
+std::int64_t drawn_at(const TrendStretch& s, Instant at) {
+    std::int64_t v = 0;
+    for (const auto& c : s.columns)
+        if (c.first.at <= at) v = at < c.last.at ? c.first.velocity : c.last.velocity;
+    return v;
+}
+
+TEST(Trends, AThinnedRestIsARest) {
+    Trends t(1 << 22, 1h);
+    PictureRecord p = at_position(0);
+    for (int i = 0; i < 1000; ++i) {
+        p.position = i;
+        p.velocity = 15;
+        t.add(left, p, Instant(i * 10ms));
+    }
+    p.velocity = 0;
+    p.statusword = 0x08;
+    t.add(left, p, Instant(10s));
+    p.position = 1000;
+    p.velocity = 15;
+    t.add(left, p, Instant(91s));  // it stood for 81 s
+    p.velocity = 0;
+    t.add(left, p, Instant(91s + 10ms));
+    const auto r = t.read(left, Instant(0s), Instant(100s), 37);
+    ASSERT_TRUE(r.thinned);
+    for (int s = 13; s < 90; ++s)
+        EXPECT_EQ(drawn_at(r, Instant(s * 1s)), 0) << s;
+    EXPECT_EQ(drawn_at(r, Instant(100s)), 0);
+    EXPECT_EQ(r.columns.back().high.velocity, 15);
+    EXPECT_EQ(r.columns.back().last.at, Instant(91s + 10ms));
+}
+
+TEST(Trends, WhatNobodyKnowsIsNoneOfItsValues) {
+    Trends t(1 << 20, 10min);
+    for (int i = 0; i < 100; ++i) {
+        PictureRecord p = at_position(i == 50 ? 1'000'000 : i);
+        if (i >= 50 && i < 65) p.flags = flag_stale;
+        if (i >= 65 && i < 90) p.demand_source = DemandSource::none;
+        t.add(left, p, Instant(i * 10ms));
+    }
+    const auto r = t.read(left, Instant(0s), Instant(1s), 10);
+    ASSERT_EQ(r.columns.size(), 10u);
+    for (std::size_t i = 0; i < 10; ++i) {
+        const auto& c = r.columns[i];
+        EXPECT_EQ(c.gap, i == 5 || i == 6) << i;
+        EXPECT_EQ(c.known, i != 5) << i;
+        if (c.known) {
+            EXPECT_LE(c.high.position, 99) << i;
+        }
+        EXPECT_EQ(c.demand_known, i < 5 || i == 9) << i;
+    }
+    EXPECT_FALSE(r.columns[6].first.known());
+    EXPECT_TRUE(r.columns[6].known);
 }
 
 TEST(Trends, StaysWithinItsBoundsAndIsFair) {

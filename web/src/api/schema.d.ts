@@ -1413,7 +1413,10 @@ export interface paths {
          * What axes did lately, as their drives told it
          * @description The gateway keeps position, demand, velocity and state of every axis each time its drive tells them, for `[recorder] trend_minutes` and
          *     within `trend_mb`. Between two rows the older one holds; the first row is what held at `from`. A longer stretch than `columns` rows is
-         *     thinned: each column then has the smallest and the greatest value, so that no peak is lost.
+         *     thinned to columns of equal length; one in which nothing changed is left out. Each column has the value that held when it began
+         *     (`first`), the smallest and the greatest one, so that no peak is lost, and the last one, which holds from `until` to the next column.
+         *     Where the drive did not answer, or its word was too old, values are null. In CSV, the first and the last value of a column stand
+         *     behind the other points.
          */
         get: operations["getTrends"];
         put?: never;
@@ -3793,14 +3796,18 @@ export interface components {
             unit: string;
             /** @description how often its drive has told its position lately */
             rate_hz: number;
-            /** @description true: each point has `low` and `high`; false: `values` */
+            /** @description true: each point has `first`, `min`, `max` and `last`; false: `values` */
             thinned: boolean;
             /** @description ms since 1970; of what is kept */
             oldest: number | null;
-            /** @description ms since 1970; when it was known last, changed or not */
+            /** @description ms since 1970; when it was known last, changed or not: it holds to here */
             newest: number | null;
-            /** @description ms since 1970, one for each value */
+            /** @description ms since 1970, one for each value; of a thinned stretch where its columns begin */
             at: number[];
+            /** @description ms since 1970, of a thinned stretch: from here on `last` of the column holds, to the next column or to `newest` */
+            until?: number[];
+            /** @description of a thinned stretch - true: for a part of the column nothing was known */
+            gaps?: boolean[];
             points: {
                 position?: components["schemas"]["TrendPoint"];
                 velocity?: components["schemas"]["TrendPoint"];
@@ -3814,7 +3821,17 @@ export interface components {
         /** @description null where nobody knows it */
         TrendPoint: {
             values?: (number | null)[];
+            /** @description held when the column began */
+            first?: (number | null)[];
+            /** @description the smallest that was known in the column */
+            min?: (number | null)[];
+            /** @description the greatest that was known in the column */
+            max?: (number | null)[];
+            /** @description the newest of the column; it holds from `until` on */
+            last?: (number | null)[];
+            /** @description the older name of `min` */
             low?: (number | null)[];
+            /** @description the older name of `max` */
             high?: (number | null)[];
         };
         FleetGateway: {

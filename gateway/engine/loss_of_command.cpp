@@ -19,6 +19,27 @@ std::string why_lost(LossCause cause, Duration limit) {
         case LossCause::modbus_silent:
         case LossCause::enip_silent:
             return fmt::format("has been silent for {} ms", milliseconds_of(limit));
+        case LossCause::enip_session_closed:
+            return "has closed the EtherNet/IP session by which it commanded";
+        case LossCause::set_points_silent:
+            return limit > Duration::zero() ? fmt::format("has not renewed its set-points for {} ms", milliseconds_of(limit))
+                                            : "has closed the connection by which it gave set-points";
+        case LossCause::lease_ended:
+            return "has let its lease expire";
+        case LossCause::enip_closed:
+            return "has lost its EtherNet/IP connection: it was closed";
+        case LossCause::enip_timed_out:
+            return "has lost its EtherNet/IP connection: nothing came for its time-out";
+        case LossCause::enip_idle:
+            return "says that its scanner is idle (program mode)";
+        case LossCause::line_lost:
+            return "the drive could not be reached meanwhile";
+        case LossCause::gateway_ends:
+            return "the gateway ends";
+        case LossCause::dds_deadline:
+            return limit > Duration::zero()
+                       ? fmt::format("has missed the deadline of its set-points over DDS: none for {} ms", milliseconds_of(limit))
+                       : "is gone from the DDS domain: nobody writes for it any more";
         case LossCause::motion_unowned:
             return "the axis moves all the same";
         case LossCause::none:

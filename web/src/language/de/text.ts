@@ -34,8 +34,6 @@ export const text: Table = {
   'cyclic velocity': 'zyklische Geschwindigkeit',
   'DDS deadline missed': 'DDS-Frist versäumt',
   'Motion without an order': 'Bewegung ohne Auftrag',
-  'EtherNet/IP session closed': 'EtherNet/IP-Sitzung geschlossen',
-  'EtherNet/IP client silent': 'EtherNet/IP-Client schweigt',
   'deceleration max': 'größte Verzögerung',
   'default bit rate': 'Standard-Bitrate',
   'demand': 'Sollwert',

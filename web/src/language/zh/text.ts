@@ -34,8 +34,6 @@ export const text: Table = {
   'cyclic velocity': '周期同步速度',
   'DDS deadline missed': 'DDS 截止时间已过',
   'Motion without an order': '无指令的运动',
-  'EtherNet/IP session closed': 'EtherNet/IP 会话已关闭',
-  'EtherNet/IP client silent': 'EtherNet/IP 客户端静默',
   'deceleration max': '最大减速度',
   'default bit rate': '默认波特率',
   'demand': '设定值',

@@ -127,7 +127,13 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     if (auto r = finish_restore(files); !r) return failed(r);
     if (auto r = place_aside(files); !r) return failed(r);  // before anything is copied
 
-    std::uint64_t site_revision = 0;
+    std::uint64_t site_revision = 0, replaced = 0;
+    if (files::exists(files.database)) {
+        if (auto old = Db::open(files.database, Db::Mode::read_only)) {
+            if (const auto newest = (*old)->integer("SELECT ifnull(max(id), 0) FROM site_revision"))
+                replaced = static_cast<std::uint64_t>(*newest);
+        }
+    }
     const auto checked = [&]() -> StoreResult<int> {
         if (auto r = files::copy(source, files.incoming, files.directory); !r) return fail(r);
         // A copy that was taken of a live database by hand has its newest rows in the log beside it.
@@ -161,7 +167,7 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     if (auto r = files::rename(files.incoming, files.restored, files.directory); !r) return failed(r);
     const auto kept = finish_restore(files);
     if (!kept) return fail(kept, fmt::format("{} is good, but did not take its place yet; the next start tries again", source));
-    return RestoreReport{*kept, *checked, site_revision};
+    return RestoreReport{*kept, *checked, site_revision, replaced};
 }
 
 StoreResult<std::string> finish_restore(const StoreFiles& files) {

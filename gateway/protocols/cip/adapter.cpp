@@ -38,8 +38,9 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
     router_.add_own(own_);
 }
 
-bool Adapter::make_room(Instant now) {
-    if (sessions_.size() < most_sessions) return true;
+bool Adapter::make_room(Instant now) { return sessions_.size() < most_sessions || give_way(now); }
+
+bool Adapter::give_way(Instant now) {
     const auto gives_way = [&](bool registered) {
         auto oldest = sessions_.end();
         for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {

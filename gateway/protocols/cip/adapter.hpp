@@ -37,6 +37,9 @@ public:
 
     /// `key`: any number but 0 that no other session has. False: there is no room; close it.
     [[nodiscard]] bool on_connected(SessionKey key, Endpoint from, Instant now);
+    /// Hangs up a session that does nothing, for somebody else's sake: the oldest that never registered, else the one that has been silent
+    /// for longest, and for a second at least. False: all of them work.
+    [[nodiscard]] bool give_way(Instant now);
     void on_stream(SessionKey key, View bytes, Instant now);
     void on_disconnected(SessionKey key);
     /// On the explicit UDP port. `broadcast`: it was sent to everybody, whose answers shall not come at once.

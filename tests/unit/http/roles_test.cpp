@@ -204,6 +204,20 @@ TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
                                            "POST /api/v1/session", "DELETE /api/v1/session", "POST /api/v1/session/first"}));
 }
 
+TEST_F(AccessTest, WhetherItIsReadyIsForEverybodyAndTheNamesAreForWhoIsKnown) {
+    gateway.missing = {"line press-7 is down", "drive secret-feeder does not answer"};
+    const auto stranger = from(faraway_peer, "GET", "/readyz", "", as("none"));
+    EXPECT_EQ(stranger.status, 503u);
+    EXPECT_EQ(stranger.text.find("press-7"), std::string::npos) << stranger.text;
+    EXPECT_EQ(stranger.text.find("secret-feeder"), std::string::npos) << stranger.text;
+    EXPECT_EQ(stranger.object().at("missing").get_array().size(), 1u);
+    EXPECT_NE(stranger.at("detail").find("2 things are missing"), std::string::npos) << stranger.text;
+    const auto known = from(faraway_peer, "GET", "/readyz", "", as("viewer"));
+    EXPECT_EQ(known.status, 503u);
+    EXPECT_NE(known.text.find("press-7"), std::string::npos) << known.text;
+    EXPECT_EQ(known.object().at("missing").get_array().size(), 2u);
+}
+
 TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
     gateway.at_once = [](const Command&) { return good_result(); };
     for (const auto* role : {"none", "viewer", "operator", "engineer"}) {

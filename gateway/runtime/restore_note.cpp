@@ -15,7 +15,7 @@
 namespace axisgate {
 namespace {
 namespace json = boost::json;
-constexpr std::size_t most_bytes = 4096;
+constexpr std::size_t restore_note_most = 4096;
 std::string file_in(const std::string& directory) { return directory + "/restored.json"; }
 }  // namespace
 
@@ -39,7 +39,7 @@ std::string leave_restore_note(const std::string& directory, const RestoreNote& 
 std::optional<Event> take_restore_note(const std::string& directory) {
     std::string none;
     const std::string file = file_in(directory);
-    const auto text = read_file(file, none, most_bytes);
+    const auto text = read_file(file, none, restore_note_most);
     if (!text) return std::nullopt;
     std::error_code ignored;
     std::filesystem::remove(file, ignored);

@@ -61,7 +61,7 @@ void warn_of_open_doors(const Config& c, std::vector<ConfigFault>& out) {
         warn("http.tls_cert",
              fmt::format("the HTTP door listens beyond this machine ({}) without TLS: passwords and tokens cross the network in plain text",
                          c.http_bind),
-             "name a certificate with [http] tls_cert and tls_key, or set tls_self_signed = true, or listen on 127.0.0.1 behind a proxy "
+             "name a certificate with [http] tls_cert and tls_key, or set tls = \"self_signed\", or listen on 127.0.0.1 behind a proxy "
              "that "
              "speaks TLS");
         if (c.users_local_role != "none")

@@ -126,6 +126,8 @@ int main(int argc, char** argv) {
     restore->add_option("--passphrase-file", restore_options.passphrase_file, passphrase_help)->type_name("FILE");
     restore->add_flag("--with-config", restore_options.with_config,
                       "the configuration in the backup takes the place of the file of --config, and its paths hold");
+    restore->add_flag("--confirm-places", restore_options.confirm_places,
+                      "with --with-config: take the places that were shown, which lie outside the folder of the configuration");
     add_config(*restore, restore_common, false);
 
     auto* bundle =

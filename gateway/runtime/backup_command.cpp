@@ -2,17 +2,22 @@
 // In: arguments. Out: what was made or replaced, on standard output; faults on standard error. Never replaces anything before all of the
 // backup was found good and every file that takes a place lies beside it; never takes a path from a backup without --with-config.
 #include <fmt/core.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
 #include "gateway/core/assets.hpp"
 #include "gateway/runtime/backup_plan.hpp"
+#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/runtime/restore_note.hpp"
 #include "gateway/runtime/sealed.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/files.hpp"
@@ -146,6 +151,36 @@ private:
     std::vector<Waiting> waiting_;
 };
 
+/// Who restores: the person behind sudo, or the user of this process.
+std::string who_restores() {
+    const char* name = std::getenv("SUDO_USER");
+    if (!name || !*name) {
+        const passwd* entry = ::getpwuid(::getuid());
+        name = entry ? entry->pw_name : "";
+    }
+    return fmt::format("axisgate restore {}", *name ? std::string(name) : fmt::format("uid {}", ::getuid()));
+}
+
+/// Where links lead is what counts.
+bool lies_below(const fs::path& place, const fs::path& folder) {
+    std::error_code ec;
+    const auto real = fs::weakly_canonical(fs::absolute(place, ec), ec), base = fs::weakly_canonical(fs::absolute(folder, ec), ec);
+    if (ec || base.empty()) return false;
+    const auto [in_base, in_real] = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
+    return in_base == base.end() && in_real != real.end();
+}
+
+/// Empty, or why these bytes are not what the member is called: certificates, keys and signed documents are text in the form of PEM or
+/// MIME.
+std::string wrong_form(std::string_view member, const std::string& bytes) {
+    const bool text =
+        std::ranges::all_of(bytes, [](unsigned char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\r' || c == '\t'; });
+    const bool is_pem = bytes.starts_with("-----BEGIN ") || bytes.find("\n-----BEGIN ") != std::string::npos;
+    if (member.ends_with(".pem") && !(text && is_pem && bytes.find("-----END ") != std::string::npos)) return "it is no PEM";
+    if (member.ends_with(".p7s") && !(text && bytes.starts_with("MIME-Version: "))) return "it is no signed document";
+    return {};
+}
+
 /// `shown`: the name of the file for the person who restores.
 int put_database(const std::string& file, const std::string& shown, const Config& config, std::string& kept) {
     StoreOptions options;
@@ -165,11 +200,14 @@ int put_database(const std::string& file, const std::string& shown, const Config
         return exit_failed;
     }
     kept = done->kept;
+    const RestoreNote note{who_restores(), unix_now_ns(), done->replaced_site_revision, done->site_revision};
+    if (const std::string why = leave_restore_note(config.data_dir, note); !why.empty()) complain(why);
     return exit_good;
 }
 
 void print_restored(const Config& config, const std::string& kept) {
     fmt::print("restored into {}{}\n", config.data_dir, kept.empty() ? "" : "; the database that was there is kept as " + kept);
+    fmt::print("{}\n", restore_warning);
 }
 
 /// The configuration that holds from now on: this host's, or the one of the backup read as this host would.
@@ -230,7 +268,33 @@ int command_restore(Config config, const ConfigSources& sources, const RestoreOp
     const Spread spread(config.data_dir);
     const auto in_it = open_backup(file, *passphrase, spread.folder());
     if (!in_it) return failed(in_it.error(), file + " not restored, nothing was replaced");
+    const std::string own_data = config.data_dir;
     if (!configuration_of(options, sources, spread.folder(), config)) return exit_failed;
+    // Whoever made the backup says with its configuration where files go, and this may run as root.
+    std::vector<std::string> outside;
+    const auto look = [&](std::string_view what, const std::string& place) {
+        const auto folder = fs::absolute(sources.file_name, ec).parent_path();
+        if (options.with_config && !lies_below(place, folder) && !lies_below(place, own_data) && !fs::equivalent(place, own_data, ec))
+            outside.push_back(fmt::format("{} -> {}", what, place));
+    };
+    look("database", config.data_dir);
+    if (const BackupPlan there = backup_plan(config, options.with_config ? sources.file_name : ""); options.with_config) {
+        for (const auto& member : in_it->members) {
+            const auto place = member == database_member || member == configuration_member ? std::nullopt : place_of(member, there);
+            if (place && !place->starts_with(config.data_dir + "/")) look(member, *place);
+        }
+    }
+    if (!outside.empty()) {
+        for (const auto& place : outside)
+            fmt::print("outside the folder of the configuration: {}\n", place);
+        if (!options.confirm_places) {
+            complain(
+                fmt::format("{} not restored, nothing was replaced: its configuration names places outside {}; if they are right, restore "
+                            "again with --confirm-places",
+                            file, fs::absolute(sources.file_name, ec).parent_path().string()));
+            return exit_failed;
+        }
+    }
     if (const auto made = files::make_directory(config.data_dir); !made) {  // which may be another one now
         complain(made.error().text);
         return exit_failed;
@@ -245,7 +309,14 @@ int command_restore(Config config, const ConfigSources& sources, const RestoreOp
             not_taken.push_back(member);
             continue;
         }
-        const std::string fault = places.prepare(fmt::format("{}/{}", spread.folder(), member), *place, config.data_dir);
+        const std::string from = fmt::format("{}/{}", spread.folder(), member);
+        std::string fault;
+        if (const auto bytes = read_file(from, fault, 1U << 20)) {
+            if (const std::string why = wrong_form(member, *bytes); !why.empty())
+                fault = fmt::format("{}: {}", member, why);
+            else
+                fault = places.prepare(from, *place, config.data_dir);
+        }
         if (fault.empty()) continue;
         complain(fmt::format("{} not restored, nothing was replaced: {}", file, fault));
         return exit_failed;

@@ -19,6 +19,7 @@
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/site/names.hpp"
 #include "gateway/site/options.hpp"
 #include "gateway/store/store.hpp"
 
@@ -201,6 +202,8 @@ int command_check(const ConfigSources& sources, const std::string& site_file, bo
             complain(f);
         count += read.faults.size();
         if (read.site) {
+            for (const auto& f : names_to_change(*read.site, nullptr))
+                complain(fmt::format("warning: {}, {}: {}; {}", site_file, f.pointer, f.text, f.remedy));
             for (const auto& f : check_options(*read.site, *families))
                 complain("warning: " + f.text + "; it counts as not given");
         }

@@ -39,7 +39,8 @@ struct ServeOptions {
 [[nodiscard]] int command_pki(const PkiOptions& options);
 struct RestoreOptions {
     std::string file, passphrase_file;
-    bool with_config = false;  ///< the configuration of the backup takes the place of this host's, and its paths hold
+    bool with_config = false;     ///< the configuration of the backup takes the place of this host's, and its paths hold
+    bool confirm_places = false;  ///< with_config: places outside the folder of the configuration are taken, too
 };
 /// `sources` are those that `config` was read from.
 [[nodiscard]] int command_restore(Config config, const ConfigSources& sources, const RestoreOptions& options);

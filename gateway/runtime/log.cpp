@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 
+#include "gateway/core/plain_text.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/journal.hpp"
@@ -45,6 +46,25 @@ class JournalSink final : public spdlog::sinks::base_sink<std::mutex> {
         (void)the_journal()->send(priority_of(m.level), {m.payload.data(), m.payload.size()});
     }
     void flush_() override {}
+};
+
+/// Every line goes through here: names and texts of strangers stay on their line and move no cursor.
+class PlainSink final : public spdlog::sinks::base_sink<std::mutex> {
+public:
+    explicit PlainSink(spdlog::sink_ptr end) : end_(std::move(end)) {}
+
+private:
+    void sink_it_(const spdlog::details::log_msg& m) override {
+        const std::string_view text(m.payload.data(), m.payload.size());
+        if (is_plain(text)) return end_->log(m);
+        const std::string shown = one_line(text);
+        spdlog::details::log_msg plain = m;
+        plain.payload = shown;
+        end_->log(plain);
+    }
+    void flush_() override { end_->flush(); }
+
+    spdlog::sink_ptr end_;
 };
 
 /// Hands on what the limit allows.
@@ -90,7 +110,7 @@ void log_event(const Event& e) {
                                                      {"AXISGATE_PARAMETER", e.parameter},
                                                      {"AXISGATE_OLD", e.old_value},
                                                      {"AXISGATE_NEW", e.new_value}}};
-        (void)journal->send(priority_of(level), fmt::format("{}: {}", e.kind, e.text), fields);
+        (void)journal->send(priority_of(level), one_line(fmt::format("{}: {}", e.kind, e.text)), fields);
         return;
     }
     std::string where;
@@ -114,6 +134,7 @@ bool open_log(const Config& c) {
             end = std::make_shared<spdlog::sinks::stderr_sink_mt>();
         }
         end->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %l %v");
+        end = std::make_shared<PlainSink>(std::move(end));
         const auto level = spdlog::level::from_str(c.log_level);
         auto lines = std::make_shared<spdlog::logger>("axisgate", std::make_shared<LimitedSink>(end));
         auto events = std::make_shared<spdlog::logger>(events_logger, end);

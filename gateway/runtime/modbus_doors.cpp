@@ -43,12 +43,10 @@ ModbusDoors::ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config
 }
 
 std::string ModbusDoors::open() {
-    if (tcp_) {
-        const std::string binds[] = {config_.modbus_bind};
-        if (std::string fault = tcp_->open(binds); !fault.empty()) return fault;
-    }
-    if (rtu_) rtu_->open();
-    return {};
+    if (rtu_ && !std::exchange(rtu_opened_, true)) rtu_->open();
+    if (!tcp_) return {};
+    const std::string binds[] = {config_.modbus_bind};
+    return tcp_->open(binds);
 }
 
 void ModbusDoors::add(ModbusReport& report, ModbusConnection connection, std::string_view host) const {

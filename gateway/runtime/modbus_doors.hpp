@@ -18,7 +18,8 @@ class ModbusDoors {
 public:
     /// Both are called before the hot thread starts. `read_only` as it was switched last.
     ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config& config, bool read_only);
-    /// Empty: Modbus/TCP listens, and the serial port is being opened; where that fails it is told and tried again.
+    /// Empty: Modbus/TCP listens, and the serial port is being opened; where that fails it is told and tried again. Else why Modbus/TCP
+    /// does not listen; it can be called again then. On the hot thread, or before it starts.
     [[nodiscard]] std::string open();
     [[nodiscard]] bool any() const noexcept { return tcp_ || rtu_; }
 
@@ -33,6 +34,7 @@ private:
     const Config& config_;
     std::unique_ptr<modbus::Server> tcp_;
     std::unique_ptr<modbus::RtuDoor> rtu_;
+    bool rtu_opened_ = false;
 };
 
 }  // namespace axisgate

@@ -2,6 +2,7 @@
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,8 +11,11 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/json/parse.hpp>
 #include <boost/json/serialize.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <future>
 #include <map>
 #include <thread>
@@ -27,8 +31,10 @@
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
+#include "gateway/runtime/late_doors.hpp"
 #include "gateway/runtime/log.hpp"
 #include "gateway/runtime/modbus_doors.hpp"
+#include "gateway/runtime/restore_note.hpp"
 #include "gateway/runtime/service_rank.hpp"
 #include "gateway/runtime/site_file.hpp"
 #include "gateway/runtime/site_names.hpp"
@@ -38,11 +44,20 @@
 #include "gateway/runtime/tls_files.hpp"
 #include "gateway/runtime/waiting_backup.hpp"
 #include "gateway/runtime/warm_ports.hpp"
+#include "gateway/site/names.hpp"
 
 namespace axisgate {
 namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
+
+/// As many as this process may have: the soft limit of a shell is lower than what the doors let in together.
+void raise_descriptor_limit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
+    limit.rlim_cur = limit.rlim_max;
+    if (setrlimit(RLIMIT_NOFILE, &limit) != 0) spdlog::warn("the limit of open files stays as it is: {}", std::strerror(errno));
+}
 
 /// As the machine calls itself, without its domain; "axisgate" if it does not say.
 std::string host_name() {
@@ -71,6 +86,9 @@ struct Service {
     std::unique_ptr<Services> services;
     std::vector<std::unique_ptr<ServiceDoor>> doors;  // of this thread
     dds::DdsDoor* dds = nullptr;                      // one of them, or none
+    LateDoors late{warm};
+    std::vector<DoorInfo> hot_addresses;  // of the doors of the hot thread, as it told them last
+    bool enip_open = false;
     boost::asio::steady_timer services_timer{warm};
     LogListener log;
     boost::asio::signal_set signals{warm};
@@ -80,6 +98,7 @@ struct Service {
     std::string manager_status;  ///< as it was told last
     std::string first_code;      ///< to be shown
     int code = exit_good;
+    bool dds_hangs = false;  ///< the DDS library waits for an interface that is down, and cannot be waited for
 
     explicit Service(const ServeOptions& o) : options(o) {}
 
@@ -90,6 +109,10 @@ struct Service {
     void begin_services();
     void arm_services();
     int open_doors();
+    using Open = std::function<std::string()>;
+    [[nodiscard]] bool opened_or_waits(std::string name, std::function<bool()> is_late, const Open& open, bool on_hot,
+                                       std::function<void()> opened);
+    void tell_doors();
     void watch();
     void tell_manager();
     void report_ready();
@@ -165,6 +188,7 @@ int Service::open_store() {
     ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
                                std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
+    if (auto restored = take_restore_note(options.config.data_dir)) ports->events.note(std::move(*restored));
     ports->backup.use(backup_plan(options.config, options.config_file));
     ports->recorder.begin(recorder_settings(options.config));
     ports->captures.begin(recorder_settings(options.config));
@@ -190,6 +214,8 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
             }
         }
         site = std::move(*read.site);
+        for (const auto& f : names_to_change(site, nullptr))
+            spdlog::warn("{}, {}: {}; {}", options.site_file, f.pointer, f.text, f.remedy);
         boost::system::error_code ec;
         boost::json::value before;
         if (const auto was = store->load_site(); was && *was) before = boost::json::parse((*was)->text, ec);
@@ -220,6 +246,8 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
         return exit_failed;
     }
     site = std::move(*parsed);
+    for (const auto& f : names_to_change(site, nullptr))
+        spdlog::warn("site, {}: {}; {}", f.pointer, f.text, f.remedy);
     // The same text is no new revision; but the store hears which family each axis has, which an older program did not tell it.
     const auto named = store->save_site((*stored)->text, (*stored)->who, (*stored)->at_unix_ns, names_of(site));
     if (!named) spdlog::warn("store: {}", named.error().text);
@@ -289,6 +317,54 @@ static std::string data_sheet(const SiteState& state, const Families& families, 
     return enip::eds_of(enip::Layout(std::move(axes), mapping_revision(state.site), facts, enip::windows_of(state)));
 }
 
+/// Opens a door; where what it listens on is not there yet, it waits. False: it cannot be opened, which has been said.
+/// `on_hot`: later, when the hot thread runs, it is opened there.
+bool Service::opened_or_waits(std::string name, std::function<bool()> is_late, const Open& open, bool on_hot,
+                              std::function<void()> opened) {
+    std::string fault = open();
+    if (fault.empty()) {
+        if (opened) opened();
+        return true;
+    }
+    if (!is_late()) {
+        complain(fault);
+        return false;
+    }
+    LateDoors::Door door{std::move(name), std::move(fault), std::move(is_late), {}, {}};
+    door.open = [this, open, on_hot](std::function<void(std::string)> then) {
+        if (!on_hot) return then(open());
+        const bool given = hot->jobs().push([this, open, then](Engine& engine, Instant) {
+            std::string why = open();
+            if (why.empty()) hot->publish_site(*engine.site());  // what a door shows hangs on the address that it has
+            std::vector<DoorInfo> now;
+            for (const HotDoor* d : hot->doors()) {
+                for (auto& address : d->addresses())
+                    now.push_back({std::string(d->name()), std::move(address)});
+            }
+            boost::asio::post(warm, [this, then, why = std::move(why), now = std::move(now)]() mutable {
+                hot_addresses = std::move(now);
+                then(std::move(why));
+            });
+        });
+        if (!given) return then("the hot thread has too much to do");
+        hot->jobs().announce();
+    };
+    door.opened = [this, opened = std::move(opened)] {
+        if (opened) opened();
+        tell_doors();
+    };
+    late.wait_for(std::move(door));
+    return true;
+}
+
+void Service::tell_doors() {
+    std::vector<DoorInfo> open = hot_addresses;
+    for (const auto& door : doors) {
+        if (!door->address().empty()) open.push_back({std::string(door->name()), door->address()});
+    }
+    ports->status.set_doors(std::move(open));
+}
+
 int Service::open_doors() {
     registers::RegisterImage::Settings rs;
     rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
@@ -300,10 +376,9 @@ int Service::open_doors() {
     // What was switched while it ran is newer than the file.
     if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) read_only = (*kept)->text == "true";
     modbus = std::make_unique<ModbusDoors>(*hot, *image, options.config, read_only);
-    if (const std::string fault = modbus->open(); !fault.empty()) {
-        complain(fault);
+    if (!opened_or_waits(
+            "Modbus", [this] { return address_is_late(options.config.modbus_bind); }, [this] { return modbus->open(); }, true, {}))
         return exit_failed;
-    }
     if (modbus->any()) ports->modbus.use({[this] { return modbus->report(); }, [this](bool on) { modbus->set_read_only(on); }});
     if (!options.config.enip_bind.empty()) {
         enip::ServerSettings es;
@@ -312,17 +387,22 @@ int Service::open_doors() {
         es.lease_s = options.config.authority_lease_s;
         es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
         enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
-        if (const std::string fault = enip->open(options.config.enip_bind); !fault.empty()) {
+        const auto opened = [this, wanted = es.io_port] {
+            enip_open = true;
+            if (enip->facts().io_port != wanted)
+                spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
+                             wanted, enip->facts().io_port);
+        };
+        const auto is_late = [this] { return address_is_late(options.config.enip_bind); };
+        const auto open = [this] { return enip->open(options.config.enip_bind); };
+        if (options.config.enip_bind_named) {
+            if (!opened_or_waits("EtherNet/IP", is_late, open, true, opened)) return exit_failed;
+        } else if (const std::string fault = open(); !fault.empty()) {
             enip.reset();
-            if (options.config.enip_bind_named) {
-                complain(fault);
-                return exit_failed;
-            }
             // Another gateway on this host has the usual ports: nobody has asked for them here.
             spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
-        } else if (enip->facts().io_port != es.io_port) {
-            spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
-                         es.io_port, enip->facts().io_port);
+        } else {
+            opened();
         }
     }
     if (!options.config.http_bind.empty()) {
@@ -364,20 +444,20 @@ int Service::open_doors() {
         doors.push_back(std::move(door));
     }
     for (const auto& door : doors) {
-        if (const std::string fault = door->start(); !fault.empty()) {
-            complain(fault);
-            return exit_failed;
-        }
+        const bool of_dds = door.get() == dds;
+        const auto is_late = [this, of_dds] {
+            return of_dds ? interface_is_late(options.config.dds_interface) : address_is_late(options.config.http_bind);
+        };
+        const auto open = [door = door.get()] { return door->start(); };
+        if (!opened_or_waits(std::string(door->name()), is_late, open, false, {})) return exit_failed;
     }
-    std::vector<DoorInfo> open;
     for (const HotDoor* door : hot->doors()) {
         for (auto& address : door->addresses())
-            open.push_back({std::string(door->name()), std::move(address)});
+            hot_addresses.push_back({std::string(door->name()), std::move(address)});
     }
-    for (const auto& door : doors)
-        open.push_back({std::string(door->name()), door->address()});
-    ports->status.set_doors(std::move(open));
-    ports->status.door_eds = [this] { return enip ? data_sheet(*ports->site.site(), families, enip->facts()) : std::string(); };
+    tell_doors();
+    ports->status.doors_waiting = [this] { return late.waiting(); };
+    ports->status.door_eds = [this] { return enip_open ? data_sheet(*ports->site.site(), families, enip->facts()) : std::string(); };
     ports->status.door_metrics = [this] {
         std::string text;
         for (const HotDoor* door : hot->doors())
@@ -390,7 +470,7 @@ int Service::open_doors() {
 
 void Service::report_ready() {
     const auto reports = hot->reports();
-    if (!reports->settled && monotonic_now() - started < ready_limit) return;
+    if ((!reports->settled || !late.waiting().empty()) && monotonic_now() - started < ready_limit) return;
     if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
     ready_reported = true;
     std::string text = "ready";
@@ -398,6 +478,8 @@ void Service::report_ready() {
         text += fmt::format(" {}={}", d.name, d.address);
     text += fmt::format(" axes={}", ports->site.site()->site.axes.size());
     for (const auto& c : reports->complaints)
+        text += "; " + c;
+    for (const auto& c : late.waiting())
         text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
@@ -436,6 +518,7 @@ void Service::tell_manager() {
 
 void Service::take_down() {
     notify_manager("STOPPING=1");
+    late.stop();
     hot->stop();  // brings moving axes to rest first
     std::size_t open = doors.size();
     for (const auto& door : doors)
@@ -443,6 +526,7 @@ void Service::take_down() {
     const Instant limit = monotonic_now() + std::chrono::seconds(3);
     while (open > 0 && monotonic_now() < limit)
         (void)warm.run_one_for(std::chrono::milliseconds(50));
+    dds_hangs = dds && dds->hangs();
     if (access) access->stop();
     cold->stop();
     ports->events.tell_all();
@@ -467,7 +551,8 @@ void run_ranked(boost::asio::io_context& context) {
 }
 }  // namespace
 
-int command_serve(const ServeOptions& options) {
+/// `hangs`: a thread of the DDS library is left that nobody can end.
+static int serve(const ServeOptions& options, bool& hangs) {
     // The same words and the same exit code as `axisgate check`.
     const auto wrong_here = check_host(options.config);
     for (const auto& f : wrong_here)
@@ -480,6 +565,7 @@ int command_serve(const ServeOptions& options) {
             complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         return exit_usage;
     }
+    raise_descriptor_limit();
     (void)std::signal(SIGPIPE, SIG_IGN);
     (void)std::signal(SIGXFSZ, SIG_IGN);  // a bound on the size of files is a full disk, not the end
     std::vector<std::string> faults;
@@ -523,8 +609,19 @@ int command_serve(const ServeOptions& options) {
         s.warm.run();
     s.warm.restart();
     s.take_down();
+    hangs = s.dds_hangs;
     spdlog::info("stopped");
     return s.code;
+}
+
+int command_serve(const ServeOptions& options) {
+    bool hangs = false;
+    const int code = serve(options, hangs);
+    if (!hangs) return code;
+    // All of this program's own is closed. What runs at a common end would wait for that thread.
+    spdlog::default_logger()->flush();
+    std::fflush(nullptr);
+    std::_Exit(code);
 }
 
 }  // namespace axisgate

@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "gateway/runtime/backup_file.hpp"
+#include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/files.hpp"
+#include "gateway/runtime/restore_note.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/files.hpp"
 
@@ -183,6 +185,7 @@ std::string take_waiting_backup(const StoreOptions& options) {
     const std::string file = file_in(options.directory), folder = check_folder_in(options.directory);
     std::error_code ec;
     if (!fs::exists(file, ec)) return {};
+    const std::string who = waiting_backup(options.directory).value_or(WaitingBackup{}).who;
     std::string fault, database = file;
     bool in_use = false;
     if (backup_form_of_file(file) != BackupForm::database) {
@@ -194,6 +197,8 @@ std::string take_waiting_backup(const StoreOptions& options) {
         if (const auto done = restore_database(database, options); !done) {
             fault = done.error().text;
             in_use = done.error().kind == StoreError::Kind::in_use;
+        } else {
+            (void)leave_restore_note(options.directory, {who, unix_now_ns(), done->replaced_site_revision, done->site_revision});
         }
     }
     if (fault.empty() && fs::exists(folder + "/http-key.pem", ec) && fs::exists(folder + "/http-cert.pem", ec)) {

@@ -73,9 +73,25 @@ void WarmLines::cancel_scan(LineId line, std::function<void(ScanReport)> then) {
 
 std::vector<SystemPort> WarmLines::host_ports() const { return axisgate::host_ports(); }
 
+void show_presence(DriveStatus& status, const AxisPicture& axis) {
+    status.presence = axis.presence;
+    if (axis.presence == Presence::offline) return;
+    status.simulated = axis.presence == Presence::twin;
+    if (axis.presence == Presence::device) status.device_online = true;
+}
+
 DriveStatus WarmDrives::drive_status(DriveId drive) const {
     const auto r = threads_.hot.reports();
-    return index_of(drive) < r->drives.size() ? r->drives[index_of(drive)] : DriveStatus{};
+    if (index_of(drive) >= r->drives.size()) return {};
+    DriveStatus status = r->drives[index_of(drive)];
+    const auto state = site_.site();
+    const auto at = std::ranges::find(state->drive_ids, drive);
+    if (at == state->drive_ids.end()) return status;
+    const auto& name = state->site.drives[static_cast<std::size_t>(at - state->drive_ids.begin())].name;
+    const auto axis = std::ranges::find(state->site.axes, name, &AxisSpec::drive);
+    const auto index = static_cast<std::size_t>(axis - state->site.axes.begin());
+    if (index < state->axis_ids.size()) show_presence(status, threads_.hot.image_for_readers().cell(state->axis_ids[index]).read());
+    return status;
 }
 
 void WarmDrives::hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) {

@@ -7,6 +7,7 @@
 #include "gateway/runtime/warm_threads.hpp"
 #include "gateway/services/ports/drives.hpp"
 #include "gateway/services/ports/lines.hpp"
+#include "gateway/services/ports/site.hpp"
 
 namespace axisgate {
 
@@ -25,9 +26,14 @@ private:
     WarmEvents& events_;
 };
 
+/// Who serves the drive, as a picture of one of its axes says it. Reports of drives are up to 200 ms old, and pictures are not: without
+/// this, figures that are told together would contradict each other.
+void show_presence(DriveStatus& status, const AxisPicture& axis);
+
 class WarmDrives final : public DrivePort {
 public:
-    explicit WarmDrives(const WarmThreads& threads) : threads_(threads) {}
+    WarmDrives(const WarmThreads& threads, const SitePort& site) : threads_(threads), site_(site) {}
+    /// Its presence is as new as the pictures of its axes; the rest is at most 200 ms old.
     [[nodiscard]] DriveStatus drive_status(DriveId drive) const override;
     void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) override;
     void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
@@ -35,6 +41,7 @@ public:
 
 private:
     const WarmThreads& threads_;
+    const SitePort& site_;
 };
 
 }  // namespace axisgate

@@ -62,7 +62,7 @@ public:
     WarmAxes axes{threads_};
     WarmParameters parameters{threads_, axes};
     WarmLines lines{threads_, events};
-    WarmDrives drives{threads_};
+    WarmDrives drives{threads_, site};
     WarmDescriptions descriptions{threads_, site.families().descriptions};
     WarmDocuments documents{threads_};
     WarmSnapshots snapshots{threads_};

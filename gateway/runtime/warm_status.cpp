@@ -4,16 +4,22 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "gateway/core/histogram.hpp"
 #include "gateway/runtime/axis_metrics.hpp"
 #include "gateway/runtime/process_metrics.hpp"
+#include "gateway/runtime/warm_lines.hpp"
 
 namespace axisgate {
 
 std::vector<std::string> WarmStatus::not_ready() const {
     auto list = threads_.hot.reports()->complaints;
+    if (doors_waiting) {
+        for (auto& door : doors_waiting())
+            list.push_back(std::move(door));
+    }
     if (!threads_.cold.healthy()) list.push_back("the database cannot be written: see the log for the reason");
     return list;
 }
@@ -102,11 +108,22 @@ std::string WarmStatus::metrics() const {
     per_line("axisgate_line_unexpected_total", "counter", "Well formed frames that nobody had asked for.",
              [](const LineReport& r) { return r.counters.unexpected; });
 
+    // Read once: the figures of one answer agree with each other.
+    std::vector<AxisPicture> pictures;
+    pictures.reserve(site.axis_ids.size());
+    for (const AxisId id : site.axis_ids)
+        pictures.push_back(axes_.picture(id));
+    std::vector<DriveStatus> drives;
+    for (std::size_t i = 0; i < site.drive_ids.size(); ++i) {
+        drives.push_back(drives_.drive_status(site.drive_ids[i]));
+        const auto axis = std::ranges::find(site.site.axes, site.site.drives[i].name, &AxisSpec::drive);
+        const auto index = static_cast<std::size_t>(axis - site.site.axes.begin());
+        if (index < pictures.size()) show_presence(drives.back(), pictures[index]);
+    }
     const auto per_drive = [&](std::string_view name, std::string_view help, auto&& value) {
         head(name, "gauge", help);
-        for (std::size_t i = 0; i < site.drive_ids.size(); ++i) {
-            s += fmt::format("{}{{drive=\"{}\"}} {}\n", name, site.site.drives[i].name, value(drives_.drive_status(site.drive_ids[i])));
-        }
+        for (std::size_t i = 0; i < drives.size(); ++i)
+            s += fmt::format("{}{{drive=\"{}\"}} {}\n", name, site.site.drives[i].name, value(drives[i]));
     };
     per_drive("axisgate_drive_online", "1: the drive or its twin answers.",
               [](const DriveStatus& d) { return d.presence != Presence::offline ? 1 : 0; });
@@ -117,10 +134,6 @@ std::string WarmStatus::metrics() const {
               [](const DriveStatus& d) { return d.silent_exchanges; });
     per_drive("axisgate_drive_retry_pause_seconds", "Pause before a silent drive is asked again; 0: it is asked as usual.",
               [](const DriveStatus& d) { return fmt::format("{:.3f}", static_cast<double>(d.retry_pause_ms) * 1e-3); });
-    std::vector<AxisPicture> pictures;
-    pictures.reserve(site.axis_ids.size());
-    for (const AxisId id : site.axis_ids)
-        pictures.push_back(axes_.picture(id));
     s += axis_metrics(site, pictures, monotonic_now());
     if (door_metrics) s += door_metrics();
     return s;

@@ -20,6 +20,8 @@ public:
     void set_doors(std::vector<DoorInfo> doors) { doors_ = std::move(doors); }
     /// More lines for metrics, of the doors of the hot thread.
     std::function<std::string()> door_metrics;
+    /// Doors that wait for their address or interface, one sentence each.
+    std::function<std::vector<std::string>()> doors_waiting;
     /// Of the EtherNet/IP door, where it is open.
     std::function<std::string()> door_eds;
 

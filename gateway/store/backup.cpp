@@ -113,6 +113,22 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
     return {};
 }
 
+/// Of the site in force in a database that is about to be replaced; 0: there is none, or it cannot be read. A look leaves no files behind.
+static std::uint64_t revision_in(const std::string& database) {
+    if (!files::exists(database)) return 0;
+    const bool had_log = files::exists(database + "-wal");
+    std::uint64_t revision = 0;
+    if (auto old = Db::open(database, Db::Mode::read_only)) {
+        if (const auto newest = (*old)->integer("SELECT ifnull(max(id), 0) FROM site_revision"))
+            revision = static_cast<std::uint64_t>(*newest);
+    }
+    if (!had_log) {
+        (void)::unlink((database + "-wal").c_str());
+        (void)::unlink((database + "-shm").c_str());
+    }
+    return revision;
+}
+
 StoreResult<RestoreReport> restore_database(const std::string& source, const StoreOptions& options) {
     const StoreFiles files(options.directory);
     const auto failed = [&](const auto& r) { return fail(r, fmt::format("{} not restored, nothing was replaced", source)); };
@@ -159,9 +175,10 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     }
     if (auto r = files::sync(files.incoming, files.directory); !r) return failed(r);
     if (auto r = files::rename(files.incoming, files.restored, files.directory); !r) return failed(r);
+    const std::uint64_t replaced = revision_in(files.database);
     const auto kept = finish_restore(files);
     if (!kept) return fail(kept, fmt::format("{} is good, but did not take its place yet; the next start tries again", source));
-    return RestoreReport{*kept, *checked, site_revision};
+    return RestoreReport{*kept, *checked, site_revision, replaced};
 }
 
 StoreResult<std::string> finish_restore(const StoreFiles& files) {

@@ -20,9 +20,10 @@ namespace axisgate {
 [[nodiscard]] StoreResult<> check_backup_target(const std::string& directory, const std::string& target);
 
 struct RestoreReport {
-    std::string kept;                 ///< where the replaced database now is; empty if there was none
-    int version = 0;                  ///< of the restored file; the next start upgrades it if it is older than the program
-    std::uint64_t site_revision = 0;  ///< in force in it; 0: none
+    std::string kept;                          ///< where the replaced database now is; empty if there was none
+    int version = 0;                           ///< of the restored file; the next start upgrades it if it is older than the program
+    std::uint64_t site_revision = 0;           ///< in force in it; 0: none
+    std::uint64_t replaced_site_revision = 0;  ///< in force in the replaced one; 0: none, or it could not be read
 };
 /// Puts the backup `source` in the place of the database in `options.directory` (which may be empty or missing). The gateway must not
 /// run. The file is copied, then checked (whole, axisgate's, not newer than the program, structure); the replaced database is kept as

@@ -136,7 +136,7 @@ def test_two_programs_of_one_host_are_one_client_and_both_are_shown(folder):
         free = g.get("/axes/feeder/authority")
         assert (free["holder"], free["holder_text"], free["connections"]) == ("", "nobody", []), free
         with From(g.modbus_port, "127.0.0.2") as one, From(g.modbus_port, "127.0.0.2") as two, From(g.modbus_port, "127.0.0.3") as other:
-            for word in (0x06, 0x07, 0x0F):
+            for word in (0x00, 0x04, 0x06, 0x07, 0x0F):
                 one.write1(32, word)
             assert code_of(lambda: two.write1(33, 1)) == 0, "the same address is the same client"
             assert code_of(lambda: other.write1(32, 0x0F)) == 6
@@ -166,8 +166,8 @@ def test_a_read_only_door_still_stops(folder):
             assert g.axis()["state"] == "operation_enabled"
             assert code_of(lambda: m.write1(32, 0x02)) == 0
             until(lambda: not g.axis()["moving"], 10, "the quick stop")
-            assert code_of(lambda: m.write(32, [0])) == 0
-            until(lambda: g.axis()["state"] == "switch_on_disabled", 10, "switched off")
+            assert code_of(lambda: m.write(32, [0])) == 1 and g.axis()["state"] == "quick_stop_active", "without its voltage an axis may fall"
+            assert code_of(lambda: m.write(32, [0x0B])) == 0, "function 16 takes a quick stop, too"
             assert code_of(lambda: m.write1(32, 0x0F)) == 1
 
 

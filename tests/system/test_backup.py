@@ -176,7 +176,7 @@ def test_a_backup_is_a_tar_that_others_unpack_and_check(folder):
     run("restore", str(copy), "--data", str(spare), check=0)
     assert (spare / "http-key.pem").read_bytes() == (folder / "data/http-key.pem").read_bytes()
     assert stat.S_IMODE((spare / "http-key.pem").stat().st_mode) == 0o600
-    assert sorted(p.name for p in spare.iterdir()) == ["axisgate.db", "axisgate.lock", "http-cert.pem", "http-key.pem"]
+    assert sorted(p.name for p in spare.iterdir()) == ["axisgate.db", "axisgate.lock", "http-cert.pem", "http-key.pem", "restored.json"], "the next start tells of it"
     # A plain database, as older programs made it, is taken as well.
     run("restore", str(out / "axisgate.db"), "--data", str(folder / "older"), check=0)
 
@@ -268,7 +268,7 @@ def test_a_host_that_cannot_take_a_file_takes_nothing(folder):
     """The key's folder cannot be written: then the database is not replaced either."""
     (folder / "etc").mkdir()
     for name in ("cert.pem", "key.pem"):
-        (folder / "etc" / name).write_text(name)
+        (folder / "etc" / name).write_text(f"-----BEGIN {name}-----\n-----END {name}-----\n")
     toml = folder / "axisgate.toml"
     toml.write_text(f'[http]\ntls_cert = "{folder}/etc/cert.pem"\ntls_key = "{folder}/etc/key.pem"\n')
     with Gateway(folder) as g:
@@ -287,3 +287,52 @@ def test_a_host_that_cannot_take_a_file_takes_nothing(folder):
     # A file that the configuration names and that is not there: no backup that would lack it.
     code, _, err = run("backup", str(folder / "b"), "--data", str(data), "--config", str(toml))
     assert code == 1 and "cert.pem" in err and not (folder / "b").exists(), err
+
+
+def test_a_backup_alone_never_decides_where_root_writes(folder):
+    """The configuration in a backup names a place elsewhere, or a certificate that is none: shown and refused; confirmed, it is taken."""
+    etc, elsewhere, data = folder / "etc", folder / "elsewhere", folder / "etc/data"
+    etc.mkdir(), elsewhere.mkdir()
+    (etc / "keys").symlink_to(elsewhere)  # a name below the folder that leads out of it
+    toml, copy, key, cert = etc / "axisgate.toml", folder / "copy.tar", elsewhere / "authorized_keys", etc / "keys/cert.pem"
+    for file in (key, cert):
+        file.write_text("-----BEGIN IT-----\n-----END IT-----\n")
+    toml.write_text(f'[data]\ndir = "{data}"\n[http]\ntls_cert = "{cert}"\ntls_key = "{key}"\n')
+    with Gateway(folder, None) as g:
+        assert g.stop() == 0
+    shutil.copytree(folder / "data", data)
+    run("backup", str(copy), "--config", str(toml), check=0)
+    toml.write_text(f'[data]\ndir = "{data}"\n')
+    key.write_text("ssh-ed25519 of somebody")
+    args = ("restore", str(copy), "--config", str(toml), "--with-config")
+    code, out, err = run(*args)
+    assert code == 1 and "nothing was replaced" in err and "--confirm-places" in err, (out, err)
+    assert f"tls-key.pem -> {key}" in out and f"tls-cert.pem -> {cert}" in out, out
+    assert key.read_text() == "ssh-ed25519 of somebody" and "tls_key" not in toml.read_text()
+    code, out, err = run(*args, "--confirm-places")
+    assert code == 0 and key.read_text().startswith("-----BEGIN IT"), (out, err)
+    assert "whose token was taken back" in out, out
+    key.write_text("ssh-ed25519 of somebody")
+    run("backup", str(copy), "--config", str(toml), check=0)
+    code, out, err = run(*args, "--confirm-places")
+    assert code == 1 and "it is no PEM" in err and "nothing was replaced" in err, (out, err)
+
+
+def test_the_start_after_a_restore_tells_who_and_which_revisions(folder):
+    with Gateway(folder) as g:
+        g.send("PATCH", "/axes/feeder", {"unit": "m"})
+        assert g.stop() == 0
+    copy, data = folder / "copy.db", folder / "data"
+    run("backup", str(copy), "--data", str(data), check=0)
+    with Gateway(folder, None) as g:
+        g.send("PATCH", "/axes/feeder", {"unit": "cm"})
+        assert g.stop() == 0
+    run("restore", str(copy), "--data", str(data), check=0)
+    with Gateway(folder, None) as g:
+        told = [e for e in g.get("/events?limit=500") if e["kind"] == "restore"]
+        assert len(told) == 1 and told[0]["who"].startswith("axisgate restore ") and told[0]["severity"] == "warning", told
+        assert int(told[0]["old"]) == int(told[0]["new"]) + 1 and "whose token was taken back" in told[0]["text"], told
+        assert g.stop() == 0
+    with Gateway(folder, None) as g:
+        assert len([e for e in g.get("/events?limit=500") if e["kind"] == "restore"]) == 1, "told once"
+        assert g.stop() == 0

@@ -69,6 +69,8 @@ def test_check_warns_of_a_door_without_names():
     code, _, errors = run("check", "--set", "http.bind=0.0.0.0:8080")
     assert code == 0 and "warning: http.allowed_hosts" in errors, (code, errors)
     code, _, errors = run("check", "--set", "http.bind=0.0.0.0:8080", "--set", "http.allowed_hosts=machine.example")
+    assert code == 0 and "http.allowed_hosts" not in errors and "http.tls_cert" in errors and "users.local_role" in errors, (code, errors)
+    code, _, errors = run("check", "--set", "http.bind=0.0.0.0:8080", "--set", "http.allowed_hosts=machine.example", "--set", "http.tls=self_signed")
     assert code == 0 and errors == "", (code, errors)
 
 

@@ -144,7 +144,7 @@ def test_a_flood_of_a_viewer_ends_soon(gateway):
 
 
 # What the body or whose it is decides beyond the role stands in tests of its own (tests/unit/http/roles_test.cpp).
-REFINED = {"commandAxis", "changePassword", "addToken", "removeToken", "signIn", "firstSignIn"}
+REFINED = {"commandAxis", "commandFleetAxis", "changePassword", "addToken", "removeToken", "signIn", "firstSignIn"}
 
 
 def test_each_role_against_each_operation(gateway):

@@ -35,10 +35,10 @@ ROOMS = {
     "services": ("core", "site", "axis", "registers", "engine", "protocols/canopen"),
     "lines": ("core", "wire"),
     "store": ("core", "site"),
-    "doors/modbus": ("core", "site", "axis", "registers", "engine", "lines/poller.hpp"),
-    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip", "lines/poller.hpp"),
+    "doors/modbus": ("core", "site", "axis", "registers", "engine", "lines/poller.hpp", "lines/spare_descriptor.hpp"),
+    "doors/enip": ("core", "site", "axis", "registers", "engine", "protocols/cip", "lines/poller.hpp", "lines/spare_descriptor.hpp"),
     "doors/dds": ("core", "site", "axis", "services", "protocols/mirror"),
-    "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire"),
+    "doors/http": ("core", "site", "axis", "registers", "services", "engine", "wire", "lines/spare_descriptor.hpp"),
 }
 PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "protocols/mirror", "drive", "engine", "registers", "services", "adapter", "twin")
 

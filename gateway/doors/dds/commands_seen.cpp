@@ -4,16 +4,29 @@
 
 namespace axisgate::dds {
 
-CommandsSeen::Seen CommandsSeen::begin(const std::string& source, const std::string& id, Instant now) {
+void CommandsSeen::forget(const std::string& key) {
+    const auto it = kept_.find(key);
+    if (it == kept_.end()) return;
+    if (const auto held = held_.find(it->second.writer); held != held_.end() && --held->second == 0) held_.erase(held);
+    kept_.erase(it);
+}
+
+CommandsSeen::Seen CommandsSeen::begin(const std::string& source, const std::string& id, Instant now, std::uint64_t writer) {
     while (!ended_.empty() && now - ended_.front().first >= keep_for) {
-        kept_.erase(ended_.front().second);
+        forget(ended_.front().second);
         ended_.pop_front();
     }
     std::string key = key_of(source, id);
     if (const auto it = kept_.find(key); it != kept_.end())
         return it->second.answered ? Seen{Stage::answered, &it->second.result} : Seen{Stage::under_way, nullptr};
     if (kept_.size() >= most) return {Stage::no_room, nullptr};
-    kept_.emplace(std::move(key), Kept{});
+    const auto held = held_.find(writer);
+    if (writer != 0 && held != held_.end() && held->second >= share && most - kept_.size() <= kept_for_others)
+        return {Stage::no_room, nullptr};
+    Kept kept;
+    kept.writer = writer;
+    kept_.emplace(std::move(key), std::move(kept));
+    ++held_[writer];
     return {};
 }
 
@@ -21,7 +34,8 @@ void CommandsSeen::end(const std::string& source, const std::string& id, Result 
     std::string key = key_of(source, id);
     const auto it = kept_.find(key);
     if (it == kept_.end() || it->second.answered) return;
-    it->second = {true, std::move(result)};
+    it->second.answered = true;
+    it->second.result = std::move(result);
     ended_.emplace_back(now, std::move(key));
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <unordered_map>
@@ -23,8 +24,10 @@ public:
         Stage stage = Stage::is_new;
         const Result* result = nullptr;  ///< of one that was answered; good until the next call
     };
-    /// A command has come. `is_new`: it is noted as under way, and end() follows.
-    [[nodiscard]] Seen begin(const std::string& source, const std::string& id, Instant now);
+    /// With less than this left, who has an eighth of all places gets no further one: a member's flood leaves room for the others.
+    static constexpr std::size_t kept_for_others = most / 4, share = most / 8;
+    /// A command has come, by `writer`. `is_new`: it is noted as under way, and end() follows.
+    [[nodiscard]] Seen begin(const std::string& source, const std::string& id, Instant now, std::uint64_t writer = 0);
     /// Its one result.
     void end(const std::string& source, const std::string& id, Result result, Instant now);
     [[nodiscard]] std::size_t size() const noexcept { return kept_.size(); }
@@ -33,12 +36,15 @@ private:
     struct Kept {
         bool answered = false;
         Result result;
+        std::uint64_t writer = 0;
     };
+    void forget(const std::string& key);
     /// Neither part can have the other's separator: texts of the IDL end at a zero.
     [[nodiscard]] static std::string key_of(const std::string& source, const std::string& id) { return source + '\0' + id; }
 
     std::unordered_map<std::string, Kept> kept_;
-    std::deque<std::pair<Instant, std::string>> ended_;  // in order of their results
+    std::unordered_map<std::uint64_t, std::size_t> held_;  // by writer
+    std::deque<std::pair<Instant, std::string>> ended_;    // in order of their results
 };
 
 }  // namespace axisgate::dds

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cmath>
+#include <thread>
 
 #include "gateway/core/parameter_form.hpp"
+#include "gateway/core/plain_text.hpp"
 #include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
@@ -49,6 +51,7 @@ struct DdsDoor::Asked {
     std::uint64_t instance = 0;
     bool renews = false;  ///< a held move that goes on: twice is as good as once, and nothing begins by it; it is not remembered
     bool stops = false;   ///< whatever is wrong with its names: a stop is carried out, twice if need be, and never refused for want of room
+    std::uint64_t writer = 0;  ///< by which it came
 };
 
 DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
@@ -58,18 +61,30 @@ DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::func
       settings_(std::move(settings)),
       timer_(context),
       look_timer_(context),
-      fleet_(settings_.name, settings_.instance, [this](const axisgate_AxisCommand& s) { (void)bus_.write(s); }),
-      bus_([this] {
-          if (!woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
-      }) {}
+      fleet_(settings_.name, settings_.instance,
+             [this](const axisgate_AxisCommand& s) {
+                 if (open_) (void)bus_->write(s);
+             }),
+      bus_(std::make_shared<Bus>([wake = wake_] { wake->ring(); })) {
+    wake_->door = this;
+}
+
+void DdsDoor::Wake::ring() {
+    const std::scoped_lock lock(mutex);
+    if (door && !door->woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(door->context_, [door = door] { door->read(); });
+}
 
 DdsDoor::~DdsDoor() {
+    {
+        const std::scoped_lock lock(wake_->mutex);
+        wake_->door = nullptr;
+    }
     if (open_) ports_.get<EventPort>().unlisten(this);
 }
 
 std::string DdsDoor::start() {
     settings_.bus.gateway = settings_.name;
-    std::string fault = bus_.open(
+    std::string fault = bus_->open(
         settings_.bus, {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::axis_command, Topic::command_result},
         {Topic::gateway_state, Topic::axis_state, Topic::axis_command, Topic::command_result, Topic::parameter_write, Topic::set_point});
     if (!fault.empty()) return fault;
@@ -92,9 +107,34 @@ void DdsDoor::stop(std::function<void()> done) {
         timer_.cancel();
         look_timer_.cancel();
         ports_.get<EventPort>().unlisten(this);
-        bus_.close();  // its states are disposed with their writers
+        close_bus(std::move(done));
+        return;
     }
     boost::asio::post(context_, std::move(done));
+}
+
+/// With its interface down the library waits, without a bound, for a thread of its own that only a packet to that interface wakes.
+void DdsDoor::close_bus(std::function<void()> done) {
+    {
+        const std::scoped_lock lock(wake_->mutex);
+        wake_->door = nullptr;
+    }
+    std::thread([bus = bus_, closed = closed_] {
+        bus->close();  // its states are disposed with their writers
+        closed->store(true);
+    }).detach();
+    closing_ = true;
+    wait_for_end(clock_() + close_within, std::move(done));
+}
+
+void DdsDoor::wait_for_end(Instant limit, std::function<void()> done) {
+    if (*closed_ || clock_() >= limit) {
+        boost::asio::post(context_, std::move(done));
+        return;
+    }
+    timer_.expires_after(std::chrono::milliseconds(5));
+    timer_.async_wait(
+        [this, limit, done = std::move(done)](const boost::system::error_code&) mutable { wait_for_end(limit, std::move(done)); });
 }
 
 std::string DdsDoor::metrics() const {
@@ -108,7 +148,7 @@ std::string DdsDoor::metrics() const {
     put("set_points_total", "Streamed set-points that came.", counters_.set_points);
     put("set_points_wrong_total", "Those of them that could not be read or had no axis.", counters_.set_points_wrong);
     put("unsent_total", "States, events and results that could not be sent at once.", counters_.unsent);
-    put("turned_away_total", "Samples that came and had no room, or were lost on their way.", bus_.turned_away());
+    put("turned_away_total", "Samples that came and had no room, or were lost on their way.", open_ ? bus_->turned_away() : 0);
     put("left_out_total", "States of gateways and axes beyond as many as are kept.", fleet_.left_out());
     return s;
 }
@@ -159,7 +199,7 @@ void DdsDoor::tell_gateway(Instant now) {
         s.axes_online += (ports_.get<AxisPort>().picture(id).flags & flag_online) != 0 ? 1u : 0u;
     if (settings_.page) put_text(s.http, settings_.page());
     (void)fleet_.on_gateway(s, true, s.at_unix_ns, now);
-    if (!bus_.write(s)) ++counters_.unsent;
+    if (!bus_->write(s)) ++counters_.unsent;
 }
 
 void DdsDoor::tell_axes(Instant now) {
@@ -171,7 +211,7 @@ void DdsDoor::tell_axes(Instant now) {
             put_text(gone.gateway, settings_.name);
             put_text(gone.axis, old.name);
             fleet_.on_axis(gone, false, false);
-            (void)bus_.dispose(gone);
+            (void)bus_->dispose(gone);
         }
         axes_.assign(site->site.axes.size(), {});
         for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -186,7 +226,7 @@ void DdsDoor::tell_axes(Instant now) {
         axisgate_AxisState s{};
         fill(s, axis_at(ports_.get<SitePort>(), site, i));
         fleet_.on_axis(s, true, true);
-        if (!bus_.write(s)) {
+        if (!bus_->write(s)) {
             ++counters_.unsent;
             continue;  // the next turn tries again
         }
@@ -249,7 +289,7 @@ void DdsDoor::on_event(const Event& e) {
     put_text(s.parameter, e.parameter);
     put_text(s.old_value, e.old_value);
     put_text(s.new_value, e.new_value);
-    if (!bus_.write(s)) ++counters_.unsent;
+    if (!bus_->write(s)) ++counters_.unsent;
 }
 
 // --- reading ----------------------------------------------------------------------------------------------------------
@@ -261,7 +301,7 @@ void DdsDoor::read() {
     bool more = false;
     const auto all = [this, &more](auto* kind, auto each) {
         using Sample = std::remove_pointer_t<decltype(kind)>;
-        more = bus_.take<Sample>(at_a_time, each) == at_a_time || more;
+        more = bus_->take<Sample>(at_a_time, each) == at_a_time || more;
     };
     const auto mine = [this](const auto& s) { return settings_.name == s.gateway; };
     all(static_cast<axisgate_GatewayState*>(nullptr), [this](const auto& s, const Bus::Seen& seen) { on_gateway(s, seen); });
@@ -308,7 +348,7 @@ void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) 
 }
 
 Origin DdsDoor::origin_of(const std::string& source) {
-    auto who = std::make_shared<const std::string>(source.empty() ? "without a name" : source);
+    auto who = std::make_shared<const std::string>(source.empty() ? "without a name" : one_line(source));
     return {Door::dds, who, who};
 }
 
@@ -318,7 +358,12 @@ bool DdsDoor::to_be_done(const Asked& a) {
         refuse(a, Reason::out_of_range, "a command over DDS has a source and an id, so that it is never carried out twice; name both");
         return false;
     }
-    const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_());
+    if (!is_plain(a.source) || !is_plain(a.id)) {
+        if (a.stops) return true;
+        refuse(a, Reason::out_of_range, "source and id are texts without line ends, control characters and changes of direction");
+        return false;
+    }
+    const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_(), a.writer);
     switch (seen.stage) {
         case CommandsSeen::Stage::under_way:
             ++counters_.repeated;
@@ -361,7 +406,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
 
 void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const std::string_view name(s.command);
-    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, is_stop(name)};
+    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, is_stop(name), seen.writer};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -377,7 +422,7 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
 }
 
 void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen) {
-    const Asked a{s.axis, s.source, s.id, s.instance};
+    const Asked a{s.axis, s.source, s.id, s.instance, false, false, seen.writer};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -399,12 +444,12 @@ void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Se
 }
 
 void DdsDoor::note_commander(const Asked& asked, const Bus::Writer& writer) {
-    if (commanders_.note(asked.axis, asked.source, writer) && !bus_.is_there(writer) && gone_before_.size() < Bus::gone_most)
+    if (commanders_.note(asked.axis, asked.source, writer) && !bus_->is_there(writer) && gone_before_.size() < Bus::gone_most)
         gone_before_.push_back(writer);
 }
 
 void DdsDoor::look_for_gone() {
-    for (const auto& writer : bus_.take_gone([this] { return commanders_.writers(); }))
+    for (const auto& writer : bus_->take_gone([this] { return commanders_.writers(); }))
         on_gone(writer);
 }
 
@@ -467,7 +512,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
     put_text(s.text, r.text);
     s.repeated = repeated;
     s.count = sequence_;
-    if (!bus_.write(s)) ++counters_.unsent;  // whoever misses it sends the command again
+    if (!bus_->write(s)) ++counters_.unsent;  // whoever misses it sends the command again
 }
 
 void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then) {
@@ -527,7 +572,7 @@ void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
     const auto place = find_axis(ports_.get<SitePort>(), s.axis);
     const bool numbers = std::ranges::all_of(std::array<const double*, 4>{&s.value, s.velocity, s.acceleration, s.deceleration},
                                              [](const double* d) { return !d || std::isfinite(*d); });
-    if (!place || s.source[0] == 0 || !numbers) {
+    if (!place || s.source[0] == 0 || !is_plain(s.source) || !numbers) {
         ++counters_.set_points_wrong;
         return;
     }

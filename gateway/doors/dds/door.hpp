@@ -11,6 +11,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,6 +42,7 @@ public:
     static constexpr Duration turn = std::chrono::milliseconds(20);              ///< a state is told at most once in it
     static constexpr Duration look_again = std::chrono::milliseconds(2);         ///< after a change that was told at once
     static constexpr Duration published_again = std::chrono::milliseconds(500);  ///< a state that does not change
+    static constexpr Duration close_within = std::chrono::seconds(2);            ///< longer the end does not wait for the DDS library
     static constexpr std::size_t set_point_clients_most = 1024;                  ///< axes that are streamed to, as far as this door knows
 
     DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings);
@@ -53,6 +55,8 @@ public:
     /// NAME@PARTITION:DOMAIN%INTERFACE: "hall-1@plant:0%lo".
     [[nodiscard]] std::string address() const override;
     void stop(std::function<void()> done) override;
+    /// After stop() is done: the library has not let go of its interface, which is down. A thread is left that waits for it.
+    [[nodiscard]] bool hangs() const noexcept { return closing_ && !*closed_; }
     void on_event(const Event& event) override;
     [[nodiscard]] std::vector<FleetGateway> fleet() const override { return fleet_.list(ports_.get<ClockPort>().now_unix_ns(), clock_()); }
     /// On the service thread: a picture has changed. Told at once, and not only in the next turn; then again two milliseconds later.
@@ -94,6 +98,8 @@ private:
     void on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen);
     [[nodiscard]] bool to_be_done(const Asked& asked);
     void carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done);
+    void close_bus(std::function<void()> done);
+    void wait_for_end(Instant limit, std::function<void()> done);
     void command_here(FleetOrder order, std::function<void(const Result&)> then);
     void tell_again(const std::string& axis);
     void tell_mirrors(std::string_view gateway, std::string_view axis);
@@ -119,8 +125,16 @@ private:
     Counters counters_;
     std::list<MirrorEnd> mirrors_;
     std::uint64_t sequence_ = 0;  // of the state that was told last
-    bool open_ = false;
-    Bus bus_;  // last: its threads end first
+    bool open_ = false, closing_ = false;
+    /// What the library's threads call; it outlives the door where they do.
+    struct Wake {
+        void ring();
+        std::mutex mutex;
+        DdsDoor* door = nullptr;
+    };
+    std::shared_ptr<Wake> wake_ = std::make_shared<Wake>();
+    std::shared_ptr<std::atomic<bool>> closed_ = std::make_shared<std::atomic<bool>>(false);
+    std::shared_ptr<Bus> bus_;  // last: its threads end first
 };
 
 }  // namespace axisgate::dds

@@ -5,8 +5,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "gateway/axis/authority.hpp"
+#include "gateway/core/plain_text.hpp"
 #include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
@@ -76,7 +78,7 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     }
     const bool found = it == known_.end() || !it->second.gateway.alive;
     if (found) ++comings_;
-    if (it == known_.end() && known_.size() >= gateways_most) {
+    if (it == known_.end() && (!is_plain(s.gateway) || !is_plain(s.http) || !make_room(now))) {
         ++left_out_;
         return std::nullopt;
     }
@@ -97,6 +99,24 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     if (!found || !other) return std::nullopt;
     e.text = fmt::format("the gateway {} is in the domain", g.name);
     return e;
+}
+
+/// Who is gone gives way first, the one that has been gone for longest. Of the living, one that has told of an axis is a gateway that
+/// works; names without axes are cheap to invent, and the one that was heard longest ago gives way to a newcomer.
+bool Fleet::make_room(Instant now) {
+    if (known_.size() < gateways_most) return true;
+    const auto rank = [this](const auto& k) {
+        return std::make_tuple(k.first == instance_, k.second.gateway.alive, !k.second.axes.empty(), k.second.received_at);
+    };
+    const auto victim = std::ranges::min_element(known_, [&rank](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    if (victim->first == instance_ || (victim->second.gateway.alive && !victim->second.axes.empty())) return false;
+    if (victim->second.gateway.alive) {
+        ++left_out_;
+        (void)lose(victim->second, now);  // nobody waits for its answer any more
+    }
+    known_.erase(victim->first);
+    ++comings_;
+    return true;
 }
 
 void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {

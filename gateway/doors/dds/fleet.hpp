@@ -110,6 +110,8 @@ private:
     void stop(const FleetOrder& order, std::string_view word, std::function<void(const Result&)> then, Instant now);
     void end_overtaken(const std::string& gateway, const std::string& axis, std::string_view by);
     void try_unheard(Instant now);
+    /// A place for one more gateway. False: all that are known are alive and have axes.
+    [[nodiscard]] bool make_room(Instant now);
     void end(const std::string& id, const Result& result);
     [[nodiscard]] Event lose(Known& k, Instant now);
 

@@ -28,6 +28,7 @@
 #include "gateway/doors/enip/host_facts.hpp"
 #include "gateway/doors/enip/tcp_session.hpp"
 #include "gateway/lines/poller.hpp"
+#include "gateway/lines/spare_descriptor.hpp"
 #include "gateway/site/site_state.hpp"
 
 namespace axisgate::enip {
@@ -170,6 +171,7 @@ private:
     bool open_ = false;
     bool paused_ = false;  // out of descriptors: tried again at the next sweep
     Counter accepts_postponed_;
+    SpareDescriptor spare_;
     std::array<std::uint8_t, 65536> buffer_;
 };
 
@@ -309,14 +311,20 @@ void Server::Impl::accept() {
 bool Server::Impl::admit() {
     sockaddr_in peer{};
     socklen_t length = sizeof peer;
-    const int fd = ::accept4(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    int fd = ::accept4(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd < 0) {
-        if (errno != EMFILE && errno != ENFILE && errno != ENOBUFS && errno != ENOMEM) return true;
+        if (!SpareDescriptor::none_left(errno)) return true;
         // Told even if nobody waits.
         pollfd queue{acceptor_.native_handle(), POLLIN, 0};
         if (::poll(&queue, 1, 0) <= 0) return true;
-        accepts_postponed_.add();
-        return false;
+        // This client has the spare one's place; if that is in use, one that does nothing gives way, and it is tried again when that has
+        // ended, or with the next sweep.
+        fd = spare_.accept(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length);
+        if (fd < 0) {
+            (void)adapter_.give_way(port_.now());
+            accepts_postponed_.add();
+            return false;
+        }
     }
     const int on = 1;
     (void)::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
@@ -359,7 +367,9 @@ void Server::Impl::on_ready(std::span<const epoll_event> events) {
     }
     for (TcpSession* session : std::span(answered).first(count))
         session->flush();
+    const bool descriptor_is_free = !ended_.empty();
     ended_.clear();
+    if (descriptor_is_free && std::exchange(paused_, false)) accept();
     arm();
 }
 
@@ -415,6 +425,7 @@ void Server::Impl::on_timer() {
     if (next_sweep_ <= now) {
         values_.sweep(now);
         next_sweep_ = now + sweep_period;
+        if (!paused_) (void)spare_.refill();  // who waits comes first
         if (std::exchange(paused_, false)) accept();
     }
     arm();

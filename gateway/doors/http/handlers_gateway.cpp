@@ -14,8 +14,12 @@ Handled get_health(Call&, const StatusPort& status) {
     return json_response(json::object{{"status", "ok"}, {"uptime_s", number(status.uptime_s())}});
 }
 
-Handled get_ready(Call&, const StatusPort& status) {
-    const auto missing = status.not_ready();
+Handled get_ready(Call& c, const StatusPort& status) {
+    auto missing = status.not_ready();
+    // Names of lines, drives and interfaces are for who is known here; whether all is well is for everybody.
+    if (!missing.empty() && c.context.access && c.identity.role == Role::none)
+        missing = {fmt::format("{} {} missing or not as it should be; sign in to read which", missing.size(),
+                               missing.size() == 1 ? "thing is" : "things are")};
     json::array list;
     std::string all;
     for (const auto& m : missing) {

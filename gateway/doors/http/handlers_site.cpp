@@ -6,6 +6,7 @@
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/doors/http/site_edit.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/site/names.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -201,6 +202,8 @@ Handled replace_site(Call& c, SitePort& sites, const StagePort& staging) {
     const auto before = sites.site();
     std::vector<SiteFault> site_faults;
     auto site = parse_site(c.body, sites.families(), site_faults);
+    if (site) site_faults = names_to_change(*site, &before->site);
+    if (!site_faults.empty()) site.reset();
     const auto faults = faults_for(site_faults, "", true);
     const bool demanded = c.context.settings.require_if_match && !dry_run;
     if (dry_run || !site) {

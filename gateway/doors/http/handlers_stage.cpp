@@ -6,6 +6,7 @@
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/site/names.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -68,7 +69,8 @@ Handled stage_document(Call& c, const ClockPort& clock, const SitePort& sites, S
     if (auto refusal = precondition(c, sites, *now, c.context.settings.require_if_match)) return *refusal;
     std::vector<SiteFault> faults;
     auto site = parse_site(document, sites.families(), faults);
-    if (!site) return invalid(faults_for(faults, "", true));
+    if (site) faults = names_to_change(*site, &now->site);
+    if (!site || !faults.empty()) return invalid(faults_for(faults, "", true));
     if (auto fault = staging.stage_site(std::move(*site), now->revision, c.origin()); !fault.empty()) return conflict(std::move(fault));
     c.context.stages->staged(staging.site_stage(), c.origin(), clock.now_unix_ns());
     return stage_answer(sites, staging, *c.context.stages);

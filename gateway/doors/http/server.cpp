@@ -8,6 +8,7 @@
 
 #include "gateway/doors/http/connection.hpp"
 #include "gateway/doors/http/session.hpp"
+#include "gateway/lines/spare_descriptor.hpp"
 
 namespace axisgate::http {
 namespace asio = boost::asio;
@@ -38,6 +39,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     bool telling = false;  // a piece of the live feed's work waits for its turn
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
+    SpareDescriptor spare;
 
     Parts(asio::io_context& c, const Ports& ports, Services& all, Settings s, AssetLookup asset)
         : SessionHost(own_settings, own_router, own_counters, own_hub, std::make_shared<Later>(c)),
@@ -71,6 +73,9 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         const auto kept = std::move(it->second);  // lives until this call's caller is done with it
         sessions.erase(it);
         own_counters.connections = sessions.size();
+        asio::post(context, [self = weak_from_this()] {  // its descriptor is closed by then
+            if (const auto me = self.lock()) me->refill_spare();
+        });
         if (stopping && sessions.empty()) stopped();
     }
 
@@ -80,10 +85,27 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             const auto me = self.lock();
             if (!me || me->stopping) return;
             if (ec == asio::error::operation_aborted) return;
-            if (ec) return me->accept_later();  // no descriptors left, or the client is gone already
+            if (ec) return me->accept_without(ec);  // no descriptors left, or the client is gone already
             me->take(std::move(socket));
             me->accept();
         });
+    }
+    /// No descriptor is left: the client has the spare one; if that is in use, one that does nothing gives way, and it is tried again.
+    void accept_without(const ErrorCode& why) {
+        if (!SpareDescriptor::none_left(why.value())) return accept_later();
+        const int fd = spare.accept(acceptor.native_handle(), nullptr, nullptr);
+        if (fd >= 0) {
+            ErrorCode ec;
+            tcp::socket socket(context);
+            socket.assign(acceptor.local_endpoint(ec).protocol(), fd, ec);
+            if (ec)
+                ::close(fd);
+            else
+                take(std::move(socket));
+        } else if (errno == EMFILE) {
+            (void)make_place(0, true);
+        }
+        accept_later();
     }
     void accept_later() {
         pause_timer.expires_after(std::chrono::milliseconds(100));
@@ -92,6 +114,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             if (!ec && me && !me->stopping) me->accept();
         });
     }
+    /// In use until a descriptor has become free: looked for when a session ends, and while the door waits to accept.
+    void refill_spare() { (void)spare.refill(); }
     void take(tcp::socket socket) {
         ErrorCode ec;
         const auto peer = socket.remote_endpoint(ec);
@@ -108,8 +132,9 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         add(connection);
         connection->start();
     }
-    bool make_place(PlaceHolder newcomer) {
-        if (sessions.size() < own_settings.max_connections) return true;  // no need to look who is there
+    /// `full`: of descriptors, not of places; true then means that one was closed.
+    bool make_place(PlaceHolder newcomer, bool full = false) {
+        if (!full && sessions.size() < own_settings.max_connections) return true;  // no need to look who is there
         std::vector<Session*> all;
         std::vector<Guest> guests;
         for (const auto& [key, session] : sessions) {
@@ -117,7 +142,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             guests.push_back(session->guest());
         }
         // Nobody has said who he is before his first request: he comes as a stranger, and counts as known from its answer on.
-        const auto verdict = find_place(guests, newcomer, false, {own_settings.max_connections, own_settings.max_connections / 8});
+        const auto verdict = find_place(guests, newcomer, false, {own_settings.max_connections, own_settings.max_connections / 8}, full);
         if (verdict.closes) {
             ++own_counters.connections_gave_way;
             all[*verdict.closes]->abort();

@@ -1,6 +1,7 @@
 // Site change: a change that lost a race against another one is planned anew on the newer site, three times at most.
 // In: plans. Out: answers, through the site port. Never runs two changes at a time: the queue of the door gives each its turn.
 #include "gateway/doors/http/site_change.hpp"
+#include "gateway/site/names.hpp"
 
 #include <fmt/core.h>
 
@@ -47,6 +48,7 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
     Origin origin;
     std::optional<std::uint64_t> only_for;  ///< If-Match was given: the change is for this revision alone
     std::string if_match;
+    bool whole_document = false;  ///< the request's body is the site
     std::function<Planned(const SiteState& before)> plan;
     Respond respond;
     std::function<void()> done;
@@ -65,6 +67,8 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
         auto planned = plan(*before);
         if (auto* refusal = std::get_if<Response>(&planned)) return end(std::move(*refusal));
         auto& [site, show] = std::get<Plan>(planned);
+        if (const auto names = names_to_change(site, &before->site); !names.empty())
+            return end(invalid(faults_for(names, "", whole_document)));
         if (to_json(site) == to_json(before->site)) return end(show(before));  // nothing changes: nothing is disturbed
         auto then = [self = shared_from_this(), before, show = std::move(show)](SiteAnswer answer) {
             if (answer.good) return self->end(show(answer.now));
@@ -127,6 +131,7 @@ Handled change_site(Call& c, SitePort& sites, const StagePort& staging, bool if_
         return problem(409, "conflict", "a staged site is on trial: confirm it or roll it back before the site is changed otherwise");
     if (auto refusal = precondition(c, sites, *site, if_match_demanded)) return *refusal;
     auto order = std::make_shared<QueuedChange>(sites, c.origin());
+    order->whole_document = c.target.path == "/api/v1/site";
     order->if_match = c.request.headers.get("If-Match");
     if (!order->if_match.empty()) order->only_for = site->revision;
     order->plan = std::move(plan);

@@ -94,7 +94,7 @@ bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept {
     if (get16(pdu.data() + 1) % registers::registers_per_axis != registers::reg::controlword) return false;
     const std::uint16_t word = get16(pdu.data() + value);
     if ((word & (cia402::cw_fault_reset | cia402::cw_new_setpoint)) != 0) return false;
-    return (word & cia402::cw_enable_voltage) == 0 || (word & cia402::cw_quick_stop) == 0;
+    return (word & cia402::cw_enable_voltage) != 0 && (word & cia402::cw_quick_stop) == 0;
 }
 
 bool Access::serves(std::uint8_t unit, std::span<const std::uint8_t> pdu) const noexcept {

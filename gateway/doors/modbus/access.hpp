@@ -34,8 +34,8 @@ struct Access {
 };
 [[nodiscard]] bool is_write(std::uint8_t function) noexcept;
 /// Whether a request can do nothing but stop: function 6, or 16 with one register, to the control word of an axis of the standard map, with
-/// a word that in every state of CiA 402 means quick stop or switching off, and has neither a fault reset nor a new set-point in it. A halt
-/// is none: with an axis that stands ready, the same word switches it on.
+/// a word that in every state of CiA 402 means quick stop, and has neither a fault reset nor a new set-point in it. To disable the voltage
+/// is none: what hangs on an axis without brake falls. Nor is a halt: with an axis that stands ready, the same word switches it on.
 [[nodiscard]] bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept;
 
 }  // namespace axisgate::modbus

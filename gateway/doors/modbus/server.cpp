@@ -20,6 +20,7 @@
 #include "gateway/core/places.hpp"
 #include "gateway/doors/modbus/connection.hpp"
 #include "gateway/doors/modbus/endpoint.hpp"
+#include "gateway/lines/spare_descriptor.hpp"
 
 namespace axisgate::modbus {
 namespace {
@@ -149,6 +150,7 @@ public:
             }
         }
         bury();
+        if (std::ranges::none_of(listeners_, [](const auto& l) { return l->paused; })) (void)spare_.refill();  // who waits comes first
         for (const auto& l : listeners_) {
             if (std::exchange(l->paused, false)) accept_on(l);
         }
@@ -268,18 +270,19 @@ private:
         for (int i = 0; i < accepts_per_turn; ++i) {
             sockaddr_storage peer{};
             socklen_t length = sizeof peer;
-            const int fd = ::accept4(l.acceptor.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
+            int fd = ::accept4(l.acceptor.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
             if (fd >= 0) {
                 admit(fd, peer, length);
-            } else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM) {
+            } else if (SpareDescriptor::none_left(errno)) {
                 // Told even if nobody is waiting: then nobody is closed for it. Else the waiting client stays in the listen queue; asking
                 // again at once would only burn the processor.
                 if (!someone_waits(l.acceptor.native_handle())) return;
-                if (!make_place(nobody, true)) {
-                    l.paused = true;
-                    watch_time();
-                    return;
-                }
+                if (make_place(nobody, true)) continue;
+                fd = spare_.accept(l.acceptor.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length);
+                if (fd >= 0) admit(fd, peer, length);
+                l.paused = true;
+                watch_time();
+                return;
             } else if (errno != EINTR && errno != ECONNABORTED && errno != EPROTO) {
                 return;
             }
@@ -397,6 +400,7 @@ private:
     std::vector<std::unique_ptr<Connection>> buried_;
     std::vector<ConnectionToken> ready_, resuming_;
     std::vector<PlaceHolder> commanders_;  // the newest last
+    SpareDescriptor spare_;
 };
 
 Server::Server(asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings)

@@ -13,6 +13,7 @@
 //   half a request  is closed `partial_timeout` after its first byte, however slowly further bytes drip in.
 //   not reading     a client that takes no answers is not read from while some wait (at most 64 KiB here and the kernel's socket
 //                   buffers, which are set to 64 KiB each way), and closed when it has taken nothing for `stall_timeout`.
+//   no descriptor   one gives way as for a place; if none is left to close, one client is taken by the descriptor that is kept for it.
 //   in flight       32 writes per connection, 4096 in all (then exception 6); reads behind a write wait for it.
 #pragma once
 

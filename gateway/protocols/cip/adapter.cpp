@@ -38,11 +38,20 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
     router_.add_own(own_);
 }
 
+bool Adapter::make_room(Endpoint newcomer, Instant now) {
+    if (sessions_.size() < most_sessions - kept_sessions) return true;
+    return find_room(newcomer, sessions_.size() >= most_sessions, now);
+}
+
+bool Adapter::give_way(Instant now) {
+    const std::size_t before = sessions_.size();
+    return find_room({}, true, now) && sessions_.size() < before;
+}
+
 /// Who knocks first gives way, then who is silent, from the address that has most sessions; what works goes only if its address has more
 /// than an eighth of all.
-bool Adapter::make_room(Endpoint newcomer, Instant now) {
+bool Adapter::find_room(Endpoint newcomer, bool full, Instant now) {
     const PlaceRules rules{most_sessions - kept_sessions, kept_sessions};
-    if (sessions_.size() < rules.strangers) return true;
     std::vector<Guest> guests;
     std::vector<SessionKey> keys;
     bool known = manager_.owns(newcomer.address);
@@ -58,7 +67,7 @@ bool Adapter::make_room(Endpoint newcomer, Instant now) {
         guests.push_back({s.from.address, standing, s.last_received});
         keys.push_back(key);
     }
-    const auto verdict = find_place(guests, newcomer.address, known, rules, sessions_.size() >= most_sessions);
+    const auto verdict = find_place(guests, newcomer.address, known, rules, full);
     if (!verdict.let_in || !verdict.closes) return verdict.let_in;
     counters_.sessions_evicted.add();
     const SessionKey key = keys[*verdict.closes];

@@ -38,6 +38,9 @@ public:
 
     /// `key`: any number but 0 that no other session has. False: there is no room; close it.
     [[nodiscard]] bool on_connected(SessionKey key, Endpoint from, Instant now);
+    /// Hangs up a session that does nothing, for somebody else's sake: one that never registered, else one that
+    /// has been silent, and for a second at least. False: all of them work, or command.
+    [[nodiscard]] bool give_way(Instant now);
     void on_stream(SessionKey key, View bytes, Instant now);
     void on_disconnected(SessionKey key);
     /// On the explicit UDP port. `broadcast`: it was sent to everybody, whose answers shall not come at once.
@@ -106,6 +109,7 @@ private:
     void answer(const Route& route, const Router::Parts& parts);
     void say(SessionKey key, const Header& header, PacketStatus status, View data = {});
     [[nodiscard]] bool make_room(Endpoint newcomer, Instant now);
+    [[nodiscard]] bool find_room(Endpoint newcomer, bool full, Instant now);
     void hang_up(SessionKey key, Session& session);
 
     Values& values_;

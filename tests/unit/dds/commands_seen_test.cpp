@@ -46,5 +46,19 @@ TEST(CommandsSeen, TurnsNewOnesAwayRatherThanForgetting) {
     EXPECT_EQ(seen.begin("s", "more", at_ns(0) + CommandsSeen::keep_for).stage, Stage::is_new);
     EXPECT_EQ(seen.size(), CommandsSeen::most);
 }
+
+TEST(CommandsSeen, AFloodOfOneWriterLeavesRoomForTheOthers) {
+    CommandsSeen seen;
+    std::size_t taken = 0;
+    for (std::size_t i = 0; i < 2 * CommandsSeen::most; ++i)
+        taken += seen.begin("invented " + std::to_string(i), "1", at_ns(0), 7).stage == Stage::is_new ? 1 : 0;
+    EXPECT_EQ(taken, CommandsSeen::most - CommandsSeen::kept_for_others);
+    for (std::size_t i = 0; i < CommandsSeen::share; ++i)
+        EXPECT_EQ(seen.begin("anna", std::to_string(i), at_ns(0), 8).stage, Stage::is_new) << i;
+    EXPECT_EQ(seen.begin("invented 0", "1", at_ns(0), 7).stage, Stage::under_way) << "nothing is forgotten for it";
+    for (std::size_t i = 0; i < taken; ++i)
+        seen.end("invented " + std::to_string(i), "1", {}, at_ns(0));
+    EXPECT_EQ(seen.begin("invented", "later", at_ns(0) + CommandsSeen::keep_for, 7).stage, Stage::is_new) << "its places are free again";
+}
 }  // namespace
 }  // namespace axisgate::dds

@@ -259,5 +259,39 @@ TEST_F(FleetStops, TheFirstMomentsOfThisGatewaySayThatNothingHasBeenHeardYet) {
     EXPECT_EQ(results[0].reason, Reason::unknown_point) << "who is there would have been heard by now";
 }
 
+TEST_F(FleetStops, InventedGatewaysDoNotHideOneThatLives) {
+    for (std::uint64_t n = 0; n < 300; ++n)
+        gateway(("invented " + std::to_string(n)).c_str(), 1000 + n);
+    gateway("hall-5", 5);
+    axis("hall-5", 5, "feeder");
+    const auto shown = [this](std::string_view name) {
+        return std::ranges::count_if(fleet.list(unix_ns, now),
+                                     [name](const FleetGateway& g) { return g.name == name && g.axes.size() == 1; });
+    };
+    EXPECT_EQ(shown("hall-2"), 1) << "that was there before them";
+    EXPECT_EQ(shown("hall-5"), 1) << "that came after them";
+    for (std::uint64_t n = 0; n < 300; ++n)
+        gateway(("invented again " + std::to_string(n)).c_str(), 2000 + n);
+    EXPECT_EQ(shown("hall-2") + shown("hall-5"), 2);
+    EXPECT_LE(fleet.list(unix_ns, now).size(), Fleet::gateways_most);
+    // They are gone after their lease, and the living displace the dead at once, not after ten minutes.
+    pass(3s);
+    for (std::uint64_t n = 0; n < Fleet::gateways_most; ++n)
+        gateway(("late " + std::to_string(n)).c_str(), 3000 + n);
+    gateway("hall-6", 6);
+    axis("hall-6", 6, "feeder");
+    EXPECT_EQ(shown("hall-6"), 1);
+}
+
+TEST_F(FleetStops, ANameThatWouldBreakALineIsLeftOut) {
+    const auto before = fleet.left_out();
+    for (const auto* name : {"hall\nready", "hall\x1b[2J", "hall\xff", "hall\u202e"})
+        gateway(name, 77);
+    EXPECT_EQ(fleet.left_out(), before + 4);
+    EXPECT_EQ(fleet.list(unix_ns, now).size(), 1u);
+    gateway("halle für größe", 78);
+    EXPECT_EQ(fleet.list(unix_ns, now).size(), 2u);
+}
+
 }  // namespace
 }  // namespace axisgate::dds

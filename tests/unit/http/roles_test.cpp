@@ -73,8 +73,8 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
             ++checked;
             if (may) {
                 // What a handler refines by its body or by whose it is stands in its own tests.
-                const bool refines =
-                    route.handler == take<change_password> || route.handler == take<add_token> || route.handler == take<command_axis>;
+                const bool refines = route.handler == take<change_password> || route.handler == take<add_token> ||
+                                     route.handler == take<command_axis> || route.handler == take<command_fleet_axis>;
                 if (!refines) EXPECT_TRUE(a.status != 401 && a.status != 403) << what;
                 EXPECT_NE(a.at("reason"), "sign_in") << what;
                 EXPECT_NE(a.at("reason"), "csrf") << what;
@@ -204,6 +204,20 @@ TEST_F(AccessTest, OpenRoutesAreTheseAlone) {
                                            "POST /api/v1/session", "DELETE /api/v1/session", "POST /api/v1/session/first"}));
 }
 
+TEST_F(AccessTest, WhetherItIsReadyIsForEverybodyAndTheNamesAreForWhoIsKnown) {
+    gateway.missing = {"line press-7 is down", "drive secret-feeder does not answer"};
+    const auto stranger = from(faraway_peer, "GET", "/readyz", "", as("none"));
+    EXPECT_EQ(stranger.status, 503u);
+    EXPECT_EQ(stranger.text.find("press-7"), std::string::npos) << stranger.text;
+    EXPECT_EQ(stranger.text.find("secret-feeder"), std::string::npos) << stranger.text;
+    EXPECT_EQ(stranger.object().at("missing").get_array().size(), 1u);
+    EXPECT_NE(stranger.at("detail").find("2 things are missing"), std::string::npos) << stranger.text;
+    const auto known = from(faraway_peer, "GET", "/readyz", "", as("viewer"));
+    EXPECT_EQ(known.status, 503u);
+    EXPECT_NE(known.text.find("press-7"), std::string::npos) << known.text;
+    EXPECT_EQ(known.object().at("missing").get_array().size(), 2u);
+}
+
 TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
     gateway.at_once = [](const Command&) { return good_result(); };
     for (const auto* role : {"none", "viewer", "operator", "engineer"}) {
@@ -214,6 +228,9 @@ TEST_F(AccessTest, EverybodyWhoIsKnownMayStopAndOperatorsMayMove) {
                 from(faraway_peer, "POST", "/api/v1/axes/feeder/commands", R"({"command":")" + std::string(word) + "\"}", headers);
             const Role r = *role_named(role);
             const unsigned wanted = r == Role::none ? 401 : r == Role::viewer && !stops ? 403 : 200;
+            const auto over_fleet = from(faraway_peer, "POST", "/api/v1/fleet/hall-2/axes/feeder/commands",
+                                         R"({"command":")" + std::string(word) + "\"}", headers);
+            EXPECT_EQ(over_fleet.status, wanted) << word << " over the fleet as " << role << over_fleet.text;
             EXPECT_EQ(a.status, wanted) << role << " " << word << a.text;
         }
     }

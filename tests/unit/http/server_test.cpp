@@ -1,4 +1,9 @@
 // The door on real sockets: keep-alive, pipelining, bounds, slow and broken clients, many connections, the end.
+#include <netinet/in.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <set>
 #include <sstream>
 
@@ -600,5 +605,42 @@ TEST(HttpHead, ValuesCannotBeginHeadersOfTheirOwn) {
     EXPECT_NE(head.find("Date: Sun, 06 Nov 1994 08:49:37 GMT\r\n"), std::string::npos) << head;
     EXPECT_TRUE(head.ends_with("\r\n\r\n"));
 }
+TEST_F(HttpServer, WithoutDescriptorsAStopStillComesIn) {
+    door.open();
+    door.on([this] {
+        door.gateway.at_once = [](const Command&) {
+            Result r;
+            r.outcome = Outcome::accepted;
+            return r;
+        };
+    });
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    for (int i = 0; i < 5; ++i) {
+        const int next = ::dup(0);  // every number below this one is in use: it is the client's, and the door has none
+        ::close(next);
+        rlimit tight = before;
+        tight.rlim_cur = static_cast<rlim_t>(next) + 1;
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
+        // By hand: an io_context of its own would need descriptors.
+        const int client = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in at{};
+        at.sin_family = AF_INET;
+        at.sin_port = htons(door.port);
+        at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const timeval patient{5, 0};
+        (void)::setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &patient, sizeof patient);
+        ASSERT_EQ(::connect(client, reinterpret_cast<const sockaddr*>(&at), sizeof at), 0);
+        const std::string request = Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"quick_stop"})");
+        ASSERT_EQ(::send(client, request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size()));
+        char answer[16] = {};
+        (void)::recv(client, answer, 12, MSG_WAITALL);
+        ::close(client);
+        ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+        EXPECT_STREQ(answer, "HTTP/1.1 200") << i;
+        ASSERT_TRUE(door.until([this] { return door.server().counters().connections == 0; }));
+    }
+}
+
 }  // namespace
 }  // namespace axisgate::http::test

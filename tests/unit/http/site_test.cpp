@@ -296,5 +296,21 @@ TEST_F(HttpTest, WrongSites) {
     EXPECT_EQ(call("PUT", "/api/v1/site?dry_run=7", "{}").status, 400u);
     EXPECT_TRUE(gateway.applied.empty());
 }
+TEST_F(HttpTest, ANameThatAUrlCannotCarryIsRefusedWhereItIsGivenAndNotWhereItStoodBefore) {
+    for (const auto* name : {".", "..", "...", "_x", "-x", ".x"}) {
+        const auto a = call("PATCH", "/api/v1/axes/feeder", std::string(R"({"name":")") + name + "\"}");
+        EXPECT_EQ(a.status, 422u) << name << a.text;
+        EXPECT_NE(a.text.find("begin with a letter or digit"), std::string::npos) << a.text;
+    }
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"name":"x_-."})").status, 200u);
+    // One that an older program has let in stays, whatever else is changed, and can be given another name.
+    Site old = gateway.site()->site;
+    old.axes[0].name = "_old";
+    gateway.put_site(std::move(old));
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/_old", R"({"unit":"m"})").status, 200u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/_old", R"({"name":"-old"})").status, 422u);
+    EXPECT_EQ(call("PATCH", "/api/v1/axes/_old", R"({"name":"old"})").status, 200u);
+}
+
 }  // namespace
 }  // namespace axisgate::http::test

@@ -426,7 +426,7 @@ TEST(Server, AThousandConnectionsWithDescriptorsBeyond1023) {
 
 TEST(Server, OutOfDescriptorsItWaitsInsteadOfSpinning) {
     Net net;
-    TcpClient first(net), second(net), third(net);
+    TcpClient first(net), second(net), third(net), fourth(net);
     EXPECT_TRUE(serves(first.connect()));
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
@@ -435,18 +435,22 @@ TEST(Server, OutOfDescriptorsItWaitsInsteadOfSpinning) {
     rlimit tight = before;
     tight.rlim_cur = static_cast<rlim_t>(spare);
     ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
-    second.connect();
+    EXPECT_TRUE(serves(second.connect())) << "by the descriptor that is kept for this moment";
     EXPECT_TRUE(serves(first)) << "it has just asked: it is not closed to make room";
-    EXPECT_EQ(net.server->counters().connections_accepted.value(), 1u);
+    third.connect();
+    EXPECT_TRUE(serves(second));
+    EXPECT_TRUE(serves(first));
+    EXPECT_EQ(net.server->counters().connections_accepted.value(), 2u) << "it waits in the queue";
     ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
     net.pass(50ms);
+    EXPECT_TRUE(serves(third));
     EXPECT_TRUE(serves(second));
     ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
     net.pass(1s);
-    third.connect();
+    fourth.connect();
     EXPECT_TRUE(first.closed()) << "idle by now";
     ::setrlimit(RLIMIT_NOFILE, &before);
-    EXPECT_TRUE(serves(third));
+    EXPECT_TRUE(serves(fourth));
     EXPECT_TRUE(serves(second));
 }
 

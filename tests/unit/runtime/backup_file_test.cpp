@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "gateway/runtime/backup_plan.hpp"
+#include "gateway/runtime/restore_note.hpp"
 #include "gateway/runtime/sealed.hpp"
 #include "gateway/runtime/tar.hpp"
 #include "gateway/runtime/waiting_backup.hpp"
@@ -250,6 +251,15 @@ TEST_F(LaidDown, ASealedOneWaitsAndTakesItsPlaceWithTheCertificateOfOurOwnMaking
     EXPECT_EQ(content_of(dir_ / "http-key.pem"), "its key");
     EXPECT_EQ(content_of(dir_ / "http-cert.pem"), "certificate");
     EXPECT_EQ(must(open_store(dir_)->load_site())->text, "one");
+    const auto told = take_restore_note(dir_.path());
+    ASSERT_TRUE(told) << "an event says what has happened, whatever the events of the backup say";
+    EXPECT_EQ(told->kind, "restore");
+    EXPECT_EQ(told->who, "anna");
+    EXPECT_NE(told->at_unix_ns, 0);
+    EXPECT_EQ(told->old_value, "") << "there was no database";
+    EXPECT_EQ(told->new_value, "1");
+    EXPECT_THAT(told->text, HasSubstr("token was taken back"));
+    EXPECT_FALSE(take_restore_note(dir_.path())) << "told once";
     EXPECT_THAT(names_in(dir_.path()), Not(testing::Contains(HasSubstr("restore")))) << "nothing of it is left";
 }
 

@@ -157,6 +157,7 @@ TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {
     for (const auto* bind : {"0.0.0.0:8080", "[::]:8080", "192.0.2.7:80"}) {
         Config c;
         c.http_bind = bind;
+        c.http_tls_cert = "cert.pem";
         const auto reported = check_host(c);
         ASSERT_EQ(reported.size(), 1u) << bind;
         EXPECT_EQ(reported[0].place, "http.allowed_hosts");
@@ -214,6 +215,41 @@ TEST(Config, LettersBeyondAsciiStandInQuotesAndCommentsAlone) {
         ASSERT_EQ(faults.size(), 1u) << text;
         EXPECT_NE(faults[0].text.find("ASCII"), std::string::npos) << faults[0].text;
     }
+}
+
+TEST(Config, CheckNamesWhatIsOpenThatShouldNotBe) {
+    const auto places = [](const Config& c) {
+        std::set<std::string> out;
+        for (const auto& f : check_host(c)) {
+            EXPECT_TRUE(f.warning) << f.place << ": it starts all the same";
+            EXPECT_FALSE(f.remedy.empty());
+            out.insert(f.place);
+        }
+        return out;
+    };
+    Config c;
+    EXPECT_EQ(places(c), std::set<std::string>{}) << "as it comes, it is reached from this machine alone";
+    c.http_bind = "0.0.0.0:8080";
+    c.http_allowed_hosts = {"axisgate.example"};
+    EXPECT_EQ(places(c), (std::set<std::string>{"http.tls_cert", "users.local_role"}));
+    c.users_local_role = "none";
+    EXPECT_EQ(places(c), (std::set<std::string>{"http.tls_cert"}));
+    c.users_local_role = "engineer";
+    c.http_tls_cert = "cert.pem";
+    EXPECT_EQ(places(c), std::set<std::string>{});
+    c = {};
+    c.modbus_bind = "192.0.2.7:502";
+    EXPECT_EQ(places(c), (std::set<std::string>{"modbus.allow"}));
+    c.modbus_allow = {"192.0.2.0/24"};
+    c.enip_bind = "*:44818";
+    EXPECT_EQ(places(c), (std::set<std::string>{"enip.bind"}));
+    c = {};
+    c.dds_enabled = true;
+    EXPECT_EQ(places(c), std::set<std::string>{}) << "on the loopback interface";
+    c.dds_interface = "eth0";
+    EXPECT_EQ(places(c), (std::set<std::string>{"dds.security"}));
+    c.dds_security = "/etc/axisgate/dds";
+    EXPECT_EQ(places(c), std::set<std::string>{});
 }
 
 }  // namespace

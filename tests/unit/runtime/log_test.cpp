@@ -1,5 +1,6 @@
 // Log: the limit per cause, and what the journal is sent, judged at a socket of the test's own.
 #include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -9,8 +10,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "gateway/runtime/journal.hpp"
+#include "gateway/runtime/log.hpp"
 #include "gateway/runtime/log_limit.hpp"
 
 namespace axisgate::log_test {
@@ -108,6 +113,34 @@ TEST(Journal, StandardErrorIsTheJournalWhereTheManagerSaysSo) {
         EXPECT_FALSE(Journal::is_standard_error()) << wrong;
     }
     before ? ::setenv("JOURNAL_STREAM", kept.c_str(), 1) : ::unsetenv("JOURNAL_STREAM");
+}
+
+TEST(Log, NamesOfStrangersStayOnTheirLine) {
+    const auto path = std::filesystem::temp_directory_path() / ("axisgate-log-" + std::to_string(::getpid()));
+    std::filesystem::remove(path);
+    Config c;
+    c.log_file = path.string();
+    spdlog::drop_all();
+    ASSERT_TRUE(open_log(c));
+    LogListener events;
+    Event e;
+    e.kind = "fleet";
+    e.door = "dds";
+    e.who = "yard\n2026-01-01T00:00:00+00:00 error forged";
+    e.text = "the gateway \x1b[2Jhall\xff\u202e is in the domain, gr\u00fc\u00dfe";
+    events.on_event(e);
+    spdlog::warn("a line\r\nand another");
+    spdlog::drop_all();
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("none"));
+    std::ifstream file(path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);)
+        lines.push_back(line);
+    std::filesystem::remove(path);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_NE(lines[0].find(R"(by=dds/yard\n2026)"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[0].find("\\x1b[2Jhall\\xff\\u202e is in the domain, gr\u00fc\u00dfe"), std::string::npos) << lines[0];
+    EXPECT_NE(lines[1].find(R"(a line\r\nand another)"), std::string::npos) << lines[1];
 }
 
 }  // namespace axisgate::log_test

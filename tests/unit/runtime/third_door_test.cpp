@@ -2,6 +2,8 @@
 // clients that it loses are stopped. In: a gateway with one simulated drive. Out: what both doors were told.
 #include <gtest/gtest.h>
 
+#include <fmt/core.h>
+
 #include <atomic>
 #include <boost/json/parse.hpp>
 #include <future>
@@ -154,6 +156,24 @@ TEST(ThirdDoor, OnTheServiceThread) {
     bool stopped = false;
     door.stop([&] { stopped = true; });
     EXPECT_TRUE(stopped);
+}
+
+TEST(DriveStatusOfTheServiceThread, SaysThePresenceThatTheAxesOfTheDriveShow) {
+    House house;
+    house.begin();
+    const auto site = house.ports.site.site();
+    const DriveId drive = site->drive_ids.at(0);
+    const auto online = [&](Presence presence) { return presence != Presence::offline; };
+    ASSERT_TRUE(house.until([&] { return house.picture().presence == Presence::twin; }));
+    for (int turn = 0; turn < 3; ++turn) {
+        for (const bool power : {false, true}) {
+            house.ports.drives.set_hand(drive, {{"power", power}}, {}, [](std::string fault) { EXPECT_EQ(fault, ""); });
+            ASSERT_TRUE(house.until([&] { return online(house.picture().presence) == power; }));
+            EXPECT_EQ(online(house.ports.drives.drive_status(drive).presence), power) << "behind its axis";
+            const std::string text = house.ports.status.metrics();
+            EXPECT_NE(text.find(fmt::format("axisgate_drive_online{{drive=\"d\"}} {}\n", power ? 1 : 0)), std::string::npos);
+        }
+    }
 }
 
 }  // namespace

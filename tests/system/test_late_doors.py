@@ -1,0 +1,54 @@
+"""Doors whose address or interface is late, and a DDS interface that goes away: the program in a network namespace of its own.
+
+In: a pair of veth interfaces. Out: doors that wait, say so, and open when their address has come; an end within its time-out."""
+import subprocess
+import time
+
+import harness
+
+PAIR = "ip link set lo up && ip link add door0 type veth peer name door1 && ip link set door1 up"
+
+
+def enter(script, folder, limit=60):
+    return subprocess.run(["unshare", "--net", "sh", "-ec", f"{PAIR}\n{script}"], cwd=folder, capture_output=True, text=True, timeout=limit)
+
+
+def test_a_late_address_is_waited_for_and_served(folder):
+    done = enter(f"""
+        {harness.PROGRAM} serve --data {folder}/data --set http.bind=127.0.0.1:8080 --set modbus.bind=10.9.8.7:1502 --set enip.bind=10.9.8.7:44818 >out 2>err &
+        gateway=$!
+        for i in $(seq 100); do grep -q '^ready' out && break; sleep 0.1; done
+        grep '^ready' out
+        curl -s http://127.0.0.1:8080/readyz
+        ip addr add 10.9.8.7/24 dev door0 && ip link set door0 up
+        for i in $(seq 100); do [ "$(curl -s -o /dev/null -w '%{{http_code}}' http://127.0.0.1:8080/readyz)" = 200 ] && break; sleep 0.1; done
+        curl -s http://127.0.0.1:8080/api/v1/about
+        kill $gateway; wait $gateway
+    """, folder)
+    assert done.returncode == 0, (done, (folder / "err").read_text())
+    ready, rest = done.stdout.split("\n", 1)
+    assert "http=127.0.0.1:8080" in ready and "the Modbus door waits" in ready and "the EtherNet/IP door waits" in ready, ready
+    assert "the Modbus door waits" in rest.split("}")[0], rest
+    assert "10.9.8.7:1502" in rest and "10.9.8.7:44818" in rest, rest
+
+
+def test_a_wrong_address_still_ends_the_start(folder):
+    done = enter(f"{harness.PROGRAM} serve --data {folder}/data --set modbus.bind=somewhere:1502 || echo ended $?", folder)
+    assert "ended" in done.stdout, done
+
+
+def test_a_gateway_ends_while_its_dds_interface_is_down(folder):
+    begun = time.monotonic()
+    done = enter(f"""
+        ip addr add 10.9.8.7/24 dev door0 && ip link set door0 up
+        {harness.PROGRAM} serve --data {folder}/data --set http.bind=127.0.0.1:8080 --set dds.enabled=true --set dds.interface=door0 >out 2>err &
+        gateway=$!
+        for i in $(seq 100); do grep -q '^ready' out && break; sleep 0.1; done
+        ip link set door0 down
+        kill $gateway
+        for i in $(seq 100); do kill -0 $gateway 2>/dev/null || break; sleep 0.1; done
+        if kill -0 $gateway 2>/dev/null; then kill -KILL $gateway; echo stays; exit 1; fi
+        wait $gateway
+    """, folder)
+    assert done.returncode == 0, (done, (folder / "err").read_text()[-2000:])
+    assert time.monotonic() - begun < 50

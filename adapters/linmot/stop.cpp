@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
+#include "adapters/linmot/native.hpp"
 
 namespace axisgate::linmot {
 
@@ -25,7 +26,12 @@ void Stops::take_back(CommandBody stop, Turn& t) {
     Command own;
     own.axis = drive_.axis();
     own.body = std::move(stop);
-    const auto moves = [](const Command& c) { return drive::is_motion(c.body) || std::holds_alternative<Action>(c.body); };
+    // Tables, curves and the drive's own program are served without power.
+    const auto moves = [&](const Command& c) {
+        const bool by_name =
+            std::holds_alternative<Action>(c.body) && stated(drive_.bus.catalogue, 1, c.body).kind != Stated::Kind::nothing;
+        return drive::is_motion(c.body) || by_name;
+    };
     drive_.jobs.interrupt(moves, std::holds_alternative<Disable>(own.body) ? "the loss of its power" : "a motion that was not expected", t);
     drive_.motion.no_target();
     (void)lane_.add({std::move(own)});

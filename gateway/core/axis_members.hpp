@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-inline constexpr std::array<std::string_view, 33> axis_state_members{"online",
+inline constexpr std::array<std::string_view, 34> axis_state_members{"online",
                                                                      "simulated",
                                                                      "stale",
                                                                      "presence",
@@ -25,6 +25,7 @@ inline constexpr std::array<std::string_view, 33> axis_state_members{"online",
                                                                      "warning",
                                                                      "internal_limit",
                                                                      "fail_safe_cause",
+                                                                     "stop_latch",
                                                                      "position",
                                                                      "demand_known",
                                                                      "demand_source",

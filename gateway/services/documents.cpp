@@ -17,8 +17,8 @@ namespace json = boost::json;
 namespace {
 
 /// Beside those that tell the state in one value.
-constexpr std::array<std::string_view, 8> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
-                                                                  "modes", "set_points"};
+constexpr std::array<std::string_view, 9> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
+                                                                  "modes", "set_points",       "stop_latch_text"};
 constexpr std::array<std::string_view, 2> drive_live_members{"axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 

@@ -114,7 +114,10 @@ TEST(LinmotTables, CurvesAreParametersAndPlay) {
     EXPECT_TRUE(good(b.act("curve.delete", {{"curve", 4}})));
     EXPECT_FALSE(b.drive().curves.contains(4));
     EXPECT_EQ(b.act("curve.save").code, 0xD7) << "the software runs";
-    EXPECT_TRUE(good(b.act("program.stop")));
+    {
+        const Result r = b.act("program.stop");
+        EXPECT_TRUE(good(r)) << r.text;
+    }
     EXPECT_TRUE(good(b.act("curve.save")));
     EXPECT_TRUE(good(b.act("curve.delete_all")));
     EXPECT_TRUE(b.drive().curves.empty());

@@ -29,7 +29,8 @@ TEST_F(FailSafeTest, EachCauseIsToldWithItsDefaults) {
         const auto& cause = v.get_object();
         EXPECT_GT(cause.at("description").get_string().size(), 10u);
         const bool ends = cause.at("cause") == boost::json::value("gateway_ends");
-        EXPECT_EQ(cause.at("default_endless").get_string(), ends ? "quick_stop" : "halt");
+        const bool unowned = cause.at("cause") == boost::json::value("motion_unowned");
+        EXPECT_EQ(cause.at("default_endless").get_string(), ends || unowned ? "quick_stop" : "halt");
         EXPECT_EQ(cause.at("default_to_a_target").get_string(), ends ? "quick_stop" : "nothing");
     }
     const auto& row = o.at("axes").get_array().at(0).get_object();

@@ -46,8 +46,8 @@ TEST_F(Refusals, SentenceWhoRegisterAndValue) {
 TEST_F(Refusals, WhatTheDoorItselfRefuses) {
     const std::pair<const char*, const char*> rows[] = {
         {"06 00 02 00 07", "register 2 of the axis' 64 (position actual value) can only be read (unit 1 register 2 = 7: exception 2)"},
-        {"06 00 17 00 07",
-         "register 23 of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can (unit 1 register 23 = 7: exception 2)"},
+        {"06 00 18 00 07",
+         "register 24 of the axis' 64 cannot be written: 32..45, 48..50, 52 and 53 can (unit 1 register 24 = 7: exception 2)"},
         {"06 00 22 00 07", "half of a 32-bit value: write both of its registers in one request (unit 1 register 34 = 7: exception 3)"},
         {"05 00 03 FF 00",
          "coils and inputs only show what is: write the control word, register 32 of the axis (unit 1 coil 3 = 1: exception 2)"},

@@ -73,7 +73,10 @@ public:
 private:
     void unread() noexcept { out_.kind = Stated::Kind::unread; }
     void load(Move::Kind kind, std::int64_t target, std::uint8_t group) {
-        if (group == 0) loaded_ = Move{.kind = kind, .target = target};
+        if (group != 0) return;
+        loaded_ = Move{};
+        loaded_->kind = kind;
+        loaded_->target = target;
     }
     static void rate(std::int64_t& to, std::int64_t value, std::uint8_t group) {
         if (group == 0 && value > 0) to = value;

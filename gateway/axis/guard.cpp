@@ -15,8 +15,7 @@ namespace {
 std::optional<std::int64_t> increments(const std::optional<double>& v, double scale) {
     if (!v) return std::nullopt;
     const double x = *v * scale;
-    if (!(std::fabs(x) < 9.2e18)) return std::nullopt;
-    return std::llround(x);
+    return std::llround(std::clamp(x, -9.2e18, 9.2e18));  // a limit beyond what can be counted stays a limit
 }
 
 std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) {

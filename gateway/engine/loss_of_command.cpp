@@ -84,6 +84,11 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
     }
     const auto action = a.spec.fail_safe.action(cause, at);
     if (machine_.closing || action == FailSafeAction::nothing) return;
+    // A stop that is at least as strong is being carried out already, and is said again until the drive has taken it.
+    const Stops::Kind kind = action == FailSafeAction::halt         ? Stops::Kind::halt
+                             : action == FailSafeAction::quick_stop ? Stops::Kind::quick_stop
+                                                                    : Stops::Kind::disable;
+    if (a.stops.wanted && *a.stops.wanted >= kind && cause != LossCause::gateway_ends) return;
     // One loss acts once on one motion; on an axis at rest, once until somebody commands it again.
     const LossCause before = a.motion.runs() ? a.motion.ended_for : a.latch.cause;
     if (before != LossCause::none && cause != LossCause::gateway_ends) return;
@@ -91,9 +96,7 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
     a.latch.bits = StopLatch::latched | StopLatch::by_fail_safe;
     a.latch.by = {};
     ++losses_[static_cast<std::size_t>(cause)];
-    const CommandBody body = action == FailSafeAction::halt         ? CommandBody{Halt{}}
-                             : action == FailSafeAction::quick_stop ? CommandBody{QuickStop{}}
-                                                                    : CommandBody{Disable{}};
+    const CommandBody body = Stops::body(kind);
     Event e;
     e.severity = cause == LossCause::motion_unowned ? Severity::alarm : Severity::warning;
     e.kind = "fail_safe";

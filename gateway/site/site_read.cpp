@@ -472,14 +472,6 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
                                      std::pair{"deceleration_min", a.deceleration_min}}) {
             if (x && !(*x > 0)) f.fault(key, fmt::format("axis {}: {} must be above 0", a.name, key), "leave it out for no limit");
         }
-        // A limit that does not fit into a count would be no limit.
-        for (const auto& [key, x] : {std::pair{"position_min", a.position_min}, std::pair{"position_max", a.position_max},
-                                     std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max},
-                                     std::pair{"deceleration_min", a.deceleration_min}}) {
-            if (x && !(std::fabs(*x * a.increments_per_unit) < 9.2e18))
-                f.fault(key, fmt::format("axis {}: {} is more increments than can be counted", a.name, key),
-                        "check increments_per_unit and the limit");
-        }
         return a;
     });
     if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {

@@ -37,8 +37,8 @@ def test_no_time_out_of_days_and_nobody_keeps_a_place_for_nothing(folder):
             taken += 1
         assert taken == 96, "a quarter is left for owners"
         with From("127.0.0.1", *at) as plc:
-            assert plc.open(151, 101, serial=2) == (0, ())
-            assert plc.heartbeat(3)[0] == 0, "one that never sent anything gives way to another address"
+            assert plc.open(151, 101, serial=1000) == (0, ())
+            assert plc.heartbeat(1001)[0] == 0, "one that never sent anything gives way to another address"
         stranger.tcp.close()
         until(lambda: not [c for c in g.get("/connections") if c["kind"] == "input_only"], 14, "what was never used is given back")
 

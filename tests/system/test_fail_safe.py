@@ -14,14 +14,14 @@ SITE = {
              for i, n in enumerate(("lift", "press", "table", "arm"))],
     "mappings": [],
 }
-CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends", "dds_deadline", "enip_session_closed", "enip_silent"]
+CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends", "dds_deadline", "enip_session_closed", "enip_silent", "motion_unowned"]
 
 
 def test_the_matrix_is_read_and_changed_axis_by_axis(folder):
     with Gateway(folder, SITE) as g:
         matrix = g.get("/fail_safe")
         assert [c["cause"] for c in matrix["causes"]] == CAUSES
-        assert [c["number"] for c in matrix["causes"]] == list(range(1, 13))
+        assert [c["number"] for c in matrix["causes"]] == list(range(1, 14))
         status, row, _ = g.request("PUT", "/api/v1/fail_safe/lift", {"line_lost": "disable", "watchdog_ms": 700})
         assert status == 200, row
         assert g.get("/fail_safe/lift")["fail_safe"]["line_lost"] == "disable"
@@ -62,7 +62,7 @@ def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
         before = {n: g.axis(n)["position_increments"] for n in ("lift", "press", "table", "arm")}
         g.request("PUT", "/api/v1/fail_safe/press", {"modbus_closed": "nothing"})
         status, state, _ = g.request("POST", "/api/v1/fail_safe/rehearsal", {})
-        assert status == 202 and state["state"] == "running" and state["total"] == 49, state
+        assert status == 202 and state["state"] == "running" and state["total"] == 53, state
         assert g.request("POST", "/api/v1/fail_safe/rehearsal", {})[0] == 409
         until(lambda: g.get("/fail_safe/rehearsal")["state"] == "done", 60, "the rehearsal's end")
         report = g.get("/fail_safe/rehearsal")["report"]

@@ -22,7 +22,7 @@ from openapi import Description, sample, strict_json
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "instance": ["300"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "connection": ["enip-0"], "instance": ["300"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -246,7 +246,7 @@ def test_every_write_answers_as_described(gateway):
     steps = [
         ("takeAuthority", {"axis": "slide"}, {"ttl_s": 5}, 200), ("takeAuthority", {"axis": "slide"}, {"ttl_s": 0}, 422), ("takeAuthority", {"axis": "nobody"}, {}, 404),
         ("handOverAuthority", {"axis": "slide"}, {"to": "anna"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
-        ("listConnections", {}, None, 200), ("closeConnection", {"connection": "enip-1"}, None, 404), ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
+        ("listConnections", {}, None, 200), ("closeConnection", {"connection": "enip-0"}, None, 404), ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
         ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "disable"}, 200), ("putAxisFailSafe", {"axis": "slide"}, {}, 200), ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "fly"}, 422),
         ("putAxisFailSafe", {"axis": "nobody"}, {}, 404), ("rehearseFailSafe", {}, {"axes": ["slide"]}, 202), ("rehearseFailSafe", {}, {"axes": ["nobody"]}, 409), ("rehearseFailSafe", {}, {"axes": 1}, 422),
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
@@ -340,6 +340,10 @@ def test_every_write_answers_as_described(gateway):
     assert answers[-1] in (404, 409, 422), answers
     seen |= {("actOnAxis", s) for s in answers}
     seen.add(("removeMappings", check(operation("removeMappings"), client.request("DELETE", "/api/v1/mappings?all=1&dry_run=1"), "what would be removed")))
+    with gateway.modbus() as m:
+        m.read(0, 1)
+        mine = [c["id"] for c in gateway.get("/connections") if c["id"].startswith("modbus-")]
+        seen.add(("closeConnection", check(operation("closeConnection"), client.request("DELETE", f"/api/v1/connections/{mine[0]}"), "my own connection")))
     missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("commandFleetAxis", 200), ("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site

@@ -4883,7 +4883,7 @@ export interface operations {
                     "application/json": components["schemas"]["Ready"];
                 };
             };
-            /** @description not ready; `missing` says what is missing, one sentence each */
+            /** @description not ready; `missing` says what is missing, one sentence each. Who is not signed in reads only how many things are missing */
             503: {
                 headers: {
                     [name: string]: unknown;

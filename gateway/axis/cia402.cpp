@@ -47,6 +47,7 @@ void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
     // set-point that it is about to give is kept; what was written or used before by anybody is not.
     const bool kept = own && own->enables == s.enables && own->target_pending;
     ++s.enables;
+    s.ordered_on = true;
     if (own) {
         own->target_known = own->target_pending = kept;
         own->enables = s.enables;
@@ -335,17 +336,20 @@ void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
     if (data.profile_acceleration) s.profile_acceleration = own.acceleration = *data.profile_acceleration;
     if (data.profile_deceleration) s.profile_deceleration = own.deceleration = *data.profile_deceleration;
     if (data.homing_method) s.homing_method = *data.homing_method;
-    if (!data.mode) return;
-    // A mode that is merely repeated does not end what somebody else does in another one; at rest it is taken.
+    // A mode that is merely repeated does not end what somebody else does in another one; at rest it is taken, and one that was said then
+    // and not since with the next fresh edge of the same client's words.
     const bool busy = s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0;
-    const bool repeated = own.mode ? *own.mode == *data.mode : !r.known;
-    own.mode = *data.mode;
-    if (*data.mode == s.mode || (busy && repeated && !r.current)) return;
+    const bool returns = !data.mode && !busy && !s.following && r.is_fresh();
+    const std::optional<std::int16_t> mode = returns ? own.mode : data.mode;
+    if (!mode) return;
+    const bool repeated = own.mode ? *own.mode == *mode : !r.known;
+    own.mode = *mode;
+    if (*mode == s.mode || (busy && repeated && !r.current)) return;
     if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
         s.ordered_velocity = 0;
         d.orders.emplace_back(Halt{});
     }
-    s.mode = *data.mode;
+    s.mode = *mode;
     if (s.following) s.mode_before = s.mode;
     s.setpoint_acknowledged = false;
     s.buffered.reset();
@@ -431,6 +435,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
                       s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
     if (std::holds_alternative<Enable>(body)) {
         if (s.feedback.fault) return faulty();
+        s.ordered_on = true;
         // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
         const bool already = s.state == PowerState::operation_enabled && s.power_pending != 0;
         const unsigned kept = already ? s.controlword & ~unsigned{cw_halt} : 0;
@@ -472,6 +477,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         if (s.buffered)
             return refuse(Reason::wrong_state,
                           "a set-point waits behind the running one: set the position when it has ended, or halt first");
+        if (s.feedback.moving || s.feedback.homing) return refuse(Reason::wrong_state, "the axis moves: set its position when it stands");
         d.orders.emplace_back(*set);
     } else if (const auto* move = std::get_if<Move>(&body)) {
         if (s.feedback.fault) return faulty();
@@ -518,6 +524,9 @@ Cia402Axis::Decision Cia402Axis::may_follow() const {
                       fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
     if (s.state != PowerState::operation_enabled || s.power_pending == 0)
         return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
+    if (!s.ordered_on)
+        return refuse(Reason::wrong_state,
+                      "the axis was enabled already when this gateway found it: enable it anew before it is streamed to");
     if (s.halted) return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it, or enable the axis again, first");
     return {};
 }

@@ -145,6 +145,7 @@ private:
         std::uint16_t controlword = 0;
         std::int16_t mode = cia402::mode_none;
         std::uint64_t enables = 0;    // grows when the axis is enabled: written targets of others are forgotten
+        bool ordered_on = false;      // somebody has enabled it since this gateway, or another speaker, found it
         std::uint64_t forgotten = 0;  // grows when a target velocity is forgotten
         std::uint64_t turn = 1;       // grows with what the repeated words of other clients must not undo
         bool stopped = true;          // the last turn was a stop, a loss or a beginning, not somebody's order to move or to enable

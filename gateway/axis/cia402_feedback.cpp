@@ -218,6 +218,7 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
     ++s_.enables;  // written targets count no more
+    s_.ordered_on = false;
     forget_motion(s_);
     end_turn(s_);
     settle(s_);

@@ -65,10 +65,14 @@ void CommandAuthority::hold(Axis& a, const Command& c, const HoldAxis& wish, Ins
     const Duration lease = std::chrono::seconds(wish.lease_s);
     if (wish.lease_s < 1 || wish.lease_s > 3600) return publisher_.refuse(c, Reason::out_of_range, "a lease has 1 to 3600 s");
     changed(a, a.authority.expire(now), nullptr, now);
+    const AuthorityClient before = a.authority.holder();
     const AxisAuthority::Verdict v = wish.kind == HoldAxis::Kind::take      ? a.authority.take(who, lease, wish.take_over, now)
                                      : wish.kind == HoldAxis::Kind::release ? a.authority.release(who, now)
                                                                             : a.authority.hand_over(who, wish.to, lease, now);
     if (!v.allowed) return publisher_.refuse(c, Reason::authority, fmt::format("axis {}: {}", a.spec.name, v.text));
+    using Authority = AxisAuthority::Change;
+    const bool passed = v.change == Authority::taken_over || v.change == Authority::handed_over;
+    if (passed && a.motion.runs() && a.motion.is_of(before)) a.motion.keeper = a.authority.holder();
     changed(a, v, &c.origin, now);
     publisher_.publish(a, now);
     Result r;

@@ -89,8 +89,7 @@ std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Insta
 std::optional<Refusal> Commands::beyond_reading(const Axis& a, const CommandBody& body, Plan& plan) const {
     const Stated said = Orders::stated(a, body);
     const Axis& about = orders_.concerned(a, said);
-    const bool begins = said.kind == Stated::Kind::motion || said.kind == Stated::Kind::homing;
-    if (begins && about.stops.bars_motion()) return behind_a_stop();
+    if (said.kind != Stated::Kind::nothing && about.stops.bars_motion()) return behind_a_stop();
     if (auto no = orders_.beyond_limits(a, body)) return no;
     if (said.kind != Stated::Kind::unread) return std::nullopt;
     if (!a.spec.unread_statements)
@@ -240,7 +239,8 @@ void Commands::note_command(const Axis& a, const Command& c, const Plan& plan, I
 
 /// Who moves the axis finds it stopped by somebody else: what registers and documents show of that.
 void Commands::note_stop(Axis& a, const AuthorityClient& by) {
-    if (by.door == Door::internal || a.owner().door == Door::none || a.owner() == by) return;
+    const bool idle = a.owner().door == Door::none && !a.motion.runs() && a.profile.at_rest();  // nobody has anything to say again
+    if (by.door == Door::internal || idle || a.owner() == by) return;
     a.latch.bits = StopLatch::latched | StopLatch::by_client;
     a.latch.by = by;
 }

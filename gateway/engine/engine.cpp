@@ -123,7 +123,7 @@ void Engine::housekeeping(Instant now) {
         p.motions.check(a, now);
         p.loss.check_watchdog(a, now);
         p.streams.check(a, now);
-        const bool led = a.authority.holder() == a.owner();
+        const bool led = a.motion.runs() ? a.motion.is_of(a.authority.holder()) : a.authority.holder() == a.owner();
         if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) {
             if (led) p.loss.act(a, LossCause::lease_ended, now);
             p.authority.changed(a, v, nullptr, now);

@@ -58,7 +58,8 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
         // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on. And set-points
         // over DDS have a deadline of their own: they go on while they are renewed, whoever else does not write for their client any more.
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
-        if (feed ? !streams : a->owner() != who || (cause == LossCause::dds_deadline && streams)) continue;
+        const bool owns = a->motion.runs() ? a->motion.is_of(who) : a->owner() == who;
+        if (feed ? !streams : !owns || (cause == LossCause::dds_deadline && streams)) continue;
         act(*a, feed ? silence_of(who) : cause, now);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }

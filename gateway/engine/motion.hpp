@@ -26,7 +26,8 @@ struct Motion {
         found       ///< nobody's: it was under way when the axis was seen first, or began at the drive
     };
     Kind kind = Kind::none;
-    AuthorityClient who{};  ///< whose loss ends it; door none: nobody that is known
+    AuthorityClient who{};     ///< whose loss ends it; door none: nobody that is known
+    AuthorityClient keeper{};  ///< who has taken the axis over from its owner meanwhile: the loss of either of them ends it
     Origin origin{};
     SetPoint::Mode stream = SetPoint::Mode::position;
     std::int64_t target = 0;        ///< increments; of velocity moves and streams increments/s, of torque streams 1/1000
@@ -43,6 +44,9 @@ struct Motion {
     bool alarmed = false;                   ///< the supervisor has stopped it, and said so
 
     [[nodiscard]] bool runs() const noexcept { return kind != Kind::none; }
+    [[nodiscard]] bool is_of(const AuthorityClient& client) const noexcept {
+        return who == client || (keeper.door != Door::none && keeper == client);
+    }
     /// It has no end of its own. `course`: what the drive says of it, where the record cannot know.
     [[nodiscard]] bool endless(Course course) const noexcept {
         switch (kind) {
@@ -87,6 +91,11 @@ public:
     [[nodiscard]] OnTheWay& of(Kind kind) noexcept { return on_the_way[static_cast<std::size_t>(kind)]; }
     /// A quick stop has no answer yet: nothing may be begun behind it.
     [[nodiscard]] bool bars_motion() const noexcept { return on_the_way[static_cast<std::size_t>(Kind::quick_stop)].order != no_ticket; }
+
+    /// A stop was asked for at this instant of orders, and of which kind: an order with a smaller number was given before it, and what it
+    /// begins begins behind the stop.
+    Ticket asked = no_ticket;
+    Kind asked_kind = Kind::halt;
 
     std::optional<Kind> wanted;   ///< until the axis is seen at rest, or a motion was acknowledged since
     bool acknowledged = false;    ///< ... by the drive

@@ -20,6 +20,11 @@ constexpr Duration rest_ends = std::chrono::seconds(1);
 constexpr Duration found_after = std::chrono::milliseconds(150);
 constexpr Duration stop_again = std::chrono::milliseconds(250);
 
+/// The axis may have been taken over from the owner while the order was on its way to the drive.
+Motion kept(const Axis& a, Motion m, Instant now) {
+    if (m.who.door != Door::none && a.authority.held(now) && a.authority.holder() != m.who) m.keeper = a.authority.holder();
+    return m;
+}
 /// Axes of other gateways are moved by those; what they do is guarded there.
 bool is_guarded_elsewhere(const Axis& a) { return a.drive->family.family->uses_dds; }
 }  // namespace
@@ -75,7 +80,7 @@ void Motions::acknowledged(Axis& a, Motion m, std::uint64_t by, std::string_view
         a.latch.bits = 0;
     }
     a.homing_why.clear();
-    a.motion = std::move(m);
+    a.motion = kept(a, std::move(m), now);
     a.profile.on_motion(true);
 }
 
@@ -168,7 +173,7 @@ void Motions::moves_without_record(Axis& a, Instant now) {
         m.kind = Motion::Kind::found;
     }
     m.since = now;
-    a.motion = std::move(m);
+    a.motion = kept(a, std::move(m), now);
     a.profile.on_motion(true);
     if (!e.text.empty()) {
         publisher_.event(std::move(e), now);

@@ -45,7 +45,10 @@ Stated Orders::stated(const Axis& a, const CommandBody& body) {
 bool Orders::join_stop(Axis& a, Client* client, const CommandBody& body) {
     constexpr std::size_t most = 1024;  // of those that wait for one answer; who comes after them is told that the stop is on its way
     const auto kind = Stops::of(body);
-    if (!kind || a.stops.of(*kind).order == no_ticket) return false;
+    if (!kind) return false;
+    a.stops.asked = make_ticket(engine_itself, pending_.next);
+    a.stops.asked_kind = *kind;
+    if (a.stops.of(*kind).order == no_ticket) return false;
     if (!client) return true;
     auto& joined = a.stops.of(*kind).joined;
     if (joined.size() < most) {
@@ -73,6 +76,22 @@ void Orders::begin_stop(Axis& a, const OrderRecord& record, Ticket ticket, Insta
     a.stops.given_at = now;
 }
 
+/// An order that was given before a stop was taken by the drive behind it, or may have been: what it begins ends as the stop says.
+void Orders::stop_behind(Axis& a, std::string_view what, const Origin& by, Instant now) {
+    Event e;
+    e.severity = Severity::warning;
+    e.kind = "motion";
+    e.axis = a.spec.name;
+    e.text = fmt::format("{} of {} was taken by the drive behind a stop that had come after it: it is stopped again", what,
+                         AuthorityClient::of(by).text());
+    publisher_.event(std::move(e), now);
+    a.stops.wanted = a.stops.asked_kind;
+    a.stops.first_at = now;
+    a.stops.speed_then = std::llabs(a.profile.feedback().velocity);
+    a.latch.bits |= StopLatch::latched;
+    if (a.stops.of(a.stops.asked_kind).order == no_ticket) stop_again(a, now);
+}
+
 void Orders::stop_again(Axis& a, Instant now) {
     OrderRecord record;
     record.axis = a.id;
@@ -81,6 +100,7 @@ void Orders::stop_again(Axis& a, Instant now) {
     record.repeated = true;
     const Ticket ticket = make_ticket(engine_itself, pending_.next++);
     CommandBody body = record.body;
+    a.stops.acknowledged = false;
     a.stops.of(*a.stops.wanted).order = ticket;
     a.stops.given_at = now;
     pending_.orders.emplace(ticket, std::move(record));
@@ -277,6 +297,7 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
             machine_.image.picture(moves->id).motion_ticket = mover;
             motions_.acknowledged(*moves, std::move(*record.motion), record.client, name_of(record.body), now);
             if (record.owner_lost != LossCause::none) loss_.act(*moves, record.owner_lost, now);
+            if (r.ticket < moves->stops.asked) stop_behind(*moves, name_of(record.body), moves->motion.origin, now);
         } else if (r.outcome == Outcome::failed) {
             motions_.suspect(*moves, std::move(*record.motion));
         }
@@ -290,6 +311,7 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
         m.kind = Motion::Kind::statement;
         if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) m.origin = c->second->origin;
         m.who = AuthorityClient::of(m.origin);
+        if (r.ticket < a.stops.asked) return motions_.suspect(a, std::move(m));
         a.statement = std::move(m);
     }
 }

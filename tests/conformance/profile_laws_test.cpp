@@ -7,10 +7,8 @@
 #include <bit>
 
 #include "gateway/axis/cia402.hpp"
-#include "gateway/doors/enip/axis_values.hpp"
-#include "gateway/registers/register_image.hpp"
 #include "gateway/registers/words.hpp"
-#include "gateway/registers/writer.hpp"
+#include "tests/conformance/doors.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -18,57 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using namespace registers;
 
-/// The doors' side of a world: what its doors order goes to the engine, results come back between two steps.
-struct WorldDoors final : DoorPort {
-    explicit WorldDoors(World& of) : world(of) {}
-    World& world;
-    std::vector<HotDoor*> doors;
-    std::vector<Ticket> given;
-
-    Instant now() const override { return world.now; }
-    const Image& image() const override { return world.image; }
-    const Catalogue* catalogue(AxisId) const override { return nullptr; }
-    void submit(Command command) override {
-        given.push_back(command.ticket);
-        world.engine.on_command(std::move(command), world.now);
-    }
-    std::optional<Refusal> set_point(const SetPoint&) override { return std::nullopt; }
-    DoorNumber attach(HotDoor& door) override {
-        doors.push_back(&door);
-        return static_cast<DoorNumber>(doors.size());
-    }
-    void detach(HotDoor& door) override { std::ranges::replace(doors, &door, nullptr); }
-    void deliver() {
-        std::erase_if(given, [&](Ticket t) {
-            const Result* r = world.result(t);
-            if (!r) return false;
-            doors.at(door_of(t) - 1u)->on_result(*r);
-            return true;
-        });
-    }
-};
-
 class ProfileLaws : public Laws, public WriteOwner {
 protected:
-    struct WriterDoor final : HotDoor {
-        WriterDoor(DoorPort& port, RegisterImage& image) : writer(port, image, {Door::modbus, 30s, 4096, words}) {
-            writer.use_number(port.attach(*this));
-        }
-        static std::string words(Verdict v) { return "exception " + std::to_string(static_cast<int>(v)); }
-        std::string_view name() const override { return "modbus"; }
-        void on_result(const Result& r) override { writer.on_result(r); }
-        RegisterWriter writer;
-    };
-    struct EnipDoor final : HotDoor {
-        EnipDoor(DoorPort& port, RegisterImage& image) : values(port, image, 30) {
-            values.use_number(port.attach(*this));
-            values.use([this](cip::Token, cip::General g, cip::View, std::uint16_t) { published = g; });
-        }
-        std::string_view name() const override { return "enip"; }
-        void on_result(const Result& r) override { values.on_result(r); }
-        enip::AxisValues values;
-        std::optional<cip::General> published;
-    };
     enum class Way { modbus, image, attributes };
     static constexpr std::uint8_t unit = 10;
     static constexpr std::uint16_t in_instance = 400, out_instance = 401;
@@ -85,15 +34,6 @@ protected:
 
     void on_written(std::uint8_t, AxisId, Verdict verdict) override { answered = verdict; }
 
-    static Languages languages() {
-        Languages all;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            std::string fault;
-            all[i] = read_language(asset("schema/profiles/" + std::string(name_of(static_cast<ProfileLanguage>(i))) + ".json"), fault);
-            EXPECT_TRUE(all[i]) << fault;
-        }
-        return all;
-    }
     /// One axis behind a unit of this language; 100 increments are one unit, 40 u/s and 200 u/s^2 its full speed and ramp.
     void speak(ProfileLanguage language, Way by, std::optional<double> counts_per_unit = {}) {
         way = by;

@@ -158,7 +158,7 @@ TEST(Guard, EachRegisterAtItsEdge) {
     EXPECT_FALSE(guard_process_data(d, here)) << "a target is judged with its set-point";
 }
 
-TEST(Guard, LimitsAreRoundedToIncrementsAndToNoneWhereTheyHaveNoPlace) {
+TEST(Guard, LimitsAreRoundedToIncrementsAndToTheLastNumberWhereTheyHaveNoPlace) {
     AxisSpec a;
     a.increments_per_unit = 10;
     a.unit = "mm";
@@ -170,7 +170,8 @@ TEST(Guard, LimitsAreRoundedToIncrementsAndToNoneWhereTheyHaveNoPlace) {
     EXPECT_EQ(l.position_min, -10);
     EXPECT_EQ(l.position_max, 13);
     EXPECT_EQ(l.velocity_max, 0);
-    EXPECT_FALSE(l.acceleration_max) << "beyond 64 bits";
+    ASSERT_TRUE(l.acceleration_max) << "beyond 64 bits it is a limit still";
+    EXPECT_GT(*l.acceleration_max, 9'000'000'000'000'000'000);
     EXPECT_EQ(in_unit(25, l, "/s"), "2.5 mm/s");
     EXPECT_EQ(in_unit(25, {}, "/s"), "25 increments/s");
     EXPECT_FALSE(AxisLimits::of(AxisSpec{}).velocity_max);

@@ -56,6 +56,7 @@ struct Context {
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
     /// An answer that takes long is made in pieces by it, each in its turn with what others ask. Here: at once.
     std::function<void(std::function<void()>)> later = [](const std::function<void()>& piece) { piece(); };
+    std::function<Instant()> now = [] { return Instant{std::chrono::steady_clock::now().time_since_epoch()}; };
 };
 
 /// One request on its way. Lives only as long as the handler's call.

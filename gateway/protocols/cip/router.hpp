@@ -14,7 +14,8 @@ class Router final : public Object {
 public:
     static constexpr std::size_t most_parts = 64;  ///< requests in one Multiple_Service_Packet
 
-    explicit Router(const Connections& connections) : connections_(connections) { add(*this); }
+    /// `values` hears of what was written to objects that are the device's own.
+    Router(const Connections& connections, Values& values) : connections_(connections), values_(values) { add(*this); }
     /// The object outlives the router.
     void add(Object& object);
     /// Who is asked for a class that no other object has.
@@ -47,6 +48,7 @@ private:
     void several(View data, Parts& into, Context& context);
 
     const Connections& connections_;
+    Values& values_;
     std::vector<Object*> objects_;  // by class
     OwnObject* own_ = nullptr;
 };

@@ -62,6 +62,8 @@ public:
     [[nodiscard]] virtual std::vector<DoorConnection> connections() const { return {}; }
     /// Ends one of them as if its network had: whoever commanded by it is lost. False: there is none of this number.
     virtual bool close_connection(std::uint64_t /*number*/) { return false; }
+    /// Numbers of connections that it would close if this site were put in force: those whose own bytes would be others.
+    [[nodiscard]] virtual std::vector<std::uint64_t> closed_by(const SiteState& /*wanted*/) const { return {}; }
     /// Serves what is there at this moment, for a loop that polls instead of sleeping; false: there was nothing.
     virtual bool serve_now() { return false; }
     /// Its counters as Prometheus text. Any thread.

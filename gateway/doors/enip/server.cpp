@@ -101,6 +101,7 @@ public:
         arm();
     }
     void on_site(const SiteState& site) override;
+    [[nodiscard]] std::vector<std::uint64_t> closed_by(const SiteState& wanted) const override;
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override;
     [[nodiscard]] std::vector<DoorConnection> connections() const override;
     bool close_connection(std::uint64_t number) override;
@@ -151,6 +152,9 @@ private:
     void take_explicit(cip::View bytes, cip::Endpoint from, bool broadcast) { adapter_.on_datagram(bytes, from, broadcast, port_.now()); }
     void take_implicit(cip::View bytes, cip::Endpoint from, bool) { adapter_.on_implicit(bytes, from, port_.now()); }
     void arm();
+    [[nodiscard]] Layout layout_of(const SiteState& site, std::uint32_t revision) const;
+    /// Its bytes are the same there.
+    [[nodiscard]] bool lives_on(const cip::Connection& c, const Layout& there) const;
     void on_timer();
 
     DoorPort& port_;
@@ -281,20 +285,35 @@ bool Server::Impl::close_connection(std::uint64_t number) {
     return closed;
 }
 
-void Server::Impl::on_site(const SiteState& site) {
-    const std::uint32_t revision = port_.image().mapping_revision;
+Layout Server::Impl::layout_of(const SiteState& site, std::uint32_t revision) const {
     std::vector<LayoutAxis> axes;
     for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
         const AxisId id = site.axis_ids[i];
-        axes.push_back({port_.image().picture(id).number, id, site.site.axes[i].name, port_.catalogue(id)});
+        axes.push_back({static_cast<std::uint16_t>(site.site.axes[i].number), id, site.site.axes[i].name, port_.catalogue(id)});
     }
-    Layout layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
-    const auto goes = [&](const cip::Connection& c) {
-        return c.is_io() && !(values_.layout().same_bytes(c.plan.consumed, layout) && values_.layout().same_bytes(c.plan.produced, layout));
-    };
-    adapter_.connections().close_those(goes, cip::End::by_gateway, port_.now());
+    return Layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
+}
+
+bool Server::Impl::lives_on(const cip::Connection& c, const Layout& there) const {
+    return !c.is_io() || (values_.layout().same_bytes(c.plan.consumed, there) && values_.layout().same_bytes(c.plan.produced, there));
+}
+
+void Server::Impl::on_site(const SiteState& site) {
+    Layout layout = layout_of(site, port_.image().mapping_revision);
+    adapter_.connections().close_those([&](const cip::Connection& c) { return !lives_on(c, layout); }, cip::End::by_gateway, port_.now());
     values_.use(std::move(layout));
     arm();
+}
+
+std::vector<std::uint64_t> Server::Impl::closed_by(const SiteState& wanted) const {
+    std::vector<std::uint64_t> list;
+    const Layout there = layout_of(wanted, 0);
+    const cip::ConnectionManager& manager = adapter_.connections();
+    for (std::size_t i = 0; i < cip::ConnectionManager::most_connections; ++i) {
+        const cip::Connection* const c = manager.at(i);
+        if (c && !lives_on(*c, there)) list.push_back(c->ot_id);
+    }
+    return list;
 }
 
 void Server::Impl::accept() {

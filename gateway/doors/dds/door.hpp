@@ -51,6 +51,7 @@ public:
     DdsDoor(const DdsDoor&) = delete;
     DdsDoor& operator=(const DdsDoor&) = delete;
 
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return dds_ways; }
     [[nodiscard]] std::string_view name() const override { return "dds"; }
     [[nodiscard]] std::string start() override;
     /// NAME@PARTITION:DOMAIN%INTERFACE: "hall-1@plant:0%lo".

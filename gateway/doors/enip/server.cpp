@@ -92,6 +92,7 @@ public:
     ~Impl() override { port_.detach(*this); }
 
     // --- HotDoor
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return enip_ways; }
     [[nodiscard]] std::string_view name() const override { return "enip"; }
     [[nodiscard]] std::vector<std::string> addresses() const override {
         return open_ ? std::vector<std::string>{fmt::format("{}:{}", address_text(bound_), facts_.port)} : std::vector<std::string>{};

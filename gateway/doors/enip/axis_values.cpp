@@ -19,6 +19,11 @@ constexpr std::uint16_t input_registers = bytes_per_axis / 2;
 /// Beyond those of the register writer, whose tickets are the door's as well: place and generation, below 2^48.
 constexpr std::uint64_t own_tickets = std::uint64_t{1} << 48;
 
+std::string text_of_parameter(const Layout& layout, std::uint32_t instance) {
+    const auto* const info = layout.parameter(instance);
+    return fmt::format("write of parameter object {}, {}", instance, info ? info->name : "gone");
+}
+
 /// A word that stops or switches off is taken though much waits for the drives.
 bool only_stops(const CommandBody& body) {
     const auto* d = std::get_if<ProcessData>(&body);
@@ -88,7 +93,6 @@ AxisValues::AxisValues(DoorPort& port, registers::RegisterImage& image, std::int
     : port_(port),
       image_(image),
       writer_(port, image, {.door = Door::ethernet_ip, .answer = [](registers::Verdict) { return std::string(); }}),
-      object_writes_([&port](Event event, AxisId axis) { port.note(std::move(event), axis); }, "writes"),
       leases_(port, lease_s),
       lost_(port, [this](const AuthorityClient& who) {
           return clients_.knows(who) ||
@@ -205,7 +209,8 @@ General AxisValues::set(std::uint32_t instance, cip::View value, cip::Token toke
     const auto read = from_bytes(value, layout_.parameter(instance)->type);
     const auto checked = read ? place.axis->catalogue->check_write(place.point, *read) : Catalogue::Checked{};
     if (!read || !checked.fault.empty()) {
-        refuse_parameter(instance, place.axis->id, text_of(who.from), read ? checked.fault : "the value is none of its type", now);
+        writer_.refused(text_of(who.from), place.axis->id, text_of_parameter(layout_, instance),
+                        read ? checked.fault : "the value is none of its type", now);
         return General::invalid_attribute_value;
     }
     Asked asked;
@@ -217,22 +222,6 @@ General AxisValues::set(std::uint32_t instance, cip::View value, cip::Token toke
     ++questions_;
     counters_.parameters.add();
     return General::success;
-}
-
-void AxisValues::refuse_parameter(std::uint32_t instance, AxisId axis, const std::string& who, std::string_view why, Instant now) {
-    const auto* const info = layout_.parameter(instance);
-    writer_.refused(who, axis, fmt::format("write of parameter object {}, {}", instance, info ? info->name : "gone"), why, now);
-}
-
-void AxisValues::written(const OwnPlace& place, const cip::Peer& who, Instant now) {
-    Event e;
-    e.kind = "ethernet_ip";
-    e.door = std::string(name_of(Door::ethernet_ip));
-    e.who = text_of(who.from);
-    e.text = place.attribute == 0
-                 ? fmt::format("class {:02X}h instance {} was written as a whole, or reset", place.class_id, place.instance)
-                 : fmt::format("class {:02X}h instance {} attribute {} was written", place.class_id, place.instance, place.attribute);
-    object_writes_.add(address_text(who.from.address), no_axis, std::move(e), {}, now);
 }
 
 void AxisValues::on_result(const Result& result) {
@@ -271,7 +260,8 @@ void AxisValues::on_result(const Result& result) {
     }
     --questions_;
     if (!good(result) && asked.kind == Asked::Kind::write)
-        refuse_parameter(asked.instance, asked.axis, *asked.origin.who, result.text.empty() ? name_of(result.reason) : result.text, now);
+        writer_.refused(*asked.origin.who, asked.axis, text_of_parameter(layout_, asked.instance),
+                        result.text.empty() ? name_of(result.reason) : result.text, now);
     if (!good(result)) return answered_(asked.token, general_of(result.reason == Reason::none ? Reason::internal : result.reason), {}, 0);
     if (asked.kind == Asked::Kind::write) return answered_(asked.token, General::success, {}, 0);
     const auto* const info = layout_.parameter(asked.instance);
@@ -281,7 +271,6 @@ void AxisValues::on_result(const Result& result) {
 
 void AxisValues::sweep(Instant now) {
     writer_.sweep(now);
-    object_writes_.flush(now);
     std::vector<Ticket> late;
     for (const auto& [ticket, asked] : asked_) {
         if (asked.until <= now) late.push_back(ticket);

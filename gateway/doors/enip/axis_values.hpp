@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "gateway/core/counter.hpp"
-#include "gateway/core/event_rows.hpp"
 #include "gateway/doors/enip/axis_leases.hpp"
 #include "gateway/doors/enip/layout.hpp"
 #include "gateway/doors/enip/lost_clients.hpp"
@@ -75,7 +74,6 @@ public:
     [[nodiscard]] std::optional<OwnAttribute> own_attribute(std::uint32_t class_id, std::uint32_t instance,
                                                             std::uint32_t attribute) const override;
     [[nodiscard]] cip::General get_own(const OwnPlace& place, Instant now, cip::Bytes& to) override;
-    void written(const OwnPlace& place, const cip::Peer& who, Instant now) override;
     [[nodiscard]] cip::General set_own(const OwnPlace& place, cip::View value, cip::Token token, const cip::Peer& who, Instant now,
                                        bool& later) override;
 
@@ -134,14 +132,11 @@ private:
     [[nodiscard]] bool submit(AxisId axis, CommandBody body, Asked asked, Instant now);
     void carry_out(std::uint32_t output, Owner& owner, AxisId axis, OutputLane::Step step, Instant now);
     void lose(std::uint32_t output, LossCause cause);
-    /// An event: this write of a parameter was refused.
-    void refuse_parameter(std::uint32_t instance, AxisId axis, const std::string& who, std::string_view why, Instant now);
     /// shown_values(), looked up once per site and window.
     [[nodiscard]] const std::vector<registers::MapValue>& shown_of(const LayoutWindow& window) const;
 
     DoorPort& port_;
     registers::RegisterImage& image_;
-    EventRows object_writes_;           // of the device's own objects
     registers::RegisterWriter writer_;  // of windows and attributes; its log of refusals and registers 20 and 21 are everybody's
     AxisLeases leases_;
     LostClients lost_;

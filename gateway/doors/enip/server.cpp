@@ -24,6 +24,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "gateway/core/event_rows.hpp"
 #include "gateway/doors/enip/counters.hpp"
 #include "gateway/doors/enip/host_facts.hpp"
 #include "gateway/doors/enip/tcp_session.hpp"
@@ -110,6 +111,7 @@ public:
     [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters(), accepts_postponed_); }
 
     // --- cip::Output
+    void written(const cip::Values::OwnPlace& place, const cip::Peer& who, Instant now) override;
     void implicit(cip::Endpoint to, cip::View bytes, std::uint8_t dscp) override {
         if (std::exchange(dscp_, dscp) != dscp) mark(implicit_.native_handle(), dscp);
         send(implicit_, to, bytes);
@@ -160,6 +162,7 @@ private:
 
     DoorPort& port_;
     ServerSettings settings_;
+    EventRows writes_{[this](Event e, AxisId axis) { port_.note(std::move(e), axis); }, "writes"};  // of the device's own objects
     AxisValues values_;
     cip::Adapter adapter_;
     Poller poller_;
@@ -317,6 +320,17 @@ std::vector<std::uint64_t> Server::Impl::closed_by(const SiteState& wanted) cons
     return list;
 }
 
+void Server::Impl::written(const cip::Values::OwnPlace& place, const cip::Peer& who, Instant now) {
+    Event e;
+    e.kind = "ethernet_ip";
+    e.door = std::string(name_of(Door::ethernet_ip));
+    e.who = text_of(who.from);
+    e.text = place.attribute == 0
+                 ? fmt::format("class {:02X}h instance {} was written as a whole, or reset", place.class_id, place.instance)
+                 : fmt::format("class {:02X}h instance {} attribute {} was written", place.class_id, place.instance, place.attribute);
+    writes_.add(address_text(who.from.address), no_axis, std::move(e), {}, now);
+}
+
 void Server::Impl::accept() {
     acceptor_.async_wait(Acceptor::wait_read, [weak = weak_from_this()](boost::system::error_code ec) {
         const auto self = weak.lock();
@@ -444,6 +458,7 @@ void Server::Impl::on_timer() {
     adapter_.on_deadline(now);
     if (next_sweep_ <= now) {
         values_.sweep(now);
+        writes_.flush(now);
         next_sweep_ = now + sweep_period;
         if (!paused_) (void)spare_.refill();  // who waits comes first
         if (std::exchange(paused_, false)) accept();

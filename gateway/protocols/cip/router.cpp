@@ -82,7 +82,7 @@ Response Router::route(const Request& request, const Path& path, Context& contex
     Object& object = own ? *own_ : **it;
     Response r = object.serve(request.service, path, request.data, context);
     if (!own && changes_the_device(*path.class_id, request.service, r))
-        values_.written({*path.class_id, path.instance().value_or(0), path.attribute.value_or(0)}, context.peer, context.now);
+        listener_.written({*path.class_id, path.instance().value_or(0), path.attribute.value_or(0)}, context.peer, context.now);
     if (r.data.size() > context.most_answer) return Response::of(General::reply_data_too_large);
     return r;
 }

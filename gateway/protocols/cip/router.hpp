@@ -14,8 +14,7 @@ class Router final : public Object {
 public:
     static constexpr std::size_t most_parts = 64;  ///< requests in one Multiple_Service_Packet
 
-    /// `values` hears of what was written to objects that are the device's own.
-    Router(const Connections& connections, Values& values) : connections_(connections), values_(values) { add(*this); }
+    Router(const Connections& connections, DeviceListener& listener) : connections_(connections), listener_(listener) { add(*this); }
     /// The object outlives the router.
     void add(Object& object);
     /// Who is asked for a class that no other object has.
@@ -48,7 +47,7 @@ private:
     void several(View data, Parts& into, Context& context);
 
     const Connections& connections_;
-    Values& values_;
+    DeviceListener& listener_;
     std::vector<Object*> objects_;  // by class
     OwnObject* own_ = nullptr;
 };

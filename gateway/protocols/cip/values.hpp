@@ -161,14 +161,18 @@ struct Values : Description {
     [[nodiscard]] virtual General get_own(const OwnPlace& /*place*/, Instant /*now*/, Bytes& /*to*/) {
         return General::attribute_not_supported;
     }
-    /// An attribute of an object that is the device's own (how it marks its packets, how long it waits for a silent session) was written,
-    /// or a service of it changed it; for whoever keeps a record of that. `attribute` 0: several.
-    virtual void written(const OwnPlace& /*place*/, const Peer& /*who*/, Instant /*now*/) {}
     /// `value` has the right size. `later`: Adapter::answered(token) follows, not from inside this call.
     [[nodiscard]] virtual General set_own(const OwnPlace& /*place*/, View /*value*/, Token /*token*/, const Peer& /*who*/, Instant /*now*/,
                                           bool& /*later*/) {
         return General::attribute_not_supported;
     }
+};
+
+/// Hears of what is written to objects that are the device's own: how it marks its packets, how long it waits for a silent session.
+struct DeviceListener {
+    /// By Set_Attribute_Single and its like, or a reset. `attribute` 0: several.
+    virtual void written(const Values::OwnPlace& /*place*/, const Peer& /*who*/, Instant /*now*/) {}
+    virtual ~DeviceListener() = default;
 };
 
 }  // namespace axisgate::cip

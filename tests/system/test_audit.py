@@ -202,7 +202,7 @@ def test_each_of_them_leaves_an_event_with_who_did_it(folder):
                 headers = {"Cookie": head["Set-Cookie"].split(";")[0]}
             wanted = body["name"] if words == "action" else words
             try:
-                until(lambda: [e for e in events(g, since, headers) if e["kind"] == kind and e["who"].startswith("anna ") and "127.0.0.1" in e["who"] and words_in(e, wanted)], 5)
+                until(lambda: [e for e in events(g, since, headers) if e["kind"] == kind and e["who"].startswith("anna ") and "127.0.0.1" in e["who"] and words_in(e, wanted)], 40 if kind == "rehearsal" else 8)
             except AssertionError:
                 without.append((name, kind, wanted, [(e["kind"], e["who"], e["text"]) for e in events(g, since, headers)]))
         assert not without, "\n".join(map(str, without))

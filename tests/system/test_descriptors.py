@@ -15,7 +15,7 @@ class Limited(Gateway):
 
     def __init__(self, folder, soft, hard, *more):
         with_limit = folder / "limited"
-        with_limit.write_text(f"#!/bin/sh\nulimit -Hn {hard}\nulimit -Sn {soft}\nexec {harness.PROGRAM} \"$@\"\n")
+        with_limit.write_text(f"#!/bin/sh -e\nulimit -Sn {soft}\nulimit -Hn {hard}\nexec {harness.PROGRAM} \"$@\"\n")
         with_limit.chmod(0o755)
         program, harness.PROGRAM = harness.PROGRAM, str(with_limit)
         try:
@@ -79,6 +79,6 @@ def test_silent_clients_at_every_door_leave_http_its_stops(folder):
 
 def test_a_soft_limit_is_raised_to_the_hard_one(folder):
     with Limited(folder, 256, 4096) as g:
-        line = [x for x in openf"/proc/{g.process.pid}/limits" if x.startswith("Max open files")][0].split()
+        line = [x for x in open(f"/proc/{g.process.pid}/limits") if x.startswith("Max open files")][0].split()
         assert line[3:5] == ["4096", "4096"], line
         assert "open files" not in g.errors(), g.errors()

@@ -108,7 +108,7 @@ def test_a_mapping_of_another_axis_stops_nothing(folder):
         site["axes"][0]["number"] = 9
         closes = g.send("POST", "/site/stage", site)["closes"]
         assert [(c["kind"], c["axes"]) for c in closes] == [("exclusive_owner", ["feeder"])], closes
-        assert g.get("/site/stage")["closes"] == closes and closes[0]["id"] in {c["id"] for c in g.get("/connections")}
+        assert [c["id"] for c in g.get("/site/stage")["closes"]] == [closes[0]["id"]] and closes[0]["id"] in {c["id"] for c in g.get("/connections")}
         g.send("DELETE", "/site/stage", None, 204)
         g.send("POST", "/mappings", {"unit": 9, "address": 0, "axis": "slide", "point": "position", "type": "i32"}, 201)
         time.sleep(0.3)

@@ -29,7 +29,8 @@ std::string what_is_asked(const Request& request) {
 }
 
 void Audit::answered(const Asked& asked, const Response& r, Instant now) {
-    if (r.status < 400 && !asked.kind.empty()) return events_.note(event_of(asked, asked.kind, Severity::info, asked.told));
+    if (r.status < 400 && !asked.kind.empty() && !r.changed_nothing)
+        return events_.note(event_of(asked, asked.kind, Severity::info, asked.told));
     if (!is_refusal(r.status, asked.changes)) return;
     Event e = event_of(asked, "refused", asked.changes ? Severity::warning : Severity::info,
                        fmt::format("{}: {} ({} {})", asked.what, r.told.detail, r.status, r.told.reason));

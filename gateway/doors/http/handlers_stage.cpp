@@ -109,9 +109,11 @@ Handled get_stage(Call& c, ConnectionPort& connections, const SitePort& sites, c
 }
 
 Handled discard_stage(Call&, StagePort& staging) {
+    const bool nothing = staging.site_stage().state() == SiteStage::State::none;
     if (auto fault = staging.discard_stage(); !fault.empty()) return conflict(std::move(fault));
     Response r;
     r.status = 204;
+    r.changed_nothing = nothing;
     return r;
 }
 

@@ -53,9 +53,9 @@ TEST_F(AuditTest, WhoseBodyIsNotWaitedForIsWrittenDownAsWell) {
 }
 
 TEST_F(AuditTest, AConflictIsWrittenDownWhereSomethingWasToBeChanged) {
-    EXPECT_EQ(call("DELETE", "/api/v1/site/stage").status, 409u);
+    EXPECT_EQ(call("POST", "/api/v1/site/stage/apply", "{}").status, 409u);
     ASSERT_EQ(refused().size(), 1u);
-    EXPECT_NE(refused()[0].text.find("DELETE /api/v1/site/stage: "), std::string::npos);
+    EXPECT_NE(refused()[0].text.find("POST /api/v1/site/stage/apply: "), std::string::npos);
     EXPECT_NE(refused()[0].text.find("(409 conflict)"), std::string::npos) << refused()[0].text;
     EXPECT_EQ(call("GET", "/api/v1/axes/nobody").status, 404u);
     EXPECT_EQ(refused().size(), 1u) << "404 is none of these";
@@ -79,6 +79,9 @@ TEST_F(AuditTest, StagingDeletingAndRenamingLeaveEvents) {
     EXPECT_EQ(gateway.noted[0].who, "127.0.0.1:51123");
     EXPECT_EQ(call("DELETE", "/api/v1/site/stage").status, 204u);
     EXPECT_EQ(gateway.noted.back().text, "the staged site was discarded");
+    const auto noted = gateway.noted.size();
+    EXPECT_EQ(call("DELETE", "/api/v1/site/stage").status, 204u);
+    EXPECT_EQ(gateway.noted.size(), noted) << "there was none";
 }
 
 TEST_F(AuditTest, ANameOfTheBodyAndOnesOfThePathStandInTheText) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "gateway/core/command.hpp"
 #include "gateway/core/sample.hpp"
 #include "gateway/site/fail_safe.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 
@@ -48,6 +50,8 @@ public:
     virtual ~HotDoor() = default;
     /// As the log and `ready` call it: "modbus".
     [[nodiscard]] virtual std::string_view name() const = 0;
+    /// By which somebody can set an axis in motion here, each with the losses that end it; none: it only shows.
+    [[nodiscard]] virtual std::span<const WayIn> ways_in() const = 0;
     /// What it listens on; empty: on nothing that has an address.
     [[nodiscard]] virtual std::vector<std::string> addresses() const { return {}; }
     /// Of one of its tickets; never from inside DoorPort::submit.
@@ -62,6 +66,8 @@ public:
     [[nodiscard]] virtual std::vector<DoorConnection> connections() const { return {}; }
     /// Ends one of them as if its network had: whoever commanded by it is lost. False: there is none of this number.
     virtual bool close_connection(std::uint64_t /*number*/) { return false; }
+    /// Numbers of connections that it would close if this site were put in force: those whose own bytes would be others.
+    [[nodiscard]] virtual std::vector<std::uint64_t> closed_by(const SiteState& /*wanted*/) const { return {}; }
     /// Serves what is there at this moment, for a loop that polls instead of sleeping; false: there was nothing.
     virtual bool serve_now() { return false; }
     /// Its counters as Prometheus text. Any thread.

@@ -9,6 +9,8 @@
 #include <map>
 #include <memory>
 
+#include "gateway/site/ways_in.hpp"
+
 namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
@@ -86,23 +88,7 @@ private:
     [[nodiscard]] AxisPicture picture() const { return image_.picture(axis_); }
     [[nodiscard]] TwinMechanics mechanics() { return engine_.twin(drive_)->mechanics(spec_.channel, now_); }
     [[nodiscard]] double speed() { return std::fabs(mechanics().velocity); }
-    [[nodiscard]] Door door() const {
-        switch (wish_.cause) {
-            case LossCause::modbus_closed:
-            case LossCause::modbus_silent:
-                return Door::modbus;
-            case LossCause::enip_closed:
-            case LossCause::enip_timed_out:
-            case LossCause::enip_idle:
-            case LossCause::enip_session_closed:
-            case LossCause::enip_silent:
-                return Door::ethernet_ip;
-            case LossCause::dds_deadline:
-                return Door::dds;
-            default:
-                return Door::http;
-        }
-    }
+    [[nodiscard]] Door door() const { return door_that_tells(wish_.cause); }
     [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
 
     [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
@@ -181,7 +167,7 @@ private:
         ramp_ = std::max<std::int64_t>(ramp_, 1);
         const AtLoss runs{true, true, true};
         const bool goes_on = !gateway_gone() && spec_.fail_safe.action(wish_.cause, runs) == FailSafeAction::nothing;
-        if (wish_.cause == LossCause::set_points_silent) {
+        if (of_streams_alone(wish_.cause)) {
             cell_.motion = "set_points";
             place_ = picture().position;
             for (int i = 0; i < 100; ++i) {
@@ -216,7 +202,7 @@ private:
             again.lease_s = std::max<std::int64_t>(1, std::chrono::duration_cast<std::chrono::seconds>(wish_.lease).count());
             (void)order(again);
         }
-        if (wish_.cause == LossCause::set_points_silent) stream();
+        if (of_streams_alone(wish_.cause)) stream();
         at_ = now_;
         lost_ = true;
         if (silent()) received_ = now_;  // the connection stays; else there is none

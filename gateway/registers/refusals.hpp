@@ -1,21 +1,15 @@
 // Refusals: what a door of registers refused, told as events: the sentence that the other doors would say, who asked, register and value.
-// In: refusals with their instant. Out: events through `tell`. Verdict codes alone leave a technician guessing; a PLC repeats its request
-// a hundred times a second. Never tells more than this:
-//   identical refusals of one client in a row   one event at once; then their count, every `row_period` and when the row ends
-//   one client (its address)                    5 events at once, then 1 per second; what is beyond is counted and told with the next one
-//   all clients                                 32 events at once, then 8 per second
-//   clients remembered                          64; then the one that was quiet for longest is forgotten
+// In: refusals with their instant. Out: events through `tell`, within the bounds of EventRows. Verdict codes alone leave a technician
+// guessing; a PLC repeats its request a hundred times a second.
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "gateway/core/event.hpp"
+#include "gateway/core/command.hpp"
+#include "gateway/core/event_rows.hpp"
 #include "gateway/registers/unit_map.hpp"
 
 namespace axisgate::registers {
@@ -36,45 +30,21 @@ struct RequestNote {
 
 class RefusalLog {
 public:
-    static constexpr double client_burst = 5, client_rate = 1, all_burst = 32, all_rate = 8;  ///< events, events/s
-    static constexpr std::size_t most_clients = 64;
-    static constexpr Duration row_period = std::chrono::seconds(10);
-
-    using Tell = std::function<void(Event event, AxisId axis)>;
-    RefusalLog(Door door, Tell tell) : door_(door), tell_(std::move(tell)) {}
+    RefusalLog(Door door, EventRows::Tell tell) : door_(door), rows_(std::move(tell)) {}
 
     /// `who`: "192.0.2.7:51123"; clients are told apart by their address. `answer`: what the client was told, in the door's words
     /// ("exception 3"); empty: nothing, the parameter channel shows it.
     void add(std::string_view who, Refused refused, const RequestNote& note, std::string_view answer, Instant now);
-    /// Tells the counts of rows that have lasted for row_period.
-    void flush(Instant now);
-    /// Something waits for flush().
-    [[nodiscard]] bool pending() const noexcept;
+    /// The same of what is no register: `what` names it ("parameter 3 (feeder AC)").
+    void add(std::string_view who, AxisId axis, std::string_view what, std::string_view why, Instant now);
+    void flush(Instant now) { rows_.flush(now); }
+    [[nodiscard]] bool pending() const noexcept { return rows_.pending(); }
 
 private:
-    struct Bucket {
-        double level = 0;
-        Instant at{};
-        [[nodiscard]] bool take(double burst, double rate, Instant now) noexcept;
-    };
-    struct Client {
-        std::string host;
-        Bucket published;
-        Event event;  ///< of the present row, with its own words
-        AxisId axis = no_axis;
-        std::uint64_t again = 0;        ///< further ones of the row that were not told
-        std::uint64_t unpublished = 0;  ///< others that the rate kept back
-        Instant row_published{};
-        Instant received{};
-    };
-    Client& client_of(std::string_view host, Instant now);
-    void tell(Client& c, std::string words, Instant now);
-    void end_row(Client& c, Instant now);
+    [[nodiscard]] Event event_of(std::string_view who, Severity severity) const;
 
     Door door_;
-    Tell tell_;
-    Bucket all_;
-    std::vector<Client> clients_;
+    EventRows rows_;
 };
 
 }  // namespace axisgate::registers

@@ -61,6 +61,7 @@ public:
     void add_user(MapUser& user) { users_.push_back(&user); }
     void remove_user(MapUser& user) { std::erase(users_, &user); }
 
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return {}; }  // doors of registers have theirs
     [[nodiscard]] std::string_view name() const override { return "registers"; }
     void on_result(const Result& result) override;
     void on_site(const SiteState& site) override;

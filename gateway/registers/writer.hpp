@@ -67,6 +67,10 @@ public:
 
     /// Leaves an event and, for a write, the axis' registers 20 and 21. `answer`: as RefusalLog::add has it.
     void refused(const std::string& who, Refused why, const RequestNote& note, std::string_view answer, Instant now);
+    /// An event of what is no register: `what` was to be written and was refused, because of `why`.
+    void refused(const std::string& who, AxisId axis, std::string_view what, std::string_view why, Instant now) {
+        refusals_.add(who, axis, what, why, now);
+    }
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
 
 private:

@@ -105,7 +105,7 @@ bool AccessService::work(Make make, Then then) {
     ++waiting_;
     if (!pool_) {
         pool_ = std::make_unique<asio::thread_pool>(1);
-        asio::post(*pool_, [] { enter_thread("axisgate-secret", cold_stands_back); });
+        asio::post(*pool_, [] { enter_thread("axisgate-secret", secret_stands_back); });
     }
     asio::post(*pool_, [this, make = std::move(make), then = std::move(then)]() mutable {
         auto made = make();

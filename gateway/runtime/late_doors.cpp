@@ -32,6 +32,19 @@ bool address_is_late(std::string_view bind) {
     return !there && (why == EADDRNOTAVAIL || why == ENODEV || why == ENETDOWN);
 }
 
+bool address_is_taken(std::string_view bind, int socket_type) {
+    std::string fault;
+    const auto endpoint = http::parse_bind(bind, fault);
+    if (!endpoint || endpoint->port() == 0) return false;
+    const int fd = ::socket(endpoint->protocol().family(), socket_type | SOCK_CLOEXEC, 0);
+    if (fd < 0) return false;
+    const int on = 1;  // as the doors do it: a connection of before that is still ending takes nothing
+    if (socket_type == SOCK_STREAM) (void)::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    const bool taken = ::bind(fd, endpoint->data(), static_cast<socklen_t>(endpoint->size())) != 0 && errno == EADDRINUSE;
+    (void)::close(fd);
+    return taken;
+}
+
 bool interface_is_late(const std::string& name) {
     ifaddrs* list = nullptr;
     if (::getifaddrs(&list) != 0) return false;

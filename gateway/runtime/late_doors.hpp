@@ -1,4 +1,5 @@
-// Late doors: doors whose address or network interface is not there yet, as after a boot, wait for it and are opened when it has come.
+// Late doors: doors whose address or network interface is not there yet, as after a boot, or whose port another program has, wait for it
+// and are opened when it has come.
 // In: how each is opened, time. Out: what waits, in words. A door that waits never keeps another one or the gateway from starting.
 #pragma once
 
@@ -14,6 +15,8 @@ namespace axisgate {
 
 /// "ADDRESS:PORT" names an address that this host does not have at the moment. False for whatever else is wrong with it.
 [[nodiscard]] bool address_is_late(std::string_view bind);
+/// Another program has this port of it. `socket_type`: SOCK_STREAM or SOCK_DGRAM.
+[[nodiscard]] bool address_is_taken(std::string_view bind, int socket_type);
 /// There is no such network interface at the moment, or it is down, or it has no address yet.
 [[nodiscard]] bool interface_is_late(const std::string& name);
 

@@ -2,7 +2,7 @@
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,6 +29,7 @@
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/config_host.hpp"
+#include "gateway/runtime/descriptor_limits.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/runtime/late_doors.hpp"
@@ -50,14 +51,6 @@ namespace axisgate {
 namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
-
-/// As many as this process may have: the soft limit of a shell is lower than what the doors let in together.
-void raise_descriptor_limit() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
-    limit.rlim_cur = limit.rlim_max;
-    if (setrlimit(RLIMIT_NOFILE, &limit) != 0) spdlog::warn("the limit of open files stays as it is: {}", std::strerror(errno));
-}
 
 /// As the machine calls itself, without its domain; "axisgate" if it does not say.
 std::string host_name() {
@@ -377,7 +370,9 @@ int Service::open_doors() {
     if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) read_only = (*kept)->text == "true";
     modbus = std::make_unique<ModbusDoors>(*hot, *image, options.config, read_only);
     if (!opened_or_waits(
-            "Modbus", [this] { return address_is_late(options.config.modbus_bind); }, [this] { return modbus->open(); }, true, {}))
+            "Modbus",
+            [this] { return address_is_late(options.config.modbus_bind) || address_is_taken(options.config.modbus_bind, SOCK_STREAM); },
+            [this] { return modbus->open(); }, true, {}))
         return exit_failed;
     if (modbus->any()) ports->modbus.use({[this] { return modbus->report(); }, [this](bool on) { modbus->set_read_only(on); }});
     if (!options.config.enip_bind.empty()) {
@@ -393,7 +388,10 @@ int Service::open_doors() {
                 spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
                              wanted, enip->facts().io_port);
         };
-        const auto is_late = [this] { return address_is_late(options.config.enip_bind); };
+        const auto is_late = [this] {
+            const std::string& bind = options.config.enip_bind;
+            return address_is_late(bind) || address_is_taken(bind, SOCK_STREAM) || address_is_taken(bind, SOCK_DGRAM);
+        };
         const auto open = [this] { return enip->open(options.config.enip_bind); };
         if (options.config.enip_bind_named) {
             if (!opened_or_waits("EtherNet/IP", is_late, open, true, opened)) return exit_failed;
@@ -446,7 +444,8 @@ int Service::open_doors() {
     for (const auto& door : doors) {
         const bool of_dds = door.get() == dds;
         const auto is_late = [this, of_dds] {
-            return of_dds ? interface_is_late(options.config.dds_interface) : address_is_late(options.config.http_bind);
+            const std::string& bind = options.config.http_bind;
+            return of_dds ? interface_is_late(options.config.dds_interface) : address_is_late(bind) || address_is_taken(bind, SOCK_STREAM);
         };
         const auto open = [door = door.get()] { return door->start(); };
         if (!opened_or_waits(std::string(door->name()), is_late, open, false, {})) return exit_failed;
@@ -552,7 +551,8 @@ void run_ranked(boost::asio::io_context& context) {
 }  // namespace
 
 /// `hangs`: a thread of the DDS library is left that nobody can end.
-static int serve(const ServeOptions& options, bool& hangs) {
+static int serve(const ServeOptions& given, bool& hangs) {
+    ServeOptions options = given;
     // The same words and the same exit code as `axisgate check`.
     const auto wrong_here = check_host(options.config);
     for (const auto& f : wrong_here)
@@ -565,7 +565,7 @@ static int serve(const ServeOptions& options, bool& hangs) {
             complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         return exit_usage;
     }
-    raise_descriptor_limit();
+    fit_doors(options.config);
     (void)std::signal(SIGPIPE, SIG_IGN);
     (void)std::signal(SIGXFSZ, SIG_IGN);  // a bound on the size of files is a full disk, not the end
     std::vector<std::string> faults;

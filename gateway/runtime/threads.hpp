@@ -75,5 +75,8 @@ inline constexpr int hot_rank = 2, warm_rank = 1;
 inline constexpr int hot_stands_back = 0;
 inline constexpr int warm_stands_back = 5;  ///< where the hot thread has no rank of its own
 inline constexpr int cold_stands_back = 10;
+/// Of the thread that computes passwords' hashes: a person waits for it, and on a busy machine a thread at +10 has a fortieth of a
+/// processor; a hash takes 0.1 s of one.
+inline constexpr int secret_stands_back = 2;
 
 }  // namespace axisgate

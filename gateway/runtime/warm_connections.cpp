@@ -12,10 +12,14 @@ namespace axisgate {
 namespace {
 std::string id_of(const HotDoor& door, const DoorConnection& c) { return fmt::format("{}-{}", door.name(), c.number); }
 
-std::vector<ClientConnection> all_of(const Hot& hot, const SiteState& site) {
+/// `wanted`: of those alone that this site would close.
+std::vector<ClientConnection> all_of(const Hot& hot, const SiteState& site, const SiteState* wanted = nullptr) {
     std::vector<ClientConnection> list;
     for (const HotDoor* door : hot.doors()) {
+        const auto goes = wanted ? door->closed_by(*wanted) : std::vector<std::uint64_t>{};
+        if (wanted && goes.empty()) continue;
         for (const DoorConnection& c : door->connections()) {
+            if (wanted && std::ranges::find(goes, c.number) == goes.end()) continue;
             ClientConnection out{
                 id_of(*door, c), std::string(door->name()), std::string(c.kind), c.peer, unix_ns_of(c.since), unix_ns_of(c.received), {},
                 c.commands};
@@ -50,7 +54,15 @@ std::optional<std::string> close_one(const Hot& hot, const std::string& id) {
 }
 }  // namespace
 
-void WarmConnections::list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) {
+void WarmConnections::closed_by(Site wanted, std::function<void(List)> then) {
+    auto job = [this, wanted = std::move(wanted), then](Engine& engine, Instant) mutable {
+        const SiteState there = as_if_in_force(*engine.site(), std::move(wanted));
+        threads_.answer([then, list = all_of(threads_.hot, *engine.site(), &there)]() mutable { then(std::move(list)); });
+    };
+    if (!threads_.on_hot(std::move(job))) threads_.answer([then] { then(std::nullopt); });
+}
+
+void WarmConnections::list_connections(std::function<void(List)> then) {
     auto job = [this, then](Engine& engine, Instant) {
         threads_.answer([then, list = all_of(threads_.hot, *engine.site())]() mutable { then(std::move(list)); });
     };

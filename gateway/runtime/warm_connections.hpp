@@ -11,7 +11,8 @@ namespace axisgate {
 class WarmConnections final : public ConnectionPort {
 public:
     WarmConnections(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
-    void list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) override;
+    void list_connections(std::function<void(List)> then) override;
+    void closed_by(Site wanted, std::function<void(List)> then) override;
     void close_connection(std::string id, Origin origin, std::function<void(Closed)> then) override;
 
 private:

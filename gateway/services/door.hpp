@@ -5,8 +5,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 
@@ -15,6 +18,8 @@ public:
     virtual ~ServiceDoor() = default;
     /// As the log and `ready` call it: "http".
     [[nodiscard]] virtual std::string_view name() const = 0;
+    /// By which somebody can set an axis in motion here, each with the losses that end it; none: it only shows.
+    [[nodiscard]] virtual std::span<const WayIn> ways_in() const = 0;
     /// Opens it. Empty: it is open; else what is wrong and what to do.
     [[nodiscard]] virtual std::string start() = 0;
     /// Where it is open; empty while it is closed.

@@ -5,6 +5,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "gateway/site/site_state.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -149,6 +154,27 @@ json::array site_diff(const Site& from, const Site& to) {
         }
     }
     return out;
+}
+
+SiteState as_if_in_force(const SiteState& now, Site wanted) {
+    SiteState s;
+    s.revision = now.revision;
+    const auto ids = [](const auto& before, const auto& known, const auto& after, auto& out, auto none) {
+        using Id = decltype(none);
+        std::map<std::string_view, Id> by_name;
+        for (std::size_t i = 0; i < before.size() && i < known.size(); ++i)
+            by_name.emplace(before[i].name, known[i]);
+        std::uint16_t fresh = index_of(none);
+        for (const auto& entry : after) {
+            const auto at = by_name.find(entry.name);
+            out.push_back(at != by_name.end() ? at->second : Id{--fresh});
+        }
+    };
+    ids(now.site.axes, now.axis_ids, wanted.axes, s.axis_ids, no_axis);
+    ids(now.site.drives, now.drive_ids, wanted.drives, s.drive_ids, no_drive);
+    ids(now.site.lines, now.line_ids, wanted.lines, s.line_ids, no_line);
+    s.site = std::move(wanted);
+    return s;
 }
 
 std::vector<std::string> disturbed_axes(const Site& from, const Site& to) {

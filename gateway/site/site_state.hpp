@@ -19,4 +19,7 @@ struct SiteState {
     std::vector<LineId> line_ids;    ///< by index in site.lines
 };
 
+/// What `wanted` would be in place of `now`: who keeps its name keeps its id, as in the engine; who is new has one that nobody has yet.
+[[nodiscard]] SiteState as_if_in_force(const SiteState& now, Site wanted);
+
 }  // namespace axisgate

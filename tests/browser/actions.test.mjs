@@ -33,7 +33,11 @@ if (isMock) {
     await browser?.close();
     await program?.end();
   });
-  const choose = (id) => card.getByLabel('Action', { exact: true }).selectOption(id);
+  /** Its form is there when this is over: a field of the one before may have the same name, and what is typed there is not for this one. */
+  async function choose(id) {
+    await card.getByLabel('Action', { exact: true }).selectOption(id);
+    await card.locator(`form[data-action="${id}"]`).waitFor();
+  }
   const answer = () => card.locator('[data-field=action-result]');
   /** Chosen, filled in, run, answered without a refusal. */
   async function run(id, values) {

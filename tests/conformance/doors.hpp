@@ -56,6 +56,7 @@ struct WriterDoor final : HotDoor {
         writer.use_number(port.attach(*this));
     }
     static std::string words(registers::Verdict v) { return "exception " + std::to_string(static_cast<int>(v)); }
+    std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
     std::string_view name() const override { return "modbus"; }
     void on_result(const Result& r) override { writer.on_result(r); }
     registers::RegisterWriter writer;
@@ -67,6 +68,7 @@ struct EnipDoor final : HotDoor {
         values.use_number(port.attach(*this));
         values.use([this](cip::Token, cip::General g, cip::View, std::uint16_t) { published = g; });
     }
+    std::span<const WayIn> ways_in() const override { return enip_ways; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
     enip::AxisValues values;

@@ -1,6 +1,7 @@
 // Conformance, rehearsal: every family on every wire, every cause and action: each cell of the report has its figures, and they fit what
 // was chosen. In: all_families(). Out: laws over RehearsalCell. Never names a family.
 #include "gateway/engine/rehearsal.hpp"
+#include "gateway/site/ways_in.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,28 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             EXPECT_LE(*cell.standstill_ms - *cell.noticed_ms, 3000);
         }
     }
+}
+
+/// The doors' own descriptors: a new way in is rehearsed here the day it is in the table.
+TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
+    int rehearsed = 0;
+    for (const auto& door : ways_of_all_doors) {
+        for (const WayIn& way : door) {
+            if (way.streams && !e.catalogue->offers_mode(8) && !e.catalogue->offers_mode(9)) continue;
+            SCOPED_TRACE(way.name);
+            ++rehearsed;
+            bool ended = false;
+            for (const LossCause cause : way.losses) {
+                EXPECT_EQ(door_that_tells(cause), way.door);
+                const RehearsalCell cell = play(cause, FailSafeAction::halt);
+                EXPECT_EQ(cell.fault, "") << name_of(cause);
+                ended = cell.taken == FailSafeAction::halt && cell.standstill_ms.has_value();
+                if (ended) break;
+            }
+            EXPECT_TRUE(ended) << "nothing ends what was begun so";
+        }
+    }
+    EXPECT_GE(rehearsed, 6);
 }
 
 TEST_P(Rehearsals, WhenTheGatewayIsGoneADriveWithAWatchdogStopsByItselfAndAnyOtherGoesOn) {

@@ -67,6 +67,25 @@ smoke() {
 }
 check "it serves as its user, and lets nobody in without a sign-in" smoke
 check "an upgrade keeps database and changed configuration" in_root sh -c "echo '# mine' >>/etc/axisgate/axisgate.toml && sha256sum /var/lib/axisgate/axisgate.db >/before && apt-get install -y -q --reinstall /axisgate.deb && grep -q '# mine' /etc/axisgate/axisgate.toml && sha256sum -c /before"
+# A gateway that runs in it, and a service manager that says that an axis moves: dpkg's way back from the refusal must not touch the process.
+refused_upgrade() {
+    local new=build/package/newer fake=$root/fake said process
+    rm -rf "$new" && dpkg-deb -R "$deb" "$new" && sed -i 's/^Version: .*/&+newer/' "$new/DEBIAN/control" && dpkg-deb --root-owner-group -b "$new" "$root/newer.deb" >/dev/null || return 1
+    mkdir -p "$fake" "$root/run/systemd/system"
+    printf '#!/bin/sh\n[ "$1" != show ] || { echo "1 of 1 drives online, 1 moving"; exit 0; }\necho "$*" >>/asked\ncase "$*" in *start*|*stop*) kill "$(cat /gateway.pid)";; esac\n' >"$fake/systemctl"
+    chmod +x "$fake/systemctl" && cp "$fake/systemctl" "$fake/deb-systemd-invoke" && : >"$root/asked"
+    chroot --userspec=axisgate:axisgate "$root" env -i PATH=/usr/bin:/bin axisgate serve --config /etc/axisgate/axisgate.toml --set http.bind=127.0.0.1:18081 --set modbus.bind=127.0.0.1:11503 --set enip.bind=off >build/package/serve.log 2>&1 &
+    process=$!
+    for _ in $(seq 50); do curl -s -m 2 -o /dev/null http://127.0.0.1:18081/healthz && break; sleep 0.1; done
+    echo "$process" >"$root/gateway.pid"
+    said=$(chroot "$root" env -i PATH=/fake:/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C AXISGATE_WAIT_S=1 dpkg -i /newer.deb 2>&1) && { echo "not refused: $said"; kill "$process"; return 1; }
+    local here; here=$(curl -s -m 2 http://127.0.0.1:18081/healthz)
+    kill "$process"; wait "$process"
+    rm -rf "$fake" "$root/run/systemd/system" "$root/newer.deb" "$new"
+    echo "$said"; cat "$root/asked"
+    [[ $said == *"axes are still moving"* && $here == *'"status":"ok"'* ]] && ! grep -q "restart\|stop" "$root/asked" && in_root dpkg-query -W -f='${db:Status-Abbrev}' axisgate | grep -q '^ii'
+}
+check "an upgrade that is refused because an axis moves leaves the gateway's process alone" refused_upgrade
 check "removing keeps the database" in_root sh -c "apt-get remove -y -q axisgate && [ ! -e /usr/bin/axisgate ] && [ -e /var/lib/axisgate/axisgate.db ]"
 check "purging leaves nothing" in_root sh -c "apt-get purge -y -q axisgate && [ ! -e /var/lib/axisgate ] && [ ! -e /etc/axisgate ] && [ ! -e /etc/systemd/system/multi-user.target.wants/axisgate.service ]"
 rm -rf "$root"

@@ -101,6 +101,15 @@ def test_a_mapping_of_another_axis_stops_nothing(folder):
         o.output = bytearray(image(15, speed=320))
         until(lambda: g.axis("feeder")["moving"], what="the motion")
         consistency = o.get(1, 1, 9)
+        # What a change would close is said before it is applied: of another axis' limits nothing, of this axis' number its owner.
+        site = g.get("/site")
+        site["axes"][1]["position_max"] = 49
+        assert g.send("POST", "/site/stage", site)["closes"] == []
+        site["axes"][0]["number"] = 9
+        closes = g.send("POST", "/site/stage", site)["closes"]
+        assert [(c["kind"], c["axes"]) for c in closes] == [("exclusive_owner", ["feeder"])], closes
+        assert [c["id"] for c in g.get("/site/stage")["closes"]] == [closes[0]["id"]] and closes[0]["id"] in {c["id"] for c in g.get("/connections")}
+        g.send("DELETE", "/site/stage", None, 204)
         g.send("POST", "/mappings", {"unit": 9, "address": 0, "axis": "slide", "point": "position", "type": "i32"}, 201)
         time.sleep(0.3)
         assert g.axis("feeder")["moving"] and g.axis("feeder")["fail_safe_cause"] is None, g.axis("feeder")

@@ -1,8 +1,11 @@
 """Doors whose address or interface is late, and a DDS interface that goes away: the program in a network namespace of its own.
 
 In: a pair of veth interfaces. Out: doors that wait, say so, and open when their address has come; an end within its time-out."""
+import socket
 import subprocess
 import time
+import urllib.error
+import urllib.request
 
 import harness
 
@@ -52,3 +55,47 @@ def test_a_gateway_ends_while_its_dds_interface_is_down(folder):
     """, folder)
     assert done.returncode == 0, (done, (folder / "err").read_text()[-2000:])
     assert time.monotonic() - begun < 50
+
+
+def test_a_taken_port_is_waited_for_and_told(folder):
+    """Each of the three doors in turn: another program has its port at the start, and gives it back."""
+    for door, told, key in (("http", "the http door waits", "http.bind"), ("modbus", "the Modbus door waits", "modbus.bind"), ("enip", "the EtherNet/IP door waits", "enip.bind")):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            address = "127.0.0.1:%d" % taken.getsockname()[1]
+            binds = {"http.bind": "127.0.0.1:0", "modbus.bind": "127.0.0.1:0", "enip.bind": "127.0.0.1:0", key: address}
+            more = [x for k, v in binds.items() for x in ("--set", f"{k}={v}")]
+            with harness.Process("serve", "--data", str(folder / door), *more) as g:
+                assert told in g.ready and f"{door}={address}" not in g.ready, g.ready
+                assert told in g.errors() and address in g.errors(), g.errors()
+                if door != "http":  # the others serve meanwhile, and say what is missing
+                    host, port = g.word("http").rsplit(":", 1)
+                    with urllib.request.urlopen(f"http://{host}:{port}/healthz", timeout=10) as r:
+                        assert r.status == 200
+                    try:
+                        urllib.request.urlopen(f"http://{host}:{port}/readyz", timeout=10)
+                        raise AssertionError("it says that all is well")
+                    except urllib.error.HTTPError as e:
+                        assert e.code == 503 and told in e.read().decode()
+                taken.close()
+                at = address.rsplit(":", 1)
+
+                def listens():
+                    try:
+                        socket.create_connection((at[0], int(at[1])), timeout=2).close()
+                        return True
+                    except OSError:
+                        return False
+                harness.until(listens, 10, f"the {door} door")
+                harness.until(lambda: f"the {'Modbus' if door == 'modbus' else 'EtherNet/IP' if door == 'enip' else door} door is open now" in g.errors(), 5, "the word of it")
+                assert g.stop() == 0
+
+
+def test_a_taken_udp_port_of_ethernet_ip_is_waited_for(folder):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        with harness.Process("serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", f"enip.bind=127.0.0.1:{port}") as g:
+            assert "the EtherNet/IP door waits" in g.ready, g.ready
+            taken.close()
+            harness.until(lambda: "the EtherNet/IP door is open now" in g.errors(), 10, "the door")
+            assert g.stop() == 0

@@ -171,6 +171,31 @@ def test_broken_documents_are_refused_by_both(gateway, folder):
     assert gateway.get("/site")["lines"] == harness.DEMO["lines"], "a dry run changes nothing"
 
 
+def test_what_a_name_begins_with_is_said_by_both_schemas_and_the_gateway(gateway, folder):
+    """Of axes a letter or digit; of lines and drives all but the two names that no path can have. A file with one is read with a warning."""
+    api = openapi.Description((TOP / "schema/openapi.yaml").read_text())
+    for entry, place, names in (("AxisFields", ("axes", 2), {".": False, "..": False, "-x": False, "_x": False, ".x": False, "x": True, "9x": True, "x-_.": True}),
+                                ("DriveFields", ("drives", 2), {".": False, "..": False, "...": True, "-x": True, "_x": True}),
+                                ("LineFields", ("lines", 2), {".": False, "..": False, "...": True, "-x": True, "_x": True})):
+        node = api.resolve(api.document["components"]["schemas"][entry]["properties"]["name"])
+        for name, good in names.items():
+            d = copy.deepcopy(FULL)
+            d[place[0]][place[1]]["name"] = name
+            if place[0] == "drives":
+                d["axes"][2]["drive"] = name
+            assert VALIDATOR.is_valid(d) == good, (place, name)
+            assert bool(re.search(node["pattern"], name)) == good, (entry, name)
+            answer = gateway.send("PUT", "/site?dry_run=1", d)
+            assert answer["valid"] == good, (place, name, answer)
+            if not good:
+                assert any(f["pointer"] == f"/{place[0]}/{place[1]}/name" for f in answer["faults"]), answer
+    file = folder / "old.json"
+    d["lines"][2]["name"] = FULL["lines"][2]["name"]
+    d["axes"][2]["name"] = "_x"
+    file.write_text(json.dumps(d))
+    assert "cannot be asked for by its name" in run("check", "--site", str(file), check=0)[2]
+
+
 def test_a_family_is_named_by_the_line_or_by_each_of_its_drives(gateway):
     """What the schema cannot say: it hangs on the line's kind and on other entries."""
     def faults(change):

@@ -6,7 +6,7 @@ import { plain, plainWord } from '../src/text/plain';
 import { readValue, steppedText, unitText } from '../src/text/parameter';
 import { doneOf, unknownAxes, unknownText } from '../src/text/recipe';
 import { leftOut, parametersText } from '../src/text/transfer';
-import { appliedText, applyBarred, disturbedText } from '../src/text/trial';
+import { appliedText, applyBarred, closedText, disturbedText } from '../src/text/trial';
 
 describe('a site on trial', () => {
   const anna = { by: 'anna 10.0.0.7', client: 'anna page-1a2b3c' };
@@ -17,6 +17,12 @@ describe('a site on trial', () => {
   });
   it('does not disturb what it removes, and says that what moves of either is stopped first', () => {
     const site = (...names: string[]) => ({ axes: names.map((name) => ({ name })) });
+    expect(closedText([])).toBe('');
+    expect(closedText(undefined)).toBe('');
+    expect(closedText([{ id: 'enip-1', kind: 'exclusive_owner', peer: '192.0.2.7:50000', axes: ['lift'] }, { id: 'enip-2', kind: 'input_only', peer: '192.0.2.8:1', axes: [] }])).toBe(
+      'Applying closes EtherNet/IP connections, because their bytes change: 192.0.2.7:50000 (commands lift); 192.0.2.8:1.',
+    );
+    expect(closedText(null)).toContain('could not be asked');
     expect(disturbedText(['a', 'b'], site('a', 'b', 'c'), site('b', 'c'))).toBe('Applying removes a. Applying disturbs for a moment: b. What of it moves is stopped first.');
     expect([disturbedText([], site('a'), site('a')), disturbedText(['a'], site('a'), site())]).toEqual(['', 'Applying removes a. What of it moves is stopped first.']);
   });

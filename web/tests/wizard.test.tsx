@@ -131,6 +131,25 @@ describe('a line that is typed', () => {
     await p.see('[data-field=stage]', 'Applying disturbs for a moment: lift.');
     expect(siteOf().lines).toHaveLength(3);
   });
+  it('whose change closes connections is not applied by one click: they are named first', async () => {
+    door = new MockDoor();
+    const faults = vi.spyOn(door.configuration.site, 'told');
+    p = await openPage('/site', { door });
+    await p.see('[data-entry="lines/can0"]', 'can0');
+    await p.press('Wizard: to a moving axis');
+    await p.see(head, 'Step 1 of 5');
+    p.choose('a new line');
+    await soon(() => p.field('Family'));
+    p.type(p.field('Name'), 'bus');
+    p.type(p.field('Family'), 'mcode');
+    p.type(p.field('URI'), 'serial:/dev/ttyUSB1');
+    await p.press('Next');
+    await p.see(later, 'bus must be in force first');
+    faults.mockImplementationOnce(() => ({ body: { state: 'staged', id: 'x', faults: [], diff: [], disturbs: [], closes: [{ id: 'enip-9', kind: 'exclusive_owner', peer: '192.0.2.7:50000', axes: ['lift'] }] } }));
+    await p.press('Apply bus and scan it');
+    await p.see('[data-field=stage]', 'Applying closes EtherNet/IP connections, because their bytes change: 192.0.2.7:50000 (commands lift).');
+    expect(siteOf().lines).toHaveLength(3);
+  });
 });
 
 it('the part of the site says at a line that is only typed why it has no scan yet', async () => {

@@ -83,6 +83,8 @@ Qos qos_of(Topic t) {
     return q;
 }
 
+constexpr std::size_t most_word_bytes = 48;  // of what a participant says of itself
+
 std::string xml_text(const std::string& s) {
     std::string out;
     for (const char c : s) {
@@ -213,6 +215,7 @@ std::string Bus::open(const BusSettings& s, std::initializer_list<Topic> writes,
         close();
         return failed("a partition cannot be opened", code);
     }
+    participants_ = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
     for (std::size_t i = 0; i < topic_count; ++i) {
         const Topic t{static_cast<std::uint8_t>(i)};
         const auto among = [t](std::initializer_list<Topic> list) { return std::find(list.begin(), list.end(), t) != list.end(); };
@@ -259,7 +262,7 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
 void Bus::close() {
     if (participant_ > 0) (void)dds_delete(participant_);  // and all that hangs on it; no listener runs after it
     if (domain_ > 0) (void)dds_delete(domain_);
-    domain_ = participant_ = publisher_ = subscriber_ = 0;
+    domain_ = participant_ = publisher_ = subscriber_ = participants_ = 0;
     writers_.fill(0);
     readers_.fill(0);
     gone_.clear();
@@ -300,6 +303,33 @@ bool Bus::is_there(const Writer& writer) const {
     dds_builtintopic_endpoint_t* data = reader > 0 ? dds_get_matched_publication_data(reader, writer.handle) : nullptr;
     if (data) dds_builtintopic_free_endpoint(data);
     return data != nullptr;
+}
+
+std::string Bus::whereabouts(const Writer& writer) const {
+    const Entity reader = readers_[static_cast<std::size_t>(writer.topic)];
+    dds_builtintopic_endpoint_t* data = reader > 0 ? dds_get_matched_publication_data(reader, writer.handle) : nullptr;
+    if (!data) return {};
+    const dds_instance_handle_t participant = data->participant_instance_handle;
+    dds_builtintopic_free_endpoint(data);
+    void* sample = nullptr;
+    dds_sample_info_t info{};
+    std::string where;
+    if (participants_ <= 0 || dds_read_instance(participants_, &sample, &info, 1, 1, participant) <= 0) return where;
+    if (info.valid_data) {
+        const auto* const of = static_cast<const dds_builtintopic_participant_t*>(sample);
+        // Properties that every participant of Cyclone DDS announces; others may say nothing.
+        for (const auto& [property, before] : {std::pair{"__NetworkAddresses", ""}, {"__Hostname", ""}, {"__Pid", "process "}}) {
+            char* value = nullptr;
+            if (!dds_qget_prop(of->qos, property, &value) || !value) continue;
+            std::string_view text(value);
+            // The addresses with their ports and kinds: "udp/192.0.2.7:7411@2", with a comma between.
+            if (property == std::string_view("__NetworkAddresses")) text = text.substr(0, text.find(','));
+            if (!text.empty()) where += fmt::format("{}{}{}", where.empty() ? "" : ", ", before, text.substr(0, most_word_bytes));
+            dds_free(value);
+        }
+    }
+    (void)dds_return_loan(participants_, &sample, 1);
+    return where;
 }
 
 std::uint64_t Bus::turned_away() const {

@@ -98,6 +98,8 @@ public:
     /// longer than their own liveliness says. `wake` tells of them, too. If there were more than are kept, those of `known` that are gone.
     [[nodiscard]] std::vector<Writer> take_gone(const std::function<std::vector<Writer>()>& known);
     [[nodiscard]] bool is_there(const Writer& writer) const;
+    /// From where a writer writes, as its participant says: "192.0.2.7, press-2, process 4711"; empty: it does not say, or is gone.
+    [[nodiscard]] std::string whereabouts(const Writer& writer) const;
     /// Called by the library, through its listeners.
     void on_data() const { wake_(); }
     void on_writer_gone(std::int32_t reader, std::uint64_t handle);
@@ -110,6 +112,7 @@ private:
     std::function<void()> wake_;
     using Entity = std::int32_t;  // dds_entity_t: greater than 0, or an error
     Entity domain_ = 0, participant_ = 0, publisher_ = 0, subscriber_ = 0;
+    Entity participants_ = 0;  // reads who is in the domain
     std::array<Entity, topic_count> writers_{}, readers_{};
     std::mutex gone_mutex_;  // what the library's threads say of writers
     std::vector<Writer> gone_;

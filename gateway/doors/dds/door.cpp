@@ -51,7 +51,7 @@ struct DdsDoor::Asked {
     std::uint64_t instance = 0;
     bool renews = false;  ///< a held move that goes on: twice is as good as once, and nothing begins by it; it is not remembered
     bool stops = false;   ///< whatever is wrong with its names: a stop is carried out, twice if need be, and never refused for want of room
-    std::uint64_t writer = 0;  ///< by which it came
+    Bus::Writer writer{};  ///< by which it came
 };
 
 DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
@@ -65,6 +65,7 @@ DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::func
              [this](const axisgate_AxisCommand& s) {
                  if (open_) (void)bus_->write(s);
              }),
+      refusals_([this](Event e, AxisId) { ports_.get<EventPort>().note(std::move(e)); }),
       bus_(std::make_shared<Bus>([wake = wake_] { wake->ring(); })) {
     wake_->door = this;
 }
@@ -160,6 +161,7 @@ void DdsDoor::on_turn() {
     const Instant now = clock_();
     if (!gateway_published_.time_since_epoch().count() || now - gateway_published_ >= published_again) tell_gateway(now);
     tell_axes(now);
+    refusals_.flush(now);
     for (auto& event : fleet_.on_turn(now))
         ports_.get<EventPort>().note(std::move(event));
     mirrors_.remove_if([](const MirrorEnd& m) { return !m.is_open(); });
@@ -347,9 +349,29 @@ void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) 
     ports_.get<EventPort>().note(std::move(e));
 }
 
-Origin DdsDoor::origin_of(const std::string& source) {
-    auto who = std::make_shared<const std::string>(source.empty() ? "without a name" : one_line(source));
-    return {Door::dds, who, who};
+namespace {
+constexpr std::size_t whereabouts_most = 1024;
+std::string name_for(const std::string& source) { return source.empty() ? "without a name" : one_line(source); }
+}  // namespace
+
+std::string DdsDoor::whereabouts(const Bus::Writer& writer) {
+    auto known = whereabouts_.find(writer.handle);
+    if (known != whereabouts_.end()) return known->second;
+    std::string where = one_line(bus_->whereabouts(writer));
+    if (where.empty()) return where;  // it may be known in a moment
+    if (whereabouts_.size() >= whereabouts_most) whereabouts_.clear();
+    return whereabouts_.emplace(writer.handle, std::move(where)).first->second;
+}
+
+Origin DdsDoor::origin_of(const std::string& source, const Bus::Writer& writer) {
+    Origin o{Door::dds, nullptr, std::make_shared<const std::string>(name_for(source))};
+    const std::string where = whereabouts(writer);
+    o.who = where.empty() ? o.client : std::make_shared<const std::string>(fmt::format("{} ({})", *o.client, where));
+    return o;
+}
+
+AuthorityClient DdsDoor::client_of(const std::string& source) {
+    return AuthorityClient::of({Door::dds, nullptr, std::make_shared<const std::string>(name_for(source))});
 }
 
 bool DdsDoor::to_be_done(const Asked& a) {
@@ -363,7 +385,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
         refuse(a, Reason::out_of_range, "source and id are texts without line ends, control characters and changes of direction");
         return false;
     }
-    const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_(), a.writer);
+    const auto seen = a.renews ? CommandsSeen::Seen{} : seen_.begin(a.source, a.id, clock_(), a.writer.handle);
     switch (seen.stage) {
         case CommandsSeen::Stage::under_way:
             ++counters_.repeated;
@@ -406,7 +428,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
 
 void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const std::string_view name(s.command);
-    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, is_stop(name), seen.writer};
+    const Asked a{s.axis, s.source, s.id, s.instance, s.renew, is_stop(name), {Topic::axis_command, seen.writer}};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -417,12 +439,12 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
         const auto& f = read.faults.front();
         return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
     }
-    if (!a.source.empty()) note_commander(a, {Topic::axis_command, seen.writer});
+    if (!a.source.empty()) note_commander(a, a.writer);
     carry_out(a, *place, std::move(*read.body), s.until_done);
 }
 
 void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen) {
-    const Asked a{s.axis, s.source, s.id, s.instance, false, false, seen.writer};
+    const Asked a{s.axis, s.source, s.id, s.instance, false, false, {Topic::parameter_write, seen.writer}};
     ++counters_.commands;
     if (!to_be_done(a)) return;
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
@@ -439,7 +461,7 @@ void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Se
     auto checked = check_write_now(*place->catalogue, *point, *value,
                                    [&parameters, id = place->id()](Point p) { return parameters.live(id, p).value; });
     if (!checked.fault.empty()) return refuse(a, Reason::out_of_range, checked.fault);
-    note_commander(a, {Topic::parameter_write, seen.writer});
+    note_commander(a, a.writer);
     carry_out(a, *place, WriteParameter{*point, std::move(checked.value)}, false);
 }
 
@@ -455,7 +477,7 @@ void DdsDoor::look_for_gone() {
 
 void DdsDoor::on_gone(const Bus::Writer& writer) {
     for (const auto& source : commanders_.gone(writer))
-        ports_.get<AxisPort>().client_lost(AuthorityClient::of(origin_of(source)), LossCause::dds_deadline);
+        ports_.get<AxisPort>().client_lost(client_of(source), LossCause::dds_deadline);
 }
 
 void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done) {
@@ -463,7 +485,7 @@ void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody 
     c.axis = place.id();
     c.body = std::move(body);
     c.until_done = until_done;
-    c.origin = origin_of(asked.source);
+    c.origin = origin_of(asked.source, asked.writer);
     (void)ports_.get<AxisPort>().submit(std::move(c), [this, asked](const Result& r) {
         seen_.end(asked.source, asked.id, r, clock_());
         tell_again(asked.axis);
@@ -500,6 +522,18 @@ void DdsDoor::refuse(const Asked& asked, Reason reason, std::string text) {
 }
 
 void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
+    if (r.outcome == Outcome::refused && !repeated) {
+        Event e;
+        e.kind = "refused";
+        e.severity = Severity::warning;
+        e.axis = one_line(asked.axis);
+        e.who = *origin_of(asked.source, asked.writer).who;
+        e.door = std::string(axisgate::name_of(Door::dds));
+        e.text = fmt::format("{} ({})", one_line(r.text), axisgate::name_of(r.reason));
+        const std::string where = whereabouts(asked.writer);
+        const std::string host = where.empty() ? e.who : where;
+        refusals_.add(host, no_axis, std::move(e), {}, clock_());
+    }
     axisgate_CommandResult s{};
     put_text(s.gateway, settings_.name);
     put_text(s.axis, asked.axis);
@@ -563,7 +597,7 @@ void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
     if (!seen.alive) {
         // Nobody writes it any more, or its writer's machine is gone: what it streamed is stopped as the axis' fail-safe entry says.
         if (const auto it = set_points_.find(s.axis); it != set_points_.end()) {
-            ports_.get<AxisPort>().client_lost(AuthorityClient::of(origin_of(it->second)), LossCause::set_points_silent);
+            ports_.get<AxisPort>().client_lost(client_of(it->second), LossCause::set_points_silent);
             set_points_.erase(it);
         }
     }
@@ -588,7 +622,7 @@ void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
     }
     read.set_point->axis = place->id();
     read.set_point->at = clock_();
-    read.set_point->origin = origin_of(s.source);
+    read.set_point->origin = origin_of(s.source, {Topic::set_point, seen.writer});
     if (set_points_.size() < set_point_clients_most || set_points_.contains(s.axis)) set_points_[s.axis] = s.source;
     ports_.get<AxisPort>().set_point(std::move(*read.set_point));
 }

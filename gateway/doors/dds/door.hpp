@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/core/event_rows.hpp"
 #include "gateway/doors/dds/bus.hpp"
 #include "gateway/doors/dds/commanders.hpp"
 #include "gateway/doors/dds/commands_seen.hpp"
@@ -50,6 +51,7 @@ public:
     DdsDoor(const DdsDoor&) = delete;
     DdsDoor& operator=(const DdsDoor&) = delete;
 
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return dds_ways; }
     [[nodiscard]] std::string_view name() const override { return "dds"; }
     [[nodiscard]] std::string start() override;
     /// NAME@PARTITION:DOMAIN%INTERFACE: "hall-1@plant:0%lo".
@@ -105,7 +107,10 @@ private:
     void tell_mirrors(std::string_view gateway, std::string_view axis);
     void refuse(const Asked& asked, Reason reason, std::string text);
     void answer(const Asked& asked, const Result& result, bool repeated);
-    [[nodiscard]] static Origin origin_of(const std::string& source);
+    /// Who commands by this name from there, "hall-1 anna (192.0.2.7, press-2, process 4711)"; known by the name alone.
+    [[nodiscard]] Origin origin_of(const std::string& source, const Bus::Writer& writer);
+    [[nodiscard]] std::string whereabouts(const Bus::Writer& writer);
+    [[nodiscard]] static AuthorityClient client_of(const std::string& source);
 
     boost::asio::io_context& context_;
     Needs ports_;
@@ -120,8 +125,10 @@ private:
     Instant gateway_published_{};
     std::set<std::uint64_t> namesakes_;  // instances of other gateways with this one's name
     Commanders commanders_;
-    std::map<std::string, std::string> set_points_;  // who streams, by axis
-    std::vector<Bus::Writer> gone_before_;           // that wrote and were gone before that was read: their command is let through first
+    std::map<std::string, std::string> set_points_;     // who streams, by axis
+    std::vector<Bus::Writer> gone_before_;              // that wrote and were gone before that was read: their command is let through first
+    std::map<std::uint64_t, std::string> whereabouts_;  // by writer; whereabouts_most at most, then they are asked for anew
+    EventRows refusals_;
     Counters counters_;
     std::list<MirrorEnd> mirrors_;
     std::uint64_t sequence_ = 0;  // of the state that was told last

@@ -19,6 +19,11 @@ constexpr std::uint16_t input_registers = bytes_per_axis / 2;
 /// Beyond those of the register writer, whose tickets are the door's as well: place and generation, below 2^48.
 constexpr std::uint64_t own_tickets = std::uint64_t{1} << 48;
 
+std::string text_of_parameter(const Layout& layout, std::uint32_t instance) {
+    const auto* const info = layout.parameter(instance);
+    return fmt::format("write of parameter object {}, {}", instance, info ? info->name : "gone");
+}
+
 /// A word that stops or switches off is taken though much waits for the drives.
 bool only_stops(const CommandBody& body) {
     const auto* d = std::get_if<ProcessData>(&body);
@@ -202,9 +207,12 @@ General AxisValues::set(std::uint32_t instance, cip::View value, cip::Token toke
     const auto place = layout_.place_of(instance);
     if (!place.axis || token == 0 || questions_ >= most_asked) return General::resource_unavailable;
     const auto read = from_bytes(value, layout_.parameter(instance)->type);
-    if (!read) return General::invalid_attribute_value;
-    const auto checked = place.axis->catalogue->check_write(place.point, *read);
-    if (!checked.fault.empty()) return General::invalid_attribute_value;
+    const auto checked = read ? place.axis->catalogue->check_write(place.point, *read) : Catalogue::Checked{};
+    if (!read || !checked.fault.empty()) {
+        writer_.refused(text_of(who.from), place.axis->id, text_of_parameter(layout_, instance),
+                        read ? checked.fault : "the value is none of its type", now);
+        return General::invalid_attribute_value;
+    }
     Asked asked;
     asked.token = token;
     asked.instance = instance;
@@ -251,6 +259,9 @@ void AxisValues::on_result(const Result& result) {
         return;
     }
     --questions_;
+    if (!good(result) && asked.kind == Asked::Kind::write)
+        writer_.refused(*asked.origin.who, asked.axis, text_of_parameter(layout_, asked.instance),
+                        result.text.empty() ? name_of(result.reason) : result.text, now);
     if (!good(result)) return answered_(asked.token, general_of(result.reason == Reason::none ? Reason::internal : result.reason), {}, 0);
     if (asked.kind == Asked::Kind::write) return answered_(asked.token, General::success, {}, 0);
     const auto* const info = layout_.parameter(asked.instance);

@@ -24,6 +24,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "gateway/core/event_rows.hpp"
 #include "gateway/doors/enip/counters.hpp"
 #include "gateway/doors/enip/host_facts.hpp"
 #include "gateway/doors/enip/tcp_session.hpp"
@@ -92,6 +93,7 @@ public:
     ~Impl() override { port_.detach(*this); }
 
     // --- HotDoor
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return enip_ways; }
     [[nodiscard]] std::string_view name() const override { return "enip"; }
     [[nodiscard]] std::vector<std::string> addresses() const override {
         return open_ ? std::vector<std::string>{fmt::format("{}:{}", address_text(bound_), facts_.port)} : std::vector<std::string>{};
@@ -101,6 +103,7 @@ public:
         arm();
     }
     void on_site(const SiteState& site) override;
+    [[nodiscard]] std::vector<std::uint64_t> closed_by(const SiteState& wanted) const override;
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override;
     [[nodiscard]] std::vector<DoorConnection> connections() const override;
     bool close_connection(std::uint64_t number) override;
@@ -108,6 +111,7 @@ public:
     [[nodiscard]] std::string metrics() const override { return metrics_text(adapter_, values_.counters(), accepts_postponed_); }
 
     // --- cip::Output
+    void written(const cip::Values::OwnPlace& place, const cip::Peer& who, Instant now) override;
     void implicit(cip::Endpoint to, cip::View bytes, std::uint8_t dscp) override {
         if (std::exchange(dscp_, dscp) != dscp) mark(implicit_.native_handle(), dscp);
         send(implicit_, to, bytes);
@@ -151,10 +155,14 @@ private:
     void take_explicit(cip::View bytes, cip::Endpoint from, bool broadcast) { adapter_.on_datagram(bytes, from, broadcast, port_.now()); }
     void take_implicit(cip::View bytes, cip::Endpoint from, bool) { adapter_.on_implicit(bytes, from, port_.now()); }
     void arm();
+    [[nodiscard]] Layout layout_of(const SiteState& site, std::uint32_t revision) const;
+    /// Its bytes are the same there.
+    [[nodiscard]] bool lives_on(const cip::Connection& c, const Layout& there) const;
     void on_timer();
 
     DoorPort& port_;
     ServerSettings settings_;
+    EventRows writes_{[this](Event e, AxisId axis) { port_.note(std::move(e), axis); }, "writes"};  // of the device's own objects
     AxisValues values_;
     cip::Adapter adapter_;
     Poller poller_;
@@ -281,20 +289,46 @@ bool Server::Impl::close_connection(std::uint64_t number) {
     return closed;
 }
 
-void Server::Impl::on_site(const SiteState& site) {
-    const std::uint32_t revision = port_.image().mapping_revision;
+Layout Server::Impl::layout_of(const SiteState& site, std::uint32_t revision) const {
     std::vector<LayoutAxis> axes;
     for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
         const AxisId id = site.axis_ids[i];
-        axes.push_back({port_.image().picture(id).number, id, site.site.axes[i].name, port_.catalogue(id)});
+        axes.push_back({static_cast<std::uint16_t>(site.site.axes[i].number), id, site.site.axes[i].name, port_.catalogue(id)});
     }
-    Layout layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
-    const auto goes = [&](const cip::Connection& c) {
-        return c.is_io() && !(values_.layout().same_bytes(c.plan.consumed, layout) && values_.layout().same_bytes(c.plan.produced, layout));
-    };
-    adapter_.connections().close_those(goes, cip::End::by_gateway, port_.now());
+    return Layout(std::move(axes), revision, facts_, windows_of(site), objects_of(site, values_.languages()));
+}
+
+bool Server::Impl::lives_on(const cip::Connection& c, const Layout& there) const {
+    return !c.is_io() || (values_.layout().same_bytes(c.plan.consumed, there) && values_.layout().same_bytes(c.plan.produced, there));
+}
+
+void Server::Impl::on_site(const SiteState& site) {
+    Layout layout = layout_of(site, port_.image().mapping_revision);
+    adapter_.connections().close_those([&](const cip::Connection& c) { return !lives_on(c, layout); }, cip::End::by_gateway, port_.now());
     values_.use(std::move(layout));
     arm();
+}
+
+std::vector<std::uint64_t> Server::Impl::closed_by(const SiteState& wanted) const {
+    std::vector<std::uint64_t> list;
+    const Layout there = layout_of(wanted, 0);
+    const cip::ConnectionManager& manager = adapter_.connections();
+    for (std::size_t i = 0; i < cip::ConnectionManager::most_connections; ++i) {
+        const cip::Connection* const c = manager.at(i);
+        if (c && !lives_on(*c, there)) list.push_back(c->ot_id);
+    }
+    return list;
+}
+
+void Server::Impl::written(const cip::Values::OwnPlace& place, const cip::Peer& who, Instant now) {
+    Event e;
+    e.kind = "ethernet_ip";
+    e.door = std::string(name_of(Door::ethernet_ip));
+    e.who = text_of(who.from);
+    e.text = place.attribute == 0
+                 ? fmt::format("class {:02X}h instance {} was written as a whole, or reset", place.class_id, place.instance)
+                 : fmt::format("class {:02X}h instance {} attribute {} was written", place.class_id, place.instance, place.attribute);
+    writes_.add(address_text(who.from.address), no_axis, std::move(e), {}, now);
 }
 
 void Server::Impl::accept() {
@@ -424,6 +458,7 @@ void Server::Impl::on_timer() {
     adapter_.on_deadline(now);
     if (next_sweep_ <= now) {
         values_.sweep(now);
+        writes_.flush(now);
         next_sweep_ = now + sweep_period;
         if (!paused_) (void)spare_.refill();  // who waits comes first
         if (std::exchange(paused_, false)) accept();

@@ -44,6 +44,8 @@ std::string Counters::text() const {
     plain("connections_gave_way_total", "counter", "Connections closed to make room for others.", connections_gave_way);
     plain("connections_timed_out_total", "counter", "Connections closed because a client was too slow or idle.", connections_timed_out);
     plain("malformed_total", "counter", "Requests that were not HTTP, or over a bound.", malformed);
+    plain("refusals_counted_only_total", "counter", "Refusals (401, 403, 409) that have no event of their own: a rate bounds those.",
+          refusals_counted_only);
     plain("tls_handshakes_total", "counter", "TLS handshakes that came to their end.", tls_handshakes);
     plain("tls_handshakes_failed_total", "counter", "TLS handshakes that failed or took too long.", tls_handshakes_failed);
     plain("received_bytes_total", "counter", "Bytes received.", bytes_in);

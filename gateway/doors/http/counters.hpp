@@ -23,6 +23,7 @@ struct Counters {
     std::uint64_t connections_accepted = 0, connections_refused = 0, connections_timed_out = 0, connections_gave_way = 0;
     std::uint64_t malformed = 0;                                  ///< requests that were not HTTP, or over a bound
     std::uint64_t tls_handshakes = 0, tls_handshakes_failed = 0;  ///< failed: also those that did not come to an end in time
+    std::uint64_t refusals_counted_only = 0;                      ///< without an event of their own
     std::uint64_t bytes_in = 0, bytes_out = 0;
     std::uint64_t connections = 0;     ///< open now, live-feed clients included
     std::uint64_t stream_clients = 0;  ///< open now

@@ -56,6 +56,7 @@ struct Context {
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
     /// An answer that takes long is made in pieces by it, each in its turn with what others ask. Here: at once.
     std::function<void(std::function<void()>)> later = [](const std::function<void()>& piece) { piece(); };
+    std::function<Instant()> now = [] { return Instant{std::chrono::steady_clock::now().time_since_epoch()}; };
 };
 
 /// One request on its way. Lives only as long as the handler's call.
@@ -170,6 +171,7 @@ Handled get_modbus_door(Call&, ModbusPort&);
 Handled change_modbus_door(Call&, ModbusPort&);
 // --- handlers_connections.cpp -----------------------------------------------------------------------------------------
 Handled list_connections(Call&, ConnectionPort&);
+[[nodiscard]] boost::json::object document_of(const ClientConnection& connection);
 Handled close_connection(Call&, ConnectionPort&);
 // --- handlers_authority.cpp -------------------------------------------------------------------------------------------
 Handled list_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
@@ -252,15 +254,15 @@ Handled get_parameter_history(Call&, const ParameterPort&, const SitePort&);
 Handled get_parameters_csv(Call&, const ParameterPort&, const SitePort&);
 Handled put_parameters_csv(Call&, AxisPort&, const ParameterPort&, const SitePort&);
 // --- handlers_stage.cpp -----------------------------------------------------------------------------------------------
-Handled stage_site(Call&, const ClockPort&, const SitePort&, StagePort&);
-Handled get_stage(Call&, const SitePort&, const StagePort&);
+Handled stage_site(Call&, const ClockPort&, ConnectionPort&, const SitePort&, StagePort&);
+Handled get_stage(Call&, ConnectionPort&, const SitePort&, const StagePort&);
 Handled discard_stage(Call&, StagePort&);
 Handled apply_stage(Call&, const SitePort&, StagePort&);
 Handled confirm_stage(Call&, const ClockPort&, const SitePort&, StagePort&);
 Handled roll_back_stage(Call&, const SitePort&, StagePort&);
 Handled list_site_history(Call&, const SitePort&);
 Handled get_site_revision(Call&, const SitePort&);
-Handled restore_site_revision(Call&, const ClockPort&, const SitePort&, StagePort&);
+Handled restore_site_revision(Call&, const ClockPort&, ConnectionPort&, const SitePort&, StagePort&);
 Handled get_backup(Call&, BackupPort&, EventPort&);
 Handled put_backup(Call&, BackupPort&);
 Handled get_waiting_backup(Call&, BackupPort&);

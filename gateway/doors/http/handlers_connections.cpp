@@ -15,6 +15,8 @@ Response no_content() {
     return r;
 }
 
+}  // namespace
+
 json::object document_of(const ClientConnection& c) {
     json::array axes;
     for (const auto& axis : c.axes)
@@ -28,7 +30,6 @@ json::object document_of(const ClientConnection& c) {
             {"axes", std::move(axes)},
             {"commands", c.commands}};
 }
-}  // namespace
 
 Handled list_connections(Call& c, ConnectionPort& connections) {
     connections.list_connections([respond = c.respond](const std::optional<std::vector<ClientConnection>>& list) {

@@ -11,13 +11,15 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-Response stage_answer(const SitePort& sites, const StagePort& staging, const StageOwner& owner, unsigned status = 200) {
+/// `closes`: connections that a staged site would close; nothing: nobody could say.
+Response stage_answer(const SitePort& sites, const StagePort& staging, const StageOwner& owner,
+                      const ConnectionPort::List& closes = std::vector<ClientConnection>{}) {
     const auto now = sites.site();
     const auto& stage = staging.site_stage();
     json::object o{{"state", name_of(stage.state())}, {"id", json::value()},        {"by", text_or_null(stage.by())},
                    {"client", json::value()},         {"staged_at", json::value()}, {"base_revision", json::value()},
                    {"revision", now->revision},       {"faults", json::array()},    {"diff", json::array()},
-                   {"disturbs", json::array()},       {"confirm_by", json::value()}};
+                   {"disturbs", json::array()},       {"closes", json::array()},    {"confirm_by", json::value()}};
     if (stage.state() != SiteStage::State::none) {
         o["id"] = owner.id(stage);
         o["client"] = text_or_null(owner.applier(stage).empty() ? owner.stager(stage) : owner.applier(stage));
@@ -31,11 +33,24 @@ Response stage_answer(const SitePort& sites, const StagePort& staging, const Sta
         for (const auto& a : disturbed_axes(now->site, stage.site()))
             axes.emplace_back(a);
         o["disturbs"] = std::move(axes);
+        json::array connections;
+        for (const auto& c : closes.value_or(std::vector<ClientConnection>{}))
+            connections.push_back(document_of(c));
+        o["closes"] = closes ? json::value(std::move(connections)) : json::value(nullptr);
     }
-    Response r = json_response(o, status);
+    Response r = json_response(o);
     r.headers.set("ETag", site_tag(now->revision));
     put_revision(r, *now);
     return r;
+}
+
+/// The same of a site that may be staged: the doors are asked which connections it would close.
+Handled staged_answer(const Call& c, ConnectionPort& connections, const SitePort& sites, const StagePort& staging) {
+    const auto& stage = staging.site_stage();
+    if (stage.state() != SiteStage::State::staged) return stage_answer(sites, staging, *c.context.stages);
+    connections.closed_by(stage.site(), [&sites, &staging, owner = c.context.stages, respond = c.respond](
+                                            const ConnectionPort::List& closes) { respond(stage_answer(sites, staging, *owner, closes)); });
+    return {gateway_limit, stage_answer(sites, staging, *c.context.stages, std::nullopt)};
 }
 
 Response conflict(std::string text) { return problem(409, "conflict", std::move(text)); }
@@ -63,7 +78,8 @@ std::optional<Response> refuse_taken(const Call& c, const StagePort& staging) {
     return to_response(p);
 }
 
-Handled stage_document(Call& c, const ClockPort& clock, const SitePort& sites, StagePort& staging, const json::value& document) {
+Handled stage_document(Call& c, const ClockPort& clock, ConnectionPort& connections, const SitePort& sites, StagePort& staging,
+                       const json::value& document) {
     const auto now = sites.site();
     if (auto refusal = refuse_taken(c, staging)) return *refusal;
     if (auto refusal = precondition(c, sites, *now, c.context.settings.require_if_match)) return *refusal;
@@ -73,7 +89,7 @@ Handled stage_document(Call& c, const ClockPort& clock, const SitePort& sites, S
     if (!site || !faults.empty()) return invalid(faults_for(faults, "", true));
     if (auto fault = staging.stage_site(std::move(*site), now->revision, c.origin()); !fault.empty()) return conflict(std::move(fault));
     c.context.stages->staged(staging.site_stage(), c.origin(), clock.now_unix_ns());
-    return stage_answer(sites, staging, *c.context.stages);
+    return staged_answer(c, connections, sites, staging);
 }
 
 auto show_after(const SitePort& sites, const StagePort& staging, std::shared_ptr<StageOwner> owner, Respond respond) {
@@ -85,15 +101,19 @@ auto show_after(const SitePort& sites, const StagePort& staging, std::shared_ptr
 const char* const in_time = "it was not done in time: look at /site/stage before trying again";
 }  // namespace
 
-Handled stage_site(Call& c, const ClockPort& clock, const SitePort& sites, StagePort& staging) {
-    return stage_document(c, clock, sites, staging, c.body);
+Handled stage_site(Call& c, const ClockPort& clock, ConnectionPort& connections, const SitePort& sites, StagePort& staging) {
+    return stage_document(c, clock, connections, sites, staging, c.body);
 }
-Handled get_stage(Call& c, const SitePort& sites, const StagePort& staging) { return stage_answer(sites, staging, *c.context.stages); }
+Handled get_stage(Call& c, ConnectionPort& connections, const SitePort& sites, const StagePort& staging) {
+    return staged_answer(c, connections, sites, staging);
+}
 
 Handled discard_stage(Call&, StagePort& staging) {
+    const bool nothing = staging.site_stage().state() == SiteStage::State::none;
     if (auto fault = staging.discard_stage(); !fault.empty()) return conflict(std::move(fault));
     Response r;
     r.status = 204;
+    r.changed_nothing = nothing;
     return r;
 }
 
@@ -191,10 +211,10 @@ Handled get_site_revision(Call& c, const SitePort& sites) {
     return document ? json_response(*document) : nothing_named("revision", c.names[0]);
 }
 
-Handled restore_site_revision(Call& c, const ClockPort& clock, const SitePort& sites, StagePort& staging) {
+Handled restore_site_revision(Call& c, const ClockPort& clock, ConnectionPort& connections, const SitePort& sites, StagePort& staging) {
     const auto document = document_of_revision(c, sites);
     if (!document) return nothing_named("revision", c.names[0]);
-    return stage_document(c, clock, sites, staging, *document);
+    return stage_document(c, clock, connections, sites, staging, *document);
 }
 
 }  // namespace axisgate::http

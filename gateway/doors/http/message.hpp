@@ -45,6 +45,11 @@ struct Response {
     std::string body;
     /// The body is only measured, not sent (answers to HEAD, and 304).
     bool without_body = false;
+    bool changed_nothing = false;  ///< though it is a good answer to what could have: there is nothing to write down
+    /// Of an error, what the body says, for whoever writes it down.
+    struct Told {
+        std::string reason, detail, axis;
+    } told{};
 };
 
 using Respond = std::function<void(Response)>;

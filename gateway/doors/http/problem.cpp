@@ -57,6 +57,7 @@ Response to_response(const Problem& p) {
     r.headers.set("Content-Type", "application/problem+json");
     if (p.status == 503) r.headers.set("Retry-After", "1");
     r.body = json_text(o);
+    r.told = {p.reason, shortened(p.detail), p.axis};
     return r;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "gateway/doors/http/access_gate.hpp"
+#include "gateway/doors/http/audit.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/hosts.hpp"
 
@@ -36,6 +37,9 @@ struct Route {
     /// Names that its query may have, with blanks between them; any other is refused with 400, so that nobody believes in a `dry_run` or
     /// a filter that does not exist. What a value may be is the handler's.
     std::string_view query = {};
+    /// The event that a good answer leaves: what no handler, service or engine tells of. In the text `{}` is the next name of the path,
+    /// `{word}` a text of the body.
+    std::string_view event_kind = {}, event_text = {};
     bool commands = false;  ///< may set something in motion: the connection is then a path on which it is stopped
 
     [[nodiscard]] constexpr Route asks(std::string_view names) const {
@@ -46,6 +50,12 @@ struct Route {
     [[nodiscard]] constexpr Route moves() const {
         Route r = *this;
         r.commands = true;
+        return r;
+    }
+    [[nodiscard]] constexpr Route leaves(std::string_view kind, std::string_view text) const {
+        Route r = *this;
+        r.event_kind = kind;
+        r.event_text = text;
         return r;
     }
     [[nodiscard]] constexpr Route needs(Role role) const {
@@ -67,13 +77,13 @@ struct Admission {
 
 class Router {
 public:
-    explicit Router(Context context) : context_(std::move(context)) {}
+    explicit Router(Context context) : context_(std::move(context)), audit_(std::make_shared<Audit>(context_.ports.get<EventPort>())) {}
 
     /// `respond` is called at most once, later, and only if the answer is not in the result. It may be called after the promise's limit:
     /// then it is the caller's to ignore it.
     [[nodiscard]] Handled handle(const Request& request, Respond respond) const;
     /// Everything that is decided without the body: host, route, role, CSRF, origin, announced length, query, media type. A refusal here is
-    /// the one that handle() would give. Changes nothing: no session is renewed by it.
+    /// the one that handle() would give, and is written down as there. Changes nothing: no session is renewed by it.
     [[nodiscard]] Admission admit(const Request& head) const;
     /// Whether it may set something in motion, or stop it: such a request is taken up before all others.
     [[nodiscard]] bool moves(const Request& request) const;
@@ -83,10 +93,12 @@ public:
     [[nodiscard]] std::optional<Origin> commander_of(const Request& request) const;
     /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
+    [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
 
 private:
     struct Entry;
-    [[nodiscard]] Handled dispatch(const Request& request, std::optional<Target> target, const Respond& respond) const;
+    [[nodiscard]] Handled dispatch(const Request& request, std::optional<Target> target, const Respond& respond, Audit::Asked& asked) const;
+    void fill(Audit::Asked& asked, const Request& request, const Entry& entry) const;
     [[nodiscard]] Entry enter(const Request& head, std::optional<Target> target, bool touch) const;
     [[nodiscard]] std::size_t most_bytes(const Route& route, const Identity& identity) const noexcept;
     [[nodiscard]] std::optional<Response> check_host(const Request& request) const;
@@ -94,6 +106,7 @@ private:
     static void finish(Response& response, bool is_head);
 
     Context context_;
+    std::shared_ptr<Audit> audit_;  // kept by answers that come late
 };
 
 }  // namespace axisgate::http

@@ -34,7 +34,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Services& services;
     Router own_router;
     tcp::acceptor acceptor;
-    asio::steady_timer hub_timer, pause_timer, stop_timer;
+    asio::steady_timer hub_timer, pause_timer, stop_timer, audit_timer;
     StreamHub own_hub;     // after the timers: it may ask for them at once
     bool telling = false;  // a piece of the live feed's work waits for its turn
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
@@ -46,14 +46,19 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
           own_settings(std::move(s)),
           context(c),
           services(all),
-          own_router(Context{ports, own_settings, std::move(asset), [this] { return own_counters.text(); }, all.site_changes, all.recipes,
-                             all.jobs, all.access, all.alarms, all.rehearsals, std::make_shared<AxisTexts>(), all.stages,
-                             std::make_shared<ClientsSeen>(), all.writes,
+          own_router(Context{ports, own_settings, std::move(asset),
+                             [this] {
+                                 own_counters.refusals_counted_only = own_router.audit().counted_only();
+                                 return own_counters.text();
+                             },
+                             all.site_changes, all.recipes, all.jobs, all.access, all.alarms, all.rehearsals, std::make_shared<AxisTexts>(),
+                             all.stages, std::make_shared<ClientsSeen>(), all.writes,
                              [this](std::function<void()> piece) { later->put(std::move(piece)); }}),
           acceptor(c),
           hub_timer(c),
           pause_timer(c),
           stop_timer(c),
+          audit_timer(c),
           own_hub(ports, own_settings, own_counters, [this] { rearm(); }) {
         budget.most = own_settings.max_held_bytes;
         own_hub.recipes_now = [list = all.recipes] { return list->in_progress(); };
@@ -188,6 +193,17 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         });
     }
 
+    /// Refusals that are only counted are told when their row has lasted, though nobody asks any more.
+    void tell_refusals_later() {
+        audit_timer.expires_after(std::chrono::seconds(10));
+        audit_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
+            const auto me = self.lock();
+            if (ec || !me || me->stopping) return;
+            me->own_router.audit().flush(steady_instant());
+            me->tell_refusals_later();
+        });
+    }
+
     // --- the end -------------------------------------------------------------------------------------------------------
     void stop(std::function<void()> then) {
         if (stopping) return;
@@ -196,6 +212,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         ErrorCode ignored;
         acceptor.close(ignored);
         pause_timer.cancel();
+        audit_timer.cancel();
         std::vector<std::shared_ptr<Session>> all;
         for (const auto& [key, session] : sessions)
             all.push_back(session);
@@ -252,6 +269,7 @@ Server::~Server() {
     parts_->pause_timer.cancel();
     parts_->stop_timer.cancel();
     parts_->hub_timer.cancel();
+    parts_->audit_timer.cancel();
     parts_->services.unlisten(parts_->own_hub);
     parts_->abort_all();
     parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the ports live
@@ -278,6 +296,7 @@ std::string Server::start() {
                            parts_->own_settings.bind, ec.message());
     }
     parts_->accept();
+    parts_->tell_refusals_later();
     return {};
 }
 

@@ -25,6 +25,7 @@ public:
     /// The owners of the ports, and the services, outlive the server. Without users among the services this machine alone is let in.
     Server(boost::asio::io_context& context, const Ports& ports, Services& services, Settings settings, AssetLookup asset);
     ~Server() override;
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return http_ways; }
     [[nodiscard]] std::string_view name() const override { return secure() ? "https" : "http"; }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -76,6 +76,7 @@ public:
     }
 
     // --- HotDoor
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return modbus_rtu_ways; }
     [[nodiscard]] std::string_view name() const override { return "modbus_rtu"; }
     [[nodiscard]] std::vector<std::string> addresses() const override { return {settings_.text}; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }

@@ -77,6 +77,7 @@ public:
     ~Impl() override { port_.detach(*this); }
 
     // --- HotDoor
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
     [[nodiscard]] std::string_view name() const override { return "modbus"; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override {

@@ -30,7 +30,7 @@ Adapter::Adapter(Values& values, Output& output, std::uint16_t incarnation)
       own_(values),
       tcp_ip_(values),
       ethernet_link_(values),
-      router_(manager_),
+      router_(manager_, output),
       handles_(std::uint32_t{incarnation} << 16) {
     for (Object* o :
          std::initializer_list<Object*>{&manager_, &identity_, &assembly_, &parameter_, &tcp_ip_, &ethernet_link_, &qos_, &configuration_})

@@ -15,7 +15,7 @@
 
 namespace axisgate::cip {
 
-struct Output : Carrier {
+struct Output : Carrier, DeviceListener {
     virtual void stream(SessionKey session, View bytes) = 0;
     /// From the explicit port.
     virtual void datagram(Endpoint to, View bytes) = 0;

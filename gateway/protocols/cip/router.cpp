@@ -9,6 +9,12 @@
 namespace axisgate::cip {
 namespace {
 bool names(const Path& path, std::uint32_t class_id) { return path.class_id == class_id && path.instance() == 1u; }
+/// Axes and connections tell of themselves.
+bool changes_the_device(std::uint32_t which, std::uint8_t what, const Response& r) {
+    if (which == class_id::assembly || which == class_id::parameter || which == class_id::connection_manager) return false;
+    if (what == service::set_list) return r.good() || r.general == General::attribute_list_error;  // those before the faulty one
+    return r.good() && (what == service::set_single || what == service::set_all || what == service::reset);
+}
 std::uint8_t service_of(View message) { return message.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(message[0] & 0x7F); }
 
 /// The message inside, where the route ends here.
@@ -75,6 +81,8 @@ Response Router::route(const Request& request, const Path& path, Context& contex
     if (own) own_->name(*path.class_id);
     Object& object = own ? *own_ : **it;
     Response r = object.serve(request.service, path, request.data, context);
+    if (!own && changes_the_device(*path.class_id, request.service, r))
+        listener_.written({*path.class_id, path.instance().value_or(0), path.attribute.value_or(0)}, context.peer, context.now);
     if (r.data.size() > context.most_answer) return Response::of(General::reply_data_too_large);
     return r;
 }

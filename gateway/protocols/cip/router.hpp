@@ -14,7 +14,7 @@ class Router final : public Object {
 public:
     static constexpr std::size_t most_parts = 64;  ///< requests in one Multiple_Service_Packet
 
-    explicit Router(const Connections& connections) : connections_(connections) { add(*this); }
+    Router(const Connections& connections, DeviceListener& listener) : connections_(connections), listener_(listener) { add(*this); }
     /// The object outlives the router.
     void add(Object& object);
     /// Who is asked for a class that no other object has.
@@ -47,6 +47,7 @@ private:
     void several(View data, Parts& into, Context& context);
 
     const Connections& connections_;
+    DeviceListener& listener_;
     std::vector<Object*> objects_;  // by class
     OwnObject* own_ = nullptr;
 };

@@ -168,4 +168,11 @@ struct Values : Description {
     }
 };
 
+/// Hears of what is written to objects that are the device's own: how it marks its packets, how long it waits for a silent session.
+struct DeviceListener {
+    /// By Set_Attribute_Single and its like, or a reset. `attribute` 0: several.
+    virtual void written(const Values::OwnPlace& /*place*/, const Peer& /*who*/, Instant /*now*/) {}
+    virtual ~DeviceListener() = default;
+};
+
 }  // namespace axisgate::cip

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "gateway/core/text.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -73,7 +74,7 @@ std::string Rehearsals::start(std::vector<std::string> axes, const Origin& origi
     for (const auto& name : axes) {
         if (std::ranges::find(known, name, &AxisSpec::name) == known.end()) return fmt::format("there is no axis {}", name);
         for (const LossCause cause : loss_causes) {
-            if (cause == LossCause::set_points_silent && !streams(*run.site, name)) {
+            if (of_streams_alone(cause) && !streams(*run.site, name)) {
                 run.left_out.push_back(name);
             } else {
                 run.left.emplace_back(name, cause);

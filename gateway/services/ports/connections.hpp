@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gateway/core/command.hpp"
+#include "gateway/site/site.hpp"
 
 namespace axisgate {
 
@@ -25,8 +26,11 @@ struct ClientConnection {
 class ConnectionPort {
 public:
     virtual ~ConnectionPort() = default;
+    using List = std::optional<std::vector<ClientConnection>>;
     /// By id. Nothing: the hot thread is too busy to say.
-    virtual void list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) = 0;
+    virtual void list_connections(std::function<void(List)> then) = 0;
+    /// Those of them that would be closed if this site were put in force.
+    virtual void closed_by(Site wanted, std::function<void(List)> then) = 0;
     enum class Closed : std::uint8_t { done, unknown, busy };
     /// What it commanded is lost, and the axes do what their `fail_safe` says. `unknown`: there is no connection of this id (any more).
     virtual void close_connection(std::string id, Origin origin, std::function<void(Closed)> then) = 0;

@@ -49,6 +49,7 @@ struct AxisValuesBench final : HotDoor {
         std::vector<LayoutAxis> axes{{41, far, "far", &*catalogue}, {1, one, "feeder", &*catalogue}, {3, three, "slide", &*catalogue}};
         values.use(Layout(std::move(axes), 0x12345678, {}));
     }
+    std::span<const WayIn> ways_in() const override { return enip_ways; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
 

@@ -53,6 +53,7 @@ struct WindowBench : HotDoor {
         for (const AxisId id : {one, two})
             port.edit(id, [](AxisPicture& p) { p.flags = flag_online | flag_referenced; });
     }
+    std::span<const WayIn> ways_in() const override { return enip_ways; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "gateway/services/axis_place.hpp"
 #include "gateway/services/ports/backup.hpp"
 #include "gateway/services/ports/modbus.hpp"
 #include "gateway/services/ports/registers.hpp"
@@ -82,7 +83,14 @@ private:
 class FakeConnections : public ConnectionPort {
 public:
     std::vector<ClientConnection> open{{"enip-65537", "enip", "exclusive_owner", "192.0.2.7:50000", 1, 2, {"feeder"}, true}};
-    void list_connections(std::function<void(std::optional<std::vector<ClientConnection>>)> then) override { then(open); }
+    void list_connections(std::function<void(List)> then) override { then(open); }
+    void closed_by(Site wanted, std::function<void(List)> then) override {
+        auto list = open;
+        std::erase_if(list, [&](const auto& c) {
+            return std::ranges::all_of(c.axes, [&](const auto& name) { return index_of_name(wanted.axes, name).has_value(); });
+        });
+        then(std::move(list));
+    }
     void close_connection(std::string id, Origin, std::function<void(Closed)> then) override {
         then(std::erase_if(open, [&](const auto& c) { return c.id == id; }) > 0 ? Closed::done : Closed::unknown);
     }

@@ -139,7 +139,11 @@ TEST_F(RecorderOverHttp, ARecordingIsMadeHandedOutRenamedAndDeleted) {
     EXPECT_EQ(call("GET", "/api/v1/recorder/recordings/crash", "", {{"Accept", "application/json"}}).at("name"), "crash");
     EXPECT_EQ(call("PATCH", "/api/v1/recorder/recordings/crash", R"({"name":"kept"})").at("name"), "kept");
     EXPECT_EQ(call("GET", "/api/v1/recorder/recordings").object().at("recordings").as_array().size(), 1u);
+    EXPECT_EQ(gateway.noted.back().text, "recording crash was renamed to kept");
     EXPECT_EQ(call("DELETE", "/api/v1/recorder/recordings/kept").status, 204u);
+    EXPECT_EQ(gateway.noted.back().text, "recording kept was deleted");
+    EXPECT_EQ(gateway.noted.back().kind, "recording");
+    EXPECT_EQ(gateway.noted.back().who, "127.0.0.1:51123");
     gateway.next_fault = {RecordingFault::Kind::no_room, "the disk is full"};
     const auto full = call("POST", "/api/v1/recorder/recordings", R"({"name":"crash"})");
     EXPECT_EQ(full.status, 507u);

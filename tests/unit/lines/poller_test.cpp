@@ -45,14 +45,17 @@ TEST(Poller, WhoIsReadyWhileOthersAreServedIsServedInTheSameTurn) {
     boost::asio::io_context io;
     const Pairs pairs(3);
     std::vector<std::uint64_t> served;
-    Poller poller(io, [&](std::span<const epoll_event> events) {
-        for (const epoll_event& e : events) {
-            const std::uint64_t i = e.data.u64;
-            served.push_back(i);
-            pairs.take(i);
-            if (i + 1 < pairs.ours.size()) pairs.ask(i + 1);  // as one client asks behind the other
-        }
-    });
+    Poller poller(
+        io,
+        [&](std::span<const epoll_event> events) {
+            for (const epoll_event& e : events) {
+                const std::uint64_t i = e.data.u64;
+                served.push_back(i);
+                pairs.take(i);
+                if (i + 1 < pairs.ours.size()) pairs.ask(i + 1);  // as one client asks behind the other
+            }
+        },
+        test_clock);  // a turn ends by its time, too: here none passes
     for (std::size_t i = 0; i < pairs.ours.size(); ++i)
         ASSERT_TRUE(poller.add(pairs.ours[i], i, EPOLLIN));
     EXPECT_FALSE(poller.serve_now());

@@ -46,6 +46,7 @@ struct ResponderDoor : HotDoor {
     ~ResponderDoor() override { list.detach(*this); }
     ResponderDoor(const ResponderDoor&) = delete;
     ResponderDoor& operator=(const ResponderDoor&) = delete;
+    std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
     std::string_view name() const override { return "modbus"; }
     void on_result(const Result& r) override { responder.writer().on_result(r); }
 

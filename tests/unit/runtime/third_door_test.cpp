@@ -23,6 +23,7 @@ using namespace std::chrono_literals;
 struct ThirdHotDoor final : HotDoor {
     explicit ThirdHotDoor(DoorPort& port) : port(port), number(port.attach(*this)) {}
     ~ThirdHotDoor() override { port.detach(*this); }
+    std::span<const WayIn> ways_in() const override { return {}; }
     std::string_view name() const override { return "third"; }
     void on_result(const Result& result) override { (good(result) ? good_results : bad_results).fetch_add(1); }
     void on_site(const SiteState& state) override { axis = state.axis_ids.at(0), sites.fetch_add(1); }
@@ -43,6 +44,7 @@ struct ThirdHotDoor final : HotDoor {
 /// A door of the service thread.
 struct ThirdServiceDoor final : ServiceDoor, SiteListener, SampleListener {
     explicit ThirdServiceDoor(const PortSet<AxisPort, ParameterPort, SitePort>& ports) : ports(ports) {}
+    std::span<const WayIn> ways_in() const override { return {}; }
     std::string_view name() const override { return "third"; }
     std::string start() override { return ports.get<SitePort>().listen(this), ports.get<ParameterPort>().listen(this), std::string(); }
     std::string address() const override { return "nowhere"; }

@@ -2210,6 +2210,8 @@ export interface components {
             diff: components["schemas"]["SiteDifference"][];
             /** @description axes that lose their connection by it, if only for a moment; those of them that move are stopped first */
             disturbs: string[];
+            /** @description connections that applying it closes: those of EtherNet/IP whose own bytes would be others. All others live on. An owner's axes then do what their `fail_safe` says. null: the doors did not say in time */
+            closes: components["schemas"]["ClientConnection"][] | null;
             /**
              * Format: date-time
              * @description until then it must be confirmed; only while it is on trial
@@ -2628,8 +2630,13 @@ export interface components {
              */
             manners?: components["schemas"]["LineTiming"];
         };
-        /** @description 1 to 64 letters, digits, - _ and . */
+        /** @description 1 to 64 letters, digits, - _ and . ; not "." or "..", which no path can name */
         Name: string;
+        /**
+         * @description 1 to 64 letters, digits, - _ and . ; the first one is a letter or digit. One that a site has from before this rule stays until it is changed
+         * @example feeder
+         */
+        AxisName: string;
         LineSpec: components["schemas"]["LineFields"] & Record<string, never>;
         /** @description a whole line; `name` may be left out, and `status` and `drives` are ignored */
         LineChange: components["schemas"]["LineFields"] & Record<string, never>;
@@ -2785,7 +2792,7 @@ export interface components {
             readonly status: components["schemas"]["DriveStatus"];
         };
         AxisFields: {
-            name?: components["schemas"]["Name"];
+            name?: components["schemas"]["AxisName"];
             drive?: string;
             /**
              * @description axis within the drive
@@ -3430,7 +3437,7 @@ export interface components {
             id: number;
             at: components["schemas"]["Time"];
             severity: components["schemas"]["Severity"];
-            /** @description alarm, write, line, presence, site, command, refused (over Modbus), modbus_rtu (its port), input, snapshot, ... */
+            /** @description alarm, write, line, presence, site, command, refused (by any door), modbus_rtu (its port), input, snapshot, ... */
             kind: string;
             axis: string | null;
             drive: string | null;

@@ -20,6 +20,8 @@ export interface Stage {
   diff?: StageDiff[];
   /** Axes that lose their connection for a moment. */
   disturbs?: string[];
+  /** Connections that applying closes; null: the doors did not say. */
+  closes?: { id: string; kind: string; peer: string; axes: string[] }[] | null;
   /** The gateway's clock; only while applied. */
   confirm_by?: string | null;
   /** Who staged or applied it: the name and where from. */

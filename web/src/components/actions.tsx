@@ -78,6 +78,7 @@ function ActionForm({ axis, command }: { axis: string; command: CatalogueCommand
   return (
     <form
       class="form"
+      data-action={command.id}
       onSubmit={(e) => {
         e.preventDefault();
         run();

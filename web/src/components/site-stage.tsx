@@ -13,7 +13,7 @@ import { useBarred } from './gate';
 import { Icon } from './icon';
 import { KeepOrBack } from './keep-or-back';
 import { keepBarred, useTrialRest } from './trial';
-import { appliedText, applyBarred, disturbedText } from '../text/trial';
+import { appliedText, applyBarred, closedText, disturbedText } from '../text/trial';
 
 const usual = persisted('site.within_s', '60');
 const mostShown = 200;
@@ -52,6 +52,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
   const ready = inView ? (stage.faults?.length ?? 0) === 0 : checked && faults.length === 0 && theirs === null && changes.length > 0;
   const list = inView ? (stage.faults ?? []) : checked ? faults : [];
   const asked = useSignal(false);
+  const closed = closedText(draft.closes.value);
   const disturbed = disturbedText(draft.disturbs.value, draft.base.value, draft.draft.value);
 
   if (stage.state === 'applied') {
@@ -137,6 +138,7 @@ export function SiteStage({ draft, within = usual }: { draft: SiteDraft; within?
         </ul>
       )}
       {checked && disturbed && <p class="form-told" data-field="disturbs">{disturbed}</p>}
+      {checked && closed && <p class="form-told" data-field="closes">{closed}</p>}
       <div class="form-foot">
         {changes.length > 0 && !inView && (
           <button type="button" class={`button${ready ? '' : ' primary'}`} disabled={busy || theirs !== null} {...no} onClick={() => void draft.check()}>

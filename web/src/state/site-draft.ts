@@ -38,6 +38,8 @@ export class SiteDraft {
   readonly faults = signal<SiteFault[]>([]);
   readonly checked = signal<Site | null>(null);
   readonly disturbs = signal<string[]>([]);
+  /** Connections that applying closes, as the gateway tells them; null: it could not say. */
+  readonly closes = signal<NonNullable<Stage['closes']> | null>([]);
   readonly reported = signal<Reported>(quiet);
   /** Somebody else's stage stands in the way of mine: what is staged, and whether it is in view to be applied. */
   readonly rival = signal<{ inView: boolean } | null>(null);
@@ -169,7 +171,7 @@ export class SiteDraft {
           const stage = await this.door.putStage(draft, this.tag, replace);
           this.offersStage.value = true;
           this.mine(stage);
-          this.judge(draft, stage.faults ?? [], stage.disturbs ?? []);
+          this.judge(draft, stage.faults ?? [], stage.disturbs ?? [], stage.closes);
           return this.verdict();
         } catch (error) {
           if (!absent(asProblem(error))) throw error;
@@ -213,7 +215,7 @@ export class SiteDraft {
     });
   /** Check, apply and keep, one after the other, where nothing that runs is disturbed by it; else it ends after the check, and what is disturbed is shown. */
   async applyAndKeep(): Promise<boolean> {
-    if (!(await this.check()) || this.disturbs.peek().length > 0) return false;
+    if (!(await this.check()) || this.disturbs.peek().length > 0 || this.closes.peek()?.length !== 0) return false;
     // The trial lasts as long as the answer is on its way: a page that is cut off by its own change cannot keep it.
     return (await this.apply(60)) && (this.stage.peek().state !== 'applied' || (await this.confirm()));
   }
@@ -250,7 +252,7 @@ export class SiteDraft {
         const stage = await this.door.restore(revision);
         this.edit(document);
         this.mine(stage);
-        this.judge(document, stage.faults ?? [], stage.disturbs ?? []);
+        this.judge(document, stage.faults ?? [], stage.disturbs ?? [], stage.closes);
       } catch (error) {
         // The way on is the same as for every draft: check it in place of theirs.
         if (asProblem(error).is('stage_taken')) this.edit(document);
@@ -285,10 +287,11 @@ export class SiteDraft {
     if (n > 0) throw new Error(faultText(n));
     return checkedText;
   }
-  private judge(site: Site, faults: SiteFault[], disturbs: string[]): void {
+  private judge(site: Site, faults: SiteFault[], disturbs: string[], closes: Stage['closes'] = []): void {
     this.faults.value = faults;
     this.checked.value = site;
     this.disturbs.value = disturbs;
+    this.closes.value = closes;
   }
   private clear(): void {
     this.judge({}, [], []);

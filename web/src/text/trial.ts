@@ -26,6 +26,14 @@ export function disturbedText(disturbs: readonly string[], before: Site, after: 
   return published.filter(Boolean).join(' ');
 }
 
+/** Connections that applying closes: those whose own bytes would be others. */
+export function closedText(closes: Stage['closes']): string {
+  if (closes === null) return t('Which connections applying closes could not be asked; check again.');
+  if (!closes || closes.length === 0) return '';
+  const list = closes.map((c) => (c.axes.length > 0 ? t('{peer} (commands {axes})', { peer: c.peer, axes: c.axes.join(', ') }) : c.peer));
+  return t('Applying closes EtherNet/IP connections, because their bytes change: {list}.', { list: list.join('; ') });
+}
+
 /** What to do before Apply can be pressed. */
 export function applyBarred(why: { inView: boolean; theirs: boolean; faults: boolean }): string {
   if (why.theirs) return t('Decide first about what somebody else has changed.');

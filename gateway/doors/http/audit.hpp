@@ -1,0 +1,50 @@
+// Audit: what this door writes down by itself: changes that nobody else tells of, and refusals.
+// In: requests as they were asked, their answers. Out: events. A refusal is one of 401 or 403, or a 409 to what would change something;
+// bounded as EventRows says, with strangers' requests in one row whatever they asked for. Never holds a body, a query or a header.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gateway/core/event_rows.hpp"
+#include "gateway/doors/http/message.hpp"
+#include "gateway/services/ports/events.hpp"
+
+namespace axisgate::http {
+
+class Audit {
+public:
+    /// Rows of a page that asks on without a session, or of a scraper without a token, go on for days.
+    static constexpr Duration row_period = std::chrono::minutes(1);
+
+    explicit Audit(EventPort& events)
+        : events_(events), refusals_([this](Event e, AxisId) { events_.note(std::move(e)); }, "refusals", row_period) {}
+    Audit(const Audit&) = delete;
+    Audit& operator=(const Audit&) = delete;
+
+    struct Asked {
+        bool changes = false;  ///< neither GET nor HEAD
+        std::string what;      ///< "POST /api/v1/axes/feeder/commands", without the query
+        std::string who, peer;
+        std::string_view kind{};  ///< of the event that a good answer is; empty: somebody else tells of it
+        std::string told{};       ///< its text
+    };
+    [[nodiscard]] static bool is_refusal(unsigned status, bool changes) noexcept {
+        return status == 401 || status == 403 || (status == 409 && changes);
+    }
+    void answered(const Asked& asked, const Response& response, Instant now);
+    /// Tells the counts of rows that have lasted. To be called now and then.
+    void flush(Instant now) { refusals_.flush(now); }
+    /// Refusals without an event of their own.
+    [[nodiscard]] std::uint64_t counted_only() const noexcept { return refusals_.counted_only(); }
+
+private:
+    EventPort& events_;
+    EventRows refusals_;
+};
+
+/// "POST /api/v1/lines", shortened where it is long.
+[[nodiscard]] std::string what_is_asked(const Request& request);
+
+}  // namespace axisgate::http

@@ -66,7 +66,7 @@ public:
     void forget(Reason reason, std::string_view why, Turn& t);
     /// Of the node, or of its first axis where it has one.
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
-    /// Every answer to an SDO that nobody waited for.
+    /// An answer to an SDO that was not asked, or was answered before.
     void stray() noexcept { double_answer_.stray(); }
     /// It sends heartbeats in this rhythm from now on; zero: it has refused.
     void beats(Duration period) noexcept { double_beat_.begin(period); }
@@ -85,9 +85,13 @@ private:
     void ended(const canopen::SdoEnd& end, Turn& t);
     void tell_two_nodes(std::string_view sign, Turn& t);
     void heed(Axis::News news, Turn& t);
-    void unanswered(Turn& t);
+    void unanswered(bool cut, Turn& t);
     void look_soon(Instant now) noexcept;
+    void start_node(Priority priority, Ticket order, Turn& t);
+    [[nodiscard]] bool moves() const noexcept;
     // feedback.cpp
+    void stopped_by_others(Turn& t);
+    void started_again(Turn& t);
     void on_emergency(const canopen::Emergency& e, Turn& t);
     void on_heartbeat(const Frame& frame, Turn& t);
     [[nodiscard]] bool on_pdo(const Frame& frame, Turn& t);
@@ -101,7 +105,9 @@ private:
     DoubleAnswer double_answer_;
     DoubleBeat double_beat_;
     bool two_nodes_reported_ = false;  ///< since the line is up
-    Instant check_at_ = never;         ///< of a node without an axis that listens
+    int starts_ = 0;                   ///< of a node that others have stopped, since `starts_since_`
+    Instant starts_since_{};
+    Instant check_at_ = never;  ///< of a node without an axis that listens
 };
 
 }  // namespace axisgate::cia402_drive

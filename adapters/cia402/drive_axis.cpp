@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "adapters/cia402/drive_exchange.hpp"
+#include "adapters/cia402/drive_words.hpp"
+
 #include <cstdlib>
 
 namespace axisgate::cia402_drive {
@@ -42,6 +45,7 @@ bool Axis::submit(const Command& c, Turn& t) {
 Want Axis::wants(Instant now) const noexcept {
     if (const Stop* stop = stops_.first()) return !stop->job || now >= stop->job->wait_until ? Want::urgent : Want::nothing;
     if (!node.presence.is(Phase::ready)) return Want::nothing;
+    if (node.stopped) return (job_ ? now >= job_->wait_until : !queue_.empty()) ? Want::command : Want::nothing;
     if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
@@ -59,11 +63,11 @@ std::optional<Ask> Axis::next(Turn& t) {
             stop->job.emplace().command = stop->command;
             plan_stop(known, *stop->job);
         }
-        return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, 0};
+        return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, retries + Exchanges::after_start};
     }
-    if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
-    if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
-    if (rates.wants()) return Ask{Ask::Why::rates, rates.next(), no_ticket, retries};
+    if (!node.stopped) {
+        if (auto own = next_of_its_own(t)) return own;
+    }
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
     if (!job_ && stream.waits()) job_ = stream.begin(t);
@@ -72,7 +76,16 @@ std::optional<Ask> Axis::next(Turn& t) {
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
         return Ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
     }
-    if (t.now >= feedback.check_at()) return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
+    if (t.now >= feedback.check_at() && !node.stopped)
+        return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
+    return std::nullopt;
+}
+
+std::optional<Ask> Axis::next_of_its_own(Turn& t) {
+    const int retries = node.line.timing.retries;
+    if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
+    if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
+    if (rates.wants()) return Ask{Ask::Why::rates, rates.next(), no_ticket, retries};
     return std::nullopt;
 }
 
@@ -80,6 +93,11 @@ void Axis::begin(Command command, Turn& t) {
     Job job;
     job.command = std::move(command);
     Reason reason = Reason::not_supported;
+    const auto* action = std::get_if<Action>(&job.command.body);
+    if (node.stopped && !(action && action->name.starts_with("nmt_")))
+        return void(node.tickets.refused(job.command.ticket, Reason::wrong_state,
+                                         "somebody else has stopped the node (NMT stop): it answers nothing until nmt_start starts it",
+                                         t.out));
     std::string why = plan(node, known, place_, job, t.now, reason);
     if (!why.empty()) return void(node.tickets.refused(job.command.ticket, reason, std::move(why), t.out));
     job_ = std::move(job);
@@ -139,6 +157,27 @@ void Axis::withdraw() {
     (void)stops_.add(std::move(stop));
 }
 
+void Axis::take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&)) {
+    if (!stops_.empty()) return;  // it is newer than this
+    Stop stop;
+    stop.command = Command{no_ticket, id_, std::move(body), false, {}};
+    if (planned) {
+        stop.job.emplace().command = stop.command;
+        planned(known, *stop.job);
+        if (stop.job->steps.empty()) return;
+    }
+    (void)stops_.add(std::move(stop));
+}
+
+void Axis::node_stopped(Turn& t) {
+    constexpr std::string_view why = "somebody else has stopped the node (NMT stop)";
+    turns.forget();
+    if (stream.on()) t.out.stream_ends.push_back({id_, Reason::interrupted, std::string(why)});
+    stream.end();
+    if (job_) node.tickets.failed(job_->command.ticket, Reason::interrupted, std::string(why), t.out);
+    job_.reset();
+}
+
 void Axis::drop(const Job& job) noexcept {
     if (is_urgent(job.command.body)) {
         stops_.remove(stops_.first());
@@ -163,10 +202,10 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         return drop(job), News::none;
     }
     const auto sent = [&](Address a) { return end.done() && s.kind == Step::Kind::write && s.address == a; };
-    if (sent(object::controlword)) known.cw = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
+    if (sent(object::controlword)) word_taken(job, s, t.now);
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
-    if (sent(object::mode)) known.mode = static_cast<int>(signed_of(s.bytes));
+    if (sent(object::mode)) known.ordered_mode = static_cast<int>(signed_of(s.bytes));
     if (end.done() && s.kind == Step::Kind::write)
         rates.written(of_first_axis(s.address), static_cast<std::int64_t>(canopen::low_first(s.bytes)),
                       std::holds_alternative<Move>(job.command.body), t);
@@ -175,34 +214,128 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         job.data = end.data;
     }
     // What the drive has just answered is newer than its last PDO: who hears "enabled" finds it shown, and may go on at once.
-    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done())
-        feedback.on_status_word(static_cast<std::uint32_t>(canopen::low_first(end.data)), t);
+    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done()) {
+        const auto word = static_cast<std::uint16_t>(canopen::low_first(end.data));
+        if (!job.went) job.status = word;
+        feedback.on_status_word(word, t);
+    }
     if (s.kind == Step::Kind::until && end.done() && still_waits(job, s, end, t)) return News::none;
     job.give_up = never;
     job.wait_until = {};
-    if (++job.at < job.steps.size()) return News::none;
+    const bool taken = s.edge && !std::holds_alternative<Move>(job.command.body);  // what it shows before it has seen the word is old
+    if (taken) job.wait_until = t.now + seen_by_all;
+    if (++job.at < job.steps.size()) {
+        if (job.steps[job.at].edge && !job.released) job.wait_until = known.low_since + seen_by_all;
+        return News::none;
+    }
     Job done = std::move(job);
     drop(done);
     return finish(done, t);
 }
 
+void Axis::word_taken(Job& job, const Step& s, Instant now) {
+    const auto word = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
+    if ((known.cw & start_bit) != 0 && (word & start_bit) == 0) known.low_since = now;
+    known.cw = word;
+    if (!s.edge) return;
+    job.went = now;
+    job.from = known.fb.position;
+    job.turned = known.turns();
+    known.acknowledged = false;
+}
+
 /// The value is not the one that is waited for, and this is not the end of the step: it is looked at again, or the job has failed.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
-    if (s.away_from) {
-        const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
-        if (std::llabs(at - want) <= std::llabs(at - *s.away_from)) return feedback.on_position(at, t), false;
-    } else if ((canopen::low_first(end.data) & s.mask) == s.want) {
-        return false;
-    }
+    if (met(job, s, end, t)) return false;
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;
     if (s.optional) return false;
-    const std::string shown = s.away_from ? fmt::format("still shows position {}", signed_of(end.data))
-                                          : fmt::format("stays in another state: status word {:04X}h", canopen::low_first(end.data));
-    node.tickets.failed(job.command.ticket, Reason::drive_refused, "the drive has acknowledged, and " + shown, t.out);
+    if (s.awaits == Step::Awaits::acknowledge && has_begun(job)) {
+        known.no_acknowledge = true;
+        return unacknowledged(job), false;
+    }
+    std::string text = not_met(s, end);
+    if (job.stream) {
+        t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
+        stream.end();
+    }
+    node.tickets.failed(job.command.ticket, Reason::drive_refused, std::move(text), t.out);
+    const bool started = job.went.has_value();
     drop(job);
+    // What is answered as failed must not come about later.
+    if (started) take_back(Halt{}, nullptr);
+    if (s.awaits == Step::Awaits::mode) take_back(Halt{}, plan_mode_back);
     return true;
+}
+
+bool Axis::met(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
+    if (s.away_from) {
+        const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
+        if (std::llabs(at - want) > std::llabs(at - *s.away_from)) return false;
+        return feedback.on_position(at, t), true;
+    }
+    const auto raw = canopen::low_first(end.data);
+    if (s.awaits == Step::Awaits::homing) return homing_begun(job, static_cast<unsigned>(raw), t.now);
+    const bool shown = (raw & s.mask) == s.want;
+    if (shown && s.awaits == Step::Awaits::mode) known.mode = static_cast<int>(signed_of(end.data));
+    if (shown && s.awaits == Step::Awaits::release) job.released = known.acknowledged;
+    if (s.awaits != Step::Awaits::acknowledge) return shown;
+    known.acknowledged = shown;
+    if (shown) known.no_acknowledge = false;
+    // A drive that has moved without it before is not waited for.
+    const bool known_to_move = known.no_acknowledge && t.now >= *job.went + std::chrono::milliseconds(50) && has_begun(job);
+    if (!shown && known_to_move) unacknowledged(job);
+    return shown || known_to_move;
+}
+
+/// CiA 402-2, homing mode: bits 13, 12 and 10 are 0 while it is under way; 12 without a search before it is one that has ended already.
+bool Axis::homing_begun(Job& job, unsigned sw, Instant now) const {
+    const bool was_attained = job.status & 0x1000u, attained = sw & 0x1000u;
+    if (sw & 0x2000u) return true;
+    if (!attained) return (sw & 0x400u) == 0;
+    if (!was_attained || job.begun) return true;
+    const auto* home = std::get_if<Home>(&job.command.body);
+    const auto method = home && home->method != 0 ? home->method : known.homing_method;
+    return (method == 35 || method == 37) && now >= *job.went + std::chrono::milliseconds(100);  // it ends where it begins
+}
+void Axis::saw_status(unsigned sw) noexcept {
+    if (job_ && job_->went && (sw & 0x1000u) == 0) job_->begun = true;
+}
+
+/// What the axis does tells that a set-point was taken which status bit 12 does not acknowledge.
+bool Axis::has_begun(const Job& job) const {
+    const auto* m = std::get_if<Move>(&job.command.body);
+    if (!m) return false;
+    const std::int64_t target = m->target + (m->kind == Move::Kind::relative ? job.here : 0), way = std::llabs(target - job.from);
+    if (way == 0 || 2 * std::llabs(known.fb.position - target) < way) return true;
+    return known.turns() && (!job.turned || known.no_acknowledge);
+}
+void Axis::unacknowledged(Job& job) {
+    job.text = "the drive does not set status bit 12 (set-point acknowledge); the axis shows that it has taken the set-point";
+}
+
+std::string Axis::not_met(const Step& s, const canopen::SdoEnd& end) const {
+    const auto ms = milliseconds_of(s.patience);
+    const auto raw = static_cast<std::uint16_t>(canopen::low_first(end.data));
+    switch (s.awaits) {
+        case Step::Awaits::mode:
+            return fmt::format(
+                "the drive has taken mode {} (6060h), and still shows mode {} (6061h) after {} ms: nothing was begun. Where "
+                "it needs longer, set its option mode_timeout_ms",
+                static_cast<int>(static_cast<std::int8_t>(s.want)), signed_of(end.data), ms);
+        case Step::Awaits::release:
+            return fmt::format("the drive still acknowledges the set-point before after {} ms, so that it takes no other one: {}", ms,
+                               status_in_words(raw, known.mode));
+        case Step::Awaits::acknowledge:
+        case Step::Awaits::homing:
+            return fmt::format("the drive has not begun within {} ms: {}. Where it needs longer, set its option start_timeout_ms", ms,
+                               status_in_words(raw, known.mode));
+        case Step::Awaits::value:
+            break;
+    }
+    return "the drive has acknowledged, and " + (s.away_from ? fmt::format("still shows position {}", signed_of(end.data))
+                                                             : "stays in another state: " + status_in_words(raw, known.mode));
 }
 
 /// Its drive has acknowledged the order of a motion.
@@ -238,6 +371,7 @@ Axis::News Axis::finish(Job& job, Turn& t) {
         written(*to);
     }
     if (std::holds_alternative<Native>(body)) text = native_text(job);
+    if (!job.text.empty()) text = job.text;
     if (read || to) t.out.samples.push_back({id_, read ? read->point : to->point, value, Quality::good, t.now, 0});
     const auto* action = std::get_if<Action>(&body);
     if (action && action->name == "store_parameters") text = node.stored(t);

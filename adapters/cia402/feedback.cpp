@@ -24,6 +24,36 @@ void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
            t);
 }
 
+/// Nothing but its heartbeat comes from it now. One that turns is started again, so that it is seen, and can be stopped; one that stands is
+/// left alone: somebody is at work there.
+void Drive::stopped_by_others(Turn& t) {
+    constexpr int most_starts = 3;
+    constexpr Duration in = std::chrono::minutes(1);
+    const bool turning = moves();
+    if (!std::exchange(node.stopped, true)) {
+        // A stop that is on its way starts the node by itself.
+        if (exchanges.ask().why != Ask::Why::stop && exchanges.give_up())
+            node.tickets.failed(exchanges.ask().ticket, Reason::interrupted, "somebody has stopped the node (NMT stop)", t.out);
+        for (const auto& a : axes)
+            a->node_stopped(t);
+        const std::string text = fmt::format(
+            "somebody else has stopped the node (NMT stop): it answers nothing and shows nothing but its heartbeat{}; nmt_start starts it "
+            "again",
+            turning ? ", while it may be turning: it is started again, to be seen" : "");
+        notice(Severity::warning, "nmt_stopped", 0, fmt::format("{}: {}", node.setup.name, text), t);
+        node.presence.report(text, t.out);
+    }
+    if (!turning) return;
+    if (t.now - starts_since_ > in) starts_ = 0, starts_since_ = t.now;
+    if (++starts_ <= most_starts) start_node(Priority::command, no_ticket, t);
+}
+void Drive::started_again(Turn& t) {
+    node.stopped = false;
+    node.presence.report(start.title(), t.out);
+    for (const auto& a : axes)
+        a->feedback.begin(t.now);
+}
+
 void Drive::on_heartbeat(const Frame& f, Turn& t) {
     const auto news = heartbeat_.on_frame(f, t.now);
     Presence& presence = node.presence;
@@ -37,6 +67,13 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
             forget(Reason::interrupted, "the drive has restarted", t);
             return presence.begin(t.now);
         }
+    }
+    if (heartbeat_.state() == canopen::NmtState::stopped && !axes.empty()) {
+        if (presence.is(Presence::Phase::ready)) return stopped_by_others(t);
+        // It is looked for, or being set up: out of the stopped state it can answer, and nothing starts by that.
+        t.out.send(canopen::nmt_frame(canopen::NmtCommand::pre_operational, node.number), Priority::command);
+    } else if (node.stopped) {
+        started_again(t);
     }
     presence.received(t.now);
     // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
@@ -55,6 +92,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
             node.presence.received(t.now);
             return true;
         }
+        if (node.stopped) started_again(t);
         a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
         if (status) {
             a.feedback.on_status(f.data(), t);
@@ -96,6 +134,7 @@ void Feedback::on_status(std::span<const std::uint8_t> b, Turn& t) {
     known.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
     known.fb.position = signed_of(b.subspan(2, 4));
     known.mode = static_cast<int>(signed_of(b.subspan(6, 1)));
+    drive_.stream.mode_shown(known.mode, t);
     status_new_ = true;
     if (motion_new_) learnt(t);
 }
@@ -206,6 +245,7 @@ void Feedback::judge(Turn& t) {
     AxisKnown& known = drive_.known;
     AxisFeedback& fb = known.fb;
     const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+    drive_.saw_status(sw);
     const bool enabled = six == 0x27, quick = six == 0x07, reacting = (sw & 0x4Fu) == 0x0F, was_fault = fb.fault;
     fb.statusword = static_cast<std::uint16_t>(sw & 0x7Fu);
     fb.power = enabled || quick || reacting ? AxisFeedback::Power::on : AxisFeedback::Power::off;

@@ -178,7 +178,7 @@ Instant Drive::wish() const noexcept {
         first = std::min(first, a->wish());
     const Presence& presence = node.presence;
     if (!presence.online() || presence.is(Phase::restarting)) return std::min(first, presence.deadline());
-    return std::min(first, presence.is(Phase::starting) ? start.wish() : check_at_);
+    return std::min(first, presence.is(Phase::starting) ? start.wish() : node.stopped ? never : check_at_);
 }
 
 void Drive::go(Turn& t) {

@@ -53,7 +53,7 @@ Want Axis::wants(Instant now) const noexcept {
 Instant Axis::wish() const noexcept {
     if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
     if (!node.presence.is(Phase::ready)) return never;
-    return job_ ? job_->wait_until : feedback.check_at();
+    return job_ ? job_->wait_until : node.stopped ? never : feedback.check_at();
 }
 
 std::optional<Ask> Axis::next(Turn& t) {

@@ -81,7 +81,7 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     emit(frames, Priority::command, ask_.ticket, t);
     if (sdo_.strays() != strays) {
         ++line.counters.unexpected;
-        if (f.size == 8 && !times_.answered(canopen::address_of(f), true, t.now)) drive_.stray();
+        if (f.size == 8) late_or_second(canopen::address_of(f), t);
     }
     if (!end) {
         if (!active()) node.presence.received(t.now);
@@ -96,6 +96,13 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     if (!end->done()) ++line.counters.refused;
     node.presence.answered();
     return end;
+}
+
+/// A node works through its questions in order: while it answers older ones, the newest is waited for.
+void Exchanges::late_or_second(Address address, Turn& t) {
+    if (!times_.answered(address, true, t.now)) return drive_.stray();
+    sdo_.extend(t.now + patience());
+    if (repeat_at_ != never) repeat_at_ = std::max(repeat_at_, t.now + repeat_after());
 }
 
 void Exchanges::end() noexcept {

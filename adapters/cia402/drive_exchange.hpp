@@ -50,6 +50,7 @@ public:
 private:
     void transfer(Turn& t);
     [[nodiscard]] Late again(Turn& t);
+    void late_or_second(Address address, Turn& t);
     void end() noexcept;
     [[nodiscard]] Duration patience() const noexcept;
     [[nodiscard]] Duration repeat_after() const noexcept;

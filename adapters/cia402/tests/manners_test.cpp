@@ -132,8 +132,6 @@ TEST(Cia402LateMode, AStreamBeginsWhereTheAxisIsWhenTheModeIsShown) {
         for (const bool from_motion : {false, true}) {
             SCOPED_TRACE(fmt::format("{} ms, {}", late, from_motion ? "out of a motion" : "from rest"));
             Manners b;
-            b.setup.timing.poll_period = 10ms;
-            b.configure();
             b.run(2s);
             ASSERT_TRUE(b.enable());
             if (from_motion) {
@@ -306,13 +304,13 @@ TEST(Cia402PdoSetup, ANodeThatMovesIsNotSentToPreOperational) {
     for (const char* setup : {"1", "2"}) {
         for (const bool same : {true, false}) {
             SCOPED_TRACE(fmt::format("{}, {}", setup, same ? "PDOs as this gateway sets them" : "PDOs of others"));
-            Manners b({{"pdo_setup", setup}});
+            // Its own watchdog would stop it while nobody knows that it watches.
+            Manners b({{"pdo_setup", setup}}, {{"watchdog_action", "none"}});
             b.run(2s);
             ASSERT_TRUE(b.enable());
             ASSERT_TRUE(good(b.ask(speed(8'000))));
             b.run(1s);
             b.pre_operational = 0;
-            if (!same) b.setup.timing.poll_period = 2ms;
             if (!same) {  // by a master that stood here before
                 b.others(canopen::nmt_frame(canopen::NmtCommand::pre_operational, 5));
                 b.deaf = true;

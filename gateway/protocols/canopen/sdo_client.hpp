@@ -4,6 +4,7 @@
 // repeats a transfer by itself (that is its user's to decide), and never knows what an entry means.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -49,6 +50,10 @@ public:
 
     /// Waits so long for the node's next message, from the next transfer or repeat on.
     void set_patience(Duration patience) noexcept { limits_.patience = patience; }
+    /// The node is still busy with what it was asked before: its answer may take until then.
+    void extend(Instant until) noexcept {
+        if (busy()) deadline_ = std::max(deadline_, until);
+    }
     /// The node has not answered the first request yet.
     [[nodiscard]] bool beginning() const noexcept;
     /// Sends the first request once more, for as long as the node has not answered it: nothing is aborted, and an answer to either is one.

@@ -48,6 +48,7 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     : node(line, setup, static_cast<std::uint8_t>(node_of(setup.address))),
       exchanges(*this, node),
       start(*this, node),
+      nmt(*this),
       slot_(slot),
       heartbeat_(node.number) {
     drive::OptionReader options(node.setup.options);
@@ -192,7 +193,7 @@ void Drive::go(Turn& t) {
         auto ask = axes[at]->next(t);
         if (!ask) return;
         ask->axis = at;
-        if (node.stopped && ask->why == Ask::Why::stop) start_node(Priority::urgent, ask->ticket, t);
+        if (node.stopped && ask->why == Ask::Why::stop) nmt.start(Priority::urgent, ask->ticket, t);
         if (ask->step.kind != Step::Kind::nmt) return exchanges.send(std::move(*ask), t);
         t.out.send(canopen::nmt_frame(ask->step.nmt, node.number), Priority::command, ask->ticket);  // nobody answers it
         return heed(axes[at]->answered(*ask, {}, t), t);
@@ -208,7 +209,7 @@ void Drive::on_frame(const Frame& f, Turn& t) {
     if (f.id != static_cast<std::uint32_t>(canopen::sdo_answer_base + node.number)) return;
     const auto end = exchanges.on_frame(f, t);
     if (!end) return;
-    if (node.stopped) started_again(t);
+    if (node.stopped) nmt.back(t);
     if (double_answer_.answered()) tell_two_nodes("each question is answered twice", t);
     ended(*end, t);
 }
@@ -241,10 +242,6 @@ void Drive::ended(const canopen::SdoEnd& end, Turn& t) {
     heed(axes[ask.axis]->answered(ask, end, t), t);
 }
 
-void Drive::start_node(Priority priority, Ticket order, Turn& t) {
-    t.out.send(canopen::nmt_frame(canopen::NmtCommand::start, node.number), priority, order);
-}
-
 void Drive::heed(Axis::News news, Turn& t) {
     if (news == Axis::News::deaf) start.begin();
     if (news != Axis::News::node_resets) return;
@@ -267,10 +264,6 @@ void Drive::look_soon(Instant now) noexcept {
     for (const auto& a : axes)
         a->feedback.look_soon(now);
 }
-bool Drive::moves() const noexcept {
-    return std::ranges::any_of(axes, [](const auto& a) { return a->known.fb.moving; });
-}
-
 /// `cut`: a stop did not wait for it, so that nothing is known of the node.
 void Drive::unanswered(bool cut, Turn& t) {
     Presence& presence = node.presence;
@@ -283,8 +276,7 @@ void Drive::unanswered(bool cut, Turn& t) {
     if (presence.online()) {
         look_soon(t.now);
         if (axes.empty()) check_at_ = t.now;
-        // Where its heartbeat does not tell whether somebody has stopped it (NMT), an axis that may be turning is not given up for that.
-        if (moves()) start_node(Priority::command, no_ticket, t);
+        nmt.silent(t);
     }
     if (presence.is(Phase::starting)) start.forget();
     if (presence.silent(t.now) != Presence::Silence::counted) forget(Reason::no_answer, "the drive does not answer", t);

@@ -11,6 +11,7 @@
 #include "adapters/cia402/drive_axis.hpp"
 #include "adapters/cia402/drive_double.hpp"
 #include "adapters/cia402/drive_exchange.hpp"
+#include "adapters/cia402/drive_nmt.hpp"
 #include "adapters/cia402/start.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
@@ -78,6 +79,7 @@ public:
     std::vector<std::unique_ptr<Axis>> axes;
     Exchanges exchanges;
     Start start;
+    NmtWatch nmt;
 
 private:
     [[nodiscard]] Axis* of(AxisId id) noexcept;
@@ -87,11 +89,7 @@ private:
     void heed(Axis::News news, Turn& t);
     void unanswered(bool cut, Turn& t);
     void look_soon(Instant now) noexcept;
-    void start_node(Priority priority, Ticket order, Turn& t);
-    [[nodiscard]] bool moves() const noexcept;
     // feedback.cpp
-    void stopped_by_others(Turn& t);
-    void started_again(Turn& t);
     void on_emergency(const canopen::Emergency& e, Turn& t);
     void on_heartbeat(const Frame& frame, Turn& t);
     [[nodiscard]] bool on_pdo(const Frame& frame, Turn& t);
@@ -105,9 +103,7 @@ private:
     DoubleAnswer double_answer_;
     DoubleBeat double_beat_;
     bool two_nodes_reported_ = false;  ///< since the line is up
-    int starts_ = 0;                   ///< of a node that others have stopped, since `starts_since_`
-    Instant starts_since_{};
-    Instant check_at_ = never;  ///< of a node without an axis that listens
+    Instant check_at_ = never;         ///< of a node without an axis that listens
 };
 
 }  // namespace axisgate::cia402_drive

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "adapters/cia402/drive_exchange.hpp"
-#include "adapters/cia402/drive_words.hpp"
+#include "adapters/cia402/drive_handshake.hpp"
 
 #include <cstdlib>
 
@@ -202,7 +202,7 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         return drop(job), News::none;
     }
     const auto sent = [&](Address a) { return end.done() && s.kind == Step::Kind::write && s.address == a; };
-    if (sent(object::controlword)) word_taken(job, s, t.now);
+    if (sent(object::controlword)) word_taken(known, job, s, t.now);
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
     if (sent(object::mode)) known.ordered_mode = static_cast<int>(signed_of(s.bytes));
@@ -233,29 +233,23 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     return finish(done, t);
 }
 
-void Axis::word_taken(Job& job, const Step& s, Instant now) {
-    const auto word = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
-    if ((known.cw & start_bit) != 0 && (word & start_bit) == 0) known.low_since = now;
-    known.cw = word;
-    if (!s.edge) return;
-    job.went = now;
-    job.from = known.fb.position;
-    job.turned = known.turns();
-    known.acknowledged = false;
-}
-
 /// The value is not the one that is waited for, and this is not the end of the step: it is looked at again, or the job has failed.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
-    if (met(job, s, end, t)) return false;
+    if (s.away_from) {
+        const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
+        if (std::llabs(at - want) <= std::llabs(at - *s.away_from)) return feedback.on_position(at, t), false;
+    } else if (met(known, job, s, end, t.now)) {
+        return false;
+    }
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;
     if (s.optional) return false;
-    if (s.awaits == Step::Awaits::acknowledge && has_begun(job)) {
+    if (s.awaits == Step::Awaits::acknowledge && has_begun(known, job)) {
         known.no_acknowledge = true;
         return unacknowledged(job), false;
     }
-    std::string text = not_met(s, end);
+    std::string text = not_met(known, s, end);
     if (job.stream) {
         t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
         stream.end();
@@ -269,73 +263,8 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     return true;
 }
 
-bool Axis::met(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
-    if (s.away_from) {
-        const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
-        if (std::llabs(at - want) > std::llabs(at - *s.away_from)) return false;
-        return feedback.on_position(at, t), true;
-    }
-    const auto raw = canopen::low_first(end.data);
-    if (s.awaits == Step::Awaits::homing) return homing_begun(job, static_cast<unsigned>(raw), t.now);
-    const bool shown = (raw & s.mask) == s.want;
-    if (shown && s.awaits == Step::Awaits::mode) known.mode = static_cast<int>(signed_of(end.data));
-    if (shown && s.awaits == Step::Awaits::release) job.released = known.acknowledged;
-    if (s.awaits != Step::Awaits::acknowledge) return shown;
-    known.acknowledged = shown;
-    if (shown) known.no_acknowledge = false;
-    // A drive that has moved without it before is not waited for.
-    const bool known_to_move = known.no_acknowledge && t.now >= *job.went + std::chrono::milliseconds(50) && has_begun(job);
-    if (!shown && known_to_move) unacknowledged(job);
-    return shown || known_to_move;
-}
-
-/// CiA 402-2, homing mode: bits 13, 12 and 10 are 0 while it is under way; 12 without a search before it is one that has ended already.
-bool Axis::homing_begun(Job& job, unsigned sw, Instant now) const {
-    const bool was_attained = job.status & 0x1000u, attained = sw & 0x1000u;
-    if (sw & 0x2000u) return true;
-    if (!attained) return (sw & 0x400u) == 0;
-    if (!was_attained || job.begun) return true;
-    const auto* home = std::get_if<Home>(&job.command.body);
-    const auto method = home && home->method != 0 ? home->method : known.homing_method;
-    return (method == 35 || method == 37) && now >= *job.went + std::chrono::milliseconds(100);  // it ends where it begins
-}
 void Axis::saw_status(unsigned sw) noexcept {
     if (job_ && job_->went && (sw & 0x1000u) == 0) job_->begun = true;
-}
-
-/// What the axis does tells that a set-point was taken which status bit 12 does not acknowledge.
-bool Axis::has_begun(const Job& job) const {
-    const auto* m = std::get_if<Move>(&job.command.body);
-    if (!m) return false;
-    const std::int64_t target = m->target + (m->kind == Move::Kind::relative ? job.here : 0), way = std::llabs(target - job.from);
-    if (way == 0 || 2 * std::llabs(known.fb.position - target) < way) return true;
-    return known.turns() && (!job.turned || known.no_acknowledge);
-}
-void Axis::unacknowledged(Job& job) {
-    job.text = "the drive does not set status bit 12 (set-point acknowledge); the axis shows that it has taken the set-point";
-}
-
-std::string Axis::not_met(const Step& s, const canopen::SdoEnd& end) const {
-    const auto ms = milliseconds_of(s.patience);
-    const auto raw = static_cast<std::uint16_t>(canopen::low_first(end.data));
-    switch (s.awaits) {
-        case Step::Awaits::mode:
-            return fmt::format(
-                "the drive has taken mode {} (6060h), and still shows mode {} (6061h) after {} ms: nothing was begun. Where "
-                "it needs longer, set its option mode_timeout_ms",
-                static_cast<int>(static_cast<std::int8_t>(s.want)), signed_of(end.data), ms);
-        case Step::Awaits::release:
-            return fmt::format("the drive still acknowledges the set-point before after {} ms, so that it takes no other one: {}", ms,
-                               status_in_words(raw, known.mode));
-        case Step::Awaits::acknowledge:
-        case Step::Awaits::homing:
-            return fmt::format("the drive has not begun within {} ms: {}. Where it needs longer, set its option start_timeout_ms", ms,
-                               status_in_words(raw, known.mode));
-        case Step::Awaits::value:
-            break;
-    }
-    return "the drive has acknowledged, and " + (s.away_from ? fmt::format("still shows position {}", signed_of(end.data))
-                                                             : "stays in another state: " + status_in_words(raw, known.mode));
 }
 
 /// Its drive has acknowledged the order of a motion.

@@ -37,8 +37,6 @@ public:
     void first_read(const Step& step, const canopen::SdoEnd& end);
     void set_up(std::vector<Step>& steps);
     void want_pdos(std::vector<PdoSetUp::Wanted>& wanted);
-    /// By what was read or shown last: it moves under power.
-    [[nodiscard]] bool turning() const noexcept;
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
     [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< to be read and set up before it is served
@@ -93,12 +91,6 @@ private:
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
     [[nodiscard]] bool still_waits(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);
-    void word_taken(Job& job, const Step& step, Instant now);
-    [[nodiscard]] bool met(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);
-    [[nodiscard]] bool homing_begun(Job& job, unsigned statusword, Instant now) const;
-    [[nodiscard]] bool has_begun(const Job& job) const;
-    static void unacknowledged(Job& job);
-    [[nodiscard]] std::string not_met(const Step& step, const canopen::SdoEnd& end) const;
     News finish(Job& job, Turn& t);
     void moves_now(const CommandBody& body, Turn& t);
     [[nodiscard]] static Step here(const Job& job);

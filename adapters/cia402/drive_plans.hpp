@@ -44,6 +44,11 @@ struct AxisKnown {
     }
     /// Above what a drive shows that stands: a thousandth of its profile velocity.
     [[nodiscard]] bool turns() const noexcept { return std::llabs(fb.velocity) > std::max<std::int64_t>(rates[0] / 1000, 0); }
+    /// By the status word and the velocity that were read or shown last.
+    [[nodiscard]] bool moves_under_power() const noexcept {
+        const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+        return profile && turns() && (six == 0x27 || six == 0x07 || (sw & 0x4Fu) == 0x0F);
+    }
     [[nodiscard]] unsigned state() const noexcept { return fb.statusword.value_or(0) & 0x6Fu; }
     [[nodiscard]] bool on() const noexcept { return state() == 0x27; }
 };

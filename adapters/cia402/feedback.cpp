@@ -24,36 +24,6 @@ void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
            t);
 }
 
-/// Nothing but its heartbeat comes from it now. One that turns is started again, so that it is seen, and can be stopped; one that stands is
-/// left alone: somebody is at work there.
-void Drive::stopped_by_others(Turn& t) {
-    constexpr int most_starts = 3;
-    constexpr Duration in = std::chrono::minutes(1);
-    const bool turning = moves();
-    if (!std::exchange(node.stopped, true)) {
-        // A stop that is on its way starts the node by itself.
-        if (exchanges.ask().why != Ask::Why::stop && exchanges.give_up())
-            node.tickets.failed(exchanges.ask().ticket, Reason::interrupted, "somebody has stopped the node (NMT stop)", t.out);
-        for (const auto& a : axes)
-            a->node_stopped(t);
-        const std::string text = fmt::format(
-            "somebody else has stopped the node (NMT stop): it answers nothing and shows nothing but its heartbeat{}; nmt_start starts it "
-            "again",
-            turning ? ", while it may be turning: it is started again, to be seen" : "");
-        notice(Severity::warning, "nmt_stopped", 0, fmt::format("{}: {}", node.setup.name, text), t);
-        node.presence.report(text, t.out);
-    }
-    if (!turning) return;
-    if (t.now - starts_since_ > in) starts_ = 0, starts_since_ = t.now;
-    if (++starts_ <= most_starts) start_node(Priority::command, no_ticket, t);
-}
-void Drive::started_again(Turn& t) {
-    node.stopped = false;
-    node.presence.report(start.title(), t.out);
-    for (const auto& a : axes)
-        a->feedback.begin(t.now);
-}
-
 void Drive::on_heartbeat(const Frame& f, Turn& t) {
     const auto news = heartbeat_.on_frame(f, t.now);
     Presence& presence = node.presence;
@@ -69,11 +39,10 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
         }
     }
     if (heartbeat_.state() == canopen::NmtState::stopped && !axes.empty()) {
-        if (presence.is(Presence::Phase::ready)) return stopped_by_others(t);
-        // It is looked for, or being set up: out of the stopped state it can answer, and nothing starts by that.
-        t.out.send(canopen::nmt_frame(canopen::NmtCommand::pre_operational, node.number), Priority::command);
+        if (presence.is(Presence::Phase::ready)) return nmt.stopped(t);
+        nmt.wake(t);
     } else if (node.stopped) {
-        started_again(t);
+        nmt.back(t);
     }
     presence.received(t.now);
     // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
@@ -92,7 +61,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
             node.presence.received(t.now);
             return true;
         }
-        if (node.stopped) started_again(t);
+        if (node.stopped) nmt.back(t);
         a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
         if (status) {
             a.feedback.on_status(f.data(), t);

@@ -276,12 +276,6 @@ void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
     }
 }
 
-bool Axis::turning() const noexcept {
-    const unsigned sw = known.fb.native_status, six = sw & 0x6Fu;
-    const bool power = six == 0x27 || six == 0x07 || (sw & 0x4Fu) == 0x0F;
-    return known.profile && power && known.turns();
-}
-
 void Axis::made_ready(Instant now) {
     new_ = false;
     feedback.begin(now);

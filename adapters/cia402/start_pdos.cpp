@@ -133,7 +133,7 @@ void PdoSetUp::watched(const canopen::SdoEnd& end, Turn& t) {
 }
 
 bool PdoSetUp::moves() const noexcept {
-    return std::ranges::any_of(drive_.axes, [](const auto& a) { return a->turning(); });
+    return std::ranges::any_of(drive_.axes, [](const auto& a) { return a->known.moves_under_power(); });
 }
 
 }  // namespace axisgate::cia402_drive

@@ -32,7 +32,7 @@ void Servo::power_on(Instant now) {
     state_ = State::switch_on_disabled;
     after_stop_.reset();
     cw_ = 0;
-    sample_at_ = mode_at_ = shown_at_ = never;
+    late_ = {};
     orders_.reset(static_cast<int>(o_.get(0x6060)));
     homing_.forget();
     behind_ = 0;
@@ -74,12 +74,12 @@ void Servo::written(canopen::Address a, Instant now) {
         case 0x6040: {
             const Duration every = free_.control_sample();
             if (every == Duration::zero()) return control(now);
-            if (sample_at_ == never) sample_at_ = now + every - now.time_since_epoch() % every;
+            if (late_.sample == never) late_.sample = now + every - now.time_since_epoch() % every;
             return;
         }
         case 0x6060:
             if (free_.mode_shown() == Duration::zero()) return set_mode(now);
-            mode_at_ = now + free_.mode_shown();
+            late_.mode = now + free_.mode_shown();
             return;
         case 0x60FF:
         case 0x6071:
@@ -103,9 +103,9 @@ void Servo::on_sync(Instant now) {
 
 /// What was written before, and is seen only now.
 void Servo::take_late(Instant at) {
-    if (sample_at_ <= at) sample_at_ = never, control(at);
-    if (mode_at_ <= at) mode_at_ = never, set_mode(at);
-    if (shown_at_ <= at) shown_at_ = never, shown_ = true;
+    if (late_.sample <= at) late_.sample = never, control(at);
+    if (late_.mode <= at) late_.mode = never, set_mode(at);
+    if (late_.shown <= at) late_.shown = never, shown_ = true;
 }
 
 void Servo::control(Instant now) {
@@ -126,7 +126,7 @@ void Servo::control(Instant now) {
         orders_.set_point(cw & 0x40u, (cw & 0x20u) != 0, now);
         const bool late = free_.acknowledges == 0 || free_.acknowledge() > Duration::zero();
         shown_ = !late;
-        shown_at_ = late && free_.acknowledges != 0 ? now + free_.acknowledge() : never;
+        late_.shown = late && free_.acknowledges != 0 ? now + free_.acknowledge() : never;
     }
     if (orders_.mode() == 6 && (rising & 0x10u)) begin_homing(now);
     if (orders_.mode() == 6 && (before & 0x10u) && !(cw & 0x10u) && homing_.active()) {
@@ -251,7 +251,7 @@ bool Servo::watches() const {
     return m_.lags() && (m_.moves(checked_) || behind_ > 0);
 }
 Instant Servo::next_event(Instant now) const {
-    Instant next = late();
+    Instant next = late_.first();
     if (after_stop_ || homing_.to_switch() || homing_.to_zero()) next = std::max(m_.end(), now);
     if (const auto arrival = orders_.arrival()) next = std::max(*arrival, now);
     if (watches()) next = std::min(next, checked_ + watch_every_);
@@ -269,7 +269,7 @@ void Servo::watch(Instant at) {
     fail(0x8611, at);
 }
 void Servo::on_event(Instant at) {
-    if (late() <= at) return take_late(at);
+    if (late_.first() <= at) return take_late(at);
     if (watches() && checked_ + watch_every_ <= at) watch(at);
     if (at < m_.end()) return;
     if (after_stop_) return enter(*after_stop_, at);

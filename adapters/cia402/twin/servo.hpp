@@ -75,7 +75,6 @@ public:
 private:
     void control(Instant now);
     void take_late(Instant at);
-    [[nodiscard]] Instant late() const noexcept { return std::min({sample_at_, mode_at_, shown_at_}); }
     void command(unsigned cw, Instant now);
     void stop_then(State state, const Ramps& ramps, bool at_once, Instant now);
     void enter(State state, Instant now);
@@ -86,10 +85,14 @@ private:
     [[nodiscard]] bool watches() const;
 
     Freedoms free_;
-    Instant sample_at_ = never;  ///< the control word that was written is looked at
-    Instant mode_at_ = never;    ///< the mode that was ordered is in force
-    Instant shown_at_ = never;   ///< the set-point that was taken is acknowledged by bit 12
-    bool shown_ = true;          ///< it is
+    struct Late {
+        Instant sample = never;  ///< the control word that was written is looked at
+        Instant mode = never;    ///< the mode that was ordered is in force
+        Instant shown = never;   ///< the set-point that was taken is acknowledged by bit 12
+        [[nodiscard]] Instant first() const noexcept { return std::min({sample, mode, shown}); }
+    };
+    Late late_;
+    bool shown_ = true;  ///< it is
     AxisObjects o_;
     Mechanics m_;
     UserUnits units_;

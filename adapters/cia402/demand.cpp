@@ -15,7 +15,7 @@ constexpr Duration longest_cycle = std::chrono::milliseconds(255);  ///< 60C2h i
 }
 
 void SetPointStream::follow(const SetPoint& p) {
-    if (!drive_.listens() || drive_.place() > 0) return;  // the engine asks nobody who has no cyclic mode
+    if (!drive_.listens() || drive_.node.stopped || drive_.place() > 0) return;  // the engine asks nobody who has no cyclic mode
     if (newest_ && newest_->mode != p.mode) end();
     newest_ = p;
 }
@@ -52,7 +52,7 @@ std::optional<Job> SetPointStream::begin(Turn& t) {
     }
     Job job;
     job.command.axis = drive_.id();
-    plan_stream(drive_.known, newest_->mode, cycle(), job);
+    plan_stream(drive_.node, drive_.known, newest_->mode, cycle(), job);
     state_ = State::starting;
     return job;
 }
@@ -63,6 +63,15 @@ bool SetPointStream::has_another_time() const noexcept {
 void SetPointStream::begun(std::int64_t here) {
     state_ = newest_ ? static_cast<State>(static_cast<int>(State::position) + static_cast<int>(newest_->mode)) : State::none;
     led_.begin(static_cast<double>(here));
+}
+
+void SetPointStream::mode_shown(int mode, Turn& t) {
+    const bool followed = state_ < State::position || !newest_ || mode == drive_.known.stream_mode(newest_->mode);
+    astray_ = followed ? 0 : astray_ + 1;
+    if (astray_ < sure) return;
+    t.out.stream_ends.push_back(
+        {drive_.id(), Reason::drive_refused, fmt::format("the drive shows mode {} (6061h) by itself, and follows no longer", mode)});
+    end();
 }
 
 void SetPointStream::before_sync(Turn& t) {

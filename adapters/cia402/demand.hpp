@@ -30,6 +30,9 @@ public:
     [[nodiscard]] bool has_another_time() const noexcept;
     /// They are done; it stood at `here`.
     void begun(std::int64_t here);
+    /// The mode that the drive shows: another one than that of the stream, again and again, ends it. Targets that nobody follows would be
+    /// made up for in one step.
+    void mode_shown(int mode, Turn& t);
     [[nodiscard]] bool on() const noexcept { return newest_ || state_ != State::none; }
     /// It gives targets that move the axis.
     [[nodiscard]] bool moves() const noexcept { return state_ >= State::position && led_.velocity() != 0; }
@@ -39,7 +42,9 @@ private:
     void give_back() noexcept;
     [[nodiscard]] Duration cycle() const noexcept;
 
+    static constexpr int sure = 3;  ///< pictures in a row: one may be older than the mode
     State state_ = State::none;
+    int astray_ = 0;
     std::optional<canopen::TargetTurns::Place> place_{};  ///< in the line's beats; it stays while the axis is led
     std::optional<SetPoint> newest_;
     drive::Lead led_;

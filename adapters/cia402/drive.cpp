@@ -13,10 +13,10 @@ using Phase = Presence::Phase;
 using Want = drive::Want;
 
 void Line::take(const LineSetup& setup) {
-    timing = drive::timing_of(setup.timing, drive::Timing{.reply_timeout = std::chrono::milliseconds(50)});
+    timing = drive::timing_of(setup.timing, drive::Timing{.reply_timeout = std::chrono::milliseconds(500)});
     bit_rate = setup.bit_rate;
     turns.set(
-        {.window = 32, .probe_window = 8, .pause = timing.pause, .overtaken_limit = 64, .overtaken_grace = 20 * wire_time(140, bit_rate)});
+        {.window = 32, .probe_window = 16, .pause = timing.pause, .overtaken_limit = 64, .overtaken_grace = 20 * wire_time(140, bit_rate)});
 }
 
 Dialect dialect_of(const Catalogue& catalogue) {
@@ -48,12 +48,15 @@ Drive::Drive(Line& line, const DriveSetup& setup, std::size_t slot)
     : node(line, setup, static_cast<std::uint8_t>(node_of(setup.address))),
       exchanges(*this, node),
       start(*this, node),
+      nmt(*this),
       slot_(slot),
       heartbeat_(node.number) {
     drive::OptionReader options(node.setup.options);
     node.keep_quick_stop = options.flag("quick_stop_stays", true, "yes", "no");
     node.keep_limits = options.flag("drive_limits", true, "on", "off");
     heartbeat_period_ = options.milliseconds("heartbeat_ms", 0, 60'000, heartbeat_period_);
+    node.mode_timeout = options.milliseconds("mode_timeout_ms", 10, 10'000, node.mode_timeout);
+    node.start_timeout = options.milliseconds("start_timeout_ms", 50, 10'000, node.start_timeout);
     Watch& watch = node.watch;
     watch.action = options.word("watchdog_action", {"quick_stop", "disable", "fault", "none"});
     watch.on = watch.action != "none";
@@ -114,6 +117,7 @@ void Drive::forget(Reason reason, std::string_view why, Turn& t) {
     for (const auto& a : axes)
         a->forget();
     start.forget();
+    node.stopped = false;
     check_at_ = never;
     heartbeat_.set_time({});
     node.tickets.fail_all(reason, why, t.out);
@@ -141,7 +145,7 @@ void Drive::made_ready(Turn& t) {
 void Drive::submit(const Command& c, Turn& t) {
     Axis* a = of(c.axis);
     if (!a) return drive::Tickets::refuse(c, Reason::not_supported, "this drive has no such axis", t.out);
-    if (a->submit(c, t)) exchanges.no_repeats();
+    if (a->submit(c, t)) exchanges.no_repeats(t.now);
 }
 void Drive::follow(const SetPoint& p) {
     if (Axis* a = of(p.axis)) a->stream.follow(p);
@@ -163,6 +167,7 @@ Want Drive::wants(Instant now) const noexcept {
     for (const auto& a : axes)
         if (const Want w = a->wants(now); w != Want::nothing && (most == Want::nothing || w < most)) most = w;
     if (most == Want::urgent) return most;
+    if (node.stopped) return most == Want::command ? most : Want::nothing;
     if (!presence.online() || presence.is(Phase::restarting)) return presence.probe_due(now) ? Want::probe : Want::nothing;
     if (presence.is(Phase::starting)) return start.waits(now) ? Want::nothing : Want::command;
     return most == Want::nothing && now >= check_at_ ? Want::poll : most;
@@ -174,7 +179,7 @@ Instant Drive::wish() const noexcept {
         first = std::min(first, a->wish());
     const Presence& presence = node.presence;
     if (!presence.online() || presence.is(Phase::restarting)) return std::min(first, presence.deadline());
-    return presence.is(Phase::starting) ? first : std::min(first, check_at_);
+    return std::min(first, presence.is(Phase::starting) ? start.wish() : node.stopped ? never : check_at_);
 }
 
 void Drive::go(Turn& t) {
@@ -188,6 +193,7 @@ void Drive::go(Turn& t) {
         auto ask = axes[at]->next(t);
         if (!ask) return;
         ask->axis = at;
+        if (node.stopped && ask->why == Ask::Why::stop) nmt.start(Priority::urgent, ask->ticket, t);
         if (ask->step.kind != Step::Kind::nmt) return exchanges.send(std::move(*ask), t);
         t.out.send(canopen::nmt_frame(ask->step.nmt, node.number), Priority::command, ask->ticket);  // nobody answers it
         return heed(axes[at]->answered(*ask, {}, t), t);
@@ -203,6 +209,7 @@ void Drive::on_frame(const Frame& f, Turn& t) {
     if (f.id != static_cast<std::uint32_t>(canopen::sdo_answer_base + node.number)) return;
     const auto end = exchanges.on_frame(f, t);
     if (!end) return;
+    if (node.stopped) nmt.back(t);
     if (double_answer_.answered()) tell_two_nodes("each question is answered twice", t);
     ended(*end, t);
 }
@@ -246,25 +253,30 @@ void Drive::on_deadline(Turn& t) {
     if (heartbeat_.on_deadline(t.now) == canopen::NodeNews::lost && node.presence.online()) {
         notice(Severity::warning, "heartbeat", 0, fmt::format("{}: its heartbeat has stopped", node.setup.name), t);
         check_at_ = t.now;
+        node.stopped = false;
         look_soon(t.now);
     }
-    if (exchanges.on_deadline(t)) unanswered(t);
+    const auto late = exchanges.on_deadline(t);
+    if (late != Exchanges::Late::no) unanswered(late == Exchanges::Late::cut, t);
 }
 
 void Drive::look_soon(Instant now) noexcept {
     for (const auto& a : axes)
         a->feedback.look_soon(now);
 }
-
-void Drive::unanswered(Turn& t) {
+/// `cut`: a stop did not wait for it, so that nothing is known of the node.
+void Drive::unanswered(bool cut, Turn& t) {
     Presence& presence = node.presence;
     const Ask& ask = exchanges.ask();
+    if (cut && ask.why == Ask::Why::start) return;  // asked again
     if (ask.axis < axes.size()) axes[ask.axis]->unanswered(ask, t);
     node.tickets.failed(ask.ticket, Reason::no_answer,
                         canopen::to_text(ask.step.address) + " was not answered: whether the drive took it is not known", t.out);
+    if (cut && ask.why != Ask::Why::probe) return;
     if (presence.online()) {
         look_soon(t.now);
         if (axes.empty()) check_at_ = t.now;
+        nmt.silent(t);
     }
     if (presence.is(Phase::starting)) start.forget();
     if (presence.silent(t.now) != Presence::Silence::counted) forget(Reason::no_answer, "the drive does not answer", t);

@@ -11,6 +11,7 @@
 #include "adapters/cia402/drive_axis.hpp"
 #include "adapters/cia402/drive_double.hpp"
 #include "adapters/cia402/drive_exchange.hpp"
+#include "adapters/cia402/drive_nmt.hpp"
 #include "adapters/cia402/start.hpp"
 #include "gateway/drive/polls.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
@@ -66,7 +67,7 @@ public:
     void forget(Reason reason, std::string_view why, Turn& t);
     /// Of the node, or of its first axis where it has one.
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
-    /// Every answer to an SDO that nobody waited for.
+    /// An answer to an SDO that was not asked, or was answered before.
     void stray() noexcept { double_answer_.stray(); }
     /// It sends heartbeats in this rhythm from now on; zero: it has refused.
     void beats(Duration period) noexcept { double_beat_.begin(period); }
@@ -78,6 +79,7 @@ public:
     std::vector<std::unique_ptr<Axis>> axes;
     Exchanges exchanges;
     Start start;
+    NmtWatch nmt;
 
 private:
     [[nodiscard]] Axis* of(AxisId id) noexcept;
@@ -85,7 +87,7 @@ private:
     void ended(const canopen::SdoEnd& end, Turn& t);
     void tell_two_nodes(std::string_view sign, Turn& t);
     void heed(Axis::News news, Turn& t);
-    void unanswered(Turn& t);
+    void unanswered(bool cut, Turn& t);
     void look_soon(Instant now) noexcept;
     // feedback.cpp
     void on_emergency(const canopen::Emergency& e, Turn& t);

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "adapters/cia402/drive_exchange.hpp"
+#include "adapters/cia402/drive_handshake.hpp"
+
 #include <cstdlib>
 
 namespace axisgate::cia402_drive {
@@ -42,6 +45,7 @@ bool Axis::submit(const Command& c, Turn& t) {
 Want Axis::wants(Instant now) const noexcept {
     if (const Stop* stop = stops_.first()) return !stop->job || now >= stop->job->wait_until ? Want::urgent : Want::nothing;
     if (!node.presence.is(Phase::ready)) return Want::nothing;
+    if (node.stopped) return (job_ ? now >= job_->wait_until : !queue_.empty()) ? Want::command : Want::nothing;
     if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
@@ -49,7 +53,7 @@ Want Axis::wants(Instant now) const noexcept {
 Instant Axis::wish() const noexcept {
     if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
     if (!node.presence.is(Phase::ready)) return never;
-    return job_ ? job_->wait_until : feedback.check_at();
+    return job_ ? job_->wait_until : node.stopped ? never : feedback.check_at();
 }
 
 std::optional<Ask> Axis::next(Turn& t) {
@@ -59,11 +63,11 @@ std::optional<Ask> Axis::next(Turn& t) {
             stop->job.emplace().command = stop->command;
             plan_stop(known, *stop->job);
         }
-        return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, 0};
+        return Ask{Ask::Why::stop, stop->job->steps[stop->job->at], stop->command.ticket, retries + Exchanges::after_start};
     }
-    if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
-    if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
-    if (rates.wants()) return Ask{Ask::Why::rates, rates.next(), no_ticket, retries};
+    if (!node.stopped) {
+        if (auto own = next_of_its_own(t)) return own;
+    }
     while (!job_ && !queue_.empty())
         begin(queue_.pop(), t);
     if (!job_ && stream.waits()) job_ = stream.begin(t);
@@ -72,7 +76,16 @@ std::optional<Ask> Axis::next(Turn& t) {
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
         return Ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
     }
-    if (t.now >= feedback.check_at()) return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
+    if (t.now >= feedback.check_at() && !node.stopped)
+        return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
+    return std::nullopt;
+}
+
+std::optional<Ask> Axis::next_of_its_own(Turn& t) {
+    const int retries = node.line.timing.retries;
+    if (feedback.needs_error_code()) return Ask{Ask::Why::error, {Step::Kind::read, object::error_code, {}}, no_ticket, 0};
+    if (turns.wants(t.now)) return Ask{Ask::Why::turns, turns.next(), no_ticket, retries};
+    if (rates.wants()) return Ask{Ask::Why::rates, rates.next(), no_ticket, retries};
     return std::nullopt;
 }
 
@@ -80,6 +93,11 @@ void Axis::begin(Command command, Turn& t) {
     Job job;
     job.command = std::move(command);
     Reason reason = Reason::not_supported;
+    const auto* action = std::get_if<Action>(&job.command.body);
+    if (node.stopped && !(action && action->name.starts_with("nmt_")))
+        return void(node.tickets.refused(job.command.ticket, Reason::wrong_state,
+                                         "somebody else has stopped the node (NMT stop): it answers nothing until nmt_start starts it",
+                                         t.out));
     std::string why = plan(node, known, place_, job, t.now, reason);
     if (!why.empty()) return void(node.tickets.refused(job.command.ticket, reason, std::move(why), t.out));
     job_ = std::move(job);
@@ -139,6 +157,27 @@ void Axis::withdraw() {
     (void)stops_.add(std::move(stop));
 }
 
+void Axis::take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&)) {
+    if (!stops_.empty()) return;  // it is newer than this
+    Stop stop;
+    stop.command = Command{no_ticket, id_, std::move(body), false, {}};
+    if (planned) {
+        stop.job.emplace().command = stop.command;
+        planned(known, *stop.job);
+        if (stop.job->steps.empty()) return;
+    }
+    (void)stops_.add(std::move(stop));
+}
+
+void Axis::node_stopped(Turn& t) {
+    constexpr std::string_view why = "somebody else has stopped the node (NMT stop)";
+    turns.forget();
+    if (stream.on()) t.out.stream_ends.push_back({id_, Reason::interrupted, std::string(why)});
+    stream.end();
+    if (job_) node.tickets.failed(job_->command.ticket, Reason::interrupted, std::string(why), t.out);
+    job_.reset();
+}
+
 void Axis::drop(const Job& job) noexcept {
     if (is_urgent(job.command.body)) {
         stops_.remove(stops_.first());
@@ -163,10 +202,10 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         return drop(job), News::none;
     }
     const auto sent = [&](Address a) { return end.done() && s.kind == Step::Kind::write && s.address == a; };
-    if (sent(object::controlword)) known.cw = static_cast<std::uint16_t>(canopen::low_first(s.bytes));
+    if (sent(object::controlword)) word_taken(known, job, s, t.now);
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
-    if (sent(object::mode)) known.mode = static_cast<int>(signed_of(s.bytes));
+    if (sent(object::mode)) known.ordered_mode = static_cast<int>(signed_of(s.bytes));
     if (end.done() && s.kind == Step::Kind::write)
         rates.written(of_first_axis(s.address), static_cast<std::int64_t>(canopen::low_first(s.bytes)),
                       std::holds_alternative<Move>(job.command.body), t);
@@ -175,12 +214,20 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         job.data = end.data;
     }
     // What the drive has just answered is newer than its last PDO: who hears "enabled" finds it shown, and may go on at once.
-    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done())
-        feedback.on_status_word(static_cast<std::uint32_t>(canopen::low_first(end.data)), t);
+    if (s.kind == Step::Kind::until && s.address == object::statusword && end.done()) {
+        const auto word = static_cast<std::uint16_t>(canopen::low_first(end.data));
+        if (!job.went) job.status = word;
+        feedback.on_status_word(word, t);
+    }
     if (s.kind == Step::Kind::until && end.done() && still_waits(job, s, end, t)) return News::none;
     job.give_up = never;
     job.wait_until = {};
-    if (++job.at < job.steps.size()) return News::none;
+    const bool taken = s.edge && !std::holds_alternative<Move>(job.command.body);  // what it shows before it has seen the word is old
+    if (taken) job.wait_until = t.now + seen_by_all;
+    if (++job.at < job.steps.size()) {
+        if (job.steps[job.at].edge && !job.released) job.wait_until = known.low_since + seen_by_all;
+        return News::none;
+    }
     Job done = std::move(job);
     drop(done);
     return finish(done, t);
@@ -191,18 +238,33 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     if (s.away_from) {
         const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
         if (std::llabs(at - want) <= std::llabs(at - *s.away_from)) return feedback.on_position(at, t), false;
-    } else if ((canopen::low_first(end.data) & s.mask) == s.want) {
+    } else if (met(known, job, s, end, t.now)) {
         return false;
     }
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;
     if (s.optional) return false;
-    const std::string shown = s.away_from ? fmt::format("still shows position {}", signed_of(end.data))
-                                          : fmt::format("stays in another state: status word {:04X}h", canopen::low_first(end.data));
-    node.tickets.failed(job.command.ticket, Reason::drive_refused, "the drive has acknowledged, and " + shown, t.out);
+    if (s.awaits == Step::Awaits::acknowledge && has_begun(known, job)) {
+        known.no_acknowledge = true;
+        return unacknowledged(job), false;
+    }
+    std::string text = not_met(known, s, end);
+    if (job.stream) {
+        t.out.stream_ends.push_back({id_, Reason::drive_refused, text});
+        stream.end();
+    }
+    node.tickets.failed(job.command.ticket, Reason::drive_refused, std::move(text), t.out);
+    const bool started = job.went.has_value();
     drop(job);
+    // What is answered as failed must not come about later.
+    if (started) take_back(Halt{}, nullptr);
+    if (s.awaits == Step::Awaits::mode) take_back(Halt{}, plan_mode_back);
     return true;
+}
+
+void Axis::saw_status(unsigned sw) noexcept {
+    if (job_ && job_->went && (sw & 0x1000u) == 0) job_->begun = true;
 }
 
 /// Its drive has acknowledged the order of a motion.
@@ -238,6 +300,7 @@ Axis::News Axis::finish(Job& job, Turn& t) {
         written(*to);
     }
     if (std::holds_alternative<Native>(body)) text = native_text(job);
+    if (!job.text.empty()) text = job.text;
     if (read || to) t.out.samples.push_back({id_, read ? read->point : to->point, value, Quality::good, t.now, 0});
     const auto* action = std::get_if<Action>(&body);
     if (action && action->name == "store_parameters") text = node.stored(t);

@@ -14,6 +14,7 @@
 #include "adapters/cia402/drive_rates.hpp"
 #include "adapters/cia402/drive_turns.hpp"
 #include "adapters/cia402/feedback.hpp"
+#include "adapters/cia402/start_pdos.hpp"
 #include "gateway/drive/command_queue.hpp"
 
 namespace axisgate::cia402_drive {
@@ -35,12 +36,17 @@ public:
     void first_reads(std::vector<Step>& steps) const;
     void first_read(const Step& step, const canopen::SdoEnd& end);
     void set_up(std::vector<Step>& steps);
+    void want_pdos(std::vector<PdoSetUp::Wanted>& wanted);
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
     [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< to be read and set up before it is served
     /// It is gone, or begins anew: nothing that was ordered holds any more. Its tickets are the caller's.
     void forget();
     void forget_stops() noexcept { stops_.clear(); }
+    /// Somebody else has stopped its node: what is on its way cannot go on.
+    void node_stopped(Turn& t);
+    /// Each status word, as it comes.
+    void saw_status(unsigned statusword) noexcept;
 
     /// Its drive has left operation by itself while the control word still enables it: the word is taken back, so that the power comes
     /// again by a new order alone.
@@ -79,6 +85,9 @@ private:
 
     [[nodiscard]] static Limits limits_of(const AxisSetup& setup) { return {setup.position_min, setup.position_max}; }
     void begin(Command command, Turn& t);
+    [[nodiscard]] std::optional<Ask> next_of_its_own(Turn& t);
+    /// A stop of this side's own: `planned`, or what the command means when its turn has come.
+    void take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&));
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
     [[nodiscard]] bool still_waits(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);

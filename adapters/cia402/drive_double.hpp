@@ -43,7 +43,7 @@ private:
 /// A late answer happens; one to every question means that there are two who answer.
 class DoubleAnswer {
 public:
-    /// An answer came that nobody waited for.
+    /// An answer came to a question that was not asked, or had its answer.
     void stray() noexcept { stray_ = true; }
     [[nodiscard]] bool answered() noexcept {
         in_a_row_ = std::exchange(stray_, false) ? std::min(in_a_row_ + 1, enough + 1) : 0;

@@ -10,11 +10,24 @@ void emit(const std::vector<Frame>& frames, Priority priority, Ticket order, Tur
     for (const Frame& f : frames)
         t.out.send(f, priority, order);
 }
+/// A node that answers at once has done so within this time, behind the SYNC's PDOs of all nodes in the worst case.
+Duration usual_time(const Line& line) { return std::chrono::milliseconds(50) + 64 * wire_time(140, line.bit_rate); }
 }  // namespace
 
-// An answer waits for the SYNC's PDOs of all nodes in the worst case.
-Exchanges::Exchanges(Drive& drive, const Node& node)
-    : Part(drive), sdo_(node.number, {.patience = node.line.timing.reply_timeout + 64 * wire_time(140, node.line.bit_rate)}) {}
+Exchanges::Exchanges(Drive& drive, const Node& node) : Part(drive), sdo_(node.number) {}
+
+Duration Exchanges::patience() const noexcept {
+    const Node& node = drive_.node;
+    const Duration most = node.line.timing.reply_timeout + 64 * wire_time(140, node.line.bit_rate);
+    // Most numbers that are looked for are nobody's: the last probe alone waits for a slow node, and it takes an answer to those before.
+    const bool early = ask_.why == Ask::Why::probe && node.presence.is(Presence::Phase::probing) &&
+                       node.presence.silences() + 1 < static_cast<std::uint32_t>(node.line.timing.silent_limit);
+    return early ? std::min(most, usual_time(node.line)) : most + times_.behind();
+}
+Duration Exchanges::repeat_after() const noexcept {
+    const Line& line = drive_.node.line;
+    return times_.repeat_after(usual_time(line), line.timing.reply_timeout + 64 * wire_time(140, line.bit_rate));
+}
 
 void Exchanges::send(Ask ask, Turn& t) {
     const auto& axes = drive_.axes;
@@ -35,16 +48,25 @@ void Exchanges::send(Ask ask, Turn& t) {
     }
     ask_ = std::move(ask);
     node.line.turns.began(drive_.slot(), ask_.why == Ask::Why::probe);
+    repeated_ = false;
+    cut_at_ = never;
     transfer(t);
 }
 
 void Exchanges::transfer(Turn& t) {
     std::vector<Frame> frames;
     const Step& s = ask_.step;
-    if (s.kind == Step::Kind::write) {
-        (void)sdo_.write(s.address, s.bytes, t.now, frames);
-    } else {
-        (void)sdo_.read(s.address, t.now, frames);
+    sdo_.set_patience(patience());
+    sent_ = t.now;
+    repeat_at_ = ask_.left > 0 ? t.now + repeat_after() : never;
+    times_.asked(s.address, t.now);
+    if (!sdo_.repeat(t.now, frames)) {
+        sdo_.abandon();
+        if (s.kind == Step::Kind::write) {
+            (void)sdo_.write(s.address, s.bytes, t.now, frames);
+        } else {
+            (void)sdo_.read(s.address, t.now, frames);
+        }
     }
     const bool soon = ask_.why == Ask::Why::step || ask_.why == Ask::Why::turns;
     emit(frames, ask_.why == Ask::Why::stop ? Priority::urgent : soon ? Priority::command : Priority::poll, ask_.ticket, t);
@@ -59,46 +81,95 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     emit(frames, Priority::command, ask_.ticket, t);
     if (sdo_.strays() != strays) {
         ++line.counters.unexpected;
-        drive_.stray();
+        if (f.size == 8) late_or_second(canopen::address_of(f), t);
     }
     if (!end) {
         if (!active()) node.presence.received(t.now);
         return std::nullopt;
     }
-    line.turns.ended(drive_.slot());
+    const bool one_frame = end->data.size() <= 4 && ask_.step.bytes.size() <= 4;
+    (void)times_.answered(end->address, one_frame, t.now);
+    this->end();
     line.turns.received(t.now);
-    if (ask_.left != line.timing.retries && ask_.why == Ask::Why::step) late_.add(end->address);
+    if (repeated_) late_.add(end->address);
     ++line.counters.exchanges;
     if (!end->done()) ++line.counters.refused;
     node.presence.answered();
     return end;
 }
 
-bool Exchanges::on_deadline(Turn& t) {
-    if (!active() || t.now < sdo_.deadline()) return false;
-    std::vector<Frame> frames;
-    if (!sdo_.on_deadline(t.now, frames)) return false;
-    Line& line = drive_.node.line;
-    ++line.counters.timeouts;
-    if (ask_.left > 0) {
-        --ask_.left;
-        ++line.counters.retries;
-        transfer(t);
-        return false;
+/// A node works through its questions in order: while it answers older ones, the newest is waited for.
+void Exchanges::late_or_second(Address address, Turn& t) {
+    if (!times_.answered(address, true, t.now)) return drive_.stray();
+    sdo_.extend(t.now + patience());
+    if (repeat_at_ != never) repeat_at_ = std::max(repeat_at_, t.now + repeat_after());
+}
+
+void Exchanges::end() noexcept {
+    repeat_at_ = cut_at_ = never;
+    drive_.node.line.turns.ended(drive_.slot());
+}
+
+Exchanges::Late Exchanges::on_deadline(Turn& t) {
+    if (!active() || t.now < deadline()) return Late::no;
+    AdapterCounters& counters = drive_.node.line.counters;
+    if (t.now >= cut_at_) {
+        sdo_.abandon();
+        end();
+        late_.add(ask_.step.address);
+        return Late::cut;
     }
-    line.turns.ended(drive_.slot());
+    if (ask_.left > 0) return again(t);
+    std::vector<Frame> unsent;
+    if (!sdo_.on_deadline(t.now, unsent)) {
+        repeat_at_ = never;
+        return Late::no;
+    }
+    ++counters.timeouts;
+    end();
     late_.add(ask_.step.address);
-    return true;
+    return Late::over;
+}
+
+Exchanges::Late Exchanges::again(Turn& t) {
+    Node& node = drive_.node;
+    const bool silent = t.now >= sdo_.deadline();
+    if (!sdo_.beginning() && !silent) {  // it has begun to answer: each further frame has its own time
+        repeat_at_ = never;
+        return Late::no;
+    }
+    --ask_.left;
+    ++node.line.counters.timeouts;
+    ++node.line.counters.retries;
+    repeated_ = true;
+    // Somebody may have stopped the node (NMT): then it hears a stop only when it is started again.
+    if (ask_.why == Ask::Why::stop && ask_.left == after_start - 1)
+        t.out.send(canopen::nmt_frame(canopen::NmtCommand::start, node.number), Priority::urgent, ask_.ticket);
+    transfer(t);
+    return Late::no;
 }
 
 void Exchanges::drop() {
+    times_.forget();
+    repeat_at_ = cut_at_ = never;
     if (!active()) return;
     std::vector<Frame> unsent;
     (void)sdo_.stop(canopen::Abort::timeout, unsent);
 }
 
-void Exchanges::no_repeats() noexcept {
-    if (active()) ask_.left = 0;
+void Exchanges::no_repeats(Instant now) noexcept {
+    if (!active() || ask_.why == Ask::Why::stop) return;
+    ask_.left = 0;
+    repeat_at_ = never;
+    cut_at_ = std::max(now, sent_ + repeat_after());
+}
+
+bool Exchanges::give_up() noexcept {
+    if (!active()) return false;
+    sdo_.abandon();
+    end();
+    late_.add(ask_.step.address);
+    return true;
 }
 
 }  // namespace axisgate::cia402_drive

@@ -100,7 +100,10 @@ struct Node {
     DriveSetup setup;
     const Dialect dialect;
     std::uint8_t number;
-    int slot = -1;  ///< its beats by the line's plan
+    int slot = -1;                                     ///< its beats by the line's plan
+    bool stopped = false;                              ///< somebody else has stopped it (NMT): it answers nothing, and its PDOs do not come
+    Duration mode_timeout = std::chrono::seconds(1);   ///< from 6060h until 6061h shows it
+    Duration start_timeout = std::chrono::seconds(1);  ///< from the start bit until the drive shows that it has taken it
     bool keep_quick_stop = true;
     bool keep_limits = true;  ///< option drive_limits: the site's limits of position go into 607Dh
     Watch watch;

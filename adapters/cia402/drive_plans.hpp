@@ -2,7 +2,9 @@
 // In: a command, what is known. Out: steps, or why it is refused. A control word that moves is the last of its list.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string>
 
 #include "adapters/cia402/drive_steps.hpp"
@@ -16,8 +18,12 @@ enum class Order : std::uint8_t { none, position, velocity, homing };
 /// What is known of an axis.
 struct AxisKnown {
     AxisFeedback fb;
-    std::uint16_t cw = 0;  ///< as the drive has it
-    int mode = 0;
+    std::uint16_t cw = 0;         ///< as the drive has it
+    int mode = 0;                 ///< 6061h, as it was shown last
+    int ordered_mode = 0;         ///< 6060h, as the drive has it
+    Instant low_since{};          ///< bit 4 of the control word
+    bool acknowledged = false;    ///< the last set-point was, by status bit 12
+    bool no_acknowledge = false;  ///< the drive has moved without it
     std::uint32_t modes = 0;
     bool profile = true;  ///< it has a status word
     std::int64_t homing_method = 0;
@@ -36,6 +42,13 @@ struct AxisKnown {
         const int older = kind == SetPoint::Mode::position ? 7 : kind == SetPoint::Mode::torque ? 4 : 0;
         return !offers(cyclic) && offers(older) ? older : cyclic;
     }
+    /// Above what a drive shows that stands: a thousandth of its profile velocity.
+    [[nodiscard]] bool turns() const noexcept { return std::llabs(fb.velocity) > std::max<std::int64_t>(rates[0] / 1000, 0); }
+    /// By the status word and the velocity that were read or shown last.
+    [[nodiscard]] bool moves_under_power() const noexcept {
+        const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+        return profile && turns() && (six == 0x27 || six == 0x07 || (sw & 0x4Fu) == 0x0F);
+    }
     [[nodiscard]] unsigned state() const noexcept { return fb.statusword.value_or(0) & 0x6Fu; }
     [[nodiscard]] bool on() const noexcept { return state() == 0x27; }
 };
@@ -47,7 +60,9 @@ void plan_stop(const AxisKnown& known, Job& job);
 /// `cycle`: between two of its targets. Up to 255 ms it is said in ms, above in tens.
 [[nodiscard]] AxisKnown::Interpolation interpolation_of(Duration cycle) noexcept;
 /// The drive's own place is its first target, and only then the mode is another.
-void plan_stream(const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job);
+void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job);
+/// The mode that was ordered does not come: the one that is shown is ordered again.
+void plan_mode_back(const AxisKnown& known, Job& job);
 // native.cpp
 [[nodiscard]] std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason);
 [[nodiscard]] std::string plan_action(const Node& node, const AxisKnown& known, Job& job, const Action& action, Instant now,

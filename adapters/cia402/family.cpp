@@ -13,7 +13,7 @@ namespace cia402_drive {
 
 ScanPlan scan_nodes(const ScanWish& wish) {
     ScanPlan plan = drive::scan_range(wish, 1, 127, check_address);
-    plan.at_once = 8;
+    plan.at_once = 16;
     return plan;
 }
 std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses) {

@@ -38,6 +38,12 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
             return presence.begin(t.now);
         }
     }
+    if (heartbeat_.state() == canopen::NmtState::stopped && !axes.empty()) {
+        if (presence.is(Presence::Phase::ready)) return nmt.stopped(t);
+        nmt.wake(t);
+    } else if (node.stopped) {
+        nmt.back(t);
+    }
     presence.received(t.now);
     // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
     if (news == canopen::NodeNews::state && heartbeat_.state() == canopen::NmtState::pre_operational &&
@@ -55,6 +61,7 @@ bool Drive::on_pdo(const Frame& f, Turn& t) {
             node.presence.received(t.now);
             return true;
         }
+        if (node.stopped) nmt.back(t);
         a.turns.came(status ? PdoTurns::status : PdoTurns::motion, t);
         if (status) {
             a.feedback.on_status(f.data(), t);
@@ -96,6 +103,7 @@ void Feedback::on_status(std::span<const std::uint8_t> b, Turn& t) {
     known.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
     known.fb.position = signed_of(b.subspan(2, 4));
     known.mode = static_cast<int>(signed_of(b.subspan(6, 1)));
+    drive_.stream.mode_shown(known.mode, t);
     status_new_ = true;
     if (motion_new_) learnt(t);
 }
@@ -206,6 +214,7 @@ void Feedback::judge(Turn& t) {
     AxisKnown& known = drive_.known;
     AxisFeedback& fb = known.fb;
     const unsigned sw = fb.native_status, six = sw & 0x6Fu;
+    drive_.saw_status(sw);
     const bool enabled = six == 0x27, quick = six == 0x07, reacting = (sw & 0x4Fu) == 0x0F, was_fault = fb.fault;
     fb.statusword = static_cast<std::uint16_t>(sw & 0x7Fu);
     fb.power = enabled || quick || reacting ? AxisFeedback::Power::on : AxisFeedback::Power::off;

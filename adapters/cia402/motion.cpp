@@ -7,25 +7,40 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-constexpr std::uint16_t on_word = 0x0F, halt_bit = 0x100, start_bit = 0x10, go_word = 0x3F;
+constexpr std::uint16_t on_word = 0x0F, halt_bit = 0x100, go_word = 0x3F;
 bool fits_i32(std::int64_t v) { return v >= INT32_MIN && v <= INT32_MAX; }
 
-void enter_mode(const AxisKnown& known, Job& job, int mode) {
-    if (known.mode != mode) job.write(object::mode, mode, 1);
+/// What the drive does next counts by the mode that it shows: a set-point of a mode that is not in force yet is lost.
+void enter_mode(const Node& node, const AxisKnown& known, Job& job, int mode) {
+    if (known.mode == mode && known.ordered_mode == mode) return;
+    job.write(object::mode, mode, 1);
+    job.await(Step::Awaits::mode, object::mode_shown, 0xFF, static_cast<std::uint8_t>(mode), node.mode_timeout);
+}
+/// Bit 4 of the motion before is taken back: a halt stands until the new target goes.
+void take_start_back(const AxisKnown& known, Job& job) {
+    if (known.cw & start_bit) job.word(static_cast<std::uint16_t>((known.cw & halt_bit) | on_word));
 }
 
-void plan_homing(const AxisKnown& known, Job& job, std::optional<std::int16_t> method) {
+void plan_homing(const Node& node, const AxisKnown& known, Job& job, std::optional<std::int16_t> method) {
     if (method) job.write(object::homing_method, *method, 1);
-    enter_mode(known, job, 6);
+    enter_mode(node, known, job, 6);
     job.word(on_word);
-    job.word(on_word | start_bit);
+    job.await(Step::Awaits::value, object::statusword, 0, 0, {});  // what it shows before
+    job.start_word(on_word | start_bit);
 }
 
 std::string plan_enable(const AxisKnown& known, Job& job, Reason& reason) {
     reason = Reason::wrong_state;
     if (known.fb.fault) return "the drive is in a fault: reset it first";
-    // Nothing may move because of this: no speed is wanted, and positioning waits for its start bit.
+    // Nothing may move because of this: no speed is wanted, and positioning waits for its start bit. A mode of a stream stays in force
+    // until another is shown: its target is where the axis is.
     if (known.offers(3) || known.offers(9)) job.write(object::target_velocity, 0, 4, true);
+    if (known.mode == 7 || known.mode == 8) {
+        job.read(object::position);
+        job.write(known.mode == 7 ? object::interpolated_position : object::target_position, 0, 4, true);
+        job.steps.back().from_here = true;
+    }
+    if (known.mode == 4 || known.mode == 10) job.write(object::target_torque, 0, 2, true);
     if (known.offers(1)) job.write(object::mode, 1, 1);
     if (!known.on() && known.state() != 0x07) {
         job.word(0x06), job.until(0x6F, 0x21);
@@ -37,7 +52,7 @@ std::string plan_enable(const AxisKnown& known, Job& job, Reason& reason) {
     return {};
 }
 
-std::string plan_set_position(const AxisKnown& known, Job& job, const SetPosition& set, Reason& reason) {
+std::string plan_set_position(const Node& node, const AxisKnown& known, Job& job, const SetPosition& set, Reason& reason) {
     if (!known.offers(6)) return "this drive has no homing mode (6502h), by which a position is set";
     reason = Reason::wrong_state;
     if (!known.on()) return "the axis is off: enable it first";
@@ -45,7 +60,7 @@ std::string plan_set_position(const AxisKnown& known, Job& job, const SetPositio
     reason = Reason::out_of_range;
     if (!fits_i32(set.position)) return "a position is a number of 32 bits";
     job.write(object::home_offset, set.position, 4);
-    plan_homing(known, job, 37);
+    plan_homing(node, known, job, 37);
     job.until(0x1000, 0x1000);
     job.until_position(set.position, known.fb.position);
     job.word(on_word);
@@ -53,19 +68,20 @@ std::string plan_set_position(const AxisKnown& known, Job& job, const SetPositio
     return {};
 }
 
-std::string plan_home(const AxisKnown& known, Job& job, const Home& home, Reason& reason) {
+std::string plan_home(const Node& node, const AxisKnown& known, Job& job, const Home& home, Reason& reason) {
     if (!known.offers(6)) return "this drive has no homing mode (6502h)";
     reason = Reason::wrong_state;
     if (!known.on()) return "the axis is off: enable it first";
     reason = Reason::out_of_range;
     if (home.method < -128 || home.method > 127) return "a homing method is a number from -128 to 127";
-    plan_homing(known, job, home.method == 0 ? std::nullopt : std::optional(home.method));
+    plan_homing(node, known, job, home.method == 0 ? std::nullopt : std::optional(home.method));
+    job.await(Step::Awaits::homing, object::statusword, 0, 0, node.start_timeout);
     return {};
 }
 
-std::string plan_move(std::string_view noun, const AxisKnown& known, Job& job, const Move& m, Reason& reason) {
+std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const Move& m, Reason& reason) {
     const int mode = m.kind == Move::Kind::velocity ? 3 : 1;
-    if (m.prepare_only) return fmt::format("a {} on this line prepares no motion: start it alone", noun);
+    if (m.prepare_only) return fmt::format("a {} on this line prepares no motion: start it alone", node.dialect.noun);
     if (!known.offers(mode)) return fmt::format("this drive has no {} mode (6502h)", mode == 3 ? "profile velocity" : "profile position");
     reason = Reason::wrong_state;
     if (!known.on()) return "the axis is off: enable it first";
@@ -79,18 +95,21 @@ std::string plan_move(std::string_view noun, const AxisKnown& known, Job& job, c
         (mode == 1 && !rate(object::profile_velocity, m.velocity)))
         return "velocity, acceleration and deceleration are numbers from 1 to 4294967295";
     if (mode == 3) {
+        // The speed follows the mode: one that came late would run at a speed that was answered as failed.
+        if (known.mode != 3 || known.ordered_mode != 3) job.write(object::target_velocity, 0, 4);
+        enter_mode(node, known, job, 3);
         job.write(object::target_velocity, m.target, 4);
-        enter_mode(known, job, 3);
         if (known.cw != on_word) job.word(on_word);
         return {};
     }
-    // A halt stands until the new target goes: without it the drive would go on to the old one.
-    if (known.cw & start_bit) job.word(static_cast<std::uint16_t>((known.cw & halt_bit) | on_word));
-    enter_mode(known, job, 1);
+    take_start_back(known, job);
+    enter_mode(node, known, job, 1);
     if (m.kind == Move::Kind::relative) job.read(object::position);
     job.write(object::target_position, m.target, 4);
     job.steps.back().from_here = m.kind == Move::Kind::relative;
-    job.word(go_word);
+    job.await(Step::Awaits::release, object::statusword, 0x1000, 0, node.start_timeout);
+    job.start_word(go_word);
+    job.await(Step::Awaits::acknowledge, object::statusword, 0x1000, 0x1000, node.start_timeout);
     job.word(on_word);
     return {};
 }
@@ -107,13 +126,17 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
     if (std::holds_alternative<Enable>(body)) return plan_enable(known, job, reason);
     if (std::holds_alternative<ResetFault>(body)) {
         if (!known.fb.fault) return job.read(object::error_code), "";
-        for (const int cw : {0x00, 0x80, 0x00})
-            job.word(static_cast<std::uint16_t>(cw));
+        job.word(0x00), job.word(0x80);
+        // Until the drive has seen it; a fault whose cause stands stays.
+        job.until(0x08, 0x00);
+        job.steps.back().optional = true;
+        job.steps.back().patience = std::chrono::milliseconds(200);
+        job.word(0x00);
         return {};
     }
-    if (const auto* home = std::get_if<Home>(&body)) return plan_home(known, job, *home, reason);
-    if (const auto* set = std::get_if<SetPosition>(&body)) return plan_set_position(known, job, *set, reason);
-    if (const auto* move = std::get_if<Move>(&body)) return plan_move(noun, known, job, *move, reason);
+    if (const auto* home = std::get_if<Home>(&body)) return plan_home(node, known, job, *home, reason);
+    if (const auto* set = std::get_if<SetPosition>(&body)) return plan_set_position(node, known, job, *set, reason);
+    if (const auto* move = std::get_if<Move>(&body)) return plan_move(node, known, job, *move, reason);
     return fmt::format("a {} on this line has no {}", noun, name_of(body));
 }
 
@@ -143,26 +166,38 @@ AxisKnown::Interpolation interpolation_of(Duration cycle) noexcept {
     return ms <= 255 ? AxisKnown::Interpolation{ms, -3} : AxisKnown::Interpolation{std::min<std::int64_t>(ms / 10, 255), -2};
 }
 
-void plan_stream(const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job) {
+void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job) {
     job.stream = true;
     const auto time = interpolation_of(cycle);
     job.write(object::cycle, time.value, 1, true);
     job.write(object::cycle_index, time.index, 1, true);
-    if (known.cw & start_bit) job.word(static_cast<std::uint16_t>((known.cw & halt_bit) | on_word));
-    job.read(object::position);
     const int entered = known.stream_mode(mode);
-    if (mode == SetPoint::Mode::position) {
-        job.write(entered == 7 ? object::interpolated_position : object::target_position, 0, 4);
-        job.steps.back().from_here = true;
-    } else if (mode == SetPoint::Mode::velocity) {
-        job.write(object::target_velocity, 0, 4);
+    const bool in_force = known.mode == entered && known.ordered_mode == entered;
+    if (known.turns()) {  // it would be torn back to the place that is read while it moves: it stands before
+        job.word(on_word | halt_bit);
+        job.until_standstill();
     } else {
-        job.write(object::target_torque, 0, 2);
+        take_start_back(known, job);
     }
-    enter_mode(known, job, entered);
+    const auto target_here = [&] {
+        job.read(object::position);
+        if (mode == SetPoint::Mode::position) {
+            job.write(entered == 7 ? object::interpolated_position : object::target_position, 0, 4);
+            job.steps.back().from_here = true;
+        }
+    };
+    target_here();
+    if (mode == SetPoint::Mode::velocity) job.write(object::target_velocity, 0, 4);
+    if (mode == SetPoint::Mode::torque) job.write(object::target_torque, 0, 2);
+    enter_mode(node, known, job, entered);
+    if (!in_force) target_here();  // the mode may have taken its time
     // Interpolation is switched on by bit 4.
     const std::uint16_t cw = entered == 7 ? on_word | start_bit : on_word;
-    if (known.cw != cw || entered == 7) job.word(cw);
+    if (known.cw != cw || entered == 7 || known.turns()) job.word(cw);
+}
+
+void plan_mode_back(const AxisKnown& known, Job& job) {
+    if (known.mode != 0) job.write(object::mode, known.mode, 1, true);
 }
 
 }  // namespace axisgate::cia402_drive

@@ -10,7 +10,11 @@
 
 namespace axisgate::cia402_drive {
 
-bool Start::waits(Instant now) const noexcept { return at_end() && !drive_.node.line.in_turn(drive_.node.slot, now); }
+bool Start::waits(Instant now) const noexcept {
+    if (sets_pdos()) return pdos_.look_at() != never && now < pdos_.look_at();
+    return at_end() && !drive_.node.line.in_turn(drive_.node.slot, now);
+}
+std::string Start::title() const { return fmt::format("{}, {}", drive_.node.dialect.noun, identity_); }
 
 void Start::probe(Turn& t) {
     drive_.node.presence.probe_sent();
@@ -64,13 +68,17 @@ void Start::add_axes() {
 void Start::set_up() {
     if (drive_.axes.empty()) return;
     steps_.push_back({{Step::Kind::write, object::heartbeat, bytes_of(milliseconds_of(drive_.heartbeat_period()), 2), 0, 0, true}});
+    std::vector<PdoSetUp::Wanted> wanted;
     for (const auto& a : drive_.axes) {
         if (!a->is_new()) continue;
         std::vector<Step> writes;
         a->set_up(writes);
+        a->want_pdos(wanted);
         for (Step& s : writes)
             steps_.push_back({std::move(s), a.get()});
     }
+    pdos_.begin(std::move(wanted));
+    steps_.push_back({{}, nullptr, true});
     set_up_limits();
     set_up_watch();
     Step go;
@@ -139,7 +147,11 @@ void Start::watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t) {
 void Start::next(Turn& t) {
     if (steps_.empty()) begin();
     if (at_ >= steps_.size()) return done(t);
-    const auto& [step, axis] = steps_[at_];
+    if (sets_pdos()) {
+        if (pdos_.over()) return void(++at_), next(t);
+        return drive_.exchanges.send({Ask::Why::start, pdos_.next(), no_ticket, drive_.node.line.timing.retries, drive_.axes.size()}, t);
+    }
+    const auto& [step, axis, pdos] = steps_[at_];
     if (step.kind == Step::Kind::nmt) {
         t.out.send(canopen::nmt_frame(step.nmt, drive_.node.number));
         ++at_;
@@ -156,7 +168,7 @@ void Start::done(Turn& t) {
     Node& node = drive_.node;
     steps_.clear();
     node.presence.made_ready();
-    node.presence.report(fmt::format("{}, {}", node.dialect.noun, identity_), t.out);
+    node.presence.report(title(), t.out);
     // It is served all the same: what is safe with another model of the same maker, the plant knows and the gateway does not.
     if (const std::string fault = differs(expected_, reported_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
@@ -165,13 +177,12 @@ void Start::done(Turn& t) {
 
 void Start::answered(const canopen::SdoEnd& end, Turn& t) {
     if (at_ >= steps_.size()) return;
-    const auto [step, axis] = steps_[at_];
-    Node& node = drive_.node;
-    if (!end.done() && !step.optional) {
-        steps_.clear();
-        node.presence.lose(t.now, node.line.timing.pause_max);
-        return drive_.forget(Reason::drive_refused, "the drive cannot be set up: " + canopen::to_text(end), t);
+    if (sets_pdos()) {
+        if (!pdos_.answered(end, t)) cannot_be_set_up(end, t);
+        return;
     }
+    const auto [step, axis, pdos] = steps_[at_];
+    if (!end.done() && !step.optional) return cannot_be_set_up(end, t);
     ++at_;
     if (axis && step.kind == Step::Kind::write && step.address.index == object::position_min_limit.index) {
         limit_set(step, *axis, end, t);
@@ -190,6 +201,12 @@ void Start::answered(const canopen::SdoEnd& end, Turn& t) {
     if (at_ == steps_.size() && step.kind == Step::Kind::read) set_up();
 }
 
+void Start::cannot_be_set_up(const canopen::SdoEnd& end, Turn& t) {
+    steps_.clear();
+    drive_.node.presence.lose(t.now, drive_.node.line.timing.pause_max);
+    drive_.forget(Reason::drive_refused, "the drive cannot be set up: " + canopen::to_text(end), t);
+}
+
 void Start::identity_read(Address address, const canopen::SdoEnd& end) {
     const auto raw = static_cast<std::uint32_t>(end.done() ? canopen::low_first(end.data) : 0);
     static constexpr std::string_view names[] = {"vendor", "product", "revision"};
@@ -201,9 +218,10 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
 }
 
 void Axis::first_reads(std::vector<Step>& steps) const {
-    for (const Address a : {object::statusword, object::modes, object::controlword, object::homing_method, object::profile_velocity,
-                            object::profile_acceleration, object::profile_deceleration, object::quick_stop_deceleration, object::error_code,
-                            object::quick_stop_option, object::cycle, object::cycle_index})
+    for (const Address a :
+         {object::statusword, object::velocity, object::mode, object::modes, object::controlword, object::homing_method,
+          object::profile_velocity, object::profile_acceleration, object::profile_deceleration, object::quick_stop_deceleration,
+          object::error_code, object::quick_stop_option, object::cycle, object::cycle_index})
         steps.push_back({Step::Kind::read, a, {}, 0, 0, true});
 }
 
@@ -215,6 +233,9 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
         rates.take(a, a == object::quick_stop_option ? signed_of(end.data) : static_cast<std::int64_t>(canopen::low_first(end.data)));
     const auto raw = static_cast<std::int64_t>(end.done() ? canopen::low_first(end.data) : 0);
     if (a == object::statusword) known.profile = end.done() || !node.dialect.profile_optional;
+    if (a == object::statusword && end.done()) known.fb.native_status = static_cast<std::uint32_t>(raw);
+    if (a == object::velocity && end.done()) known.fb.velocity = signed_of(end.data);
+    if (a == object::mode && end.done()) known.ordered_mode = static_cast<int>(signed_of(end.data));
     if (a == object::modes) known.modes = static_cast<std::uint32_t>(raw);
     if (a == object::controlword) known.cw = static_cast<std::uint16_t>(raw);
     if (a == object::homing_method) known.homing_method = signed_of(end.data);
@@ -230,8 +251,7 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
 
 void Axis::set_up(std::vector<Step>& steps) {
     if (!known.profile) return;
-    const int every = node.line.plan.turns;
-    turns.set_up(every);
+    turns.set_up(node.line.plan.turns);
     const auto add = [&](Address a, std::vector<std::uint8_t> bytes, bool optional) {
         steps.push_back({Step::Kind::write, a, std::move(bytes), 0, 0, optional});
     };
@@ -240,17 +260,19 @@ void Axis::set_up(std::vector<Step>& steps) {
         for (const auto& [place, limit] :
              {std::pair{object::position_max_limit, limits_[1]}, std::pair{object::position_min_limit, limits_[0]}})
             if (limit) add(place, bytes_of(std::clamp<std::int64_t>(*limit, INT32_MIN, INT32_MAX), 4), true);
+}
+
+void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
+    if (!known.profile) return;
     for (auto p : {status_pdo(node.number, place_), motion_pdo(node.number, place_)}) {
-        p.settings.transmission = static_cast<std::uint8_t>(every);
-        for (const auto& w : canopen::writes_of(p))
-            add(w.address, w.bytes, false);
+        p.settings.transmission = static_cast<std::uint8_t>(node.line.plan.turns);
+        wanted.push_back({std::move(p), false});
     }
     if (place_ > 0) return;  // the receive PDOs of the connection set are the first axis'
     for (const auto kind : {SetPoint::Mode::position, SetPoint::Mode::velocity, SetPoint::Mode::torque}) {
         const int mode = known.stream_mode(kind);
-        if (!known.offers(mode)) continue;
-        for (const auto& w : canopen::writes_of(target_pdo(node.number, static_cast<std::uint16_t>(1 + static_cast<int>(kind)), mode == 7)))
-            add(w.address, w.bytes, true);
+        if (known.offers(mode))
+            wanted.push_back({target_pdo(node.number, static_cast<std::uint16_t>(1 + static_cast<int>(kind)), mode == 7), true});
     }
 }
 

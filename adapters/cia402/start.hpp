@@ -8,6 +8,7 @@
 #include "adapters/cia402/drive_node.hpp"
 #include "adapters/cia402/drive_steps.hpp"
 #include "adapters/cia402/parameters.hpp"
+#include "adapters/cia402/start_pdos.hpp"
 #include "gateway/drive/part.hpp"
 #include "gateway/protocols/canopen/sdo_client.hpp"
 
@@ -17,7 +18,7 @@ class Drive;
 
 class Start : public drive::Part<Drive> {
 public:
-    Start(Drive& drive, const Node& node) : Part(drive), expected_(expected_identity(node.catalogue())) {}
+    Start(Drive& drive, const Node& node) : Part(drive), pdos_(drive), expected_(expected_identity(node.catalogue())) {}
 
     void probe(Turn& t);
     void probed(const canopen::SdoEnd& end, Turn& t);
@@ -26,17 +27,22 @@ public:
     /// What was being set up may be gone: it is begun again when its turn comes.
     void forget() noexcept { steps_.clear(); }
     void next(Turn& t);
+    /// "CiA 402 drive, vendor 99h, product 1h, revision 1h".
+    [[nodiscard]] std::string title() const;
     /// It is set up, but for NMT start.
     [[nodiscard]] bool at_end() const noexcept { return at_ < steps_.size() && steps_[at_].step.kind == Step::Kind::nmt; }
-    /// For its own beat: from NMT start on its PDOs count SYNCs.
+    /// For its own beat: from NMT start on its PDOs count SYNCs. Or for the next look at a node that moves.
     [[nodiscard]] bool waits(Instant now) const noexcept;
+    [[nodiscard]] Instant wish() const noexcept { return sets_pdos() ? pdos_.look_at() : never; }
     void answered(const canopen::SdoEnd& end, Turn& t);
 
 private:
     struct StartStep {
         Step step;
         Axis* axis = nullptr;  ///< nullptr: of the node
+        bool pdos = false;     ///< in its place those of PdoSetUp
     };
+    [[nodiscard]] bool sets_pdos() const noexcept { return at_ < steps_.size() && steps_[at_].pdos; }
     void add_axes();
     void set_up();
     void set_up_watch();
@@ -44,8 +50,10 @@ private:
     void set_up_limits();
     void limit_set(const Step& step, const Axis& axis, const canopen::SdoEnd& end, Turn& t);
     void identity_read(Address address, const canopen::SdoEnd& end);
+    void cannot_be_set_up(const canopen::SdoEnd& end, Turn& t);
     void done(Turn& t);
 
+    PdoSetUp pdos_;
     std::vector<StartStep> steps_;
     std::size_t at_ = 0;
     std::string identity_;

@@ -26,10 +26,11 @@ namespace object {
 inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watched_heartbeat{0x1016, 1}, heartbeat{0x1017, 0},
     vendor{0x1018, 1}, product{0x1018, 2}, revision{0x1018, 3}, store{0x1010, 1}, restore{0x1011, 1}, connection_lost_option{0x6007, 0},
     error_code{0x603F, 0}, controlword{0x6040, 0}, statusword{0x6041, 0}, quick_stop_option{0x605A, 0}, mode{0x6060, 0},
-    position{0x6064, 0}, velocity{0x606C, 0}, target_torque{0x6071, 0}, target_position{0x607A, 0}, home_offset{0x607C, 0},
-    profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0}, profile_deceleration{0x6084, 0}, quick_stop_deceleration{0x6085, 0},
-    position_min_limit{0x607D, 1}, position_max_limit{0x607D, 2}, homing_method{0x6098, 0}, interpolated_position{0x60C1, 1},
-    cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0}, modes{0x6502, 0};
+    mode_shown{0x6061, 0}, demand{0x6062, 0}, position{0x6064, 0}, velocity{0x606C, 0}, target_torque{0x6071, 0},
+    target_position{0x607A, 0}, home_offset{0x607C, 0}, profile_velocity{0x6081, 0}, profile_acceleration{0x6083, 0},
+    profile_deceleration{0x6084, 0}, quick_stop_deceleration{0x6085, 0}, position_min_limit{0x607D, 1}, position_max_limit{0x607D, 2},
+    homing_method{0x6098, 0}, interpolated_position{0x60C1, 1}, cycle{0x60C2, 1}, cycle_index{0x60C2, 2}, target_velocity{0x60FF, 0},
+    modes{0x6502, 0};
 }  // namespace object
 
 /// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3

@@ -75,6 +75,7 @@ void Node::power_off(Instant now) {
     (void)device_->take_reported();
     powered_ = false;
     state_ = NmtState::boot_up;
+    requests_.clear();
     heartbeat_.set_period({}, now);
     guard_.set({}, 0);
     watch_ = canopen::HeartbeatWatch{0};
@@ -101,6 +102,7 @@ void Node::reset(bool all, Instant now, Out& out) {
         }
     }
     server_.reset();
+    requests_.clear();
     guard_.reset();
     boot(now, out);
 }
@@ -166,7 +168,14 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
         p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
 }
 
+bool Node::may_set_up(Address a) const noexcept {
+    const bool mapping = (a.index >= 0x1600 && a.index < 0x1800) || (a.index >= 0x1A00 && a.index < 0x1C00);
+    const bool any = a.index >= 0x1400 && a.index < 0x1C00;
+    return state_ == NmtState::pre_operational || (free_.pdo_setup == 2 ? !any : free_.pdo_setup == 0 || !mapping);
+}
+
 Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
+    if (!may_set_up(a)) return Abort::device_state;
     const auto v = static_cast<std::int64_t>(canopen::low_first(bytes));
     if (a.index == 0x1010 && v != save_word) return Abort::transfer;
     if (a.index == 0x1011 && v != load_word) return Abort::transfer;
@@ -263,17 +272,25 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     if (const auto answer = guard_.on_frame(f, now, node_, state_)) return send(*answer, now, out);
     if (state_ == NmtState::stopped) return;
     if (canopen::is_data(f, sync_id_)) return on_sync(f, now, out);
-    std::vector<Frame> answers;
-    if (server_.on_frame(f, now, answers)) {
-        for (const Frame& a : answers)
-            send(a, now, out);
-        return take_writes(now, out);
-    }
+    if (canopen::is_data(f, std::uint32_t{canopen::sdo_request_base} + node_))
+        return free_.sdo_answer_ms > 0 || !requests_.empty() ? keep_request(f, now) : serve_request(f, now, out);
     if (state_ != NmtState::operational) return;
     for (Pdo& p : receive_)
         if (p.valid && canopen::is_data(f, p.pdo.settings.id)) return receive(p, f.data(), now, out);
     for (Pdo& p : transmit_)
         if (p.valid && p.pdo.settings.remote_allowed && canopen::is_remote(f, p.pdo.settings.id)) return transmit(p, now, out);
+}
+
+void Node::keep_request(const Frame& f, Instant now) {
+    if (requests_.size() >= most_requests) return;
+    requests_.push_back({f, (requests_.empty() ? now : std::max(now, requests_.back().due)) + free_.sdo_answer()});
+}
+void Node::serve_request(const Frame& f, Instant at, Out& out) {
+    std::vector<Frame> answers;
+    (void)server_.on_frame(f, at, answers);
+    for (const Frame& a : answers)
+        send(a, at, out);
+    take_writes(at, out);
 }
 
 void Node::receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out) {
@@ -364,6 +381,7 @@ void Node::events(Instant at, Out& out) {
 Instant Node::deadline() const {
     if (!powered_) return never;
     Instant next = std::min({device_->next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline(), watch_.deadline()});
+    if (!requests_.empty()) next = std::min(next, requests_.front().due);
     if (state_ == NmtState::operational)
         for (const Pdo& p : transmit_)
             next = std::min(next, p.event);
@@ -379,6 +397,11 @@ void Node::advance(Instant now, Out& out) {
         if (device_->next_event(now_) <= at) {
             shown_.reset();
             device_->on_event(at);
+        }
+        if (!requests_.empty() && requests_.front().due <= at) {
+            const Frame request = requests_.front().frame;
+            requests_.pop_front();
+            if (state_ != NmtState::stopped) serve_request(request, at, out);
         }
         if (const auto beat = heartbeat_.on_deadline(at, node_, state_)) send(*beat, at, out);
         if (guard_.on_deadline(at)) connection_lost(at, out);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <map>
 #include <optional>
 
 #include "adapters/cia402/twin/device.hpp"
+#include "adapters/cia402/twin/freedoms.hpp"
 #include "gateway/core/twin.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
@@ -31,6 +33,9 @@ public:
     [[nodiscard]] Instant deadline() const;
     /// Of the pre-defined connection set: its own identifiers, NMT and SYNC, and those of the node whose heartbeat it watches.
     [[nodiscard]] Acceptance acceptance() const noexcept;
+
+    /// How it answers and what it lets be set up, from now on.
+    void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
 
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -66,6 +71,9 @@ private:
     void read_pdos(Instant now);
     void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
     void show(Instant now);  ///< what is measured stands in the dictionary
+    [[nodiscard]] bool may_set_up(canopen::Address address) const noexcept;
+    void keep_request(const Frame& request, Instant now);
+    void serve_request(const Frame& request, Instant at, Out& out);
     void nmt(canopen::NmtCommand command, Instant now, Out& out);
     void receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out& out);
     void transmit(Pdo& p, Instant at, Out& out);
@@ -76,7 +84,14 @@ private:
     void connection_lost(Instant at, Out& out);
     void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
 
+    static constexpr std::size_t most_requests = 8;  ///< that wait for their answer; what is more is lost
+    struct Request {
+        Frame frame;
+        Instant due;
+    };
     std::uint8_t node_;
+    Freedoms free_;
+    std::deque<Request> requests_;
     canopen::Dictionary factory_, d_;
     Device* device_ = nullptr;
     canopen::SdoServer server_;

@@ -32,6 +32,7 @@ void Servo::power_on(Instant now) {
     state_ = State::switch_on_disabled;
     after_stop_.reset();
     cw_ = 0;
+    late_ = {};
     orders_.reset(static_cast<int>(o_.get(0x6060)));
     homing_.forget();
     behind_ = 0;
@@ -70,10 +71,16 @@ canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v, Instant now)
 
 void Servo::written(canopen::Address a, Instant now) {
     switch (a.index - o_.shift()) {
-        case 0x6040:
-            return control(now);
+        case 0x6040: {
+            const Duration every = free_.control_sample();
+            if (every == Duration::zero()) return control(now);
+            if (late_.sample == never) late_.sample = now + every - now.time_since_epoch() % every;
+            return;
+        }
         case 0x6060:
-            return set_mode(now);
+            if (free_.mode_shown() == Duration::zero()) return set_mode(now);
+            late_.mode = now + free_.mode_shown();
+            return;
         case 0x60FF:
         case 0x6071:
             if (state_ == State::enabled && !after_stop_) orders_.act(now);
@@ -94,6 +101,13 @@ void Servo::on_sync(Instant now) {
     if (state_ == State::enabled && !after_stop_) orders_.sync(cw_, now);
 }
 
+/// What was written before, and is seen only now.
+void Servo::take_late(Instant at) {
+    if (late_.sample <= at) late_.sample = never, control(at);
+    if (late_.mode <= at) late_.mode = never, set_mode(at);
+    if (late_.shown <= at) late_.shown = never, shown_ = true;
+}
+
 void Servo::control(Instant now) {
     const unsigned cw = static_cast<unsigned>(o_.get(0x6040)), rising = cw & ~cw_, before = std::exchange(cw_, cw);
     if (state_ == State::fault) {
@@ -108,7 +122,12 @@ void Servo::control(Instant now) {
     command(cw, now);
     if (state_ != State::enabled || after_stop_) return;
     if ((cw & 0x10u) == 0) orders_.released();
-    if (orders_.mode() == 1 && (rising & 0x10u) && !orders_.acknowledged()) orders_.set_point(cw & 0x40u, (cw & 0x20u) != 0, now);
+    if (orders_.mode() == 1 && (rising & 0x10u) && !orders_.acknowledged()) {
+        orders_.set_point(cw & 0x40u, (cw & 0x20u) != 0, now);
+        const bool late = free_.acknowledges == 0 || free_.acknowledge() > Duration::zero();
+        shown_ = !late;
+        late_.shown = late && free_.acknowledges != 0 ? now + free_.acknowledge() : never;
+    }
     if (orders_.mode() == 6 && (rising & 0x10u)) begin_homing(now);
     if (orders_.mode() == 6 && (before & 0x10u) && !(cw & 0x10u) && homing_.active()) {
         homing_.forget();  // the start bit taken back interrupts it
@@ -232,7 +251,7 @@ bool Servo::watches() const {
     return m_.lags() && (m_.moves(checked_) || behind_ > 0);
 }
 Instant Servo::next_event(Instant now) const {
-    Instant next = never;
+    Instant next = late_.first();
     if (after_stop_ || homing_.to_switch() || homing_.to_zero()) next = std::max(m_.end(), now);
     if (const auto arrival = orders_.arrival()) next = std::max(*arrival, now);
     if (watches()) next = std::min(next, checked_ + watch_every_);
@@ -250,6 +269,7 @@ void Servo::watch(Instant at) {
     fail(0x8611, at);
 }
 void Servo::on_event(Instant at) {
+    if (late_.first() <= at) return take_late(at);
     if (watches() && checked_ + watch_every_ <= at) watch(at);
     if (at < m_.end()) return;
     if (after_stop_) return enter(*after_stop_, at);
@@ -293,7 +313,7 @@ std::uint16_t Servo::statusword(Instant now) const {
     if (orders_.halted() || state_ == State::quick_stop) ten = stands;
     if (ten && powered()) sw |= 0x400u;
     if (orders_.limited()) sw |= 0x800u;
-    if (mode == 1 && orders_.acknowledged()) sw |= 0x1000u;
+    if (mode == 1 && orders_.acknowledged() && shown_) sw |= 0x1000u;
     if (mode == 3 && stands) sw |= 0x1000u;
     if (mode == 6) sw |= homing_.attained() ? 0x1000u : homing_.failed() ? 0x2000u : 0u;
     if (mode >= 7 && state_ == State::enabled && !orders_.halted()) sw |= 0x1000u;

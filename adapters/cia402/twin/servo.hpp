@@ -3,12 +3,14 @@
 // at which something changes by itself. Modes 1, 3, 4, 6, 7, 8, 9 and 10 (Orders). Never knows a frame.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "adapters/cia402/twin/device.hpp"
+#include "adapters/cia402/twin/freedoms.hpp"
 #include "adapters/cia402/twin/homing.hpp"
 #include "adapters/cia402/twin/orders.hpp"
 #include "adapters/cia402/twin/probes.hpp"
@@ -54,6 +56,9 @@ public:
     [[nodiscard]] TwinMechanics mechanics(Instant now) const;
     [[nodiscard]] std::uint16_t statusword(Instant now) const;
 
+    /// When it looks at its control word, shows a mode and acknowledges, from now on.
+    void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
+
     // a controller that leads it beside the bus
     [[nodiscard]] Mechanics& shaft() noexcept { return m_; }
     [[nodiscard]] const Mechanics& shaft() const noexcept { return m_; }
@@ -69,6 +74,7 @@ public:
 
 private:
     void control(Instant now);
+    void take_late(Instant at);
     void command(unsigned cw, Instant now);
     void stop_then(State state, const Ramps& ramps, bool at_once, Instant now);
     void enter(State state, Instant now);
@@ -78,6 +84,15 @@ private:
     void watch(Instant at);
     [[nodiscard]] bool watches() const;
 
+    Freedoms free_;
+    struct Late {
+        Instant sample = never;  ///< the control word that was written is looked at
+        Instant mode = never;    ///< the mode that was ordered is in force
+        Instant shown = never;   ///< the set-point that was taken is acknowledged by bit 12
+        [[nodiscard]] Instant first() const noexcept { return std::min({sample, mode, shown}); }
+    };
+    Late late_;
+    bool shown_ = true;  ///< it is
     AxisObjects o_;
     Mechanics m_;
     UserUnits units_;

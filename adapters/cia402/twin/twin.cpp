@@ -32,6 +32,7 @@ public:
         : node_(number(setup), described(number(setup), eds, unmodelled_)),
           servo_(node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str())) {
         node_.attach(servo_);
+        be(freedoms_of(setup.options));
     }
 
     void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
@@ -65,6 +66,11 @@ public:
         if (node_.powered()) node_.advance(now, out);
         Servo& s = servo_;
         const bool on = *n != 0, flag = *n == 0 || *n == 1;
+        if (const Freedom* f = freedom_of(name)) {  // another manner from now on, as of a drive with another firmware
+            std::string fault = set_freedom(free_, *f, *n);
+            be(free_);
+            return fault;
+        }
         if (name == "inject_error") {
             const auto& codes = error_codes();
             if (on && std::ranges::find(codes, *n) == codes.end())
@@ -98,6 +104,11 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return servo_.mechanics(now); }
 
 private:
+    void be(const Freedoms& freedoms) {
+        free_ = freedoms;
+        node_.set_freedoms(free_);
+        servo_.set_freedoms(free_);
+    }
     /// 60FEh: what the mask lets through.
     [[nodiscard]] std::int64_t outputs() const {
         const auto of = [&](std::uint8_t sub) { return node_.dictionary().integer({0x60FE, sub}).value_or(0); };
@@ -109,6 +120,7 @@ private:
     std::int64_t unmodelled_ = 0;  ///< counted while the node is made
     Node node_;
     Servo servo_;
+    Freedoms free_;
     bool stalled_ = false;
 };
 

@@ -1,5 +1,9 @@
 // What telegrams, motion commands by name and parameter writes are read as before they are sent; and what an axis tells of its rates, its
 // course, its inputs and its errors. In: bodies of commands; a drive's twin and its hand. Out: the motion, the rates, or unread.
+#include <cmath>
+#include <functional>
+#include <utility>
+
 #include "adapters/linmot/native.hpp"
 #include "adapters/linmot/tests/line_bench.hpp"
 
@@ -123,29 +127,60 @@ TEST(LinMotPower, AnInputThatTakesThePowerTakesTheEnableToo) {
     EXPECT_EQ(axis(b).power, AxisFeedback::Power::on);
 }
 
+/// Each way in which bit 0 or 1 of the control word goes while an error brakes the motor, with a drive that keeps the error and with one
+/// that loses it with its power.
 TEST(LinMotPower, AnErrorWhoseBrakingIsCutShortStandsUntilItIsReset) {
-    LineBench b;
-    b.run(2s);
-    ASSERT_TRUE(b.enable());
-    Move m;
-    m.kind = Move::Kind::velocity;
-    m.target = 5'000'000;
-    m.acceleration = m.deceleration = 50'000'000;
-    ASSERT_TRUE(good(b.ask(m)));
-    b.run(500ms);
-    hand(b, "inject_error", Value{std::int64_t{0x0B}});  // position lag: the motor brakes first
-    for (int i = 0; i < 50 && b.bus->twin(DriveId{0})->mechanics(1, b.now).velocity > 4'900'000; ++i)
-        b.run(1ms);
-    b.run(15ms);
-    ASSERT_TRUE(axis(b).quick_stopping);
-    hand(b, "inject_error", Value{std::int64_t{0}});
-    ASSERT_TRUE(good(b.ask(Disable{})));
-    b.run(500ms);
-    EXPECT_TRUE(axis(b).fault) << "the drive does not show it any more";
-    EXPECT_FALSE(b.enable());
-    ASSERT_TRUE(good(b.ask(ResetFault{})));
-    EXPECT_FALSE(axis(b).fault);
-    EXPECT_TRUE(b.enable());
+    struct Cut {
+        const char* what;
+        std::function<void(LineBench&)> begin, end;
+    };
+    const auto panel = [](std::int64_t mask) {
+        return [mask](LineBench& b) {
+            hand(b, "control_word", Value{std::int64_t{0}});
+            hand(b, "control_mask", Value{mask});
+        };
+    };
+    const Cut cuts[] = {{"disable", [](LineBench& b) { EXPECT_TRUE(good(b.ask(Disable{}))); }, [](LineBench&) {}},
+                        {"bit 0 by a PC tool", panel(1), panel(0)},
+                        {"bit 1 by a PC tool", panel(2), panel(0)},
+                        {"safe voltage enable", [](LineBench& b) { hand(b, "safe_voltage_enable", Value{false}); },
+                         [](LineBench& b) { hand(b, "safe_voltage_enable", Value{true}); }}};
+    for (const char* drive : {"kept", "lost"}) {
+        for (const Cut& cut : cuts) {
+            SCOPED_TRACE(std::string(drive) + ", " + cut.what);
+            LineBench b(1, 115200, {{"braking_error", drive}});
+            b.run(2s);
+            ASSERT_TRUE(b.enable());
+            Move m;
+            m.kind = Move::Kind::velocity;
+            m.target = 5'000'000;
+            m.acceleration = m.deceleration = 50'000'000;
+            ASSERT_TRUE(good(b.ask(m)));
+            b.run(500ms);
+            hand(b, "inject_error", Value{std::int64_t{0x0B}});  // position lag: the motor brakes first
+            for (int i = 0; i < 50 && b.bus->twin(DriveId{0})->mechanics(1, b.now).velocity > 4'900'000; ++i)
+                b.run(1ms);
+            b.run(15ms);
+            ASSERT_TRUE(axis(b).quick_stopping);
+            ASSERT_EQ(b.drive().state(), 14);
+            hand(b, "inject_error", Value{std::int64_t{0}});  // its cause is gone
+            cut.begin(b);
+            b.run(500ms);
+            EXPECT_EQ(b.drive().state() == 4, drive[0] == 'k') << "what the drive shows";
+            EXPECT_TRUE(axis(b).fault);
+            if (drive[0] == 'k') EXPECT_EQ(axis(b).error_code, 0x0B);
+            cut.end(b);
+            b.run(500ms);
+            EXPECT_TRUE(axis(b).fault);
+            EXPECT_FALSE(b.enable());
+            EXPECT_LT(b.drive().state(), 8);
+            ASSERT_TRUE(good(b.ask(ResetFault{})));
+            b.run(100ms);
+            EXPECT_FALSE(axis(b).fault);
+            EXPECT_LT(b.drive().state(), 8) << "a reset enables nothing";
+            EXPECT_TRUE(b.enable());
+        }
+    }
 }
 
 TEST(LinMotLimits, TheSitesLimitsGoIntoItsRam) {
@@ -181,6 +216,50 @@ TEST(LinMotHoming, APositionThatGetsAnotherNameIsNoSpeed) {
     EXPECT_TRUE(axis(b).homing_attained);
     EXPECT_EQ(axis(b).position, 500'000);
     EXPECT_EQ(axis(b).position_demand, 500'000);
+}
+
+/// Slider, position and demand at each millisecond of two homings, and a move behind them.
+TEST(LinMotHoming, AHomePositionOtherThanZeroMovesNothing) {
+    for (const std::int64_t home : {0, 500'000, -1'234'567}) {
+        for (const double lag : {0.0, 20.0}) {
+            SCOPED_TRACE(std::to_string(home) + (lag > 0 ? ", the slider lags" : ""));
+            LineBench b;
+            b.run(2s);
+            ASSERT_TRUE(good(b.ask(WriteParameter{*page().find("13C7h"), Value{home}})));
+            hand(b, "position", Value{std::int64_t{80'000}});
+            hand(b, "lag_ms", Value{lag});
+            ASSERT_TRUE(b.enable());
+            const auto slider = [&] { return b.bus->twin(DriveId{0})->mechanics(1, b.now).position; };
+            for (int round = 0; round < 2; ++round) {
+                ASSERT_TRUE(good(b.ask(Home{0})));
+                double before = slider();
+                bool ended = false;
+                for (int i = 0; i < 5000; ++i) {
+                    b.run(1ms);
+                    ASSERT_LE(std::fabs(slider() - before), 500'000 * 0.001 * 1.5) << i << ": 50 mm/s";
+                    ASSERT_LE(std::fabs(b.drive().demand() - b.drive().actual()), 500'000 * lag / 1000 + 1)
+                        << i << ": no step of the demand";
+                    before = slider();
+                    if (!std::exchange(ended, axis(b).homing_attained) || axis(b).moving) continue;
+                    ASSERT_EQ(axis(b).position, home);
+                    ASSERT_EQ(axis(b).position_demand, home);
+                    ASSERT_EQ(axis(b).velocity, 0);
+                }
+                ASSERT_TRUE(axis(b).homing_attained);
+                EXPECT_NEAR(slider(), 0, 1) << "at the mechanical reference";
+                EXPECT_EQ(b.drive().error_code(), 0);
+            }
+            Move m;
+            m.kind = Move::Kind::relative;
+            m.target = 10'000;
+            m.velocity = 100'000;
+            m.acceleration = m.deceleration = 1'000'000;
+            ASSERT_TRUE(good(b.ask(m)));
+            b.run(2s);
+            EXPECT_NEAR(slider(), 10'000, 1);
+            EXPECT_EQ(axis(b).position, home + 10'000);
+        }
+    }
 }
 
 TEST(LinMotMotion, AMoveThatWasAnsweredAsFailedIsNotGoneOnWith) {

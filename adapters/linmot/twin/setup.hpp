@@ -16,8 +16,11 @@ struct DriveSetup {
     bool force_key = true;
     std::uint16_t force_mask = 0;  ///< control word bits that a parameter forces ...
     std::uint16_t force_word = 0;  ///< ... and to what
-    double trig_rise = 500'000;    ///< 0.1 um: target of the command that the run mode has configured for rising edges (0DExh) ...
-    double trig_fall = 0;          ///< ... and for falling ones (0DFxh); choices, their parameters have no numbers
+    /// What becomes of an error that brakes the motor when the control word's bit 0 or 1 goes before it stands: it is kept, and the drive
+    /// goes to its error state; or it is lost with the power (choice O-39).
+    bool keeps_braking_error = true;
+    double trig_rise = 500'000;  ///< 0.1 um: target of the command that the run mode has configured for rising edges (0DExh) ...
+    double trig_fall = 0;        ///< ... and for falling ones (0DFxh); choices, their parameters have no numbers
     Winding winding;
 };
 

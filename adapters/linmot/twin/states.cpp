@@ -156,6 +156,10 @@ bool States::transit(Instant now) {
 }
 
 bool States::transit_powered(Instant now) {
+    if ((!cw(0) || !cw(1)) && stops_by_error() && body_.setup.keeps_braking_error) {  // the power goes, the error stays
+        by_error_ = false;
+        return enter(error, now), true;
+    }
     if (!cw(1)) return enter(switch_on_disabled, now), true;  // OFF2
     if (!cw(0)) return enter(ready_to_switch_on, now), true;  // OFF1
     if (state_ == quick_stop) return false;                   // its end is an event

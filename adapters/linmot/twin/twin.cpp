@@ -47,6 +47,7 @@ std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& set
     d.drive.curve_key = keys == "both" || keys == "curve";
     d.drive.force_key = keys == "both" || keys == "force";
     d.drive.force_mask = d.drive.force_word = static_cast<std::uint16_t>(number(option(setup.options, "force", "0"), 0xFFFF, 0));
+    d.drive.keeps_braking_error = option(setup.options, "braking_error", "kept") != "lost";
     d.drive.trig_rise = place(option(setup.options, "trig_rise", ""), d.drive.trig_rise);
     d.drive.trig_fall = place(option(setup.options, "trig_fall", ""), d.drive.trig_fall);
     d.drive.winding = winding_of(option(setup.options, "winding", ""));

@@ -92,6 +92,15 @@ std::optional<SdoEnd> SdoClient::stop(Abort why, std::vector<Frame>& out) {
     out.push_back(abort_frame(request_id_, address_, why));
     return end(why, false);
 }
+bool SdoClient::repeat(Instant now, std::vector<Frame>& out) {
+    if (phase_ != Phase::read_begin && phase_ != Phase::write_begin) return false;
+    begin(now, out);
+    return true;
+}
+void SdoClient::abandon() noexcept {
+    phase_ = Phase::idle;
+    data_.clear();
+}
 std::optional<SdoEnd> SdoClient::on_deadline(Instant now, std::vector<Frame>& out) {
     if (!busy() || now < deadline_) return std::nullopt;
     return stop(Abort::timeout, out);

@@ -4,6 +4,7 @@
 // repeats a transfer by itself (that is its user's to decide), and never knows what an entry means.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,6 +48,20 @@ public:
     bool read(Address address, Instant now, std::vector<Frame>& out, bool block = false);
     bool write(Address address, std::vector<std::uint8_t> data, Instant now, std::vector<Frame>& out, bool block = false);
 
+    /// Waits so long for the node's next message, from the next transfer or repeat on.
+    void set_patience(Duration patience) noexcept { limits_.patience = patience; }
+    /// The node is still busy with what it was asked before: its answer may take until then.
+    void extend(Instant until) noexcept {
+        if (busy()) deadline_ = std::max(deadline_, until);
+    }
+    /// The node has not answered the first request yet.
+    [[nodiscard]] bool beginning() const noexcept;
+    /// Sends the first request once more, for as long as the node has not answered it: nothing is aborted, and an answer to either is one.
+    /// False: the transfer is beyond that, by blocks, or there is none.
+    bool repeat(Instant now, std::vector<Frame>& out);
+    /// Ends the transfer without a word to the node: the next request takes its place there.
+    void abandon() noexcept;
+
     /// Any frame; others than this node's answers are not looked at. At most one transfer ends.
     [[nodiscard]] std::optional<SdoEnd> on_frame(const Frame& frame, Instant now, std::vector<Frame>& out);
     [[nodiscard]] std::optional<SdoEnd> on_deadline(Instant now, std::vector<Frame>& out);
@@ -71,7 +86,6 @@ private:
     void ask_segment(std::vector<Frame>& out);
     void send_segment(std::vector<Frame>& out);
     void send_block(std::uint8_t block_size, std::vector<Frame>& out);
-    [[nodiscard]] bool beginning() const noexcept;
     [[nodiscard]] std::optional<SdoEnd> on_abort(const Frame& f, Instant now, std::vector<Frame>& out);
     [[nodiscard]] std::optional<SdoEnd> on_begun(const Frame& f, std::vector<Frame>& out);
     [[nodiscard]] std::optional<SdoEnd> on_read_begun(const Frame& f, std::vector<Frame>& out);

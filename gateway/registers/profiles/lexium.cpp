@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "gateway/axis/cia402.hpp"
 
 namespace axisgate::registers {
+namespace {
+constexpr std::uint16_t latched = 1u << 0;  // of register 23
+}
 
 LexiumMap::Meaning LexiumMap::meaning_of(const LanguageRow& row) {
     using enum Meaning;
@@ -47,6 +51,7 @@ LexiumMap::LexiumMap(const DoorPort& port, Setup setup) : ProfileMap(port, std::
             initial = axis(0).acceleration.value_or(initial);
         if (meanings_[i] == Meaning::maximum_velocity) initial = axis(0).velocity.value_or(initial);
         values_.push_back(bits_of(rows[i].type, initial));
+        said_.push_back(false);
         if (meanings_[i] == Meaning::acceleration) acceleration_ = i;
         if (meanings_[i] == Meaning::deceleration) deceleration_ = i;
         if (meanings_[i] == Meaning::maximum_velocity) maximum_velocity_ = i;
@@ -144,20 +149,64 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
             return refuse_with(Reason::out_of_range,
                                fmt::format("axis {}: {} can only be {} here", axis(0).name, row.name, number_of(row.type, values_[w.row])));
     }
-    for (const Written& w : rows)  // settings first, so that what stands beside them in one request moves with them
-        values_[w.row] = w.bits;
+    look_for_a_stop();
+    received_ = true;
+    acting_.clear();
     for (const Written& w : rows) {
+        if (!is_held(w)) acting_.push_back(w);
+    }
+    const bool held = acting_.size() != rows.size();
+    const bool fresh = std::ranges::any_of(acting_, [&](const Written& w) {
+        const Meaning m = meanings_[w.row];
+        return w.bits != 0 && w.bits != values_[w.row] && (moves(m) || m == Meaning::enable);
+    });
+    for (const Written& w : rows) {  // settings first, so that what stands beside them in one request moves with them
+        values_[w.row] = w.bits;
+        said_[w.row] = true;
+    }
+    for (const Written& w : acting_) {
         instruct(w, meanings_[w.row], plan);
         if (meanings_[w.row] == Meaning::error) error_ = 0;
         if (meanings_[w.row] == Meaning::move_velocity) run_ = number_of(language().rows[w.row].type, w.bits);
     }
+    if (held && !std::exchange(held_told_, true)) {
+        error_ = language().error_of(Reason::wrong_state);
+        (void)refused(
+            0, Reason::wrong_state,
+            fmt::format("axis {}: somebody else has stopped it: what is merely repeated begins nothing; write another value, or EE "
+                        "as 0 and then as 1",
+                        axis(0).name));
+    }
+    if (fresh) held_ = held_told_ = unheard_ = false;
     return Verdict::good;
+}
+
+bool LexiumMap::moves(Meaning m) noexcept {
+    return m == Meaning::move_absolute || m == Meaning::move_relative || m == Meaning::move_velocity || m == Meaning::home ||
+           m == Meaning::home_index;
+}
+
+void LexiumMap::look_for_a_stop() noexcept {
+    if ((picture(0).stop_latch & latched) == 0) return;
+    if (!std::exchange(held_, true)) unheard_ = !received_;
+}
+
+/// It would move the axis or give it power, and says nothing that was not said before. What stops or switches off is never held.
+bool LexiumMap::is_held(const Written& w) const {
+    const Meaning m = meanings_[w.row];
+    const bool stops = (m == Meaning::move_velocity || m == Meaning::enable) && w.bits == 0;
+    return held_ && !stops && (moves(m) || m == Meaning::enable) && (w.bits == values_[w.row] || (unheard_ && !said_[w.row]));
 }
 
 /// Settings count from the first image on; instructions, and what the position is called, count when they change. What stops or switches
 /// off counts at once: what the axis was told before is not known here.
 void LexiumMap::adopted(std::span<const Written> rows, WritePlan& plan) {
+    received_ = true;
     for (const Written& w : rows) {
+        if (const Meaning m = meanings_[w.row]; moves(m) || m == Meaning::enable) {
+            values_[w.row] = w.bits;
+            said_[w.row] = true;
+        }
         switch (meanings_[w.row]) {
             case Meaning::enable:
                 if (w.bits == 0 && enabled(0)) order(plan, 0, Disable{}, 0, Answer::client);

@@ -2,6 +2,8 @@
 // In: reads and writes of registers. Out: values of the axis in counts; commands. Reference: the MCode manual, per instruction "networking
 // protocol equivalents"; word order is a setting since that manual leaves it open.
 // A refusal is answered twice: to the client by its door, and in EF and ER as the drive itself would say it.
+// An instruction acts with every write of it, as in the drive. After a stop of somebody else it does not while it is merely repeated: a
+// controller that writes its registers in cycles would undo the stop.
 #pragma once
 
 #include <vector>
@@ -45,15 +47,24 @@ private:
     void instruct(const Written& w, Meaning meaning, WritePlan& plan);
     void out_of_range() override;
     Verdict refuse_with(Reason reason, std::string text);
+    void look_for_a_stop() noexcept;
+    [[nodiscard]] bool is_held(const Written& w) const;
+    [[nodiscard]] static bool moves(Meaning meaning) noexcept;
     /// ER as it reads now: the language's own, else a fault of the axis.
     [[nodiscard]] int error() const;
     [[nodiscard]] Move move(Move::Kind kind, double counts) const;
 
     std::vector<Meaning> meanings_;                                           // by row
+    std::vector<bool> said_;                                                  // by row: written since the start
     std::vector<std::uint32_t> values_;                                       // by row, of what is kept
     std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // rows
     double run_ = 0;                                                          // SL as it was written last
     int error_ = 0;
+    std::vector<Written> acting_;  // of the write that is looked at; kept, so that nothing is allocated for it
+    bool received_ = false;        // something was written since the start
+    bool held_ = false;            // somebody else has stopped the axis, and its client has given no fresh word since
+    bool unheard_ = false;         // ... and it had said nothing before that: its first words may be as old as the motion
+    bool held_told_ = false;
 };
 
 }  // namespace axisgate::registers

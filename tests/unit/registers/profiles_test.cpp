@@ -189,6 +189,65 @@ TEST_F(Lexium, ErZeroResetsAFault) {
     (void)order<ResetFault>("06 00 21 00 00");
 }
 
+/// What the axis shows after somebody else has stopped it: registers 23 and the status word.
+void stopped_by_another(AxisPicture& p, std::uint16_t statusword) {
+    p.stop_latch = 0b101;
+    p.statusword = statusword;
+    p.flags &= static_cast<std::uint16_t>(~flag_moving);
+}
+constexpr std::uint16_t still_enabled = 0x0627, quick_stopped = 0x0607;
+
+/// EE 1, SL 100 and MA 50: a controller that writes them in cycles.
+TEST_F(Lexium, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
+    put(ProfileLanguage::lexium);
+    const auto cycle = [&] {
+        EXPECT_EQ(at("10 00 78 00 02 04 00 64 00 00"), "10 00 78 00 02");
+        EXPECT_EQ(at("10 00 43 00 02 04 00 32 00 00"), "10 00 43 00 02");
+        EXPECT_EQ(at("06 00 1C 00 01"), "06 00 1C 00 01");
+    };
+    result = [this] { port.answer(); };
+    cycle();
+    for (const std::uint16_t shown : {still_enabled, quick_stopped}) {
+        SCOPED_TRACE(shown);
+        result = [this] {
+            ADD_FAILURE() << "a repeated word is an order: " << name_of(port.commands.front().body);
+            port.answer();
+        };
+        port.edit(x, [&](AxisPicture& p) { stopped_by_another(p, shown); });
+        for (int i = 0; i < 3; ++i)
+            cycle();
+        EXPECT_EQ(error(), "03 02 00 5E") << "and the drive's own error word says that it is held";
+        // Somebody else moves it and it rests again: the latch is gone, and this client has still said nothing.
+        port.edit(x, [](AxisPicture& p) { p.stop_latch = 0, p.statusword = still_enabled; });
+        cycle();
+        result = [this] { port.answer(); };
+        (void)order<Halt>("10 00 78 00 02 04 00 00 00 00");
+        EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 64 00 00").target, 1000) << "another value is a fresh word";
+        EXPECT_EQ(order<Move>("10 00 43 00 02 04 00 32 00 00").target, 500) << "and from then on each write acts, as in the drive";
+    }
+    port.edit(x, [](AxisPicture& p) { stopped_by_another(p, quick_stopped); });
+    (void)order<Disable>("06 00 1C 00 00");
+    (void)order<Enable>("06 00 1C 00 01");
+    port.edit(x, [](AxisPicture& p) { p.stop_latch = 0, p.statusword = still_enabled; });
+    EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 64 00 00").target, 1000) << "power that is asked for anew is a fresh word, too";
+}
+
+/// The gateway was started again, found the axis moving and has stopped it: what its controller writes then is as old as the motion.
+TEST_F(Lexium, TheFirstWordsBehindAStopAreAnOldImage) {
+    put(ProfileLanguage::lexium);
+    port.edit(x, [](AxisPicture& p) { stopped_by_another(p, still_enabled); });
+    result = [this] {
+        ADD_FAILURE() << "an old word is an order: " << name_of(port.commands.front().body);
+        port.answer();
+    };
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(at("10 00 78 00 02 04 00 64 00 00"), "10 00 78 00 02");
+        EXPECT_EQ(at("06 00 1C 00 01"), "06 00 1C 00 01");
+    }
+    result = [this] { port.answer(); };
+    EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 65 00 00").target, 1010);
+}
+
 struct PaControl : ProfileTest {
     /// Words of the CMD interface; the answer's.
     std::string cmd(std::string_view words) {
@@ -318,6 +377,24 @@ TEST_F(PaControl, AnImageThatIsLeftFromBeforeStartsNothing) {
     (void)order<Move>("10 00 08 00 06 0C 00 00 00 45 03 E8 01 F4 41 20 00 00");
 }
 
+TEST_F(PaControl, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
+    put(ProfileLanguage::pacontrol);
+    online();
+    const std::string traverse = "10 00 08 00 06 0C 00 00 00 45 03 E8 01 F4 41 20 00 00";
+    EXPECT_EQ(at("10 00 08 00 06 0C 00 00 00 41 03 E8 01 F4 41 20 00 00"), "10 00 08 00 06");
+    (void)order<Move>(traverse);
+    port.answer(Outcome::failed, Reason::interrupted);
+    for (const std::uint16_t shown : {still_enabled, quick_stopped}) {
+        port.edit(x, [&](AxisPicture& p) { stopped_by_another(p, shown); });
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(at(traverse), "10 00 08 00 06");
+        EXPECT_TRUE(port.commands.empty()) << "the traverse's start is held: " << name_of(port.commands.front().body);
+    }
+    port.edit(x, [](AxisPicture& p) { p.statusword = still_enabled; });
+    EXPECT_EQ(at("10 00 08 00 06 0C 00 00 00 41 03 E8 01 F4 41 20 00 00"), "10 00 08 00 06");
+    (void)order<Move>(traverse);
+}
+
 struct LinMot : ProfileTest {
     std::string state() { return at("04 00 00 00 01").substr(6); }
     void up() {
@@ -372,6 +449,31 @@ TEST_F(LinMot, ACommandPerCountWithItsParameters) {
     port.edit(x, [](AxisPicture& p) { p.flags |= flag_moving; });
     (void)order<QuickStop>("06 00 01 04 08");
     EXPECT_EQ(state(), "04 81") << "unknown motion command; it stops";
+}
+
+TEST_F(LinMot, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
+    put(ProfileLanguage::linmot);
+    up();
+    // The whole image: control word 013Fh (jog), header 0202h (a motion, count 2), its target.
+    const std::string image_ = "10 00 00 00 04 08 01 3F 02 02 03 E8 00 00", same = "10 00 00 00 04";
+    result = [this] { port.answer(); };
+    EXPECT_EQ(at(image_), same);
+    while (!port.commands.empty())
+        port.answer();
+    for (const std::uint16_t shown : {still_enabled, quick_stopped, still_enabled}) {
+        port.edit(x, [&](AxisPicture& p) { stopped_by_another(p, shown); });
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(at(image_), same);
+        EXPECT_TRUE(port.commands.empty()) << "at " << shown << ": " << name_of(port.commands.front().body);
+    }
+    // Its own edges: the bits that enable come back, and the next count is a command.
+    EXPECT_EQ(at("06 00 00 00 3E"), "06 00 00 00 3E");
+    while (!port.commands.empty())
+        port.answer();
+    EXPECT_EQ(at("06 00 00 00 3F"), "06 00 00 00 3F");
+    ASSERT_TRUE(next<Enable>());
+    port.answer(Outcome::done);
+    EXPECT_EQ(order<Move>("06 00 01 02 03").target, 10'000);
 }
 
 TEST_F(LinMot, HomingWaitsForItsBit) {

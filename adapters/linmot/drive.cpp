@@ -145,6 +145,7 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
     if (default_response && telegram.size != default_size && !(r.telegram.main == 0 && r.telegram.sub == 3) && !r.any_length)
         return start.not_ours(start.reconfigured(telegram), t);
     if (r.purpose == Purpose::core) return start.read(telegram, t);
+    start.tell_limits(t);
     if (const auto status = status_of(telegram); status && telegram.sub == 0) feedback.learn(*status, t);
     if (r.purpose == Purpose::stop) stops.answered(t);
     if (r.purpose == Purpose::job) jobs.answered(telegram, t);

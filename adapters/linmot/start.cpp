@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/linmot/drive.hpp"
 
@@ -69,6 +70,7 @@ void Start::set_limits() {
     const auto& axes = drive_.setup().axes;
     const Catalogue& page = drive_.bus.catalogue;
     limits_open_ = 0;
+    limits_untold_ = true;
     if (axes.empty() || drive_.axis() == no_axis || (!axes[0].position_min && !axes[0].position_max)) return drive_.presence.limited({});
     if (!drive_.options.keeps_limits) return drive_.presence.limited({DriveLimits::State::off, {}});
     drive_.presence.limited({});
@@ -80,6 +82,10 @@ void Start::set_limits() {
         own.body = WriteParameter{*point, Value{std::clamp<std::int64_t>(*limit, INT32_MIN, INT32_MAX)}};
         if (drive_.jobs.queue.push(std::move(own))) ++limits_open_;
     }
+}
+
+void Start::tell_limits(Turn& t) {
+    if (std::exchange(limits_untold_, false)) drive_.presence.limited(drive_.presence.limits(), t.out);
 }
 
 void Start::limit_set(std::string fault, Turn& t) {

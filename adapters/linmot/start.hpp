@@ -27,6 +27,8 @@ public:
     void read_silent(Turn& t);
     /// The site's limits of position into 146Eh and 146Fh (RAM), as writes of the drive's own that stand behind what waits.
     void set_limits();
+    /// That the site wants other ones now, or none, is told with the drive's next word.
+    void tell_limits(Turn& t);
     /// One of them has ended. `fault`: empty, or why the drive does not take it.
     void limit_set(std::string fault, Turn& t);
     /// The limits of predefined moves may be others now: unknown, and asked again at once.
@@ -37,7 +39,8 @@ private:
 
     drive::Reading reading_;
     std::size_t limits_open_ = 0;  ///< writes that have not ended
-    std::string not_ours_;         ///< why a drive that answers cannot be served
+    bool limits_untold_ = false;
+    std::string not_ours_;  ///< why a drive that answers cannot be served
 };
 
 }  // namespace axisgate::linmot

@@ -34,6 +34,7 @@ void Drive::remove(std::string_view why, Turn& t) {
     queue_.clear();
     running_.reset();
     renewal_.reset();
+    asked_.reset();
     tickets_.fail_all(Reason::line_down, why, t.out);
 }
 
@@ -46,6 +47,7 @@ void Drive::submit(const Command& c, Turn& t) {
         running_.reset();
     }
     renewal_.reset();
+    asked_.reset();
     mirror::Order order;
     order.verb = name_of(c.body);
     order.wait_ms = milliseconds_of(answer_time_);
@@ -137,6 +139,7 @@ void Drive::lost(const std::string& why, Turn& t) {
     queue_.clear();
     running_.reset();
     renewal_.reset();
+    asked_.reset();
     // Stops that have no answer yet are sent on: who is not heard may hear.
     tickets_.fail_all(Reason::no_answer, why, t.out);
     presence_.report(why, t.out);

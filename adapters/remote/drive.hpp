@@ -91,6 +91,7 @@ private:
     drive::Pace pace_;
     std::optional<Running> running_;
     std::optional<Renewal> renewal_;
+    std::optional<Renewal> asked_;  ///< of the velocity move on its way: in force once that is taken, for a refusal changes nothing
     AxisFeedback axis_;
     std::uint64_t newest_ = 0;  ///< the greatest number of those that moved the axis: what was asked before tells of what was before
 };

@@ -2,6 +2,8 @@
 // In: commands from the queue, answers. Out: requests, the one result. What the axis may do is the other gateway's to decide.
 #include <fmt/core.h>
 
+#include <utility>
+
 #include "adapters/remote/drive.hpp"
 
 namespace axisgate::remote {
@@ -11,7 +13,7 @@ void Drive::begin(Command command, Turn& t) {
     if (std::string why = plan(command.body, order); !why.empty())
         return void(tickets_.refused(command.ticket, Reason::not_supported, std::move(why), t.out));
     const bool moves = drive::is_motion(command.body);
-    if (moves) renewal_.reset();
+    if (moves) asked_.reset();
     order.wait_ms = milliseconds_of(answer_time_);
     const std::uint64_t number = send(order, Priority::command, t);
     if (moves || std::holds_alternative<SetPosition>(command.body)) newest_ = number;
@@ -19,7 +21,7 @@ void Drive::begin(Command command, Turn& t) {
         Renewal r{order, 0, never};
         r.order.renew = true;
         r.order.wait_ms = milliseconds_of(renewed);
-        renewal_ = std::move(r);  // begins with the motion's answer
+        asked_ = std::move(r);
     }
     // A little longer than the other end waits: its word is better than none.
     running_ = Running{std::move(command), number, t.now + answer_time_ + line_.timing.reply_timeout};
@@ -60,7 +62,7 @@ void Drive::answered(const mirror::Answer& answer, Turn& t) {
     const CommandBody& body = running_->command.body;
     if (!taken) {
         ++line_.counters.refused;
-        if (std::holds_alternative<Move>(body)) renewal_.reset();
+        if (drive::is_motion(body)) asked_.reset();
         return finish(answer, t);
     }
     const bool homes = std::holds_alternative<Home>(body);
@@ -70,6 +72,7 @@ void Drive::answered(const mirror::Answer& answer, Turn& t) {
         axis_.homing = homes;
         axis_.homing_attained = axis_.homing_error = false;
         emit(t);
+        renewal_ = std::exchange(asked_, std::nullopt);
         if (renewal_) renewal_->next = t.now + renewed;
     }
     finish(answer, t);

@@ -63,6 +63,7 @@ DriveStatus Engine::drive_status(DriveId id) const {
     s.silent_exchanges = serving.silent_exchanges;
     s.retry_pause_ms = milliseconds_of(serving.retry_pause);
     s.watchdog = serving.watchdog;
+    s.limits = serving.limits;
     s.beats = serving.beats;
     return s;
 }

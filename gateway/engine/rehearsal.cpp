@@ -1,215 +1,259 @@
-// Rehearsal: a world of twins in virtual time, one axis set in motion by a client of the cause's door, and that client taken away.
-// In: a wish. Out: a cell with figures, or with the reason why there are none. Never runs for longer than its bounds of virtual time.
+// Rehearsal: a world of models in virtual time, one axis set in motion by a client of the cause's door, what else was chosen, and that
+// client taken away. In: a wish. Out: a cell with figures, or with the reason why there are none. Never runs for longer than its bounds of
+// virtual time.
 #include "gateway/engine/rehearsal.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 
+#include "gateway/engine/rehearsal_models.hpp"
 #include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
 
-/// Where a real line would be: nobody is there, and nobody is asked for.
-class NoLine final : public Line {
-public:
-    void open(LineEvents&, Instant) override {}
-    void close() override {}
-    bool send(const Frame&, Priority, Instant) override { return false; }
-    [[nodiscard]] Instant deadline() const override { return never; }
-    void on_deadline(Instant) override {}
-    [[nodiscard]] LineStatus status(Instant) const override { return {}; }
-};
+/// How often a controller writes its registers, and a client its set-points.
+constexpr Duration cycle = 20ms;
+/// A gateway that is found dead is started at once: the axis has no time to end by itself.
+constexpr Duration at_once = 300ms;
+/// Less than this is the settling of a shaft, in increments.
+constexpr double settling = 3;
 
-/// The axis' line with all of its drives, each by its twin. Limits of position are left out: they would end the motion first.
-Site only_its_line(const Site& site, const AxisSpec& axis) {
-    Site s;
-    const auto drive = std::ranges::find(site.drives, axis.drive, &DriveSpec::name);
-    for (const auto& l : site.lines) {
-        if (l.name == drive->line) s.lines.push_back(l);
-    }
-    for (const auto& d : site.drives) {
-        if (d.line != drive->line) continue;
-        s.drives.push_back(d);
-        s.drives.back().presence = PresenceRule::twin;
-    }
-    for (const auto& a : site.axes) {
-        if (std::ranges::find(s.drives, a.drive, &DriveSpec::name) == s.drives.end()) continue;
-        s.axes.push_back(a);
-        s.axes.back().position_min = s.axes.back().position_max = std::nullopt;
-    }
-    return s;
+AxisSpec as_wished(const Site& site, const RehearsalWish& wish) {
+    AxisSpec a = *std::ranges::find(site.axes, wish.axis, &AxisSpec::name);
+    if (wish.cause == LossCause::lease_ended) a.authority_mode = AuthorityMode::lease;
+    return a;
 }
 
-class Stage final : public EngineHost {
+class Stage {
 public:
     Stage(const Families& families, const Site& site, const SiteMemory& memory, const RehearsalWish& wish)
-        : wish_(wish), spec_(*std::ranges::find(site.axes, wish.axis, &AxisSpec::name)), engine_(families, *this, image_, 16) {
-        engine_.set_watchdog(wish.watchdog);
-        engine_.set_lease(wish.lease);
-        Site small = only_its_line(site, spec_);
-        if (wish.cause == LossCause::lease_ended)
-            std::ranges::find(small.axes, wish.axis, &AxisSpec::name)->authority_mode = AuthorityMode::lease;
-        const auto at = std::ranges::find(small.axes, wish.axis, &AxisSpec::name) - small.axes.begin();
-        const auto drive_at = std::ranges::find(small.drives, spec_.drive, &DriveSpec::name) - small.drives.begin();
-        const auto state = engine_.apply_site(std::move(small), memory, 1, now_);
-        axis_ = state->axis_ids.at(static_cast<std::size_t>(at));
-        drive_ = state->drive_ids.at(static_cast<std::size_t>(drive_at));
+        : wish_(wish), models_(families, site, memory, as_wished(site, wish), {wish.watchdog, wish.lease}), spec_(models_.spec()) {
+        models_.tend = [this] { tend(); };
+        models_.on_axis_event = [this](const Event& e, Instant at) { note(e, at); };
     }
 
     RehearsalCell play() {
         cell_.axis = spec_.name;
         cell_.cause = wish_.cause;
-        if (!gateway_gone()) cell_.chosen = spec_.fail_safe.of(wish_.cause);
+        cell_.restart = wish_.restart;
+        if (!gateway_gone()) cell_.chosen = spec_.fail_safe.of(rule());
         cell_.fault = set_off();
         if (!cell_.fault.empty()) return cell_;
+        disturb();
         lose();
         watch();
+        judge();
+        come_back();
         return cell_;
     }
 
-    // --- EngineHost
-    std::unique_ptr<Line> make_line(const LineSpec&, const LineSetup&) override { return std::make_unique<NoLine>(); }
-    void on_result(const Result& result) override { results_[result.ticket] = result; }
-    void on_event(Event event, Instant at) override {
-        if (event.kind == "fail_safe" && event.axis == spec_.name && !acted_) acted_ = at;
-    }
-    void on_sample(const Sample&) override {}
-    void on_store(StoreOrder) override {}
-    [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient&) const override { return lost_ ? received_ : now_; }
-    void on_twin_memory(const std::string&, NonVolatile) override {}
-
 private:
-    [[nodiscard]] AxisPicture picture() const { return image_.picture(axis_); }
-    [[nodiscard]] TwinMechanics mechanics() { return engine_.twin(drive_)->mechanics(spec_.channel, now_); }
-    [[nodiscard]] double speed() { return std::fabs(mechanics().velocity); }
-    [[nodiscard]] Door door() const { return door_that_tells(wish_.cause); }
+    // --- what is played
+    [[nodiscard]] bool gateway_gone() const { return wish_.cause == LossCause::none && !wish_.restart; }
+    /// The gateway is killed, and another one finds the axis as it is.
+    [[nodiscard]] bool restarts() const { return wish_.restart || wish_.cause == LossCause::motion_unowned; }
+    [[nodiscard]] Duration without_gateway() const { return wish_.restart ? wish_.gateway_away : at_once; }
+    /// The cause by which the site's choice is looked up.
+    [[nodiscard]] LossCause rule() const { return wish_.restart ? LossCause::motion_unowned : wish_.cause; }
+    [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
+    [[nodiscard]] bool has(RehearsalStep step) const { return wish_.steps.has(step); }
+    /// The loss is not the controller's own: it is there all the time.
+    [[nodiscard]] bool client_stays() const {
+        return wish_.cause == LossCause::line_lost || wish_.cause == LossCause::gateway_ends || restarts() || gateway_gone();
+    }
+    /// Whose client it is; of a loss that may be anybody's, a controller over Modbus.
+    [[nodiscard]] Door door() const {
+        const bool anybodys =
+            wish_.cause == LossCause::none || std::ranges::find(losses_of_anybody, wish_.cause) != losses_of_anybody.end();
+        return anybodys ? Door::modbus : door_that_tells(wish_.cause);
+    }
+    /// By registers, as controllers do; who comes over HTTP or DDS gives commands by name.
+    [[nodiscard]] bool by_registers() const { return door() == Door::modbus || door() == Door::ethernet_ip; }
     [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
 
-    [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
-    [[nodiscard]] bool gateway_gone() const { return wish_.cause == LossCause::none; }
-
-    void step() {
-        if (lost_ && gateway_gone()) return step_alone();
-        now_ = std::clamp(engine_.deadline(), now_ + 10us, now_ + 1ms);
-        engine_.on_deadline(now_);
+    // --- clients
+    void tend() {
+        if (!tends_ || models_.now() < next_cycle_) return;
+        next_cycle_ = models_.now() + cycle;
+        if (!by_registers()) return stream();
+        if (models_.has_gateway()) models_.say(image_, origin());
     }
-    /// The drive with nobody who speaks to it; what it says is heard by nobody.
-    void step_alone() {
-        Twin& twin = *engine_.twin(drive_);
-        now_ = std::clamp(twin.deadline(), now_ + 10us, now_ + 1ms);
-        Out unreceived;
-        if (twin.deadline() <= now_) twin.on_deadline(now_, unreceived);
-    }
-    void run_for(Duration time) {
-        for (const Instant end = now_ + time; now_ < end;)
-            step();
-    }
-    template <class F>
-    bool run_until(F&& true_now, Duration limit) {
-        for (const Instant end = now_ + limit; !true_now();) {
-            if (now_ >= end) return false;
-            step();
-        }
-        return true;
+    void stream() {
+        const bool by_speed = models_.engine().catalogue(models_.axis())->offers_mode(9);
+        SetPoint p;
+        p.axis = models_.axis();
+        p.mode = by_speed ? SetPoint::Mode::velocity : SetPoint::Mode::position;
+        p.value = by_speed ? fast_ : place_ + fast_ / 50;
+        if (!by_speed) p.velocity = 2 * fast_;
+        p.acceleration = p.deceleration = ramp_;
+        p.at = models_.now();
+        p.origin = origin();
+        const auto refused = models_.engine().on_set_point(p, models_.now());
+        stream_fault_ = refused ? refused->text : "";
+        if (!refused) place_ = p.value;
     }
     /// Empty: taken by the drive; else what was answered.
     std::string order(CommandBody body) {
-        Command c;
-        c.ticket = make_ticket(1, ++tickets_);
-        c.axis = axis_;
-        c.origin = origin();
         const std::string what(name_of(body));
-        c.body = std::move(body);
-        const Ticket t = c.ticket;
-        engine_.on_command(std::move(c), now_);
-        if (!run_until([&] { return results_.contains(t); }, 10s)) return what + ": no answer";
-        const Result r = results_.extract(t).mapped();
-        refused_for_ = r.reason;
-        return r.outcome == Outcome::accepted || r.outcome == Outcome::done ? "" : fmt::format("{}: {}", what, r.text);
+        const auto r = models_.ask(std::move(body), origin(), 10s);
+        if (!r) return what + ": no answer";
+        refused_for_ = r->reason;
+        return good(*r) ? "" : fmt::format("{}: {}", what, r->text);
     }
-    void stream() {
-        const bool by_speed = streams_velocity();
-        SetPoint p;
-        p.axis = axis_;
-        p.mode = by_speed ? SetPoint::Mode::velocity : SetPoint::Mode::position;
-        p.value = by_speed ? fast_ : place_ += fast_ / 50;
-        if (!by_speed) p.velocity = 2 * fast_;
-        p.acceleration = p.deceleration = ramp_;
-        p.at = now_;
-        p.origin = origin();
-        const auto refused = engine_.on_set_point(p, now_);
-        stream_fault_ = refused ? refused->text : "";
-    }
-    [[nodiscard]] bool streams_velocity() const { return engine_.catalogue(axis_)->offers_mode(9); }
 
+    // --- the motion
     /// Brings the axis up, enables it and lets it run. Empty, or why that cannot be.
     std::string set_off() {
-        if (!run_until([&] { return (picture().flags & flag_online) != 0 && picture().ever_seen; }, 60s))
-            return "its twin does not come up";
-        run_for(500ms);
-        if ((picture().flags & flag_fault) != 0) {
+        if (!models_.run_until([&] { return models_.online(); }, 60s)) return "its twin does not come up";
+        models_.run_for(500ms);
+        if ((models_.picture().flags & flag_fault) != 0) {
             if (auto fault = order(ResetFault{}); !fault.empty()) return fault;
-            run_for(500ms);
+            models_.run_for(500ms);
         }
-        if (auto fault = order(Enable{}); !fault.empty()) return fault;
-        if (!run_until([&] { return power_state_of(picture().statusword) == PowerState::operation_enabled; }, 10s))
-            return "it is not enabled";
         const double per_unit = spec_.increments_per_unit;
-        fast_ = spec_.velocity_max ? static_cast<std::int64_t>(*spec_.velocity_max * per_unit) : 4000;
-        ramp_ = spec_.acceleration_max ? static_cast<std::int64_t>(*spec_.acceleration_max * per_unit) : 5 * fast_;
-        fast_ = std::max<std::int64_t>(fast_, 1);
-        ramp_ = std::max<std::int64_t>(ramp_, 1);
-        const AtLoss runs{true, true, true};
-        const bool goes_on = !gateway_gone() && spec_.fail_safe.action(wish_.cause, runs) == FailSafeAction::nothing;
+        const auto counts = [&](const std::optional<double>& most, double otherwise) {
+            return static_cast<std::int64_t>(std::clamp(most ? *most * per_unit : otherwise, 1.0, 2e9));
+        };
+        fast_ = counts(spec_.velocity_max, 4000);
+        ramp_ = counts(spec_.acceleration_max, 5 * static_cast<double>(fast_));
+        if (auto fault = enable(); !fault.empty()) return fault;
+        if (auto fault = begin(); !fault.empty()) return fault;
+        return models_.speed() > 0 ? "" : "it does not move";
+    }
+    std::string enable() {
+        image_.profile_velocity = static_cast<std::uint32_t>(fast_);
+        image_.profile_acceleration = image_.profile_deceleration = static_cast<std::uint32_t>(ramp_);
+        if (by_registers()) {
+            for (const int word : {0x06, 0x07, 0x0F}) {
+                image_.controlword = static_cast<std::uint16_t>(word);
+                if (auto fault = order(image_); !fault.empty()) return fault;
+            }
+        } else if (auto fault = order(Enable{}); !fault.empty()) {
+            return fault;
+        }
+        return models_.run_until([&] { return power_state_of(models_.picture().statusword) == PowerState::operation_enabled; }, 10s)
+                   ? ""
+                   : "it is not enabled";
+    }
+    std::string begin() {
         if (of_streams_alone(wish_.cause)) {
             cell_.motion = "set_points";
-            place_ = picture().position;
-            for (int i = 0; i < 100; ++i) {
-                stream();
-                if (!stream_fault_.empty()) return "set-points: " + stream_fault_;
-                run_for(20ms);
-            }
-        } else {
-            Move m;
-            m.acceleration = m.deceleration = ramp_;
-            m.kind = Move::Kind::velocity;
-            m.target = fast_;
-            cell_.motion = "velocity";
-            std::string fault = goes_on ? "" : order(m);
-            if (goes_on || (!fault.empty() && refused_for_ == Reason::not_supported)) {
-                cell_.motion = "position";
-                m.kind = Move::Kind::relative;
-                m.target = fast_ * (goes_on ? 4 : 60);
-                m.velocity = fast_;
-                fault = order(m);
-            }
-            if (!fault.empty()) return fault;
-            (void)run_until([&] { return speed() >= 0.95 * static_cast<double>(fast_); }, 3s);
-            run_for(200ms);
+            place_ = models_.picture().position;
+            stream();
+            if (!stream_fault_.empty()) return "set-points: " + stream_fault_;
+            tends_ = true;
+            models_.run_for(2s);
+            return stream_fault_.empty() ? "" : "set-points: " + stream_fault_;
         }
-        return speed() > 0 ? "" : "it does not move";
+        const AtLoss runs{true, true, true};
+        const bool goes_on = !gateway_gone() && spec_.fail_safe.action(rule(), runs) == FailSafeAction::nothing;
+        cell_.motion = "velocity";
+        std::string fault = goes_on ? "" : move_velocity();
+        if (goes_on || (!fault.empty() && refused_for_ == Reason::not_supported)) {
+            cell_.motion = "position";
+            fault = move_by(std::min<std::int64_t>(fast_ * (goes_on ? 5 : 60), INT32_MAX));
+        }
+        if (!fault.empty()) return fault;
+        tends_ = by_registers();
+        (void)models_.run_until([&] { return models_.speed() >= 0.95 * static_cast<double>(fast_); }, 3s);
+        models_.run_for(200ms);
+        return "";
+    }
+    std::string move_velocity() {
+        if (by_registers()) {
+            image_.mode = cia402::mode_profile_velocity;
+            image_.target_velocity = static_cast<std::int32_t>(fast_);
+            return order(image_);
+        }
+        return order(move(Move::Kind::velocity, fast_));
+    }
+    std::string move_by(std::int64_t distance) {
+        distance_ = distance;
+        begun_at_ = models_.mechanics().position;
+        if (by_registers()) {
+            image_.mode = cia402::mode_profile_position;
+            image_.target_velocity.reset();
+            image_.target_position = static_cast<std::int32_t>(distance);
+            image_.controlword = 0x0F;
+            if (auto fault = order(image_); !fault.empty()) return fault;
+            image_.controlword = 0x5F;  // relative, new set-point
+            return order(image_);
+        }
+        Move m = move(Move::Kind::relative, distance);
+        m.velocity = fast_;
+        return order(m);
+    }
+    [[nodiscard]] Move move(Move::Kind kind, std::int64_t target) const {
+        Move m;
+        m.kind = kind;
+        m.target = target;
+        m.acceleration = m.deceleration = ramp_;
+        return m;
     }
 
+    // --- what comes between
+    void disturb() {
+        if (has(RehearsalStep::second_client)) {
+            second_client_speaks();
+            note_disturbed(RehearsalStep::second_client);
+        }
+        if (has(RehearsalStep::refused_commands)) {
+            are_refused(origin());
+            note_disturbed(RehearsalStep::refused_commands);
+        }
+    }
+    /// Of a client that has no part in the motion: a question, a reset, commands that are refused; and its connection ends.
+    void second_client_speaks() {
+        const Origin other{Door::modbus, other_, {}};
+        const auto parameters = models_.engine().catalogue(models_.axis())->parameters();
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            if (!parameters[i].readable()) continue;
+            (void)models_.ask(ReadParameter{{static_cast<std::uint16_t>(i), parameters[i].count ? parameters[i].first : std::uint16_t{0}}},
+                              other, 2s);
+            break;
+        }
+        (void)models_.ask(ResetFault{}, other, 2s);
+        are_refused(other);
+        models_.engine().on_client_lost(AuthorityClient::of(other), LossCause::modbus_closed, models_.now());
+    }
+    /// Each of them asks for another motion, and for none that there can be.
+    void are_refused(const Origin& by) {
+        Move renewal = move(Move::Kind::velocity, fast_ / 2 + 1);
+        renewal.hold_ms = 500;
+        renewal.renew_only = true;
+        const Move beyond = move(Move::Kind::absolute, std::int64_t{INT32_MAX} + 1);
+        constexpr std::int16_t no_such_method = 127;
+        for (const CommandBody& body : {CommandBody{renewal}, CommandBody{beyond}, CommandBody{Home{no_such_method}}}) {
+            const auto r = models_.ask(body, by, 2s);
+            if (r && good(*r)) taken_ = true;
+        }
+    }
+    void note_disturbed(RehearsalStep step) {
+        models_.run_for(300ms);
+        const bool slower = models_.speed() < 0.9 * static_cast<double>(fast_);
+        if (cell_.ended_by.empty() && (slower || taken_)) cell_.ended_by = name_of(step);
+    }
+
+    // --- the loss
     void lose() {
         if (wish_.cause == LossCause::lease_ended) {  // the same motion again would disturb it; a lease that is renewed does not
             HoldAxis again;
             again.lease_s = std::max<std::int64_t>(1, std::chrono::duration_cast<std::chrono::seconds>(wish_.lease).count());
             (void)order(again);
         }
+        tends_ = client_stays() && by_registers() && has(RehearsalStep::old_image);
         if (of_streams_alone(wish_.cause)) stream();
-        at_ = now_;
+        at_ = models_.now();
         lost_ = true;
-        if (silent()) received_ = now_;  // the connection stays; else there is none
-        place_at_loss_ = mechanics().position;
-        speed_at_loss_ = speed();
+        if (silent()) models_.silent_since = at_;  // the connection stays; else there is none
+        place_at_loss_ = models_.mechanics().position;
+        speed_at_loss_ = models_.speed();
         cell_.speed = speed_at_loss_ / spec_.increments_per_unit;
-        const AuthorityClient who = AuthorityClient::of(origin());
         switch (wish_.cause) {
             case LossCause::modbus_silent:
             case LossCause::enip_silent:
@@ -217,66 +261,118 @@ private:
             case LossCause::set_points_silent:
                 return;  // nothing more comes
             case LossCause::line_lost:
-                (void)engine_.set_hand(drive_, {{"silent", Value{true}}}, {}, now_);
-                return;
+                return models_.silence(true);
             case LossCause::gateway_ends:
-                return engine_.shut_down(now_);
+                return models_.engine().shut_down(at_);
             case LossCause::none:
-                return;
+            case LossCause::motion_unowned:
+                return models_.kill_gateway();
             default:
-                engine_.on_client_lost(who, wish_.cause, now_);
+                models_.engine().on_client_lost(AuthorityClient::of(origin()), wish_.cause, at_);
         }
     }
 
+    [[nodiscard]] Duration until_noticed() const {
+        if (wish_.cause == LossCause::lease_ended) return wish_.lease;
+        if (silent()) return spec_.fail_safe.watchdog(wish_.watchdog);
+        if (wish_.cause == LossCause::line_lost) return wish_.line_away + 10s;
+        return restarts() ? without_gateway() + 10s : Duration::zero();
+    }
     void watch() {
-        const Duration silence = wish_.cause == LossCause::lease_ended ? wish_.lease
-                                 : silent()                            ? spec_.fail_safe.watchdog(wish_.watchdog)
-                                 : wish_.cause == LossCause::line_lost ? wish_.line_away + 10s
-                                                                       : Duration::zero();
-        const Instant end = at_ + silence + 15s;
-        bool back = wish_.cause != LossCause::line_lost;
-        std::optional<Instant> slower, still;
-        while (now_ < end) {
-            if (!back && now_ - at_ >= wish_.line_away) {
-                (void)engine_.set_hand(drive_, {{"silent", Value{false}}}, {}, now_);
-                back = true;
+        const Instant end = at_ + until_noticed() + 15s;
+        const bool line_lost = wish_.cause == LossCause::line_lost;
+        bool away = line_lost || restarts();
+        while (models_.now() < end) {
+            if (away && models_.now() - at_ >= (line_lost ? wish_.line_away : without_gateway())) {
+                if (line_lost) {
+                    models_.silence(false);
+                } else {
+                    models_.start_gateway();
+                }
+                away = false;
             }
-            const double v = speed();
-            if (!slower && v < 0.9 * speed_at_loss_) slower = now_;
-            if (v > 0) still.reset();
-            if (v == 0 && !still) still = now_;
-            if (still && back && now_ - *still > 100ms) break;
-            step();
+            const double v = models_.speed();
+            if (!slower_ && v < 0.9 * speed_at_loss_) slower_ = models_.now();
+            if (v > 0) still_.reset();
+            if (v == 0 && !still_) still_ = models_.now();
+            if (still_ && !away && models_.now() - *still_ > 100ms) break;
+            models_.step();
         }
         const auto ms = [&](Instant t) { return static_cast<double>((t - at_).count()) / 1e6; };
         if (acted_) {
             const AtLoss runs{true, true, true};
-            cell_.taken = spec_.fail_safe.action(wish_.cause, runs);
+            cell_.taken = spec_.fail_safe.action(acted_for_, runs);
             cell_.noticed_ms = ms(*acted_);
         }
-        if (slower) cell_.reaction_ms = ms(*slower);
-        if (still) cell_.standstill_ms = ms(*still);
-        cell_.watched_ms = ms(now_);
-        cell_.travel = std::fabs(mechanics().position - place_at_loss_) / spec_.increments_per_unit;
+        if (slower_) cell_.reaction_ms = ms(*slower_);
+        if (still_) cell_.standstill_ms = ms(*still_);
+        cell_.watched_ms = ms(models_.now());
+        cell_.travel = std::fabs(models_.mechanics().position - place_at_loss_) / spec_.increments_per_unit;
+    }
+    /// What the gateway tells of the axis after the loss: the first thing that stops it is what ends the motion.
+    void note(const Event& e, Instant at) {
+        if (!lost_) return;
+        const bool by_supervisor = e.kind == "limit" || (e.severity == Severity::alarm && (e.kind == "state" || e.kind == "motion"));
+        if (e.kind != "fail_safe" && !by_supervisor) return;
+        if (e.kind == "fail_safe" && !acted_) {
+            acted_ = at;
+            acted_for_ = static_cast<LossCause>(e.code);
+        }
+        if (!stopped_) {
+            stopped_ = at;
+            stopped_by_ = by_supervisor ? std::string_view("supervisor") : name_of(static_cast<LossCause>(e.code));
+        }
+    }
+    void judge() {
+        if (!cell_.ended_by.empty() || !still_) return;
+        // A motor that was slower before anybody acted, or that nobody has stopped, has ended it by itself.
+        if (stopped_ && (!slower_ || *stopped_ <= *slower_)) {
+            cell_.ended_by = stopped_by_;
+        } else {
+            cell_.ended_by = arrived() ? "target" : "drive";
+        }
+    }
+    [[nodiscard]] bool arrived() {
+        if (cell_.motion != "position") return false;
+        const double gone = std::fabs(models_.mechanics().position - begun_at_), wanted = static_cast<double>(distance_);
+        return gone >= wanted - std::max(settling, wanted / 1000);
+    }
+
+    // --- afterwards
+    /// The controller is back, or was never away, and writes what it wrote before the loss; it has noticed nothing.
+    void come_back() {
+        if (!has(RehearsalStep::old_image) || !by_registers() || gateway_gone() || !still_) return;
+        const double place = models_.mechanics().position;
+        if (wish_.cause == LossCause::gateway_ends) {
+            models_.kill_gateway();
+            models_.run_for(1s);
+            models_.start_gateway();
+        }
+        models_.silent_since.reset();
+        tends_ = true;
+        (void)models_.run_until([&] { return models_.online(); }, 20s);
+        models_.run_for(2s);
+        cell_.moved_again = std::fabs(models_.mechanics().position - place) > settling;
     }
 
     RehearsalWish wish_;
-    AxisSpec spec_;
-    Image image_;
-    Engine engine_;
+    RehearsalModels models_;
+    const AxisSpec& spec_;
     RehearsalCell cell_;
     const std::shared_ptr<const std::string> who_ = std::make_shared<const std::string>("rehearsal:1");
-    AxisId axis_ = no_axis;
-    DriveId drive_ = no_drive;
-    Instant now_ = at_ns(1'000'000'000), at_{};
-    bool lost_ = false;
-    std::optional<Instant> received_, acted_;
-    std::map<Ticket, Result> results_;
+    const std::shared_ptr<const std::string> other_ = std::make_shared<const std::string>("another:1");
+    ProcessData image_;  ///< what the controller writes, whole, in every cycle
+    bool tends_ = false;
+    Instant next_cycle_{};
+    Instant at_{};
+    bool lost_ = false, taken_ = false;
+    std::optional<Instant> acted_, stopped_, slower_, still_;
+    LossCause acted_for_ = LossCause::none;
+    std::string_view stopped_by_;
     Reason refused_for_ = Reason::none;
     std::string stream_fault_;
-    std::uint64_t tickets_ = 0;
-    std::int64_t fast_ = 0, ramp_ = 0, place_ = 0;
-    double place_at_loss_ = 0, speed_at_loss_ = 0;
+    std::int64_t fast_ = 0, ramp_ = 0, place_ = 0, distance_ = 0;
+    double place_at_loss_ = 0, speed_at_loss_ = 0, begun_at_ = 0;
 };
 }  // namespace
 
@@ -286,6 +382,7 @@ RehearsalCell rehearse(const Families& families, const Site& site, const SiteMem
         RehearsalCell none;
         none.axis = wish.axis;
         none.cause = wish.cause;
+        none.restart = wish.restart;
         none.fault = "there is no such axis";
         return none;
     }

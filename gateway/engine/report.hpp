@@ -20,6 +20,7 @@ struct DriveStatus {
     std::uint32_t silent_exchanges = 0;
     std::int64_t retry_pause_ms = 0;
     DriveWatchdog watchdog{};  ///< of the drive that serves
+    DriveLimits limits{};      ///< the same
     DriveBeats beats{};        ///< the same
 };
 struct LineReport {

@@ -1,5 +1,6 @@
-// A velocity move has no target that could be checked beforehand, so it is halted early enough to rest at the limit; whatever else is on
-// its way out is stopped on the quick-stop ramp. A position move inside its limits is trusted until it is seen beyond them.
+// Whatever is beyond a limit, or has no room left to come to rest before it, is stopped on the quick-stop ramp, with an alarm. A velocity
+// move has no target that could be checked beforehand: while there is room, it is halted early enough to rest at the limit, and told; that
+// is a guard, and no supervision. A position move inside its limits is trusted until it is seen beyond them.
 #include "gateway/engine/supervisor.hpp"
 
 #include <fmt/core.h>
@@ -51,21 +52,32 @@ void Supervisor::limits(Axis& a, const Motion& m, Instant now) {
     const std::int64_t ramp = m.deceleration > 0 ? m.deceleration : a.deceleration(),
                        quick = f.rates.quick_stop > 0 ? f.rates.quick_stop : ramp;
     const double late = 2 * reported * a.watch.round_s;  // until the next position, and until the stop has gone down the line
+    constexpr double settling = 2;                       // increments
+    const auto ends_badly = [&](double room) {
+        if (left >= room || a.motion.alarmed) return false;
+        const std::string place = fmt::format("{} {}", up ? "position_max" : "position_min", in_unit(*limit, a.limits));
+        stop(a, "limit", left < 0 ? fmt::format("it is beyond {}", place) : fmt::format("it cannot come to rest before {}", place), now);
+        return true;
+    };
     const bool to_place = m.kind == Motion::Kind::position || (m.kind == Motion::Kind::stream && m.stream == SetPoint::Mode::position);
     const bool inside = to_place && (!a.limits.position_max || m.target <= *a.limits.position_max) &&
                         (!a.limits.position_min || m.target >= *a.limits.position_min);
     if (a.stops.wanted) {
-        // It is being stopped already: only a ramp that is too weak asks for the stronger stop.
-        if (left < 0 && -left > late + way_to_rest(reported, ramp) && *a.stops.wanted == Stops::Kind::halt && !a.motion.alarmed)
-            stop(a, "limit", fmt::format("it is beyond {} {}", up ? "position_max" : "position_min", in_unit(*limit, a.limits)), now);
+        // It is being stopped already: only a ramp that is too weak asks for the stronger stop. What the halt was given too early by, it
+        // may use up, and an unknown ramp is the one by which it was reckoned.
+        if (*a.stops.wanted != Stops::Kind::halt) return;
+        const double then = std::max(reported, static_cast<double>(a.stops.speed_then));
+        const double way = ramp > 0 ? way_to_rest(reported, ramp) : reported * reported / then * worst_stop_s / 2;
+        (void)ends_badly(way - std::max(settling, 2 * then * a.watch.round_s));
         return;
     }
     if (inside) {
-        if (left < -std::max(2.0, late) && !a.motion.alarmed)
-            stop(a, "limit", fmt::format("it is beyond {} {}", up ? "position_max" : "position_min", in_unit(*limit, a.limits)), now);
+        (void)ends_badly(-std::max(settling, late));
         return;
     }
     if (by_speed || m.kind == Motion::Kind::position) {
+        // A speed that was reported may be older than its place, by as much as the guard is early.
+        if (ends_badly(std::max(-settling, way_to_rest(reported, ramp) - late))) return;
         // While it gains speed it is faster by the time the halt arrives, but never than it was told to go.
         const double gained = reported + 2 * a.watch.round_s * static_cast<double>(m.acceleration);
         const double ordered = std::fabs(static_cast<double>(by_speed ? m.target : m.velocity));

@@ -13,7 +13,8 @@ public:
     void look(Axis& axis, Instant now);
 
 private:
-    /// How far the axis may still go, and how it is ended: by a halt that comes to rest at the limit, or by a quick stop with an alarm.
+    /// How far the axis may still go, and how it is ended: by a quick stop with an alarm, or before that by a halt that comes to rest at
+    /// the limit.
     void limits(Axis& axis, const Motion& motion, Instant now);
     void speed(Axis& axis, Instant now);
     void state(Axis& axis, Instant now);

@@ -23,11 +23,7 @@ WarmRehearsal::~WarmRehearsal() {
     thread_.join();
 }
 
-void WarmRehearsal::rehearse(std::shared_ptr<const SiteState> site, std::string axis, LossCause cause,
-                             std::function<void(RehearsalCell)> then) {
-    RehearsalWish wish;
-    wish.axis = std::move(axis);
-    wish.cause = cause;
+void WarmRehearsal::rehearse(std::shared_ptr<const SiteState> site, RehearsalWish wish, std::function<void(RehearsalCell)> then) {
     wish.watchdog = watchdog_;
     wish.lease = lease_;
     auto memory = read_site_memory(threads_.reader, site->site);

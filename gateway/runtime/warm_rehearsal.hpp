@@ -22,8 +22,7 @@ public:
         watchdog_ = watchdog;
         lease_ = lease;
     }
-    void rehearse(std::shared_ptr<const SiteState> site, std::string axis, LossCause cause,
-                  std::function<void(RehearsalCell)> then) override;
+    void rehearse(std::shared_ptr<const SiteState> site, RehearsalWish wish, std::function<void(RehearsalCell)> then) override;
     [[nodiscard]] Duration watchdog() const override { return watchdog_; }
 
 private:

@@ -53,8 +53,29 @@ protected:
         EXPECT_LE(std::llabs(now().position - place), 1'500) << "at " << now().position;
         EXPECT_LE(std::llabs(now().position), limit + 300) << "beyond its limit, at " << now().position;
         EXPECT_NE(now().statusword & cia402::sw_internal_limit, 0);
-        EXPECT_EQ(std::ranges::count_if(w.events, [](const Event& v) { return v.kind == "limit" && v.severity == Severity::warning; }), 1);
+        EXPECT_EQ(limit_events(Severity::warning), 1);
+        EXPECT_EQ(limit_events(Severity::alarm), 0) << "the guard was early enough";
         w.events.clear();
+    }
+    [[nodiscard]] std::ptrdiff_t limit_events(Severity severity) const {
+        return std::ranges::count_if(w.events, [&](const Event& v) { return v.kind == "limit" && v.severity == severity; });
+    }
+    /// It runs outwards at 4000, and the limit becomes another one.
+    [[nodiscard]] bool runs_when_the_limit_moves(std::int64_t ramp, std::int64_t ahead) {
+        Move m = move_to(4'000, Move::Kind::velocity);
+        m.acceleration = m.deceleration = ramp;  // some drives have one for both
+        const Result* r = ask(a1, m, false);
+        if (r && r->reason == Reason::not_supported) {
+            lacks_velocity(*r);
+            return false;
+        }
+        EXPECT_TRUE(r && good(*r)) << published(r);
+        EXPECT_TRUE(w.run_until_true([&] { return now().position > 2'500 && now().velocity > 3'800; }, 5s));
+        Site narrower = site->site;
+        narrower.axes[0].position_max = static_cast<double>(now().position + ahead) / narrower.axes[0].increments_per_unit;
+        w.events.clear();
+        site = w.apply(std::move(narrower));
+        return true;
     }
 };
 
@@ -77,6 +98,29 @@ TEST_P(LimitLaws, AVelocityMoveIsHaltedAtTheLimitAndMayOnlyGoBack) {
         EXPECT_EQ(r->reason, Reason::out_of_range);
         EXPECT_NE(r->text.find(direction > 0 ? "position_max" : "position_min"), std::string::npos) << r->text;
     }
+}
+
+TEST_P(LimitLaws, AVelocityMoveThatIsBeyondALimitIsStoppedQuicklyWithAnAlarm) {
+    begin();
+    if (!runs_when_the_limit_moves(20'000, -500)) return;
+    ASSERT_TRUE(w.run_until_true([&] { return power_state_of(now().statusword) == PowerState::quick_stop_active; }, 2s));
+    ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) == 0; }, 5s));
+    EXPECT_EQ(limit_events(Severity::alarm), 1);
+    EXPECT_EQ(limit_events(Severity::warning), 0) << "no halt: it has no room for that";
+    EXPECT_EQ(now().stop_latch, 0b11);
+    EXPECT_NE(now().statusword & cia402::sw_internal_limit, 0);
+    w.run_for(1s);
+    EXPECT_EQ(speed(a1), 0);
+}
+
+/// Its own ramp needs 4000, and there are 1000 left.
+TEST_P(LimitLaws, AVelocityMoveWithNoRoomLeftOnItsRampIsStoppedQuicklyWithAnAlarm) {
+    begin();
+    if (!runs_when_the_limit_moves(2'000, 1'000)) return;
+    ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) == 0; }, 15s));
+    EXPECT_EQ(limit_events(Severity::alarm), 1);
+    EXPECT_EQ(limit_events(Severity::warning), 0);
+    EXPECT_EQ(power_state_of(now().statusword), PowerState::quick_stop_active);
 }
 
 TEST_P(LimitLaws, ARampThatIsTheDrivesOwnIsReckonedWith) {
@@ -137,6 +181,18 @@ TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
     const Result absolute = word(0x1F);
     ASSERT_TRUE(good(absolute)) << absolute.text;
     ASSERT_TRUE(w.run_until_true([&] { return now().position == limit / 2; }, 30s));
+}
+
+/// What its family's page says of drive_limits is what is shown of its drive: written and acknowledged where the site limits the axis.
+TEST_P(LimitLaws, ADriveThatKeepsLimitsByItselfHasThoseOfTheSite) {
+    const bool available = e.catalogue->document().at("drive_limits").at("available").as_bool();
+    begin();
+    const auto state = [&] { return w.engine.drive_status(d1).limits.state; };
+    EXPECT_EQ(state(), available ? DriveLimits::State::armed : DriveLimits::State::unknown) << w.engine.drive_status(d1).limits.text;
+    Site open = site->site;
+    open.axes[0].position_min = open.axes[0].position_max = std::nullopt;
+    site = w.apply(std::move(open));
+    EXPECT_TRUE(w.run_until_true([&] { return state() == DriveLimits::State::unknown; }, 10s)) << "the site gives none any more";
 }
 
 /// The gateway that gave a velocity move is gone; the next one knows of no order, and finds the axis on its way out.

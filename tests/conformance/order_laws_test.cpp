@@ -246,6 +246,23 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
     EXPECT_GE(reported * 10, asked * 9) << unsaid;
 }
 
+/// A map may hold parameters, and a controller writes them in cycles: a target or a speed among them would undo what somebody else has
+/// stopped, so pages have those to read alone.
+TEST_P(OrderLaws, NoParameterThatCanBeWrittenIsATargetOrASpeedToRunAt) {
+    if (!e.family->stated) return;
+    for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
+        const Parameter& p = e.catalogue->parameters()[i];
+        for (const std::int64_t n : {-1'000, -1, 0, 1, 2, 15, 100, 1'000, 70'000}) {
+            if (!p.writable()) continue;
+            const auto checked = e.catalogue->check_write(first_point(i), Value{n});
+            if (!checked.fault.empty()) continue;
+            const Stated said = e.family->stated(*e.catalogue, 1, WriteParameter{first_point(i), checked.value});
+            EXPECT_NE(said.kind, Stated::Kind::motion) << p.id << " = " << n;
+            EXPECT_NE(said.kind, Stated::Kind::homing) << p.id << " = " << n;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, OrderLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
 }  // namespace

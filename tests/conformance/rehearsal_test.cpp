@@ -21,12 +21,32 @@ protected:
         }
         return s;
     }
-    RehearsalCell play(LossCause cause, std::optional<FailSafeAction> action) {
+    RehearsalCell play(LossCause cause, std::optional<FailSafeAction> action, RehearsalSteps steps = {}) {
         RehearsalWish w;
         w.axis = "a1";
         w.cause = cause;
+        w.steps = steps;
         w.lease = 2s;
         return rehearse(families(), site_with(cause, action), {}, w);
+    }
+    /// The gateway is killed, and another one is there after `away`.
+    RehearsalCell restart(Duration away, std::optional<FailSafeAction> action) {
+        RehearsalWish w;
+        w.axis = "a1";
+        w.cause = LossCause::none;
+        w.restart = true;
+        w.steps = RehearsalSteps::all();
+        w.gateway_away = away;
+        return rehearse(families(), site_with(LossCause::motion_unowned, action), {}, w);
+    }
+    /// The other gateway ends a velocity move that is not renewed, before its drive can be reached again.
+    [[nodiscard]] bool ends_by_itself_before(LossCause cause) const {
+        return cause == LossCause::line_lost && e.catalogue->document().at("drive_watchdog").as_object().contains("stops_velocity_moves");
+    }
+    [[nodiscard]] bool streams() const { return e.catalogue->offers_mode(8) || e.catalogue->offers_mode(9); }
+    /// Who comes over HTTP or DDS writes no registers, so it has no image that could be old.
+    [[nodiscard]] static bool has_image(LossCause cause) {
+        return cause != LossCause::lease_ended && cause != LossCause::set_points_silent && cause != LossCause::dds_deadline;
     }
 };
 
@@ -47,6 +67,7 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             const double wait_ms = cause == LossCause::lease_ended         ? 2000
                                    : cause == LossCause::modbus_silent     ? 300
                                    : cause == LossCause::line_lost         ? 2000
+                                   : cause == LossCause::motion_unowned    ? 300
                                    : cause == LossCause::set_points_silent ? 500
                                                                            : 0;
             if (choice == FailSafeAction::nothing) {
@@ -60,7 +81,9 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             if (goes_on) continue;
             ASSERT_TRUE(cell.standstill_ms);
             EXPECT_GE(*cell.noticed_ms, wait_ms - 1);
-            EXPECT_LE(*cell.noticed_ms, wait_ms + 2500);
+            EXPECT_LE(*cell.noticed_ms, wait_ms + (cause == LossCause::motion_unowned ? 8000 : 2500)) << "a gateway has to start for it";
+            EXPECT_EQ(cell.ended_by, ends_by_itself_before(cause) ? "drive" : name_of(cause));
+            EXPECT_FALSE(cell.moved_again) << "nobody has asked for it";
             ASSERT_TRUE(cell.reaction_ms);
             EXPECT_LE(*cell.reaction_ms, *cell.standstill_ms);
             EXPECT_LE(*cell.standstill_ms - *cell.noticed_ms, 3000);
@@ -88,6 +111,54 @@ TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
         }
     }
     EXPECT_GE(rehearsed, 6);
+}
+
+/// Whatever another client says, whatever is refused meanwhile: the motion goes on, the loss of its own client ends it, and what that one
+/// repeats afterwards begins nothing.
+TEST_P(Rehearsals, NothingThatComesBetweenChangesWhoseLossEndsTheMotion) {
+    for (const LossCause cause : loss_causes) {
+        if (cause == LossCause::set_points_silent && !streams()) continue;
+        for (const auto action : {FailSafeAction::halt, FailSafeAction::quick_stop, FailSafeAction::disable}) {
+            SCOPED_TRACE(std::string(name_of(cause)) + " " + std::string(name_of(action)));
+            const RehearsalCell cell = play(cause, action, RehearsalSteps::all());
+            ASSERT_EQ(cell.fault, "");
+            const bool by_itself = ends_by_itself_before(cause);
+            EXPECT_EQ(cell.ended_by, by_itself ? "drive" : name_of(cause));
+            EXPECT_EQ(cell.taken, by_itself && action != FailSafeAction::disable ? cell.taken : action);
+            ASSERT_TRUE(cell.standstill_ms);
+            EXPECT_EQ(cell.moved_again, has_image(cause) ? std::optional(false) : std::nullopt);
+        }
+    }
+}
+
+TEST_P(Rehearsals, AMotionToATargetThatGoesOnEndsThereAndNothingBeginsItAgain) {
+    const RehearsalCell cell = play(LossCause::modbus_closed, FailSafeAction::nothing, RehearsalSteps::all());
+    ASSERT_EQ(cell.fault, "");
+    EXPECT_EQ(cell.motion, "position");
+    EXPECT_FALSE(cell.noticed_ms);
+    ASSERT_TRUE(cell.standstill_ms);
+    EXPECT_EQ(cell.ended_by, "target");
+    EXPECT_EQ(cell.moved_again, false);
+}
+
+TEST_P(Rehearsals, AGatewayThatIsStartedAgainEndsWhatItFindsUnlessTheDriveHasDoneSo) {
+    const auto& says = e.catalogue->document().at("drive_watchdog").as_object();
+    const bool by_itself = says.at("available").as_bool() || says.contains("stops_velocity_moves");
+    for (const Duration away : {Duration(300ms), Duration(5s)}) {
+        SCOPED_TRACE(milliseconds_of(away));
+        const RehearsalCell cell = restart(away, FailSafeAction::quick_stop);
+        ASSERT_EQ(cell.fault, "");
+        EXPECT_EQ(situation_of(cell), "gateway_restarts");
+        EXPECT_EQ(cell.chosen, FailSafeAction::quick_stop);
+        ASSERT_TRUE(cell.standstill_ms);
+        if (away > 3s) {
+            EXPECT_EQ(cell.ended_by, by_itself ? "drive" : "motion_unowned");
+        } else {
+            EXPECT_TRUE(cell.ended_by == "motion_unowned" || (by_itself && cell.ended_by == "drive")) << cell.ended_by;
+        }
+        EXPECT_EQ(cell.noticed_ms.has_value(), cell.ended_by == "motion_unowned");
+        EXPECT_EQ(cell.moved_again, false) << "its controller has written its image all the time";
+    }
 }
 
 TEST_P(Rehearsals, WhenTheGatewayIsGoneADriveWithAWatchdogStopsByItselfAndAnyOtherGoesOn) {

@@ -62,12 +62,12 @@ def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
         before = {n: g.axis(n)["position_increments"] for n in ("lift", "press", "table", "arm")}
         g.request("PUT", "/api/v1/fail_safe/press", {"modbus_closed": "nothing"})
         status, state, _ = g.request("POST", "/api/v1/fail_safe/rehearsal", {})
-        assert status == 202 and state["state"] == "running" and state["total"] == 53, state
+        assert status == 202 and state["state"] == "running" and state["total"] == 57, state
         assert g.request("POST", "/api/v1/fail_safe/rehearsal", {})[0] == 409
         until(lambda: g.get("/fail_safe/rehearsal")["state"] == "done", 60, "the rehearsal's end")
         report = g.get("/fail_safe/rehearsal")["report"]
         cells = {(c["axis"], c["cause"]): c for c in report["cells"]}
-        assert set(cells) == {(a, c) for a in before for c in CAUSES + ["gateway_gone"] if c != "set_points_silent" or a == "press"}
+        assert set(cells) == {(a, c) for a in before for c in CAUSES + ["gateway_gone", "gateway_restarts"] if c != "set_points_silent" or a == "press"}
         assert report["without_set_points"] == ["lift", "table", "arm"]
         assert report["without_figures"] == 0, [c for c in report["cells"] if c["text"].startswith("no figures")]
         for cell in report["cells"]:
@@ -75,6 +75,10 @@ def test_a_rehearsal_leaves_no_cell_without_a_figure(folder):
         assert cells["press", "modbus_closed"]["taken"] == "nothing" and cells["press", "modbus_closed"]["motion"] == "position"
         assert cells["lift", "modbus_silent"]["noticed_ms"] >= 5000 and cells["lift", "enip_silent"]["noticed_ms"] >= 5000
         assert cells["lift", "enip_timed_out"]["noticed_ms"] < 5
+        for (axis, cause), cell in cells.items():
+            really = {"gateway_gone": None, "gateway_restarts": "motion_unowned"}.get(cause, cause)
+            assert cell["ended_by"] == ("target" if (axis, cause) == ("press", "modbus_closed") else really), cell
+            assert cell["moved_again"] is (None if cause in ("gateway_gone", "lease_ended", "set_points_silent", "dds_deadline") else False), cell
         time.sleep(0.2)
         assert before == {n: g.axis(n)["position_increments"] for n in before}, "nothing real has moved"
         assert g.get("/events?kind=rehearsal")
@@ -101,7 +105,7 @@ def test_every_axis_of_the_demo_has_a_figure_for_every_cause(folder):
         cells = {(c["axis"], c["cause"]): c for c in report["cells"]}
         streams = set(names) - set(report["without_set_points"])
         assert streams == {"shuttle", "spindle"}, report["without_set_points"]
-        assert set(cells) == {(n, c) for n in names for c in CAUSES + ["gateway_gone"] if c != "set_points_silent" or n in streams}
+        assert set(cells) == {(n, c) for n in names for c in CAUSES + ["gateway_gone", "gateway_restarts"] if c != "set_points_silent" or n in streams}
         assert report["without_figures"] == 0, [c for c in report["cells"] if c["text"].startswith("no figures")]
         for cell in report["cells"]:
             stops = cell["cause"] != "gateway_gone" or cell["axis"] in own
@@ -109,5 +113,26 @@ def test_every_axis_of_the_demo_has_a_figure_for_every_cause(folder):
         for n in own:
             assert 900 <= cells[n, "gateway_gone"]["reaction_ms"] <= 1200, cells[n, "gateway_gone"]
         for cause in CAUSES:
-            if cause not in ("modbus_silent", "enip_silent", "lease_ended", "line_lost", "set_points_silent"):
+            if cause not in ("modbus_silent", "enip_silent", "lease_ended", "line_lost", "set_points_silent", "motion_unowned"):
                 assert cells["spindle", cause]["noticed_ms"] < 5, cells["spindle", cause]
+        assert not [c for c in report["cells"] if c["moved_again"]], "an old image moves nothing"
+        for n in names:  # a gateway that comes back after 3 s finds a drive that has stopped by itself, or stops it
+            assert cells[n, "gateway_restarts"]["ended_by"] == ("drive" if n in own else "motion_unowned"), cells[n, "gateway_restarts"]
+
+
+def test_the_limits_that_a_drive_keeps_by_itself_are_shown(folder):
+    site = {"lines": [{"name": "can0", "uri": "twin", "family": "cia402"}, {"name": "m", "uri": "twin", "family": "mcode"}],
+            "drives": [{"name": "spindle", "line": "can0", "address": 5}, {"name": "table", "line": "m"}],
+            "axes": [{"name": n, "drive": n, "number": i + 1, "unit": "mm", "increments_per_unit": 100} for i, n in enumerate(("spindle", "table"))], "mappings": []}
+    with Gateway(folder, site) as g:
+        limits = lambda n: g.get(f"/fail_safe/{n}")["drive_limits"]
+        until(lambda: g.axis("spindle")["online"], 10, "online")
+        assert (limits("spindle")["available"], limits("spindle")["wanted"], limits("spindle")["state"]) == (True, False, None)
+        assert limits("table")["available"] is False and limits("table")["description"]
+        status, answer, _ = g.request("PATCH", "/api/v1/axes/spindle", {"position_min": -100, "position_max": 100})
+        assert status == 200, answer
+        until(lambda: limits("spindle")["state"] == "armed", 10, "written and acknowledged")
+        assert limits("spindle")["wanted"] and limits("spindle")["refusal"] is None
+        status, answer, _ = g.request("PATCH", "/api/v1/drives/spindle", {"options": {"drive_limits": "off"}})
+        assert status == 200, answer
+        until(lambda: limits("spindle")["state"] == "off", 10, "left alone")

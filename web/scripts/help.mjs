@@ -94,15 +94,18 @@ for (const tag of ['th', 'td']) {
 }
 /** The pictures that chapters show, by their files. @type {Set<string>} */
 const pictures = new Set();
-/** NAME-light.webp has NAME-dark.webp beside it; the styles show the one of the theme, and what is not shown is not fetched. */
+/** Width and height of a drawing; pictures of the page have all the same. @param {string} file */
+const sizeOf = (file) => (/^<svg [^>]*width="\d+" height="\d+"/.exec(file.endsWith('.svg') && existsSync(file) ? readFileSync(file, 'utf8') : '')?.[0].match(/(?<=(?:width|height)=")\d+/g) ?? ['1200', '760']);
+/** NAME-light.webp or .svg has NAME-dark beside it; the styles show the one of the theme, and what is not shown is not fetched. */
 rules.image = (/** @type {any} */ tokens, /** @type {number} */ i, /** @type {any} */ _o, /** @type {any} */ env) => {
   const src = String(tokens[i]?.attrGet('src'));
   return ['light', 'dark']
     .map((theme) => {
-      const file = join(top, dirname(env.chapter.file), src.replace(/-light\.webp$/, `-${theme}.webp`));
-      if (!/^[\w./-]+-light\.webp$/.test(src) || !existsSync(file)) faults.push(`${env.chapter.file} shows ${src}: there is no such picture for ${theme}`);
+      const file = join(top, dirname(env.chapter.file), src.replace(/-light(?=\.\w+$)/, `-${theme}`));
+      if (!/^[\w./-]+-light\.(webp|svg)$/.test(src) || !existsSync(file)) faults.push(`${env.chapter.file} shows ${src}: there is no such picture for ${theme}`);
       else pictures.add(file);
-      return `<img class="picture ${theme}" src="/help/${escape(basename(file))}" alt="${escape(words(tokens[i]))}" width="1200" height="760" loading="lazy">`;
+      const [width, height] = sizeOf(file);
+      return `<img class="picture ${theme}" src="/help/${escape(basename(file))}" alt="${escape(words(tokens[i]))}" width="${width}" height="${height}" loading="lazy">`;
     })
     .join('');
 };

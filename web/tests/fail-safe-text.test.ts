@@ -1,10 +1,11 @@
 // Fail-safe in words: causes, what an axis has named, one change, the cells of a rehearsal. All pure.
 import { describe, expect, it } from 'vitest';
 import type { Cell, FailSafeRow } from '../src/api/fail-safe';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedText, readWatchdog, watchdogText } from '../src/text/fail-safe';
+import { actionChoices, causeHint, causeText, cellHeads, cellRow, changed, limitsText, namedText, readWatchdog, watchdogText } from '../src/text/fail-safe';
 
 const none: FailSafeRow['drive_watchdog'] = { available: false, state: null, time_ms: null, action: null, description: 'The manual names none.' };
-const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null, drive_watchdog: none });
+const noLimits: FailSafeRow['drive_limits'] = { available: false, wanted: true, state: null, refusal: null, description: 'The manual names limit switches.' };
+const row = (fail_safe: FailSafeRow['fail_safe']): FailSafeRow => ({ axis: 'feeder', fail_safe, watchdog_ms_in_force: 5000, last_cause: null, drive_watchdog: none, drive_limits: noLimits });
 const cell: Cell = { axis: 'feeder', cause: 'modbus_closed', chosen: null, taken: 'halt', motion: 'velocity', speed: 10, noticed_ms: 0.12, reaction_ms: 14.6, standstill_ms: 105, watched_ms: 2000, travel: 1.23456, text: '' };
 
 describe('words', () => {
@@ -30,6 +31,22 @@ describe('words', () => {
     expect(text({ state: 'off' })).toMatch(/switched off \(watchdog_action\)/);
     expect(text({ state: 'refused' })).toMatch(/it goes on/);
     expect(text({})).toMatch(/has not been set yet/);
+  });
+  it('says which limits the drive keeps by itself', () => {
+    const text = (l: Partial<typeof noLimits>) => limitsText({ ...row({}), drive_limits: { ...noLimits, available: true, ...l } });
+    expect(limitsText(row({}))).toBe('The drive has no limits of position of its own. The manual names limit switches.');
+    expect(text({ wanted: false })).toMatch(/^The site does not limit the axis/);
+    expect(text({ state: 'armed' })).toMatch(/are those of the site\.$/);
+    expect(text({ state: 'off' })).toMatch(/left as they are \(drive_limits\)/);
+    expect(text({ state: 'refused', refusal: '607Dh:02: no such object' })).toBe('The drive does not take limits of position: 607Dh:02: no such object');
+    expect(text({})).toMatch(/has not answered/);
+  });
+  it('says what really ended a motion, and what moved again', () => {
+    expect(cellHeads()).toHaveLength(8);
+    expect(cellRow(cell, '').ended).toBe('');
+    expect(cellRow({ ...cell, ended_by: 'modbus_closed', moved_again: false }, '').ended).toBe('Modbus connection closed');
+    expect(cellRow({ ...cell, ended_by: 'drive', moved_again: true }, '').ended).toBe('The drive itself; moved again');
+    expect(['supervisor', 'target', 'second_client', 'gateway_restarts'].map(causeText)).toEqual(['Supervisor', 'Target reached', 'A second client speaks', 'The gateway restarts']);
   });
   it('changes one member and leaves the others', () => {
     expect(changed(row({ modbus_closed: 'halt', line_lost: 'disable' }), 'modbus_closed', '')).toEqual({ modbus_closed: null, line_lost: 'disable' });

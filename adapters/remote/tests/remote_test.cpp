@@ -274,6 +274,33 @@ TEST_F(Bench, AVelocityMoveIsHeldAndRenewedUntilItHasEnded) {
     EXPECT_TRUE(orders().empty()) << "it has ended there: nothing is renewed";
 }
 
+/// Another motion that the other gateway refuses ends nothing there, so that the one under way is renewed like before.
+TEST_F(Bench, ARefusedMotionDoesNotEndTheRenewalOfTheOneUnderWay) {
+    come_up();
+    ask(move_of(Move::Kind::velocity, -300));
+    say(Telegram::Kind::answer, orders().at(0).number, "accepted none 0 ");
+    mirror::State turns = standing();
+    turns.moving = true;
+    for (const CommandBody& body : {CommandBody{Home{127}}, CommandBody{move_of(Move::Kind::velocity, 700)}}) {
+        sent.clear();
+        ask(body);
+        ASSERT_EQ(orders().size(), 1u);
+        say(Telegram::Kind::answer, orders()[0].number, "refused not_supported 0 no");
+        std::size_t renewed = 0;
+        for (int i = 0; i < 30; ++i) {
+            pass(50ms);
+            for (const auto& t : std::exchange(sent, {})) {
+                if (t.body == "state") say(Telegram::Kind::state, t.number, body_of(turns));
+                if (t.body.find("renew=1") != std::string::npos) {
+                    EXPECT_EQ(t.body, "move_velocity v=-300 hold=2000 renew=1 wait=600");
+                    ++renewed;
+                }
+            }
+        }
+        EXPECT_GE(renewed, 2u) << name_of(body);
+    }
+}
+
 TEST_F(Bench, AStateFromBeforeAMotionIsThrownAway) {
     come_up();
     pass(300ms);

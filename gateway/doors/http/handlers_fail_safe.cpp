@@ -67,15 +67,17 @@ json::object choice_of(const FailSafe& chosen) {
     return o;
 }
 
-json::value state_of(DriveWatchdog::State state) {
+/// The word of the API for a state of what the drive keeps by itself; null: unknown.
+template <class Kept>
+json::value state_of(typename Kept::State state) {
     switch (state) {
-        case DriveWatchdog::State::off:
+        case Kept::State::off:
             return "off";
-        case DriveWatchdog::State::armed:
+        case Kept::State::armed:
             return "armed";
-        case DriveWatchdog::State::refused:
+        case Kept::State::refused:
             return "refused";
-        case DriveWatchdog::State::unknown:
+        case Kept::State::unknown:
             break;
     }
     return nullptr;
@@ -83,22 +85,47 @@ json::value state_of(DriveWatchdog::State state) {
 
 using MatrixPorts = PortSet<AxisPort, DrivePort, RehearsalPort, SitePort>;
 
-/// What the drive of an axis does by itself when it does not hear the gateway any more: what its family has, and what was programmed.
-json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
-    json::object o{{"available", false}, {"state", nullptr}, {"time_ms", nullptr}, {"action", nullptr}, {"description", ""}};
+/// What the drive of an axis keeps by itself: what its family's page says of it, and what is known of this drive where the family has it.
+struct KeptByDrive {
+    bool available = false;
+    std::string description;
+    std::optional<DriveStatus> status;
+};
+KeptByDrive kept_by_drive(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec, std::string_view member) {
+    KeptByDrive kept;
     const auto d = index_of_name(site.site.drives, spec.drive);
     const auto page = d ? catalogue_of(site.site, site.site.drives[*d], ports.get<SitePort>().families()) : nullptr;
-    const auto* says = page ? page->document().if_contains("drive_watchdog") : nullptr;
-    if (!says || !says->is_object()) return o;
-    o["available"] = says->get_object().at("available");
-    o["description"] = says->get_object().at("description");
-    if (*d >= site.drive_ids.size() || !o["available"].as_bool()) return o;
-    const DriveWatchdog w = ports.get<DrivePort>().drive_status(site.drive_ids[*d]).watchdog;
-    o["state"] = state_of(w.state);
-    if (w.state != DriveWatchdog::State::armed) return o;
-    o["time_ms"] = milliseconds_of(w.time);
-    o["action"] = w.action;
-    return o;
+    const auto* says = page ? page->document().if_contains(member) : nullptr;
+    if (!says || !says->is_object()) return kept;
+    kept.available = says->get_object().at("available").as_bool();
+    kept.description = says->get_object().at("description").as_string();
+    if (kept.available && *d < site.drive_ids.size()) kept.status = ports.get<DrivePort>().drive_status(site.drive_ids[*d]);
+    return kept;
+}
+
+/// What it does when it does not hear the gateway any more, as it was programmed.
+json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
+    const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_watchdog");
+    const DriveWatchdog w = kept.status ? kept.status->watchdog : DriveWatchdog{};
+    const bool armed = w.state == DriveWatchdog::State::armed;
+    return {{"available", kept.available},
+            {"state", state_of<DriveWatchdog>(w.state)},
+            {"time_ms", armed ? json::value(milliseconds_of(w.time)) : json::value(nullptr)},
+            {"action", armed ? json::value(w.action) : json::value(nullptr)},
+            {"description", kept.description}};
+}
+
+/// The site's limits of position, as the drive has acknowledged them.
+json::object limits_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
+    const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_limits");
+    const bool wanted = spec.position_min || spec.position_max;  // the state is the drive's, and another axis of it may be limited
+    const DriveLimits limits = kept.status && wanted ? kept.status->limits : DriveLimits{};
+    const bool refused = limits.state == DriveLimits::State::refused;
+    return {{"available", kept.available},
+            {"wanted", wanted},
+            {"state", state_of<DriveLimits>(limits.state)},
+            {"refusal", refused ? json::value(limits.text) : json::value(nullptr)},
+            {"description", kept.description}};
 }
 
 json::object axis_row(const MatrixPorts& ports, const SiteState& site, std::size_t i) {
@@ -108,7 +135,8 @@ json::object axis_row(const MatrixPorts& ports, const SiteState& site, std::size
             {"fail_safe", choice_of(spec.fail_safe)},
             {"watchdog_ms_in_force", milliseconds_of(spec.fail_safe.watchdog(ports.get<RehearsalPort>().watchdog()))},
             {"last_cause", cause == LossCause::none ? json::value(nullptr) : json::value(name_of(cause))},
-            {"drive_watchdog", watchdog_of(ports, site, spec)}};
+            {"drive_watchdog", watchdog_of(ports, site, spec)},
+            {"drive_limits", limits_of(ports, site, spec)}};
 }
 
 std::optional<Response> row_of(const MatrixPorts& ports, std::string_view name) {
@@ -170,21 +198,52 @@ Handled put_axis_fail_safe(Call& c, AxisPort& axes, DrivePort& drives, Rehearsal
 
 Handled get_rehearsal(Call& c) { return json_response(c.context.rehearsals->state()); }
 
+namespace {
+/// A list of names, or nothing and why not.
+std::optional<std::vector<std::string>> names_in(std::string_view key, const json::value& v, std::vector<Fault>& faults) {
+    if (!v.is_array() || !std::ranges::all_of(v.get_array(), [](const json::value& one) { return one.is_string(); })) {
+        faults.push_back({"/" + std::string(key), fmt::format("{} must be a list of names", key), "leave it out for all"});
+        return std::nullopt;
+    }
+    std::vector<std::string> names;
+    for (const auto& one : v.get_array())
+        names.emplace_back(one.get_string());
+    return names;
+}
+
+RehearsalSteps steps_in(const json::value& v, std::vector<Fault>& faults) {
+    RehearsalSteps steps;
+    const auto names = names_in("steps", v, faults);
+    for (std::size_t i = 0; names && i < names->size(); ++i) {
+        if (const auto step = rehearsal_step_of((*names)[i])) {
+            steps.add(*step);
+        } else {
+            std::string known;
+            for (const RehearsalStep s : rehearsal_steps)
+                known += (known.empty() ? "" : ", ") + std::string(name_of(s));
+            faults.push_back({fmt::format("/steps/{}", i), fmt::format("{} is no step of a rehearsal", (*names)[i]), "one of " + known});
+        }
+    }
+    return steps;
+}
+}  // namespace
+
 Handled start_rehearsal(Call& c) {
     std::vector<std::string> axes;
+    RehearsalSteps steps = RehearsalSteps::all();
     std::vector<Fault> faults;
     for (const auto& [key, value] : c.body.get_object()) {
-        if (key != "axes") {
-            faults.push_back({"/" + std::string(key), fmt::format("{} is not known here", std::string_view(key)), "leave it out"});
-        } else if (!value.is_array() || !std::ranges::all_of(value.get_array(), [](const json::value& v) { return v.is_string(); })) {
-            faults.push_back({"/axes", "axes must be a list of names", "leave it out for all axes"});
+        if (key == "axes") {
+            if (auto names = names_in(key, value, faults)) axes = std::move(*names);
+        } else if (key == "steps") {
+            steps = steps_in(value, faults);
         } else {
-            for (const auto& v : value.get_array())
-                axes.emplace_back(v.get_string());
+            faults.push_back({"/" + std::string(key), fmt::format("{} is not known here", std::string_view(key)), "leave it out"});
         }
     }
     if (!faults.empty()) return invalid(std::move(faults));
-    if (auto why = c.context.rehearsals->start(std::move(axes), c.origin()); !why.empty()) return problem(409, "conflict", std::move(why));
+    if (auto why = c.context.rehearsals->start(std::move(axes), steps, c.origin()); !why.empty())
+        return problem(409, "conflict", std::move(why));
     return json_response(c.context.rehearsals->state(), 202);
 }
 

@@ -21,26 +21,35 @@ const std::string kind = "rehearsal";
 json::value ms_or_null(const std::optional<double>& ms) { return ms ? json::value(std::round(*ms * 1000) / 1000) : json::value(nullptr); }
 double rounded(double v) { return std::round(v * 1e6) / 1e6; }
 
-std::string in_words(const RehearsalCell& c) {
-    if (!c.fault.empty()) return "no figures: " + c.fault;
-    if (c.cause == LossCause::none) {
+std::string what_was_done(const RehearsalCell& c) {
+    const double stood = c.standstill_ms.value_or(0);
+    if (c.cause == LossCause::none && !c.noticed_ms) {
         if (!c.reaction_ms) return fmt::format("the drive goes on by itself: watched for {:.1f} s", c.watched_ms / 1000);
-        return c.standstill_ms
-                   ? fmt::format("the drive stops by itself after {:.1f} ms, at rest after {:.1f} ms", *c.reaction_ms, *c.standstill_ms)
-                   : fmt::format("the drive slows down by itself after {:.1f} ms, and it still moved {:.1f} s later", *c.reaction_ms,
-                                 c.watched_ms / 1000);
+        return c.standstill_ms ? fmt::format("the drive stops by itself after {:.1f} ms, at rest after {:.1f} ms", *c.reaction_ms, stood)
+                               : fmt::format("the drive slows down by itself after {:.1f} ms, and it still moved {:.1f} s later",
+                                             *c.reaction_ms, c.watched_ms / 1000);
     }
     if (!c.noticed_ms && !c.standstill_ms) return fmt::format("it goes on: watched for {:.1f} s", c.watched_ms / 1000);
-    if (!c.noticed_ms) return fmt::format("nothing is done: the motion to its target ended after {:.1f} ms", *c.standstill_ms);
+    if (!c.noticed_ms && c.ended_by == "target")
+        return fmt::format("nothing is done: the motion to its target ended after {:.1f} ms", stood);
+    if (!c.noticed_ms) return fmt::format("at rest after {:.1f} ms", stood);
     if (!c.standstill_ms)
         return fmt::format("{} after {:.1f} ms, and it still moved {:.1f} s later", name_of(c.taken), *c.noticed_ms, c.watched_ms / 1000);
-    return fmt::format("{} after {:.1f} ms, at rest after {:.1f} ms", name_of(c.taken), *c.noticed_ms, *c.standstill_ms);
+    return fmt::format("{} after {:.1f} ms, at rest after {:.1f} ms", name_of(c.taken), *c.noticed_ms, stood);
+}
+
+std::string in_words(const RehearsalCell& c) {
+    if (!c.fault.empty()) return "no figures: " + c.fault;
+    std::string text = what_was_done(c);
+    if (!c.ended_by.empty() && c.ended_by != situation_of(c)) text += "; ended by " + c.ended_by;
+    if (c.moved_again) text += *c.moved_again ? "; it moved again when its client came back" : "; it stayed when its client came back";
+    return text;
 }
 }  // namespace
 
 json::object to_json(const RehearsalCell& c) {
     return {{"axis", c.axis},
-            {"cause", c.cause == LossCause::none ? "gateway_gone" : name_of(c.cause)},
+            {"cause", situation_of(c)},
             {"chosen", c.chosen ? json::value(name_of(*c.chosen)) : json::value(nullptr)},
             {"taken", name_of(c.taken)},
             {"motion", c.motion},
@@ -50,6 +59,8 @@ json::object to_json(const RehearsalCell& c) {
             {"standstill_ms", ms_or_null(c.standstill_ms)},
             {"watched_ms", ms_or_null(c.watched_ms)},
             {"travel", rounded(c.travel)},
+            {"ended_by", c.ended_by.empty() ? json::value(nullptr) : json::value(c.ended_by)},
+            {"moved_again", c.moved_again ? json::value(*c.moved_again) : json::value(nullptr)},
             {"text", in_words(c)}};
 }
 
@@ -61,9 +72,10 @@ bool Rehearsals::streams(const SiteState& state, const std::string& axis) const 
     return page && (page->offers_mode(8) || page->offers_mode(9));
 }
 
-std::string Rehearsals::start(std::vector<std::string> axes, const Origin& origin) {
+std::string Rehearsals::start(std::vector<std::string> axes, RehearsalSteps steps, const Origin& origin) {
     if (run_) return "a rehearsal is under way already: wait for its report";
     Run run;
+    run.steps = steps;
     run.site = sites_.site();
     const auto& known = run.site->site.axes;
     if (axes.empty()) {
@@ -73,14 +85,21 @@ std::string Rehearsals::start(std::vector<std::string> axes, const Origin& origi
     if (axes.empty()) return "the site has no axis yet";
     for (const auto& name : axes) {
         if (std::ranges::find(known, name, &AxisSpec::name) == known.end()) return fmt::format("there is no axis {}", name);
+        RehearsalWish wish;
+        wish.axis = name;
+        wish.steps = steps;
         for (const LossCause cause : loss_causes) {
+            wish.cause = cause;
             if (of_streams_alone(cause) && !streams(*run.site, name)) {
                 run.left_out.push_back(name);
             } else {
-                run.left.emplace_back(name, cause);
+                run.left.push_back(wish);
             }
         }
-        run.left.emplace_back(name, LossCause::none);  // what the drive does when the gateway is gone without a word
+        wish.cause = LossCause::none;  // what the drive does when the gateway is gone without a word
+        run.left.push_back(wish);
+        wish.restart = true;
+        if (steps.has(RehearsalStep::gateway_restart)) run.left.push_back(wish);
     }
     run.total = run.left.size();
     run.who = origin.who ? *origin.who : "";
@@ -92,9 +111,9 @@ std::string Rehearsals::start(std::vector<std::string> axes, const Origin& origi
 
 void Rehearsals::next() {
     if (run_->left.empty()) return end();
-    auto [axis, cause] = std::move(run_->left.front());
+    RehearsalWish wish = std::move(run_->left.front());
     run_->left.pop_front();
-    player_.rehearse(run_->site, std::move(axis), cause, [weak = weak_from_this()](RehearsalCell cell) {
+    player_.rehearse(run_->site, std::move(wish), [weak = weak_from_this()](RehearsalCell cell) {
         const auto self = weak.lock();
         if (!self || !self->run_) return;
         self->run_->cells.push_back(std::move(cell));
@@ -105,7 +124,9 @@ void Rehearsals::next() {
 void Rehearsals::end() {
     const Run run = std::move(*run_);
     run_.reset();
-    json::array cells, left_out;
+    json::array cells, left_out, steps;
+    for (const RehearsalStep step : rehearsal_steps)
+        if (run.steps.has(step)) steps.emplace_back(name_of(step));
     for (const auto& axis : run.left_out)
         left_out.emplace_back(axis);
     std::size_t without = 0;
@@ -120,6 +141,7 @@ void Rehearsals::end() {
         {"who", run.who},
         {"site_revision", run.site->revision},
         {"on", "models of the drives, in their own time; limits of position were left out so that they do not end the motion first"},
+        {"steps", std::move(steps)},
         {"without_figures", without},
         {"without_set_points", std::move(left_out)},
         {"cells", std::move(cells)}};

@@ -37,9 +37,9 @@ public:
           player_(ports.get<RehearsalPort>()),
           sites_(ports.get<SitePort>()) {}
 
-    /// Every cause of these axes, and what their drives do when the gateway is gone without a word; of all where none is named. Empty: it
-    /// has begun; else why not.
-    [[nodiscard]] std::string start(std::vector<std::string> axes, const Origin& origin);
+    /// Every cause of these axes, and what their drives do when the gateway is gone without a word; of all where none is named. `steps`:
+    /// what else happens in each cell where it can. Empty: it has begun; else why not.
+    [[nodiscard]] std::string start(std::vector<std::string> axes, RehearsalSteps steps, const Origin& origin);
     /// {"state": "none" | "running" | "done", "done", "total", "report"}: the report is the last one that is complete.
     [[nodiscard]] boost::json::object state() const;
     [[nodiscard]] bool running() const noexcept { return run_.has_value(); }
@@ -47,7 +47,8 @@ public:
 private:
     struct Run {
         std::shared_ptr<const SiteState> site;
-        std::deque<std::pair<std::string, LossCause>> left;
+        std::deque<RehearsalWish> left;
+        RehearsalSteps steps{};
         std::vector<RehearsalCell> cells;
         std::vector<std::string> left_out;  ///< axes whose drives follow no set-points: that cause is none of theirs
         std::size_t total = 0;

@@ -17,6 +17,8 @@ protected:
         cell.standstill_ms = 41.5;
         cell.watched_ms = 141.5;
         cell.travel = 0.3;
+        cell.ended_by = "modbus_closed";
+        cell.moved_again = false;
     }
 };
 
@@ -60,6 +62,35 @@ TEST_F(FailSafeTest, TheDrivesOwnWatchdogIsShownAsItWasAcknowledged) {
     EXPECT_EQ(shown().at("action").as_string(), "disable");
 }
 
+TEST_F(FailSafeTest, TheLimitsThatTheDriveKeepsAreShownAsItAcknowledgedThem) {
+    const AxisSpec spec = gateway.site()->site.axes.at(0);
+    const auto shown = [&] { return call("GET", "/api/v1/fail_safe/" + spec.name).json.get_object().at("drive_limits").get_object(); };
+    DriveStatus& drive = gateway.drive_states[gateway.drive(spec.drive)];
+    using State = DriveLimits::State;
+    drive.limits = {State::armed, {}};
+    const auto limit = [&](const char* members) {
+        const auto a = call("PATCH", "/api/v1/axes/" + spec.name, members);
+        ASSERT_EQ(a.status, 200) << json_text(a.json);
+    };
+    limit(R"({"position_min": null, "position_max": null})");
+    EXPECT_TRUE(shown().at("available").as_bool());
+    EXPECT_FALSE(shown().at("wanted").as_bool());
+    EXPECT_TRUE(shown().at("state").is_null()) << "another axis of the drive is limited, this one is not";
+    EXPECT_EQ(shown().at("description").as_string(), "607Dh.");
+    limit(R"({"position_max": 20})");
+    EXPECT_TRUE(shown().at("wanted").as_bool());
+    for (const auto& [state, word] : {std::pair{State::armed, "armed"}, {State::off, "off"}}) {
+        drive.limits = {state, "not shown"};
+        EXPECT_EQ(shown().at("state").as_string(), word);
+        EXPECT_TRUE(shown().at("refusal").is_null());
+    }
+    drive.limits = {State::refused, "607Dh:02: no such object"};
+    EXPECT_EQ(shown().at("state").as_string(), "refused");
+    EXPECT_EQ(shown().at("refusal").as_string(), "607Dh:02: no such object");
+    drive.limits = {};
+    EXPECT_TRUE(shown().at("state").is_null()) << "nothing is known of it yet";
+}
+
 TEST_F(FailSafeTest, OneAxisIsChangedAsAWhole) {
     const std::string axis(gateway.site()->site.axes.at(0).name);
     const std::string path = "/api/v1/fail_safe/" + axis;
@@ -96,13 +127,16 @@ TEST_F(FailSafeTest, ARehearsalBecomesADatedReport) {
     a = call("GET", "/api/v1/fail_safe/rehearsal");
     ASSERT_EQ(a.at("state"), "done");
     const auto& report = a.json.get_object().at("report").get_object();
-    EXPECT_EQ(report.at("cells").get_array().size(), gateway.site()->site.axes.size() * loss_causes.size())
-        << "without set-points, and with the gateway gone";
+    EXPECT_EQ(report.at("cells").get_array().size(), gateway.site()->site.axes.size() * (loss_causes.size() + 1))
+        << "without set-points, with the gateway gone, and with another one after it";
+    EXPECT_EQ(report.at("steps").get_array().size(), rehearsal_steps.size()) << "all of them where none is named";
     EXPECT_EQ(report.at("without_set_points").get_array().size(), gateway.site()->site.axes.size()) << "these drives follow none";
     EXPECT_EQ(report.at("without_figures").to_number<int>(), 0);
     const auto& cell = report.at("cells").get_array().at(0).get_object();
     EXPECT_EQ(cell.at("standstill_ms").to_number<double>(), 41.5);
-    EXPECT_EQ(cell.at("text").get_string(), "halt after 0.2 ms, at rest after 41.5 ms");
+    EXPECT_EQ(cell.at("ended_by").get_string(), "modbus_closed");
+    EXPECT_FALSE(cell.at("moved_again").as_bool());
+    EXPECT_EQ(cell.at("text").get_string(), "halt after 0.2 ms, at rest after 41.5 ms; it stayed when its client came back");
     EXPECT_EQ(gateway.documents("rehearsal").size(), 1u);
 }
 
@@ -112,10 +146,58 @@ TEST_F(FailSafeTest, ACellWithoutFiguresIsCountedAndSaysWhy) {
     gateway.give_all([](RehearsalCell& cell) { cell.fault = "it does not move"; });
     const auto a = call("GET", "/api/v1/fail_safe/rehearsal");
     const auto& report = a.json.get_object().at("report").get_object();
-    EXPECT_EQ(report.at("without_figures").to_number<std::size_t>(), loss_causes.size());
+    EXPECT_EQ(report.at("without_figures").to_number<std::size_t>(), loss_causes.size() + 1);
     EXPECT_EQ(report.at("cells").get_array().at(0).get_object().at("text").get_string(), "no figures: it does not move");
     EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": ["nobody"]})").status, 409);
     EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": "all"})").status, 422);
+}
+
+TEST_F(FailSafeTest, WhatHappensBesideTheLossIsChosen) {
+    const std::string axis(gateway.site()->site.axes.at(0).name);
+    const auto start = [&](const std::string& steps) {
+        return call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": [")" + axis + R"("], "steps": )" + steps + "}");
+    };
+    ASSERT_EQ(start(R"(["second_client", "old_image"])").status, 202);
+    gateway.give_all(good);
+    ASSERT_EQ(gateway.wishes.size(), loss_causes.size()) << "no cell in which the gateway is started again";
+    for (const RehearsalWish& wish : gateway.wishes) {
+        EXPECT_TRUE(wish.steps.has(RehearsalStep::second_client) && wish.steps.has(RehearsalStep::old_image));
+        EXPECT_FALSE(wish.steps.has(RehearsalStep::refused_commands) || wish.steps.has(RehearsalStep::gateway_restart) || wish.restart);
+    }
+    const auto played = call("GET", "/api/v1/fail_safe/rehearsal").json.get_object().at("report").get_object();
+    EXPECT_EQ(json_text(played.at("steps")), R"(["second_client","old_image"])");
+    gateway.wishes.clear();
+    ASSERT_EQ(start(R"(["gateway_restart"])").status, 202);
+    gateway.give_all(good);
+    ASSERT_EQ(gateway.wishes.size(), loss_causes.size() + 1);
+    EXPECT_TRUE(gateway.wishes.back().restart);
+    const auto last = call("GET", "/api/v1/fail_safe/rehearsal").json.get_object().at("report").get_object().at("cells").get_array().back();
+    EXPECT_EQ(last.get_object().at("cause").get_string(), "gateway_restarts");
+    gateway.wishes.clear();
+    ASSERT_EQ(start("[]").status, 202) << "the loss alone";
+    gateway.give_all(good);
+    EXPECT_EQ(gateway.wishes.size(), loss_causes.size());
+    const auto no = start(R"(["second_client", "earthquake"])");
+    EXPECT_EQ(no.status, 422);
+    EXPECT_EQ(no.fault().at("pointer").get_string(), "/steps/1");
+    EXPECT_EQ(start(R"("all")").status, 422);
+}
+
+TEST_F(FailSafeTest, WhatReallyEndedAMotionIsSaidInWords) {
+    ASSERT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", "{}").status, 202);
+    gateway.give_all([](RehearsalCell& cell) {
+        good(cell);
+        cell.ended_by = cell.restart ? "drive" : "";
+        if (cell.restart) cell.noticed_ms.reset();
+        cell.moved_again = cell.restart ? std::nullopt : std::optional(true);
+    });
+    const auto report = call("GET", "/api/v1/fail_safe/rehearsal").json.get_object().at("report").get_object();
+    const auto& cells = report.at("cells").get_array();
+    EXPECT_TRUE(cells.front().get_object().at("ended_by").is_null());
+    EXPECT_NE(cells.front().get_object().at("text").get_string().find("it moved again"), std::string::npos);
+    EXPECT_TRUE(cells.back().get_object().at("moved_again").is_null());
+    EXPECT_EQ(cells.back().get_object().at("text").get_string(),
+              "the drive stops by itself after 3.0 ms, at rest after 41.5 ms; ended by drive");
 }
 
 TEST_F(FailSafeTest, TheOldestReportsMakeRoom) {

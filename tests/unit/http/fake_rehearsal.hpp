@@ -17,10 +17,12 @@ namespace axisgate::http::test {
 
 class FakeRehearsal : public RehearsalPort {
 public:
-    void rehearse(std::shared_ptr<const SiteState>, std::string axis, LossCause cause, std::function<void(RehearsalCell)> then) override {
+    void rehearse(std::shared_ptr<const SiteState>, RehearsalWish wish, std::function<void(RehearsalCell)> then) override {
         RehearsalCell cell;
-        cell.axis = std::move(axis);
-        cell.cause = cause;
+        cell.axis = wish.axis;
+        cell.cause = wish.cause;
+        cell.restart = wish.restart;
+        wishes.push_back(std::move(wish));
         cells_wanted.emplace_back(std::move(cell), std::move(then));
     }
     [[nodiscard]] Duration watchdog() const override { return std::chrono::milliseconds(5000); }
@@ -34,6 +36,7 @@ public:
         }
     }
     std::deque<std::pair<RehearsalCell, std::function<void(RehearsalCell)>>> cells_wanted;
+    std::deque<RehearsalWish> wishes;  ///< all that came
 };
 
 class FakeFleet : public FleetPort {

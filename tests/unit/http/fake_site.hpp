@@ -15,7 +15,7 @@
 namespace axisgate::http::test {
 
 inline constexpr std::string_view catalogue_text = R"({
-  "family": "demo", "number": 7, "title": "Demo drive", "channels": {"max": 2}, "drive_watchdog": {"available": true, "description": "Its own."},
+  "family": "demo", "number": 7, "title": "Demo drive", "channels": {"max": 2}, "drive_watchdog": {"available": true, "description": "Its own."}, "drive_limits": {"available": true, "description": "607Dh."},
   "parameters": [
     {"id": "AC", "name": "acceleration", "group": "motion", "type": "u32", "unit": "pulse/s^2", "min": 1, "max": 65000000, "default": 20000,
      "access": "RW", "storage": "eeprom", "description": "Acceleration of motions."},

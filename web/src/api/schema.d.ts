@@ -693,7 +693,9 @@ export interface paths {
         /**
          * Plays every cause on models of the axes and measures what comes of it; nothing real moves
          * @description Each cell sets the model of the axis in motion (at `velocity_max` where the site has it), takes its client away, and measures until it
-         *     stands. The engine, the adapters and the wire times are those of the gateway; the drives are models in a time of their own. One
+         *     stands. Before the loss another client speaks to the axis (`second_client`), and commands of its own client are refused
+         *     (`refused_commands`); after the standstill its controller is back and writes what it wrote before (`old_image`); and in a cell of its own
+         *     the gateway is killed and started again while the axis moves (`gateway_restart`). The engine, the adapters and the wire times are those of the gateway; the drives are models in a time of their own. One
          *     rehearsal at a time; the last 20 reports are kept.
          */
         post: operations["rehearseFailSafe"];
@@ -2889,6 +2891,23 @@ export interface components {
             /** @description why the gateway stopped the axis without a command, until the next command to it */
             last_cause: string | null;
             drive_watchdog: components["schemas"]["DriveWatchdog"];
+            drive_limits: components["schemas"]["DriveLimits"];
+        };
+        /** @description the software limits of position that the drive of the axis keeps by itself, written from the site's */
+        DriveLimits: {
+            /** @description the gateway writes them into drives of its family */
+            available: boolean;
+            /** @description the site limits the axis */
+            wanted: boolean;
+            /**
+             * @description armed: written for each axis of the drive that the site limits, and acknowledged; off: option drive_limits of the drive; refused: this drive does not take them; null: none were written, or it has not been set up yet
+             * @enum {string|null}
+             */
+            state: "armed" | "off" | "refused" | null;
+            /** @description what the drive has answered; null: it is not refused */
+            refusal: string | null;
+            /** @description by what, or why there are none */
+            description: string;
         };
         /** @description what the drive of the axis does by itself when it does not hear the gateway any more */
         DriveWatchdog: {
@@ -2921,14 +2940,16 @@ export interface components {
             }[];
             axes: components["schemas"]["FailSafeRow"][];
         };
+        /** @enum {string} */
+        RehearsalStep: "second_client" | "refused_commands" | "gateway_restart" | "old_image";
         /** @description times in ms from the loss; for silence, a lease and a lost drive from the last that was heard */
         FailSafeCell: {
             axis: string;
             /**
-             * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything
+             * @description gateway_gone: without a word, by a kill or for want of supply; what the drive does then, which nobody tells anything. gateway_restarts: the same, and another gateway is there 3 s later
              * @enum {string}
              */
-            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | "gateway_gone";
+            cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | "gateway_gone" | "gateway_restarts";
             /** @description what the site names; null: the default */
             chosen: string | null;
             taken: components["schemas"]["FailSafeAction"];
@@ -2945,6 +2966,13 @@ export interface components {
             watched_ms: number;
             /** @description from the loss on, in `unit` */
             travel: number;
+            /**
+             * @description what really ended the motion: the cause for which the gateway acted; `supervisor`: it stopped what it saw; `target`: it has arrived; `drive`: by itself; a step: that disturbed it before the loss. null: it went on. Not in reports of older programs
+             * @enum {string|null}
+             */
+            ended_by?: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | "supervisor" | "target" | "drive" | "second_client" | "refused_commands" | null;
+            /** @description it moved when its client came back with its old image; null: it did not come, or has none. Not in reports of older programs */
+            moved_again?: boolean | null;
             /** @description the same in words */
             text: string;
         };
@@ -2962,6 +2990,8 @@ export interface components {
                 site_revision: number;
                 /** @description what it was played on */
                 on: string;
+                /** @description what was played beside the loss; not in reports of older programs */
+                steps?: components["schemas"]["RehearsalStep"][];
                 without_figures: number;
                 /** @description axes whose drives follow no streamed set-points */
                 without_set_points: string[];
@@ -6718,6 +6748,8 @@ export interface operations {
                 "application/json": {
                     /** @description names; left out: all */
                     axes?: string[];
+                    /** @description what happens beside the loss; left out: all; empty: nothing */
+                    steps?: components["schemas"]["RehearsalStep"][];
                 };
             };
         };

@@ -4,9 +4,9 @@ import { midSentence, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
-import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal } from '../api/fail-safe';
+import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal, type Step } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeHint, causeText, cellRow, changed, namedText, readWatchdog, watchdogText } from '../text/fail-safe';
+import { actionChoices, causeHint, causeText, cellHeads, cellRow, changed, limitsText, namedText, readWatchdog, steps, watchdogText } from '../text/fail-safe';
 import { dateTime } from '../text/time';
 import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred } from './gate';
@@ -54,6 +54,9 @@ export function FailSafe({ revision }: { revision: unknown }) {
           </div>
           <p class="where" data-field="drive-watchdog">
             {marked(watchdogText(row))}
+          </p>
+          <p class="where" data-field="drive-limits">
+            {marked(limitsText(row))}
           </p>
           <Watchdog row={row} put={(value) => void put(row, { ...row.fail_safe, watchdog_ms: value }, t('the time of a silent Modbus client'))} />
         </details>
@@ -105,6 +108,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
   const { store } = useGateway();
   const now = useSignal<Rehearsal | null>(null);
   const reported = useSignal<Reported>(quiet);
+  const chosen = useSignal(Object.keys(steps) as Step[]);
   const no = useBarred('engineer');
   useLoaded(async () => void (now.value = await door.rehearsal()), [door], () => '');
   const running = now.value?.state === 'running';
@@ -116,7 +120,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
   const start = async () => {
     reported.value = quiet;
     try {
-      now.value = await door.rehearse();
+      now.value = await door.rehearse(chosen.value);
     } catch (error) {
       reported.value = refusal(error);
     }
@@ -139,6 +143,14 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
         )}
         <Tell reported={reported.value} field="rehearsal-told" />
       </div>
+      <fieldset class="form-foot">
+        <legend>{t('Beside the loss')}</legend>
+        {(Object.keys(steps) as Step[]).map((s) => (
+          <label key={s}>
+            <input type="checkbox" checked={chosen.value.includes(s)} onChange={(e) => (chosen.value = e.currentTarget.checked ? [...chosen.value, s] : chosen.value.filter((x) => x !== s))} /> {steps[s]}
+          </label>
+        ))}
+      </fieldset>
       {report && (
         <>
           <h3 class="print-only">{t('Fail-safe rehearsal')}</h3>
@@ -151,13 +163,9 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
             <table class="table">
               <thead>
                 <tr>
-                  <th scope="col">{t('Axis')}</th>
-                  <th scope="col">{t('Cause')}</th>
-                  <th scope="col">{t('Action')}</th>
-                  <th scope="col" class="num">{t('Gateway acted')}</th>
-                  <th scope="col" class="num">{t('Motor slower')}</th>
-                  <th scope="col" class="num">{t('Stood')}</th>
-                  <th scope="col" class="num">{t('Way')}</th>
+                  {cellHeads().map((head, i) => (
+                    <th key={head} scope="col" class={isFigure(i)}>{head}</th>
+                  ))}
                 </tr>
               </thead>
               <tbody>
@@ -173,18 +181,17 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
   );
 }
 
+const isFigure = (column: number) => (column > 2 && column < 7 ? 'num' : undefined);
+
 /** One cell of the rehearsal as a row, on the page and in the commissioning report. */
 export function CellOf({ cell, unit }: { cell: Cell; unit: string }) {
   const r = cellRow(cell, unit);
   return (
     <tr title={cell.text}>
       <th scope="row">{r.axis}</th>
-      <td>{r.cause}</td>
-      <td>{r.action}</td>
-      <td class="num">{r.acted}</td>
-      <td class="num">{r.slower}</td>
-      <td class="num">{r.stood}</td>
-      <td class="num">{r.way}</td>
+      {[r.cause, r.action, r.acted, r.slower, r.stood, r.way, r.ended].map((text, i) => (
+        <td key={i} class={isFigure(i + 1)}>{text}</td>
+      ))}
     </tr>
   );
 }

@@ -29,6 +29,7 @@ import { comparedSentence, parameterReport, type ParameterReport, type SnapshotV
 import { dateTime } from '../text/time';
 import type { MaybeValue } from '../api/types';
 import { CellOf } from '../components/fail-safe';
+import { cellHeads } from '../text/fail-safe';
 
 const fields = { machine: persisted('report.machine', '', 'browser'), place: persisted('report.place', '', 'browser'), who: persisted('report.who', '', 'browser'), notes: persisted('report.notes', '', 'browser') };
 const mostCaptures = 3;
@@ -223,7 +224,7 @@ export function ReportPage() {
               <p>
                 {t('Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.', { ended_at: dateTime(w.rehearsal.report.ended_at), who: w.rehearsal.report.who, site_revision: w.rehearsal.report.site_revision, on: w.rehearsal.report.on })}{String(w.rehearsal.report.site_revision) !== String(store.siteRevision.value) && <> {t('The site has changed since: rehearse again.')}</>}
               </p>
-              <Table head={[t('Axis'), t('Cause'), t('Action'), t('Gateway acted'), t('Motor slower'), t('Stood'), t('Way')]}>
+              <Table head={cellHeads()}>
                 {w.rehearsal.report.cells.map((c) => (
                   <CellOf key={`${c.axis} ${c.cause}`} cell={c} unit={store.axis(c.axis)?.peek()?.data.unit ?? ''} />
                 ))}

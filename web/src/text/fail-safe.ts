@@ -1,6 +1,6 @@
 // Fail-safe in words: causes, actions, what an axis has named, and the cells of a rehearsal. In: documents of the gateway. Out: texts. Pure.
 import { midSentence, t, theirs } from '../language';
-import type { Action, Cell, Choice, FailSafeRow, Matrix } from '../api/fail-safe';
+import type { Action, Cell, Choice, FailSafeRow, Matrix, Step } from '../api/fail-safe';
 import { localFigures } from './number';
 
 export type Cause = Matrix['causes'][number]['cause'];
@@ -21,8 +21,10 @@ const causes: Record<Cause, string> = {
 };
 const actions: Record<Action, string> = { nothing: t('Nothing'), halt: t('Halt'), quick_stop: t('Quick stop'), disable: t('Switch off') };
 
+export const steps: Record<Step, string> = { second_client: t('A second client speaks'), refused_commands: t('Commands are refused'), gateway_restart: t('The gateway restarts'), old_image: t('The controller is back with its old image') };
 const gone = 'gateway_gone'; // in a rehearsal alone: nobody acts but the drive
-export const causeText = (cause: string): string => causes[cause as Cause] ?? (cause === gone ? t('Gateway without supply') : cause.replaceAll('_', ' '));
+const others: Record<string, string> = { [gone]: t('Gateway without supply'), gateway_restarts: steps.gateway_restart, supervisor: t('Supervisor'), target: t('Target reached'), drive: t('The drive itself'), ...steps };
+export const causeText = (cause: string): string => causes[cause as Cause] ?? others[cause] ?? cause.replaceAll('_', ' ');
 export const actionText = (action: Action): string => actions[action];
 export const actionChoices = (cause: Matrix['causes'][number]) => [
   { value: '', text: t('default: {n}', { n: midSentence(actionText(cause.default_endless)) }) },
@@ -55,6 +57,16 @@ export function watchdogText({ drive_watchdog: w }: FailSafeRow): string {
   return t('The drive\'s own watchdog has not been set yet: the drive has not answered.');
 }
 
+/** Which limits of position it keeps by itself, in one line. */
+export function limitsText({ drive_limits: l }: FailSafeRow): string {
+  if (!l.available) return t('The drive has no limits of position of its own. {description}', { description: theirs(l.description) });
+  if (!l.wanted) return t('The site does not limit the axis: the drive has no limits of position from it.');
+  if (l.state === 'armed') return t('The drive\'s own limits of position are those of the site.');
+  if (l.state === 'off') return t('The drive\'s own limits of position are left as they are (drive_limits).');
+  if (l.refusal !== null) return t('The drive does not take limits of position: {refusal}', { refusal: theirs(l.refusal) });
+  return t('The drive\'s own limits of position have not been set yet: the drive has not answered.');
+}
+
 /** The choice with one member changed, as PUT takes it: null is the default. */
 export const changed = (row: FailSafeRow, cause: Cause, action: string): Choice => ({ ...row.fail_safe, [cause]: action === '' ? null : (action as Action) });
 
@@ -76,7 +88,10 @@ export interface CellRow {
   slower: string;
   stood: string;
   way: string;
+  ended: string;
 }
+/** What stands above the columns of `cellRow`; from the fourth to the seventh they are figures. */
+export const cellHeads = (): string[] => [t('Axis'), t('Cause'), t('Action'), t('Gateway acted'), t('Motor slower'), t('Stood'), t('Way'), t('Ended by')];
 export const cellRow = (c: Cell, unit: string): CellRow => ({
   key: `${c.axis} ${c.cause}`,
   axis: c.axis,
@@ -86,4 +101,5 @@ export const cellRow = (c: Cell, unit: string): CellRow => ({
   slower: ms(c.reaction_ms) || t('never'),
   stood: ms(c.standstill_ms) || t('not within {watched_ms}', { watched_ms: ms(c.watched_ms) }),
   way: `${localFigures(String(Math.round(c.travel * 1000) / 1000))}${unit ? ` ${unit}` : ''}`,
+  ended: [c.ended_by ? causeText(c.ended_by) : '', c.moved_again ? t('moved again') : ''].filter(Boolean).join('; '),
 });

@@ -174,7 +174,7 @@ test('snapshots: saved, compared, restored after a look', async () => {
   await changes.getByRole('button', { name: /^Write \d+ values? to the drive$/ }).click();
   await until('it is restored', async () => (await get(a.id)) === 1234, 60_000);
   await entry.getByRole('button', { name: 'Remove as delivered', exact: true }).click();
-  await entry.getByRole('button', { name: 'Remove for good: as delivered' }).click();
+  await entry.getByRole('button', { name: 'Delete', exact: true }).click();
   await until('it is gone', async () => (await entry.count()) === 0);
 });
 

@@ -3,6 +3,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { t } from '../language';
 
+/** Before something that is kept is deleted. */
+export const AskDelete = ({ name, onYes, onNo }: { name: string; onYes: () => void; onNo: () => void }) => <Ask field="delete" text={t('Delete {name}? It cannot be brought back.', { name })} yes={t('Delete')} onYes={onYes} onNo={onNo} />;
+
 export function Ask({ text: shown, yes, field, onYes, onNo }: { text: string; yes: string; field: string; onYes: () => void; onNo: () => void }) {
   const no = useRef<HTMLButtonElement>(null);
   useEffect(() => no.current?.focus({ preventScroll: true }), []);

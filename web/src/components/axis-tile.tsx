@@ -131,7 +131,7 @@ function Tile({ name, of, bare, selectable }: { name: string; of: EntrySignal; b
       </div>
       <StatePills entry={entry} />
       <Steady entry={entry} bare={bare} />
-      <footer class="tile-foot">
+      <footer class="tile-foot" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name })}>
         <Notice entry={entry} />
         <TileHolder entry={entry} />
         <ResultLine axis={name} id={resultId(name)} />

@@ -13,6 +13,7 @@ import { emptied, persisted } from '../state/persisted';
 import { steppedText, unitText, valueText } from '../text/parameter';
 import { foreignText, snapshotText } from '../text/snapshot';
 import { leftOut, parametersText } from '../text/transfer';
+import { AskDelete } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -137,24 +138,14 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                   <button type="button" class="button small" aria-label={t('Restore {name}', { name: s.name })} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
                     {t('Restore')}
                   </button>
-                  {removing.value === s.n ? (
-                    <>
-                      <button type="button" class="button small" aria-label={t('Remove for good: {name}', { name: s.name })} {...no} onClick={() => void remove(s)}>
-                        {t('Remove for good')}
-                      </button>
-                      <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>
-                        {t('Keep')}
-                      </button>
-                    </>
-                  ) : (
-                    <button type="button" class="button small quiet" aria-label={t('Remove {name}', { name: s.name })} {...no} onClick={() => (removing.value = s.n)}>
-                      {t('Remove')}
-                    </button>
-                  )}
+                  <button type="button" class="button small quiet" aria-expanded={removing.value === s.n} aria-label={t('Remove {name}', { name: s.name })} {...no} onClick={() => (removing.value = s.n)}>
+                    {t('Remove')}
+                  </button>
                 </div>
                 <p class="where">
                   {snapshotText(s, titles)}
                 </p>
+                {removing.value === s.n && <AskDelete name={s.name} onNo={() => (removing.value = null)} onYes={() => void remove(s)} />}
                 {other && (
                   <p class="where">
                     <span class="flag" data-field="foreign">{other}</span>

@@ -37,7 +37,7 @@ export function stateWord(axis: Pick<Axis, 'state'>, trust: Trust): Word {
   return states[axis.state];
 }
 
-export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'target_reached'>, trust: Trust): Word {
+export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'target_reached' | 'state'>, trust: Trust): Word {
   if (trust === 'disconnected') return { text: t('Not live'), icon: 'unplugged', tone: 'muted', long: t('Whether it moves now is not known') };
   if (trust === 'offline') return { text: t('Not known'), icon: 'circle-dashed', tone: 'muted', long: t('Whether it moves is not known') };
   if (trust === 'stale') return { text: t('Stale'), icon: 'clock', tone: 'warning', long: t('The last data is too old to be trusted') };
@@ -46,7 +46,8 @@ export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'ta
     const homing = axis.mode === 'homing';
     return { text: homing ? t('Homing') : t('Moving'), icon: back ? 'arrow-left' : 'arrow-right', tone: 'active', long: homing ? t('Homing') : back ? t('Moving, negative') : t('Moving, positive') };
   }
-  if (axis.target_reached) return { text: t('In position'), icon: 'target', tone: 'good', long: t('Target reached') };
+  // A drive in fault may say that it has reached its target; where it stands was nobody's order.
+  if (axis.target_reached && !/^fault/.test(axis.state)) return { text: t('In position'), icon: 'target', tone: 'good', long: t('Target reached') };
   return { text: t('At rest'), icon: 'pause', tone: 'neutral', long: t('At rest, not at a target') };
 }
 

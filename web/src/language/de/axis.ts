@@ -94,6 +94,7 @@ export const axis: Table = {
   'Jog: the halt is NOT confirmed: {why}': 'Tippen: Der Halt ist NICHT bestätigt: {why}',
   'Last known position, not live': 'Letzte bekannte Position, nicht aktuell',
   'List': 'Liste',
+  'Messages of {name}': 'Meldungen von {name}',
   'Mode: change at once': 'Betriebsart: sofort ändern',
   'Mode: following error / homing error': 'Betriebsart: Schleppfehler / Fehler der Referenzfahrt',
   'Mode: new set-point / start homing': 'Betriebsart: neuer Sollwert / Referenzfahrt starten',

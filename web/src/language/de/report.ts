@@ -71,8 +71,6 @@ export const report: Table = {
   'Rehearse on models': 'An Modellen proben',
   'Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.': 'Geprobt {ended_at} durch {who}, Stand {site_revision} der Anlage, Grundlage: {on}.',
   'Remarks': 'Bemerkungen',
-  'Remove for good': 'Endgültig entfernen',
-  'Remove for good: {name}': 'Endgültig entfernen: {name}',
   'Remove {name}': '{name} entfernen',
   'Report of the rehearsal': 'Bericht der Probe',
   'Restore': 'Wiederherstellen',

@@ -94,6 +94,7 @@ export const axis: Table = {
   'Jog: the halt is NOT confirmed: {why}': '点动：暂停未被确认：{why}',
   'Last known position, not live': '最后已知位置，非实时',
   'List': '列表',
+  'Messages of {name}': '{name} 的消息',
   'Mode: change at once': '模式：立即更改',
   'Mode: following error / homing error': '模式：跟随误差 / 回零错误',
   'Mode: new set-point / start homing': '模式：新设定值 / 启动回零',

@@ -71,8 +71,6 @@ export const report: Table = {
   'Rehearse on models': '用仿真模型演练',
   'Rehearsed {ended_at} by {who}, revision {site_revision} of the site, on {on}.': '{ended_at} 由 {who} 演练，现场版本号 {site_revision}，依据：{on}。',
   'Remarks': '备注',
-  'Remove for good': '永久移除',
-  'Remove for good: {name}': '永久移除：{name}',
   'Remove {name}': '移除 {name}',
   'Report of the rehearsal': '演练报告',
   'Restore': '恢复',

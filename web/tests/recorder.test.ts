@@ -78,6 +78,15 @@ describe('columns put together', () => {
     const silent = joined([trendPart(thin({ first: [3, 3, 5], min: [3, 3, 5], max: [3, 3, 5], last: [3, 3, 5] }, { gaps: [false, false, true] }), ['position'], 100)]);
     expect(silent.columns[0]!.filter((x) => x === null)).toHaveLength(1); // known at both ends of the column, silent in between
   });
+  it('that are thinned are a step where something new was told as a column began, after a rest as well', () => {
+    const v = { first: [15, 0, 7], min: [15, 0, 7], max: [15, 0, 7], last: [15, 0, 7] };
+    const d = joined([trendPart(thin(v), ['position'], 100)]);
+    for (const [t, value] of [[0.95, 15], [0.999, 15], [1, 0], [40, 0], [81.99, 0], [82, 7]] as const) expect(readAt(d.at, d.columns[0]!, t), `${t} s`).toBe(value);
+  });
+  it('that are thinned keep a peak though it was not known where the column began', () => {
+    const v = { first: [null, 3, 3], min: [2, 3, 3], max: [9, 3, 3], last: [3, 3, 3] };
+    expect(joined([trendPart(thin(v), ['position'], 100)]).columns[0]).toEqual(expect.arrayContaining([2, 9]));
+  });
   it('of captures have no value where it was too old', () => {
     const c = { columns: [{ axis: 'a', unit: 'mm', seconds: [0, 1, 2], position: [1, 2, 3], statusword: [0x27, 0x4027, 0x27] }] } as unknown as CaptureWithRows;
     expect(joined(captureParts(c, ['position'])).columns).toEqual([[1, null, 3]]);

@@ -81,7 +81,7 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
               <Readout entry={entry} large />
               <StatePills entry={entry} />
               <div class="axis-said" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name })}>
-                <Notice entry={entry} />
+                <Notice entry={entry} whole />
                 <ErrorHelp axis={name} code={axis.fault || axis.warning ? axis.error.code : 0} />
               </div>
               <AuthorityBar entry={entry.value} />

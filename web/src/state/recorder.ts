@@ -46,9 +46,14 @@ class Rows {
     this.at.push(t);
     values.forEach((v, k) => this.columns[k]!.push(v));
   }
-  /** What was known last, until just before. */
+  /** What was known last holds until then. */
   hold(t: number): void {
     if (this.at.length > 0 && t - (this.at.at(-1) as number) > hair_s) this.put(t, this.columns.map((c) => c.findLast((v) => v !== undefined) ?? null));
+  }
+  /** The next word: after a rest it is a step. */
+  word(t: number, values: Column): void {
+    if (t - (this.at.at(-1) ?? t) > rest_s) this.hold(t - hair_s);
+    this.put(t, values);
   }
 }
 
@@ -58,11 +63,7 @@ export function trendPart(a: TrendAxis, chosen: readonly TracePoint[], to_s: num
   const rows = new Rows(chosen);
   const of = chosen.map((p): Values => a.points[p] ?? {});
   if (a.thinned) a.at.forEach((ms, i) => thinnedColumn(rows, of, i, ms / 1000, (a.until?.[i] ?? ms) / 1000, a.gaps?.[i] === true));
-  else
-    a.at.forEach((ms, i) => {
-      if (ms / 1000 - (rows.at.at(-1) ?? Infinity) > rest_s) rows.hold(ms / 1000 - hair_s);
-      rows.put(ms / 1000, of.map((v) => v.values?.[i] ?? null));
-    });
+  else a.at.forEach((ms, i) => rows.word(ms / 1000, of.map((v) => v.values?.[i] ?? null)));
   rows.hold(Math.min(to_s, (a.newest ?? 0) / 1000));
   return rows;
 }
@@ -71,9 +72,11 @@ function thinnedColumn(rows: Rows, of: readonly Values[], i: number, from: numbe
   const at = (name: 'first' | 'min' | 'max' | 'last') => of.map((v) => v[name]?.[i] ?? null);
   const [first, min, max, last] = [at('first'), at('min'), at('max'), at('last')];
   const length = Math.max(until - from, 2 * hair_s);
+  // Something new was told as the column began: before it the older value held.
+  if (rows.columns.some((c, k) => c.length > 0 && c.at(-1) !== first[k])) rows.hold(from - hair_s);
   rows.put(from, first);
   // Beyond its ends a column had a peak; when it was, nobody tells. Where an end is not known, all that was known is drawn in between.
-  if (gap || first.some((a, k) => min[k] !== null && (min[k]! < Math.min(a!, last[k]!) || max[k]! > Math.max(a!, last[k]!)))) {
+  if (gap || first.some((a, k) => min[k] !== null && (min[k]! < Math.min(a ?? Infinity, last[k] ?? Infinity) || max[k]! > Math.max(a ?? -Infinity, last[k] ?? -Infinity)))) {
     rows.put(from + length * 0.3, min);
     if (gap) rows.put(from + length * 0.5, first.map((a, k) => (a !== null && last[k] !== null ? null : undefined)));
     rows.put(from + length * 0.7, max);
@@ -90,7 +93,7 @@ export function captureParts(c: CaptureWithRows, chosen: readonly TracePoint[]):
     const rows = new Rows(chosen);
     a.seconds.forEach((t, i) => {
       const old = ((a.statusword[i] ?? 0) & staleBit) !== 0;
-      rows.put(t, chosen.map((p) => (old ? null : ((a[p] as Column)[i] ?? null))));
+      rows.word(t, chosen.map((p) => (old ? null : ((a[p] as Column)[i] ?? null))));
     });
     return rows;
   });

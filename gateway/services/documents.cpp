@@ -17,8 +17,8 @@ namespace json = boost::json;
 namespace {
 
 /// Beside those that tell the state in one value.
-constexpr std::array<std::string_view, 10> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
-                                                                   "modes", "set_points",       "stop_latch_by",   "stop_latch_text"};
+constexpr std::array<std::string_view, 10> other_axis_live_members{
+    "at", "authority_holder", "authority_until", "error", "family", "line", "modes", "set_points", "stop_latch_by", "stop_latch_text"};
 constexpr std::array<std::string_view, 2> drive_live_members{"axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
@@ -108,7 +108,8 @@ json::value stop_latch_text(const AxisPicture& p) {
         "it moves again by a new command, or when a controller changes its own words (a new set-point, the halt bit or the enable bits)";
     if (!(p.stop_latch & latched)) return nullptr;
     if (p.stop_latch & by_safe_input)
-        return "a safe input has taken power or motion away: give the input back, then enable the axis; a controller takes its enable bits back first";
+        return "a safe input has taken power or motion away: give the input back, then enable the axis; a controller takes its enable bits "
+               "back first";
     std::string by = "the gateway";
     if (p.stop_latch & by_client)
         by = p.stop_latch_by[0] != 0 ? p.stop_latch_by.data() : "another client";

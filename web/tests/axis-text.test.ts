@@ -62,7 +62,7 @@ describe('notice', () => {
     [stopped(0b101, { stop_latch_by: 'http 127.0.0.1 page-mine00' }), 'Stopped by this page. Enable it or order a new motion.'],
     [stopped(0b101), 'Stopped by another client. Enable it or order a new motion.'],
     [stopped(0b011), 'Stopped by the gateway. Enable it or order a new motion.'],
-    [stopped(0b011, { fail_safe_cause: 'modbus_silent' }), 'Stopped by the gateway (modbus client silent). Enable it or order a new motion.'],
+    [stopped(0b011, { fail_safe_cause: 'modbus_silent' }), 'Stopped by the gateway (Modbus client silent). Enable it or order a new motion.'],
     [stopped(0b1001), 'Stopped by a safe input. Give the input back, then enable the axis.'],
   ])('tells whose stop is latched and who has to do what: %#', (a, text) => expect(noticeOf(a, 'live', '', '', 'page-mine00')).toMatchObject({ text, long: `${text} ${controller}`, tone: 'warning' }));
   it('tells a fault before a latched stop, and the stop behind it', () => {

@@ -91,8 +91,8 @@ const changes = [
   ['/events', 'button', /^Shelve/, 'operator'], ['/events', 'button', 'Acknowledge all shown', 'operator'], ['/recipes/there-and-back', 'button', 'Run', 'operator'], ['/recipes/there-and-back', 'button', 'Check only', 'operator'],
   ['/site', 'button', 'Add a line', 'engineer'], ['/site', 'button', 'Change axis feeder', 'engineer'], ['/site', 'button', 'Remove drive slide', 'engineer'], ['/site', 'button', /^Restore revision/, 'engineer'], ['/site', 'button', 'Wizard: to a moving axis', 'engineer'],
   ['/mappings', 'button', 'Add a mapping', 'engineer'], ['/mappings', 'button', 'Add a template', 'engineer'], ['/mappings', 'button', /^Undo/, 'engineer'], ['/mappings', 'button', 'Paste or import', 'engineer'], ['/mappings', 'button', /^position i32/, 'engineer'],
-  ['/axes/feeder/parameters', 'button', 'Save snapshot', 'engineer'], ['/axes/feeder/parameters', 'button', /^Remove first/, 'engineer'], ['/axes/feeder/parameters', 'button', /^Write /, 'engineer'],
-  ['/axes/feeder/drive', 'button', 'Send', 'engineer'], ['/lines/can0', 'button', 'Look for drives', 'engineer'], ['/lines/can0', 'switch', 'Power', 'engineer'], ['/recipes', 'button', 'New recipe', 'engineer'], ['/recipes/there-and-back', 'button', 'Delete', 'engineer'],
+  ['/axes/feeder/parameters', 'button', 'Save snapshot', 'engineer'], ['/axes/feeder/parameters', 'button', /^Delete first/, 'engineer'], ['/axes/feeder/parameters', 'button', /^Write /, 'engineer'],
+  ['/axes/feeder/drive', 'button', 'Send', 'engineer'], ['/lines/can0', 'button', 'Look for drives', 'engineer'], ['/lines/can0', 'switch', 'Power', 'engineer'], ['/recipes', 'button', 'New recipe', 'engineer'], ['/recipes/there-and-back', 'button', 'Delete there-and-back', 'engineer'],
   ['/site', 'button', 'Backup of everything', 'administrator'],
 ];
 const alsoWithout = /Undo|Check with/; // disabled for another reason too, as long as there is nothing to undo or to check

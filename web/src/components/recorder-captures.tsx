@@ -14,7 +14,7 @@ import { captureParts, joined } from '../state/recorder';
 import { parseNumber, parseQuantity } from '../text/number';
 import { bytesText, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerText, type TracePoint } from '../text/recorder';
 import { dateTime } from '../text/time';
-import { AskDelete } from './ask';
+import { DeleteButton } from './ask';
 import { Choice, quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
@@ -99,7 +99,6 @@ export function CapturesPart({ axis }: { axis: string | undefined }) {
 function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Capture; drawn: boolean; show: () => void; door: RecorderDoor; act: (what: () => Promise<unknown>, done: string) => Promise<boolean>; gone: (name: string) => void }) {
   const no = useBarred('operator');
   const renaming = useSignal(false);
-  const asked = useSignal(false);
   const runs = c.state === 'armed' || c.state === 'triggered';
   const unit = c.axes.find((a) => a.axis === c.trigger?.axis)?.unit ?? '';
   const csv = () => void act(async () => saveText(`${c.name}.csv`, 'text/csv', await door.captureCsv(c.name)), t('{name}.csv is saved.', { name: c.name }));
@@ -129,27 +128,14 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
             </button>
           </>
         )}
-        <button
-          type="button"
-          class="button quiet"
-          {...no}
-          aria-label={runs ? t('Cancel {name}', { name: c.name }) : t('Delete {name}', { name: c.name })}
-          {...(runs ? {} : { 'aria-expanded': asked.value })}
-          onClick={() => (runs ? remove(t('{name} is cancelled.', { name: c.name })) : (asked.value = true))}
-        >
-          {runs ? t('Cancel') : t('Delete')}
-        </button>
+        {runs ? (
+          <button type="button" class="button quiet" {...no} aria-label={t('Cancel {name}', { name: c.name })} onClick={() => remove(t('{name} is cancelled.', { name: c.name }))}>
+            {t('Cancel')}
+          </button>
+        ) : (
+          <DeleteButton name={c.name} no={no} onYes={() => remove(t('{name} is deleted.', { name: c.name }))} />
+        )}
       </span>
-      {asked.value && (
-        <AskDelete
-          name={c.name}
-          onNo={() => (asked.value = false)}
-          onYes={() => {
-            asked.value = false;
-            remove(t('{name} is deleted.', { name: c.name }));
-          }}
-        />
-      )}
       {renaming.value && (
         <RenameForm
           name={c.name}

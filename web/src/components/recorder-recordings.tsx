@@ -10,7 +10,7 @@ import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { bytesText, freeName, nameFault, recordingWord } from '../text/recorder';
 import { dateTime } from '../text/time';
-import { AskDelete } from './ask';
+import { DeleteButton } from './ask';
 import { quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
@@ -84,7 +84,6 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
 function RecordingRow({ recording: r, open, play, door, act }: { recording: Recording; open: boolean; play: () => void; door: RecorderDoor; act: (what: () => Promise<unknown>, done: string) => Promise<boolean> }) {
   const no = useBarred('operator');
   const renaming = useSignal(false);
-  const asked = useSignal(false);
   return (
     <li class="row recorder-row" data-recording={r.name}>
       <Pill word={recordingWord(r)} label={t('State')} />
@@ -111,20 +110,8 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
         <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={t('Rename {name}', { name: r.name })} onClick={() => (renaming.value = !renaming.value)}>
           {t('Rename')}
         </button>
-        <button type="button" class="button quiet" {...no} aria-expanded={asked.value} aria-label={t('Delete {name}', { name: r.name })} onClick={() => (asked.value = true)}>
-          {t('Delete')}
-        </button>
+        <DeleteButton name={r.name} no={no} onYes={() => void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }))} />
       </span>
-      {asked.value && (
-        <AskDelete
-          name={r.name}
-          onNo={() => (asked.value = false)}
-          onYes={() => {
-            asked.value = false;
-            void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }));
-          }}
-        />
-      )}
       {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), t('{name} is called {to} now.', { name: r.name, to })).then((good) => good && (renaming.value = false))} />}
     </li>
   );

@@ -13,7 +13,7 @@ import { emptied, persisted } from '../state/persisted';
 import { steppedText, unitText, valueText } from '../text/parameter';
 import { foreignText, snapshotText } from '../text/snapshot';
 import { leftOut, parametersText } from '../text/transfer';
-import { AskDelete } from './ask';
+import { DeleteButton } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -33,7 +33,6 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const comment = persisted(`snapshot.${axis}.comment`);
   const from = useSignal('device');
   const invalid = useSignal(false);
-  const removing = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const live = useSignal(false);
   const titles = store.familyTitles.value;
@@ -84,9 +83,8 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const remove = (s: Snapshot) =>
     tell(t('Removing …'), async () => {
       await door.remove(s.n);
-      removing.value = null;
       await again();
-      return t('{name} is removed.', { name: s.name });
+      return t('{name} is deleted.', { name: s.name });
     });
 
   if (why) {
@@ -138,14 +136,11 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                   <button type="button" class="button small" aria-label={t('Restore {name}', { name: s.name })} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
                     {t('Restore')}
                   </button>
-                  <button type="button" class="button small quiet" aria-expanded={removing.value === s.n} aria-label={t('Remove {name}', { name: s.name })} {...no} onClick={() => (removing.value = s.n)}>
-                    {t('Remove')}
-                  </button>
+                  <DeleteButton name={s.name} class="small quiet" no={no} onYes={() => void remove(s)} />
                 </div>
                 <p class="where">
                   {snapshotText(s, titles)}
                 </p>
-                {removing.value === s.n && <AskDelete name={s.name} onNo={() => (removing.value = null)} onYes={() => void remove(s)} />}
                 {other && (
                   <p class="where">
                     <span class="flag" data-field="foreign">{other}</span>

@@ -50,11 +50,6 @@ class Rows {
   hold(t: number): void {
     if (this.at.length > 0 && t - (this.at.at(-1) as number) > hair_s) this.put(t, this.columns.map((c) => c.findLast((v) => v !== undefined) ?? null));
   }
-  /** The next word: after a rest it is a step. */
-  word(t: number, values: Column): void {
-    if (t - (this.at.at(-1) ?? t) > rest_s) this.hold(t - hair_s);
-    this.put(t, values);
-  }
 }
 
 /** What a part of time is drawn as: rows where they are told; thinned, each column from its first value over its least and greatest to its last
@@ -63,7 +58,11 @@ export function trendPart(a: TrendAxis, chosen: readonly TracePoint[], to_s: num
   const rows = new Rows(chosen);
   const of = chosen.map((p): Values => a.points[p] ?? {});
   if (a.thinned) a.at.forEach((ms, i) => thinnedColumn(rows, of, i, ms / 1000, (a.until?.[i] ?? ms) / 1000, a.gaps?.[i] === true));
-  else a.at.forEach((ms, i) => rows.word(ms / 1000, of.map((v) => v.values?.[i] ?? null)));
+  else
+    a.at.forEach((ms, i) => {
+      if (ms / 1000 - (rows.at.at(-1) ?? Infinity) > rest_s) rows.hold(ms / 1000 - hair_s);
+      rows.put(ms / 1000, of.map((v) => v.values?.[i] ?? null));
+    });
   rows.hold(Math.min(to_s, (a.newest ?? 0) / 1000));
   return rows;
 }
@@ -93,7 +92,7 @@ export function captureParts(c: CaptureWithRows, chosen: readonly TracePoint[]):
     const rows = new Rows(chosen);
     a.seconds.forEach((t, i) => {
       const old = ((a.statusword[i] ?? 0) & staleBit) !== 0;
-      rows.word(t, chosen.map((p) => (old ? null : ((a[p] as Column)[i] ?? null))));
+      rows.put(t, chosen.map((p) => (old ? null : ((a[p] as Column)[i] ?? null))));
     });
     return rows;
   });

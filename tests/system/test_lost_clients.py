@@ -80,7 +80,7 @@ def test_a_stop_of_another_client_is_latched_by_its_name(folder):
         until(lambda: gateway.axis("one")["moving"], 5, "moving")
         axis = gateway.axis("one")
         assert (axis["stop_latch"], axis["stop_latch_by"], axis["stop_latch_text"]) == (0, None, None), axis
-        assert gateway.command("one", {"command": "halt"})["outcome"] in ("accepted", "done")
+        assert gateway.command("one", {"command": "halt"})["result"] in ("accepted", "done")
         axis = gateway.axis("one")
         assert (axis["stop_latch"], axis["stop_latch_by"]) == (5, "http 127.0.0.1"), axis
         assert axis["stop_latch_text"].startswith("http 127.0.0.1 has stopped it: "), axis

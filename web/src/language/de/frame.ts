@@ -121,7 +121,7 @@ export const frame: Table = {
   'its page': 'seine Seite',
   'Keys': 'Tasten',
   'Language': 'Sprache',
-  'last commanded by {by}': 'zuletzt von {by} befehligt',
+  'last commanded by {by}': 'zuletzt befehligt durch {by}',
   'last heard {time} ago': 'zuletzt vor {time} gehört',
   'last sign-in {time}': 'letzte Anmeldung {time}',
   'Leave it': 'Nicht ausführen',

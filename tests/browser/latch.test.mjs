@@ -26,10 +26,10 @@ const moves = async (lease_s) => {
   await program.command('feeder', { command: 'move_velocity', velocity: 5, acceleration: 100 });
   await until('it moves', async () => (await program.axis('feeder')).moving);
 };
-const person = 'Enable it or order a new motion.';
+const person = 'Enable it and order a new motion.';
 const controller = 'A controller that repeats its words does not move it: it has to change them.';
 
-test('a stop from one page is told by its name on all of them, until the axis is enabled anew', async () => {
+test('a stop from one page is told by its name on all of them, until a new motion', async () => {
   await moves();
   for (const p of [tiles, rows, own]) assert.doesNotMatch(await notice(p), /Stopped by/);
   await tiles.getByRole('button', { name: 'Halt feeder' }).click();
@@ -41,7 +41,7 @@ test('a stop from one page is told by its name on all of them, until the axis is
   assert.match(by, /^http 127\.0\.0\.1 page-/);
   assert.ok(text.startsWith(`${by} has stopped it: `), text);
   for (const [p, name] of [[tiles, 'tiles'], [rows, 'rows'], [own, 'axis']]) await shot(p, `latch-${name}`);
-  await own.getByRole('button', { name: 'Enable', exact: true }).click();
+  await moves(); // it was enabled still
   for (const p of [tiles, rows, own]) await until('it is let go', async () => !/Stopped by/.test(await notice(p)) || notice(p));
   assert.equal((await program.axis('feeder')).stop_latch, 0);
 });
@@ -58,6 +58,6 @@ test('a stop of the gateway is told with the loss that made it', async () => {
 test('in German', async () => {
   const p = await open(browser, program.url, { locale: 'de-DE' });
   await p.locator('[data-axis=feeder] [data-live=true]').first().waitFor();
-  await until('it is told', async () => /^Gestoppt durch das Gateway \(.+\)\. Freigeben oder eine neue Bewegung befehlen\.$/.test(await notice(p)) || notice(p));
+  await until('it is told', async () => /^Gestoppt durch das Gateway \(.+\)\. Freigeben und eine neue Bewegung befehlen\.$/.test(await notice(p)) || notice(p));
   await p.context().close();
 });

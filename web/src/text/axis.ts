@@ -87,7 +87,7 @@ export function latchOf(axis: Pick<Axis, 'stop_latch' | 'stop_latch_by' | 'fail_
   const { stop_latch: bits, stop_latch_by: by, fail_safe_cause: cause } = axis;
   if (!(bits & latch.latched)) return null;
   const who = bits & latch.byClient ? clientText(by ?? '', tab) || t('another client') : cause ? t('the gateway ({cause})', { cause: midSentence(causeText(cause)) }) : t('the gateway');
-  const text = bits & latch.bySafeInput ? t('Stopped by a safe input. Give the input back, then enable the axis.') : t('Stopped by {who}. Enable it or order a new motion.', { who });
+  const text = bits & latch.bySafeInput ? t('Stopped by a safe input. Give the input back, then enable the axis.') : t('Stopped by {who}. Enable it and order a new motion.', { who });
   return { text, long: `${text} ${t('A controller that repeats its words does not move it: it has to change them.')}` };
 }
 /** Register 23. */

@@ -205,7 +205,7 @@ export const axis: Table = {
   'Stop on the quick-stop ramp; enable to go on': 'An der Schnellhalt-Rampe anhalten; zum Weitermachen freigeben',
   'Stop the selected axes': 'Die gewählten Achsen stoppen',
   'Stopped by a safe input. Give the input back, then enable the axis.': 'Gestoppt durch einen sicheren Eingang. Den Eingang zurücknehmen, dann die Achse freigeben.',
-  'Stopped by {who}. Enable it or order a new motion.': 'Gestoppt durch {who}. Freigeben oder eine neue Bewegung befehlen.',
+  'Stopped by {who}. Enable it and order a new motion.': 'Gestoppt durch {who}. Freigeben und eine neue Bewegung befehlen.',
   'Switch on': 'Einschalten',
   'Switch on disabled': 'Einschaltsperre',
   'Switch on disabled: the axis has no power': 'Einschaltsperre: Die Achse hat keine Leistung',

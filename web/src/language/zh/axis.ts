@@ -205,7 +205,7 @@ export const axis: Table = {
   'Stop on the quick-stop ramp; enable to go on': '按快速停止斜坡停下；使能后继续',
   'Stop the selected axes': '停止所选轴',
   'Stopped by a safe input. Give the input back, then enable the axis.': '已被安全输入停止。请先恢复该输入，再使能轴。',
-  'Stopped by {who}. Enable it or order a new motion.': '已被{who}停止。请使能轴或下达新的运动命令。',
+  'Stopped by {who}. Enable it and order a new motion.': '已被{who}停止。请使能轴并下达新的运动命令。',
   'Switch on': '接通',
   'Switch on disabled': '禁止接通',
   'Switch on disabled: the axis has no power': '禁止接通：轴无动力',

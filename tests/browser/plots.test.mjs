@@ -26,7 +26,8 @@ const resident_MB = () => Number(/VmRSS:\s+(\d+) kB/.exec(readFileSync(`/proc/${
 test('30 plots of a moving axis: one feed each, no topic oftener than asked, nothing kept', { skip }, async () => {
   await program.command('feeder', { command: 'enable' });
   await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
-  const first = await open(browser, `${program.url}/axes/feeder/scope`);
+  // Small ones: thirty large pictures that nobody sees are the most of the work.
+  const first = await open(browser, `${program.url}/axes/feeder/scope`, { viewport: { width: 480, height: 400 } });
   await first.locator('.scope canvas').first().waitFor();
   const before_MB = resident_MB();
   const context = first.context();

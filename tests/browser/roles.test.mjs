@@ -1,13 +1,14 @@
 // Roles on the page of the real program: reading is open, what is barred tells why, and a session that ended is never local access without a word. One
 // user of each role is signed in; what there is to see is made beforehand.
 import assert from 'node:assert/strict';
-import { before, test } from 'node:test';
+import { after, before, test } from 'node:test';
 import { becomes, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
-import { all, pageOf, password, refusals } from './lib/roles.mjs';
+import { end, pageOf, password, refusals, start } from './lib/roles.mjs';
 
 let program;
-before(() => void ({ program } = all));
+before(async () => void ({ program } = await start()));
+after(end);
 
 // What is enabled, and what is not, for whom. `why`: the role in the reason.
 const reads = [

@@ -1,14 +1,17 @@
 // The site's part of the page: a tree with ports of the machine and a calculator, the end of the wizard, help beside fields; the words of an axis bit by
 // bit. In: the program. Out: counts; pictures under build/browser.
 import assert from 'node:assert/strict';
-import { before, test } from 'node:test';
+import { after, before, test } from 'node:test';
 import { becomes, open, shot, tileOf, until } from './lib/browser.mjs';
-import { machine, noFaults } from './lib/machine.mjs';
+import { start } from './lib/machine.mjs';
 import { isMock, Program } from './lib/program.mjs';
 
-const all = machine();
 let program, browser, page;
-before(() => void ({ program, browser, page } = all));
+before(async () => void ({ program, browser, page } = await start()));
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
 
 test('the site is a tree: line, drives on it, axes of them, each with its state; a line folds', async () => {
   await page.goto(`${program.url}/site`);
@@ -176,4 +179,4 @@ test('status and control word stand beside the state machine, bit by bit with th
   for (const [word, bits] of [['Status word', 16], ['Control word', 10]]) assert.equal(await page.locator(`[data-word="${word}"] li`).count(), bits);
 });
 
-noFaults(all);
+test('nothing on the way was a fault of the page', () => assert.deepEqual(page.faults(), []));

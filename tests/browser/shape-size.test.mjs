@@ -1,16 +1,19 @@
 // How high and how wide the page is: no page is higher than three screens of a small phone, what is folded is there on paper, one width of content, room
 // for strips and choices, one octagon. In: the program. Out: counts; pictures under build/browser.
 import assert from 'node:assert/strict';
-import { before, test } from 'node:test';
+import { after, before, test } from 'node:test';
 import { readFileSync } from 'node:fs';
 import { becomes, examine, open, quiet, shot, until } from './lib/browser.mjs';
-import { machine, noFaults } from './lib/machine.mjs';
+import { start } from './lib/machine.mjs';
 import { furnish, parts } from './lib/parts.mjs';
 import { Program } from './lib/program.mjs';
 
-const all = machine();
 let program, browser, page;
-before(() => void ({ program, browser, page } = all));
+before(async () => void ({ program, browser, page } = await start()));
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
 
 test('no tab of an axis is higher than three screens of a small phone', async () => {
   await furnish(program).catch(() => undefined); // events, snapshots, an alarm
@@ -153,4 +156,4 @@ test('the stop is an octagon and nothing else is', async () => {
   }
 });
 
-noFaults(all);
+test('nothing on the way was a fault of the page', () => assert.deepEqual(page.faults(), []));

@@ -1,15 +1,18 @@
 // The overview of many axes: as tiles and as a list with headings, orders and groups, one command for several axes; what is out of sight is written less
 // often. In: the program. Out: counts; pictures under build/browser.
 import assert from 'node:assert/strict';
-import { before, test } from 'node:test';
+import { after, before, test } from 'node:test';
 import { becomes, look, open, shot, until } from './lib/browser.mjs';
-import { document, machine, noFaults } from './lib/machine.mjs';
+import { document, start } from './lib/machine.mjs';
 import { manyMappings } from './lib/many.mjs';
 import { Program } from './lib/program.mjs';
 
-const all = machine();
 let program, browser, page;
-before(() => void ({ program, browser, page } = all));
+before(async () => void ({ program, browser, page } = await start()));
+after(async () => {
+  await browser?.close();
+  await program?.end();
+});
 const names = () => page.locator('.axis-row').evaluateAll((l) => l.map((e) => e.dataset.axis));
 const heading = (name) => page.getByRole('columnheader', { name });
 
@@ -144,4 +147,4 @@ test('of many axes those in sight are written with every reading, the others onc
   }
 });
 
-noFaults(all);
+test('nothing on the way was a fault of the page', () => assert.deepEqual(page.faults(), []));

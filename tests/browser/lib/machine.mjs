@@ -1,7 +1,5 @@
 // A machine of four axes in two machine parts, for the tests of the page's shape: its program, a browser, and a page with its overview.
-// In: nothing. Out: what the tests of a file share, from before the first of them to after the last.
-import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+// In: nothing. Out: what the tests of a file share.
 import { launch, open } from './browser.mjs';
 import { Program } from './program.mjs';
 
@@ -17,21 +15,11 @@ export const document = {
   mappings: [],
 };
 
-/** Filled before the first test of the file that asks for it. */
-export function machine() {
-  const all = { program: null, browser: null, page: null };
-  before(async () => {
-    all.program = await Program.start({ site: document });
-    all.browser = await launch();
-    all.page = await open(all.browser, all.program.url, { permissions: ['clipboard-read', 'clipboard-write'] });
-    await all.page.locator('[data-axis=lift] [data-live=true]').waitFor();
-  });
-  after(async () => {
-    await all.browser?.close();
-    await all.program?.end();
-  });
-  return all;
+/** Before the first test of a file. */
+export async function start() {
+  const program = await Program.start({ site: document });
+  const browser = await launch();
+  const page = await open(browser, program.url, { permissions: ['clipboard-read', 'clipboard-write'] });
+  await page.locator('[data-axis=lift] [data-live=true]').waitFor();
+  return { program, browser, page };
 }
-
-/** The last test of a file. */
-export const noFaults = (all) => test('nothing on the way was a fault of the page', () => assert.deepEqual(all.page.faults(), []));

@@ -7,8 +7,7 @@ import { arrive, furnish, parts } from './parts.mjs';
 import { Program } from './program.mjs';
 
 export const password = 'a long enough phrase';
-/** Filled before the first test of the file. */
-export const all = { program: null, browser: null };
+const all = { program: null, browser: null };
 /** A page of somebody with this role. */
 export const pageOf = async (role) => {
   const page = await open(all.browser, all.program.url);
@@ -16,7 +15,8 @@ export const pageOf = async (role) => {
   assert.equal(r.status(), 200, await r.text());
   return page;
 };
-before(async () => {
+/** Before the first test of a file. */
+export async function start() {
   const program = (all.program = await Program.start());
   await furnish(program);
   const browser = (all.browser = await launch());
@@ -30,11 +30,12 @@ before(async () => {
     assert.equal(r.status(), 201, await r.text());
   }
   await page.context().close();
-});
-after(async () => {
+  return all;
+}
+export async function end() {
   await all.browser?.close();
   await all.program?.end();
-});
+}
 
 /** What the gateway refuses a page for its role, until `end`. */
 export function refusals(page) {
@@ -82,7 +83,9 @@ async function pressAll(page, part) {
 }
 
 /** The presses of a role change what there is to see: it is the only test of its file. */
-export const presses = (role) =>
+export function presses(role) {
+  before(start);
+  after(end);
   test(`as ${role}, no button and no Enter on any part sends what the gateway refuses`, async () => {
     const page = await pageOf(role);
     let pressed = 0;
@@ -97,3 +100,4 @@ export const presses = (role) =>
     assert.ok(entered > 5, `Enter was pressed in ${entered} fields`);
     await page.context().close();
   });
+}

@@ -112,8 +112,11 @@ test('of many axes those in sight are written with every reading, the others onc
   const many = await Program.start({ site: { ...manyMappings(), mappings: [] } });
   try {
     for (const axis of ['axis1', 'axis64']) {
+      await until(`${axis} is heard`, async () => (await many.axis(axis)).online === true);
       await many.command(axis, { command: 'enable' });
+      await until(`${axis} is enabled`, async () => (await many.axis(axis)).state === 'operation_enabled');
       await many.command(axis, { command: 'move_velocity', velocity: 5, acceleration: 50 });
+      await until(`${axis} moves`, async () => (await many.axis(axis)).moving === true);
     }
     const p = await open(browser, many.url);
     await p.locator('[data-axis=axis64] [data-live=true]').waitFor();

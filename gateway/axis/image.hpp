@@ -55,6 +55,7 @@ struct AxisPicture {
     Instant authority_until{};
     std::array<char, 64> authority_holder{};     ///< the holder's name, ends with 0; empty: nobody
     std::array<char, 64> authority_commander{};  ///< who commanded last: "modbus 192.0.2.7"
+    std::array<char, 64> stop_latch_by{};        ///< whose stop is latched, written the same way; empty: no client's
     Presence presence = Presence::offline;
     bool ever_seen = false;  ///< feedback has arrived at least once: position, velocity, error code and `at` are the last ones
     DemandSource demand_source = DemandSource::none;  ///< whose word position_demand is

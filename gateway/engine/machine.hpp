@@ -352,6 +352,7 @@ struct Axis {
     std::map<Point, Value> stored;       ///< acknowledged writes, as the store has them
     std::map<Point, Value> reported;     ///< what who speaks for it said last; bounded by the catalogue
     std::uint64_t authority_shown = 0;   ///< AxisAuthority::revision whose names stand in its picture
+    AuthorityClient latch_shown;         ///< StopLatch::by that stands in its picture
     std::uint32_t source = 0;            ///< AxisPicture::source
 
     /// The ramp with which it brakes now, increments/s^2: named by its motion, told by its drive, or the site's worst. 0: nobody knows.

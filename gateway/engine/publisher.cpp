@@ -17,12 +17,12 @@ void Publisher::publish(Axis& a, Instant now) {
     p.authority = a.authority.door();
     p.authority_since = a.authority.since();
     p.authority_until = a.authority.until();
+    const auto write = [](std::array<char, 64>& into, std::string_view text) {
+        into.fill(0);
+        std::copy_n(text.begin(), std::min(text.size(), into.size() - 1), into.begin());
+    };
     if (a.authority_shown != a.authority.revision()) {
         a.authority_shown = a.authority.revision();
-        const auto write = [](std::array<char, 64>& into, std::string_view text) {
-            into.fill(0);
-            std::copy_n(text.begin(), std::min(text.size(), into.size() - 1), into.begin());
-        };
         write(p.authority_holder, a.authority.holder().name);
         write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
     }
@@ -37,7 +37,11 @@ void Publisher::publish(Axis& a, Instant now) {
     put(p.flags, flag_online, online);
     if (a.at_limit) p.statusword |= cia402::sw_internal_limit;
     p.fail_safe_cause = static_cast<std::uint16_t>(a.latch.cause);
-    p.stop_latch = a.latch.bits;
+    if (p.stop_latch != a.latch.bits || a.latch_shown != a.latch.by) {
+        p.stop_latch = a.latch.bits;
+        a.latch_shown = a.latch.by;
+        write(p.stop_latch_by, a.latch.bits & StopLatch::by_client ? a.latch.by.text() : std::string());
+    }
     p.streaming = a.stream.on;
     p.stream_mode = a.stream.mode;
     p.set_points = a.stream.taken;

@@ -17,8 +17,8 @@ namespace json = boost::json;
 namespace {
 
 /// Beside those that tell the state in one value.
-constexpr std::array<std::string_view, 9> other_axis_live_members{"at",    "authority_holder", "authority_until", "error", "family", "line",
-                                                                  "modes", "set_points",       "stop_latch_text"};
+constexpr std::array<std::string_view, 10> other_axis_live_members{
+    "at", "authority_holder", "authority_until", "error", "family", "line", "modes", "set_points", "stop_latch_by", "stop_latch_text"};
 constexpr std::array<std::string_view, 2> drive_live_members{"axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
@@ -102,17 +102,20 @@ json::value to_json(const Value& value) {
 }
 
 /// Whose stop holds the axis, and what moves it again; null: none does.
-json::value stop_latch_text(std::uint16_t bits) {
-    constexpr std::uint16_t by_fail_safe = 1u << 1, by_client = 1u << 2, by_safe_input = 1u << 3;  // register 23
-    const std::string_view by = bits & by_safe_input  ? "a safe input has taken power or motion away"
-                                : bits & by_client    ? "another client has stopped it"
-                                : bits & by_fail_safe ? "the gateway has stopped it"
-                                                      : "";
-    if (by.empty()) return nullptr;
-    return json::value(
-        fmt::format("{}: it moves again by a new command, or when a controller changes its own words (a new set-point, the halt bit or the "
-                    "enable bits)",
-                    by));
+json::value stop_latch_text(const AxisPicture& p) {
+    constexpr std::uint16_t latched = 1u << 0, by_client = 1u << 2, by_safe_input = 1u << 3;  // register 23
+    constexpr std::string_view fresh =
+        "it moves again by a new command, or when a controller changes its own words (a new set-point, the halt bit or the enable bits)";
+    if (!(p.stop_latch & latched)) return nullptr;
+    if (p.stop_latch & by_safe_input)
+        return "a safe input has taken power or motion away: give the input back, then enable the axis; a controller takes its enable bits "
+               "back first";
+    std::string by = "the gateway";
+    if (p.stop_latch & by_client)
+        by = p.stop_latch_by[0] != 0 ? p.stop_latch_by.data() : "another client";
+    else if (p.fail_safe_cause != 0)
+        by += fmt::format(" ({})", name_of(static_cast<LossCause>(p.fail_safe_cause)));
+    return json::value(fmt::format("{} has stopped it: {}", by, fresh));
 }
 
 json::object axis_document(const AxisView& v) {
@@ -156,7 +159,8 @@ json::object axis_document(const AxisView& v) {
     o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
     o["fail_safe_cause"] = p.fail_safe_cause == 0 ? json::value(nullptr) : json::value(name_of(static_cast<LossCause>(p.fail_safe_cause)));
     o["stop_latch"] = p.stop_latch;
-    o["stop_latch_text"] = stop_latch_text(p.stop_latch);
+    o["stop_latch_by"] = p.stop_latch_by[0] != 0 ? json::value(p.stop_latch_by.data()) : json::value(nullptr);
+    o["stop_latch_text"] = stop_latch_text(p);
     o["position"] = in_unit(p.position);
     const bool demanded = p.demand_source != DemandSource::none;
     o["demand_known"] = demanded;

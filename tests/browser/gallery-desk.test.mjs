@@ -1,5 +1,5 @@
-// Every part of the page at the widths of a desk and of a tablet: pictures, accessibility, nothing cut off.
+// The first half of the parts of the page at the widths of a desk and of a tablet: pictures, accessibility, nothing cut off.
 import { visits } from './lib/browser.mjs';
-import { gallery } from './lib/gallery.mjs';
+import { gallery, halves } from './lib/gallery.mjs';
 
-gallery(visits[0]);
+gallery(visits[0], halves.first);

@@ -1,5 +1,5 @@
-// Every part of the page on a phone: pictures, accessibility, nothing cut off.
+// The first half of the parts of the page on a phone: pictures, accessibility, nothing cut off.
 import { visits } from './lib/browser.mjs';
-import { gallery } from './lib/gallery.mjs';
+import { gallery, halves } from './lib/gallery.mjs';
 
-gallery(visits[1]);
+gallery(visits[1], halves.first);

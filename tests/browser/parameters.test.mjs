@@ -173,8 +173,15 @@ test('snapshots: saved, compared, restored after a look', async () => {
   await shot(page, 'parameters-restore', { fullPage: true });
   await changes.getByRole('button', { name: /^Write \d+ values? to the drive$/ }).click();
   await until('it is restored', async () => (await get(a.id)) === 1234, 60_000);
-  await entry.getByRole('button', { name: 'Remove as delivered', exact: true }).click();
-  await entry.getByRole('button', { name: 'Remove for good: as delivered' }).click();
+  const remove = entry.getByRole('button', { name: 'Delete as delivered', exact: true });
+  const question = entry.locator('[data-field=delete]');
+  await remove.click();
+  assert.equal(await question.locator('span').innerText(), 'Delete as delivered? It cannot be brought back.');
+  await page.keyboard.press('Enter'); // the keyboard is at the answer that changes nothing
+  await question.waitFor({ state: 'detached' });
+  assert.ok((await program.call('GET', '/axes/feeder/snapshots')).body.some((s) => s.name === 'as delivered'));
+  await remove.click();
+  await question.getByRole('button', { name: 'Delete', exact: true }).click();
   await until('it is gone', async () => (await entry.count()) === 0);
 });
 

@@ -70,8 +70,8 @@ test('what is wrong is said at its step, and the text is read only when it is JS
   await json.fill('{"steps":[');
   await becomes('it cannot be saved', () => page.getByRole('button', { name: 'Save' }).isDisabled(), true);
   assert.equal(await page.locator('[data-step]').count(), 2, 'the forms keep the last good text');
-  await page.getByRole('button', { name: 'Delete', exact: true }).click();
-  await page.getByRole('button', { name: 'Delete: sure?' }).click();
+  await page.getByRole('button', { name: 'Delete wrong' }).click();
+  await page.locator('[data-field=delete]').getByRole('button', { name: 'Delete', exact: true }).click();
   await page.getByRole('heading', { level: 1, name: 'Recipes' }).waitFor();
   assert.deepEqual(page.faults(), []);
   await page.context().close();

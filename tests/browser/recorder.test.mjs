@@ -23,6 +23,23 @@ const enabled = async () => {
   await program.command('feeder', { command: 'enable' });
   await until('enabled', async () => (await program.axis('feeder')).state === 'operation_enabled');
 };
+/** Deletes what has this row: a question comes first, the keyboard is at the answer that changes nothing, and nothing is gone before the other one. */
+async function remove(page, row, name, there) {
+  const question = row.locator('[data-field=delete]');
+  await row.getByRole('button', { name: `Delete ${name}` }).click();
+  assert.equal(await question.locator('span').innerText(), `Delete ${name}? It cannot be brought back.`);
+  await becomes('the keyboard is at the answer that changes nothing', () => page.evaluate(() => document.activeElement.textContent), 'Leave it');
+  await page.keyboard.press('Enter');
+  await question.waitFor({ state: 'detached' });
+  assert.ok((await there()).includes(name), `${name} is still there`);
+  await row.getByRole('button', { name: `Delete ${name}` }).click();
+  await shot(page, `recorder-delete-${name}`, { fullPage: true });
+  assert.ok((await there()).includes(name), `${name} is there until the answer`);
+  await question.getByRole('button', { name: 'Delete', exact: true }).click();
+  await row.waitFor({ state: 'detached' });
+  assert.ok(!(await there()).includes(name), `${name} is gone`);
+}
+const kept = (kind) => async () => (await program.call('GET', `/recorder/${kind}`)).body[kind].map((e) => e.name);
 const differences = (page) => page.locator('.cursor-table tr').last().locator('td').allInnerTexts();
 const number = (t) => Number(t.replace('−', '-').replace(' s', ''));
 
@@ -114,8 +131,7 @@ test('captures: armed by a command, drawn with the trigger, a second one laid ov
   await page.getByRole('form', { name: 'New name of before' }).getByLabel('Name').fill('kept');
   await page.keyboard.press('Enter');
   await page.locator('[data-capture="kept"]').waitFor();
-  await page.getByRole('button', { name: 'Delete after' }).click();
-  await becomes('it is gone', () => page.locator('[data-capture="after"]').count(), 0);
+  await remove(page, page.locator('[data-capture="after"]'), 'after', kept('captures'));
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });
@@ -158,8 +174,7 @@ test('recordings: made, played back by the slider, downloaded, deleted', { skip 
   assert.equal(frames.readUInt32LE(0), 0x0a0d0d0a);
   assert.equal(frames.readUInt32LE(8), 0x1a2b3c4d);
   assert.ok(frames.length > 500, `${frames.length} bytes of frames`);
-  await page.getByRole('button', { name: 'Delete crash' }).click();
-  await becomes('it is gone', () => page.locator('[data-recording="crash"]').count(), 0);
+  await remove(page, page.locator('[data-recording="crash"]'), 'crash', kept('recordings'));
   assert.deepEqual(page.faults(), []);
   await page.context().close();
 });
@@ -186,12 +201,10 @@ test('a recording that is cut off, altered or of another version is named so and
     assert.match(await row.innerText(), /Damaged/);
     assert.match(await row.innerText(), words);
     assert.equal(await row.getByRole('button', { name: /^Play back/ }).count(), 0);
-    await row.getByRole('button', { name: `Delete ${name}` }).click();
-    await row.waitFor({ state: 'detached' });
+    await remove(page, row, name, kept('recordings'));
   }
   await page.locator('[data-recording="whole"]').getByRole('button', { name: /^Play back/ }).waitFor();
-  await page.getByRole('button', { name: 'Delete whole' }).click();
-  await page.locator('[data-recording="whole"]').waitFor({ state: 'detached' });
+  await remove(page, page.locator('[data-recording="whole"]'), 'whole', kept('recordings'));
   await page.context().close();
 });
 

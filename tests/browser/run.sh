@@ -16,8 +16,9 @@ cd "$here"
 if [ ! -e node_modules/.package-lock.json ] || [ package-lock.json -nt node_modules/.package-lock.json ]; then
   npm ci --silent --no-fund --no-audit
 fi
+# Each wait of a test has a limit of its own and says what did not come; the limit here, which node applies to a whole file, too, is for one that hangs.
 # Some files at a time: what a test waits for, another one uses: on two processors one file alone needs a third of its time.
 if [ $# -eq 0 ]; then set -- ./*.test.mjs; fi
-AXISGATE_BIN=$bin CHROMIUM=$chromium exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-3}" --test-timeout=180000 \
+AXISGATE_BIN=$bin CHROMIUM=$chromium exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-3}" --test-timeout=360000 \
   --test-reporter=spec --test-reporter-destination=stdout \
   --test-reporter=./lib/counts.mjs --test-reporter-destination=stdout "$@"

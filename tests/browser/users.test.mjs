@@ -61,9 +61,9 @@ test('a user is added, a token is shown once, a deletion is asked twice', async 
   await page.reload();
   await page.locator('[data-token=line3]').waitFor();
   assert.equal(await page.locator('[data-field=secret]').count(), 0);
-  await page.getByRole('button', { name: 'Delete token line3' }).click();
+  await page.getByRole('button', { name: 'Delete line3' }).click();
   assert.equal(await page.locator('[data-token=line3]').count(), 1);
-  await page.getByRole('button', { name: 'Really delete token line3' }).click();
+  await page.locator('[data-token=line3] [data-field=delete]').getByRole('button', { name: 'Delete', exact: true }).click();
   await page.locator('[data-token=line3]').waitFor({ state: 'detached' });
   assert.deepEqual(page.faults(), []);
 });

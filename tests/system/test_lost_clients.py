@@ -73,6 +73,25 @@ def test_a_silent_connection_is_a_lost_client(folder):
         assert gateway.axis("two")["fail_safe_cause"] == "modbus_silent"
 
 
+def test_a_stop_of_another_client_is_latched_by_its_name(folder):
+    with Gateway(folder, SITE) as gateway, gateway.modbus() as m:
+        enable(m, 1, 3)
+        m.write32(42, 2000)
+        until(lambda: gateway.axis("one")["moving"], 5, "moving")
+        axis = gateway.axis("one")
+        assert (axis["stop_latch"], axis["stop_latch_by"], axis["stop_latch_text"]) == (0, None, None), axis
+        assert gateway.command("one", {"command": "halt"})["result"] in ("accepted", "done")
+        axis = gateway.axis("one")
+        assert (axis["stop_latch"], axis["stop_latch_by"]) == (5, "http 127.0.0.1"), axis
+        assert axis["stop_latch_text"].startswith("http 127.0.0.1 has stopped it: "), axis
+        assert m.read(23, 1) == [5]
+        m.write32(42, 0)
+        m.write32(42, 1000)  # its own words have changed
+        until(lambda: gateway.axis("one")["moving"], 5, "moving again")
+        axis = gateway.axis("one")
+        assert (axis["stop_latch"], axis["stop_latch_by"], axis["stop_latch_text"]) == (0, None, None), axis
+
+
 def test_what_waits_keeps_the_limits_and_a_velocity_is_needed(folder):
     with Gateway(folder, SITE) as gateway, gateway.modbus() as m:
 

@@ -118,8 +118,8 @@ describe('the list of recipes', () => {
     await p.see('[data-recipe=mine]', '1 steps');
     p.go('/recipes/mine');
     await p.see('[data-step="/steps/0"]', 'Step 1');
+    await p.press('Delete mine');
     await p.press('Delete');
-    await p.press('Delete: sure?');
     await p.see('[data-recipe=r]', '1 steps');
     expect(p.text('[data-recipe=mine]')).toBe('');
   });

@@ -27,6 +27,9 @@ describe('motion', () => {
     [{ moving: true, velocity: 5, mode: 'homing' }, 'live', 'Homing', 'arrow-right'],
     [{ target_reached: true }, 'live', 'In position', 'target'],
     [{}, 'live', 'At rest', 'pause'],
+    [{ target_reached: true, state: 'fault' }, 'live', 'At rest', 'pause'],
+    [{ target_reached: true, state: 'fault_reaction_active' }, 'live', 'At rest', 'pause'],
+    [{ target_reached: true, fault: true }, 'live', 'At rest', 'pause'],
     [{ moving: true }, 'stale', 'Stale', 'clock'],
     [{ moving: true }, 'offline', 'Not known', 'circle-dashed'],
     [{ moving: true }, 'disconnected', 'Not live', 'unplugged'],
@@ -51,6 +54,21 @@ describe('notice', () => {
     [{ error: { code: 5, text: '' } }, 'Error 5: the drive says no more'],
   ])('of %j is %s', (change, text) => expect(noticeOf(axis({ referenced: true, ...change }), 'live', '', '').text).toBe(text));
   it('of an axis that nobody serves says so', () => expect(noticeOf(axis(), 'offline', '', '').text).toBe('Offline: nobody answers'));
+  const stopped = (stop_latch: number, change = {}) => axis({ referenced: true, stop_latch, stop_latch_by: null, fail_safe_cause: null, ...change });
+  const controller = 'A controller that repeats its words does not move it: it has to change them.';
+  it.each([
+    [stopped(0b101, { stop_latch_by: 'modbus 192.0.2.7' }), 'Stopped by 192.0.2.7 (modbus). Enable it and order a new motion.'],
+    [stopped(0b101, { stop_latch_by: 'http anna page-1a2b3c' }), 'Stopped by anna (http). Enable it and order a new motion.'],
+    [stopped(0b101, { stop_latch_by: 'http 127.0.0.1 page-mine00' }), 'Stopped by this page. Enable it and order a new motion.'],
+    [stopped(0b101), 'Stopped by another client. Enable it and order a new motion.'],
+    [stopped(0b011), 'Stopped by the gateway. Enable it and order a new motion.'],
+    [stopped(0b011, { fail_safe_cause: 'modbus_silent' }), 'Stopped by the gateway (Modbus client silent). Enable it and order a new motion.'],
+    [stopped(0b1001), 'Stopped by a safe input. Give the input back, then enable the axis.'],
+  ])('tells whose stop is latched and who has to do what: %#', (a, text) => expect(noticeOf(a, 'live', '', '', 'page-mine00')).toMatchObject({ text, long: `${text} ${controller}`, tone: 'warning' }));
+  it('tells a fault before a latched stop, and the stop behind it', () => {
+    expect(noticeOf(stopped(0b011, { fault: true, error: { code: 8, text: 'the motor is stalled' } }), 'live', '', '')).toMatchObject({ text: 'Fault 8: the motor is stalled', long: `Fault 8: the motor is stalled. Stopped by the gateway. Enable it and order a new motion. ${controller}` });
+    expect(noticeOf(stopped(0), 'live', '', '').text).toBe('No error. Referenced');
+  });
   it('says when nothing is wrong', () => expect(noticeOf(axis({ referenced: true }), 'live', '', '').text).toBe('No error. Referenced'));
 });
 

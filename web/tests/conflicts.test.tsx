@@ -251,8 +251,8 @@ describe('a recipe that two people change', () => {
     await open(steps(1));
     await p.see('[data-step="/steps/0"]', 'Step 1');
     saved(steps(9));
+    await p.press('Delete r');
     await p.press('Delete');
-    await p.press('Delete: sure?');
     await p.see(clash, 'Delete it all the same');
     expect([p.text('.result'), there()]).toEqual(['Somebody else has changed r meanwhile. What you typed is kept.', steps(9).steps]);
     await p.press('Delete it all the same');
@@ -263,8 +263,8 @@ describe('a recipe that two people change', () => {
     await open({ steps: [{ wait_s: 600 }] });
     await p.see('[data-step="/steps/0"]', 'Step 1');
     expect(p.other('POST', '/recipes/r/run', {}).status).toBe(202);
+    await p.press('Delete r');
     await p.press('Delete');
-    await p.press('Delete: sure?');
     await p.see('.result', 'Recipe r is running (run 1): cancel it first');
   });
 });

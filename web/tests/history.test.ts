@@ -65,4 +65,22 @@ describe('history', () => {
     expect(t.since(0).at).toEqual([]);
     expect(t.last).toBeUndefined();
   });
+  it('goes on from the last value of a condensed stretch, not from its greatest', () => {
+    const t = new AxisHistory(100_000);
+    // Each second it moves to and fro within 40 ms and rests: 1000 samples a second, which a plot of 100 points condenses.
+    for (let i = 0; i < 20_000; i += 1) t.add(at(1_000_000 + i, i % 1000 < 40 ? 50 - Math.abs(50 - (i % 1000)) : 0, 1));
+    const c = t.seen(1_000_000, 1_020_000, 100);
+    expect(c.at.length).toBeLessThanOrEqual(204);
+    expect(Math.max(...(c.position as number[]))).toBe(39);
+    // From the end of each condensed stretch to the beginning of the next one.
+    const whole = t.since(0).position;
+    const told = (s: number | undefined) => whole[Math.round(((s as number) - 1000) * 1000)];
+    for (let i = 4; i < c.at.length; i += 4) expect([c.position[i - 1], c.position[i]], `${c.at[i]} s`).toEqual([told(c.at[i - 1]), told(c.at[i])]);
+  });
+  it('holds a velocity through a rest', () => {
+    const t = new AxisHistory();
+    t.add(at(0, 10, 0));
+    t.add(at(5000, 10, 15));
+    expect(t.since(0)).toMatchObject({ at: [0, 4.85, 5], velocity: [0, 0, 15] });
+  });
 });

@@ -88,7 +88,7 @@ describe('the check of the sentences', () => {
   ])('lets %s through', (_, source) => expect(look(source).faults).toEqual([]), 30_000);
   it('lets through what the list names, and lists what is said', () => {
     expect(look("export const a = 'Some Name';", { 'a.tsx': [/^Some Name$/] })).toEqual({ keys: ['Said'], faults: [] });
-  });
+  }, 30_000);
   it('compares a table with the sentences: missing, left over, other places for values, nothing said', () => {
     expect(compare('de', ['A', '{n} of {all}', 'C', 'D'], { '{n} of {all}': '{all}, davon {m}', C: '', E: 'e', D: 'd ' }).map((f) => f.split(' ').slice(1, 4).join(' '))).toEqual(['no sentence for', '"{n} of {all}"', '"C" is said', '"D" is said', 'nothing says "E"']);
     expect(placeholders('{b} {a} {b}')).toEqual(['a', 'b']);

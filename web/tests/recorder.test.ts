@@ -43,18 +43,56 @@ describe('columns put together', () => {
     expect(joined([{ at: [1, 3], columns: [[10, 30]] }, { at: [2, 3], columns: [[null, 7]] }])).toEqual({ at: [1, 2, 3], columns: [[10, undefined, 30], [undefined, null, 7]] });
   });
   const trend = (more: Partial<Trends['axes'][number]>): Trends['axes'][number] => ({ axis: 'a', unit: 'mm', rate_hz: 20, thinned: false, oldest: 0, newest: 10_000, at: [1000, 9000], points: { position: { values: [1, 5] } }, ...more });
-  it('of a rest is no slow drift, and the newest value holds to the end', () => {
+  it('of a rest are a step and no slope, and the newest value holds to the end', () => {
     const p = trendPart(trend({}), ['position'], 20);
-    expect(p.at).toEqual([1, 8.9, 9, 10]);
     expect(p.columns).toEqual([[1, 1, 5, 5]]);
+    expect([p.at[0], p.at[2], p.at[3]]).toEqual([1, 9, 10]);
+    expect(9 - (p.at[1] as number)).toBeLessThan(0.001);
   });
-  it('that are thinned go from their least to their greatest', () => {
-    const p = trendPart(trend({ thinned: true, newest: 9000, points: { position: { low: [0, 2], high: [4, 6] } } }), ['position'], 20);
-    expect(p.columns).toEqual([[0, 4, 2, 6]]);
-    expect(p.at).toHaveLength(4);
+  it('of a silence have no value, and nothing is drawn on behind it', () => {
+    const p = trendPart(trend({ at: [1000, 1050, 5000], newest: 1040, points: { position: { values: [1, null, null] } } }), ['position'], 20);
+    const d = joined([p]);
+    expect(readAt(d.at, d.columns[0]!, 3)).toBe(null);
+    expect(readAt(d.at, d.columns[0]!, 5)).toBe(null);
+  });
+  const thin = (position: object, more: object = {}) => trend({ thinned: true, at: [0, 1000, 82_000], until: [900, 1400, 82_600], gaps: [false, false, false], newest: 90_000, points: { position: position as never }, ...more });
+  // It moves with 15, stands in fault for 81 s, and moves once more for a moment.
+  const fault = { first: [15, 15, 0], min: [15, 0, 0], max: [15, 15, 15], last: [15, 0, 0], low: [15, 0, 0], high: [15, 15, 15] };
+  it('that are thinned show no motion that was not: the last value holds, a rest is flat, the end is the last value', () => {
+    const d = joined([trendPart(thin(fault), ['position'], 100)]);
+    for (const t of [1.4, 1.5, 2, 40, 81.9]) expect(readAt(d.at, d.columns[0]!, t), `${t} s`).toBe(0);
+    for (const t of [82.6, 85, 90]) expect(readAt(d.at, d.columns[0]!, t), `${t} s`).toBe(0);
+    expect(readAt(d.at, d.columns[0]!, 0.5)).toBe(15);
+    expect(Math.max(...d.columns[0]!.slice(5).map((v) => v ?? 0))).toBe(15); // the moment at the end is not lost
+    expect(d.at).toEqual([...d.at].sort((a, b) => a - b));
+    expect(d.at.at(-1)).toBe(90);
+  });
+  it('that are thinned have their gaps, and what was known beside them', () => {
+    const v = { first: [3, null, null], min: [3, 4, 4], max: [3, 9, 4], last: [null, null, 4] };
+    const d = joined([trendPart(thin(v, { gaps: [true, true, true] }), ['position'], 100)]);
+    const read = (t: number) => readAt(d.at, d.columns[0]!, t);
+    expect(read(0)).toBe(3);
+    for (const t of [0.91, 1, 1.4, 40, 81.9]) expect(read(t), `${t} s`).toBe(null);
+    expect(read(82.6)).toBe(4);
+    expect(Math.max(...d.columns[0]!.map((x) => x ?? 0))).toBe(9);
+    const silent = joined([trendPart(thin({ first: [3, 3, 5], min: [3, 3, 5], max: [3, 3, 5], last: [3, 3, 5] }, { gaps: [false, false, true] }), ['position'], 100)]);
+    expect(silent.columns[0]!.filter((x) => x === null)).toHaveLength(1); // known at both ends of the column, silent in between
+  });
+  it('that are thinned are a step where something new was told as a column began, after a rest as well', () => {
+    const v = { first: [15, 0, 7], min: [15, 0, 7], max: [15, 0, 7], last: [15, 0, 7] };
+    const d = joined([trendPart(thin(v), ['position'], 100)]);
+    for (const [t, value] of [[0.95, 15], [0.999, 15], [1, 0], [40, 0], [81.99, 0], [82, 7]] as const) expect(readAt(d.at, d.columns[0]!, t), `${t} s`).toBe(value);
+  });
+  it('that are thinned keep a peak though it was not known where the column began', () => {
+    const v = { first: [null, 3, 3], min: [2, 3, 3], max: [9, 3, 3], last: [3, 3, 3] };
+    expect(joined([trendPart(thin(v), ['position'], 100)]).columns[0]).toEqual(expect.arrayContaining([2, 9]));
+  });
+  it('of captures have no value where it was too old', () => {
+    const c = { columns: [{ axis: 'a', unit: 'mm', seconds: [0, 1, 2], position: [1, 2, 3], statusword: [0x27, 0x4027, 0x27] }] } as unknown as CaptureWithRows;
+    expect(joined(captureParts(c, ['position'])).columns).toEqual([[1, null, 3]]);
   });
   it('of captures are laid over each other by seconds from the trigger', () => {
-    const capture = (position: number[]) => ({ columns: [{ axis: 'a', unit: 'mm', seconds: [-1, 0, 1], position, velocity: [], demand: [], following_error: [], statusword: [] }] }) as unknown as CaptureWithRows;
+    const capture = (position: number[]) => ({ columns: [{ axis: 'a', unit: 'mm', seconds: [-1, 0, 1], position, velocity: [], demand: [], following_error: [], statusword: [0x27, 0x27, 0x27] }] }) as unknown as CaptureWithRows;
     const d = joined([...captureParts(capture([1, 2, 3]), ['position']), ...captureParts(capture([4, 5, 6]), ['position'])]);
     expect(d).toEqual({ at: [-1, 0, 1], columns: [[1, 2, 3], [4, 5, 6]] });
   });

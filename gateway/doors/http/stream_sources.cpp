@@ -35,10 +35,10 @@ bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept {
            a.profile_velocity == b.profile_velocity && a.profile_acceleration == b.profile_acceleration &&
            a.profile_deceleration == b.profile_deceleration && a.target_velocity == b.target_velocity &&
            a.homing_method == b.homing_method && a.setpoints_accepted == b.setpoints_accepted && a.fail_safe_cause == b.fail_safe_cause &&
-           a.stop_latch == b.stop_latch && a.authority == b.authority && a.authority_until == b.authority_until &&
-           a.authority_holder == b.authority_holder && a.streaming == b.streaming && a.set_points == b.set_points &&
-           a.set_points_refused == b.set_points_refused && a.set_point_refusal == b.set_point_refusal && a.presence == b.presence &&
-           a.ever_seen == b.ever_seen && a.demand_source == b.demand_source;
+           a.stop_latch == b.stop_latch && a.stop_latch_by == b.stop_latch_by && a.authority == b.authority &&
+           a.authority_until == b.authority_until && a.authority_holder == b.authority_holder && a.streaming == b.streaming &&
+           a.set_points == b.set_points && a.set_points_refused == b.set_points_refused && a.set_point_refusal == b.set_point_refusal &&
+           a.presence == b.presence && a.ever_seen == b.ever_seen && a.demand_source == b.demand_source;
 }
 
 void StreamSources::take_site(std::shared_ptr<const SiteState> site) {

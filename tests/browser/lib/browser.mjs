@@ -10,6 +10,9 @@ import { chromium } from 'playwright-core';
 export const artefacts = fileURLToPath(new URL('../../../build/browser', import.meta.url));
 mkdirSync(artefacts, { recursive: true });
 
+/** How long a page, or somebody else, may take on a slow machine under load. A test that is about a time has a limit of its own. */
+const patience_ms = 30_000;
+
 const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium-headless-shell', args: flags });
@@ -18,7 +21,7 @@ export const launch = () => chromium.launch({ executablePath: process.env.CHROMI
 export async function open(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, reducedMotion: 'reduce', ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(10_000);
+  page.setDefaultTimeout(patience_ms);
   const faults = [];
   const host = new URL(url).host;
   let lossExpected = false;
@@ -64,7 +67,7 @@ export function tileOf(page, axis) {
 }
 
 /** Waits until the condition holds; says what it was at the end if it never does. */
-export async function until(what, condition, limit_ms = 10_000) {
+export async function until(what, condition, limit_ms = patience_ms) {
   const end = Date.now() + limit_ms;
   let last;
   for (;;) {

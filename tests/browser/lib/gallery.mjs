@@ -1,12 +1,16 @@
 // Gallery: every part of the page as one kind of device shows it, in light and dark: pictures for people, axe-core's verdict, and whether anything
-// is cut off or lies upon another. In: the device and its widths. Out: tests; pictures under build/browser, part-NAME-WIDTH-SCHEME.png.
+// is cut off or lies upon another. In: the device and its widths, and which half of the parts: a file of tests for each half, so that none is long on a
+// slow machine. Out: tests; pictures under build/browser, part-NAME-WIDTH-SCHEME.png.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, look, open } from './browser.mjs';
 import { arrived, furnish, parts } from './parts.mjs';
 import { Program } from './program.mjs';
 
-export function gallery({ widths, device }) {
+const half = Math.ceil(parts.length / 2);
+export const halves = { first: parts.slice(0, half), second: parts.slice(half) };
+
+export function gallery({ widths, device }, some) {
   let program, browser;
   before(async () => {
     program = await Program.start();
@@ -17,7 +21,7 @@ export function gallery({ widths, device }) {
     await browser?.close();
     await program?.end();
   });
-  for (const part of parts) {
+  for (const part of some) {
     test(`${part.name} at ${widths.join(', ')} px, in light and dark: axe-core finds nothing serious, nothing is cut off; pictures`, async () => {
       const page = await open(browser, program.url + part.path, { ...device, bypassCSP: true });
       await arrived(page, part);

@@ -1,4 +1,7 @@
 // Handlers with a made-up Gateway: the program itself, catalogue, axes' documents, commands, the live feed's handshake.
+#include <algorithm>
+
+#include "gateway/core/text.hpp"
 #include "gateway/services/documents.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -211,6 +214,31 @@ TEST(HttpDocuments, StatesAndModes) {
     EXPECT_EQ(mode_name(3), "profile_velocity");
     EXPECT_EQ(mode_name(6), "homing");
     EXPECT_EQ(mode_name(-1), "other");
+}
+
+TEST(HttpDocuments, ALatchedStopNamesItsClientAndWhatMovesTheAxisAgain) {
+    FakeGateway gateway;
+    const auto place = axis_at(gateway, gateway.site(), 0);
+    AxisPicture p;
+    const auto said = [&] {
+        const auto o = axis_document({place.spec(), "", "", nullptr, p});
+        return std::pair{json_text(o.at("stop_latch_by")), json_text(o.at("stop_latch_text"))};
+    };
+    const auto begins = [](const std::string& text, std::string_view with) { return text.starts_with("\"" + std::string(with) + ": "); };
+    EXPECT_EQ(said(), (std::pair<std::string, std::string>{"null", "null"}));
+    p.stop_latch = 0b101;
+    EXPECT_TRUE(begins(said().second, "another client has stopped it")) << "of a recording that did not keep the name";
+    constexpr std::string_view who = "modbus 192.0.2.7";
+    std::ranges::copy(who, p.stop_latch_by.begin());
+    EXPECT_EQ(said().first, "\"modbus 192.0.2.7\"");
+    EXPECT_TRUE(begins(said().second, "modbus 192.0.2.7 has stopped it")) << said().second;
+    p.stop_latch_by = {};
+    p.stop_latch = 0b011;
+    EXPECT_TRUE(begins(said().second, "the gateway has stopped it")) << said().second;
+    p.fail_safe_cause = static_cast<std::uint16_t>(LossCause::modbus_silent);
+    EXPECT_TRUE(begins(said().second, "the gateway (modbus_silent) has stopped it")) << said().second;
+    p.stop_latch = 0b1001;
+    EXPECT_NE(said().second.find("give the input back, then enable the axis"), std::string::npos) << said().second;
 }
 
 // --- commands ---------------------------------------------------------------------------------------------------------

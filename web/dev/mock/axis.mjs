@@ -190,7 +190,7 @@ export class MockAxis {
       referenced: this.referenced,
       fault: this.faultCode !== 0,
       warning: false,
-      internal_limit: false, fail_safe_cause: null, stop_latch: 0, stop_latch_text: null,
+      internal_limit: false, fail_safe_cause: null, stop_latch: 0, stop_latch_by: null, stop_latch_text: null,
       position: online || this.setpoints > 0 ? unit(this.position) : null,
       demand_known: demand !== null,
       demand_source: source,

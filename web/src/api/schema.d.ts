@@ -3066,6 +3066,8 @@ export interface components {
             readonly fail_safe_cause: "modbus_closed" | "modbus_silent" | "set_points_silent" | "lease_ended" | "enip_closed" | "enip_timed_out" | "enip_idle" | "line_lost" | "gateway_ends" | "dds_deadline" | "enip_session_closed" | "enip_silent" | "motion_unowned" | null;
             /** @description register 23: bit 0 latched, 1 by a fail-safe or a limit, 2 by another client, 3 by a safe input. While it is latched, words that a controller merely repeats do not move the axis */
             readonly stop_latch: number;
+            /** @description the client whose stop is latched, as `last_commander` names it; null - it is none of a client, or nothing is latched */
+            readonly stop_latch_by: string | null;
             /** @description who has stopped the axis and what moves it again; null - it is not latched */
             readonly stop_latch_text: string | null;
             /** @description in `unit`; null until the drive has said it */

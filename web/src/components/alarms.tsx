@@ -68,7 +68,7 @@ export function AlarmSection() {
         {list === null ? (
           <Empty text={t('Waiting for the gateway.')} />
         ) : all.length === 0 ? (
-          <Empty text={t('No alarm. Everything that was is acknowledged.')} />
+          <Empty text={store.connected.value ? t('No alarm. Everything that was is acknowledged.') : t('Not connected: what is wrong now is not known.')} />
         ) : (
           <ul aria-label={t('Alarms')}>
             {all.map((a) => (

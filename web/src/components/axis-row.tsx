@@ -123,8 +123,10 @@ function Row({ name, of }: { name: string; of: ReadonlySignal<AxisEntry> }) {
         <StatePills entry={entry} />
       </td>
       <td class="row-notice" role="cell">
-        <Notice entry={entry} />
-        <ResultLine axis={name} id={resultId(name)} />
+        <div class="row-said" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name })}>
+          <Notice entry={entry} />
+          <ResultLine axis={name} id={resultId(name)} />
+        </div>
       </td>
       <td class="row-stop" role="cell">
         <StopButton axis={name} urgent={moving} />

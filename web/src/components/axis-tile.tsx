@@ -29,18 +29,19 @@ export function lastKnownText(store: ReturnType<typeof useGateway>['store']): st
   return duration(tick.value - c.lastLiveAt);
 }
 
-export function Notice({ entry }: { entry: EntrySignal }) {
-  const { store } = useGateway();
+/** `whole`: with what a title says more. */
+export function Notice({ entry, whole = false }: { entry: EntrySignal; whole?: boolean }) {
+  const { store, tab } = useGateway();
   const word = useWord(() => {
     const axis = entry.value.data;
     const trust = store.trustOf(entry.value);
     const why = trust === 'offline' ? offlineReason(axis, store.drive(axis.drive)?.value.data, store.alarms.value?.alarms ?? []) : '';
-    return noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownText(store) || t('some time') : '');
+    return noticeOf(axis, trust, why, trust === 'disconnected' ? lastKnownText(store) || t('some time') : '', tab.name.value);
   });
   return (
     <p class={`notice tone-${word.tone}`} title={word.long} data-field="notice">
       <Icon name={word.icon} size={14} />
-      <span>{word.text}</span>
+      <span>{whole && word.long.startsWith(word.text) ? word.long : word.text}</span>
     </p>
   );
 }
@@ -131,7 +132,7 @@ function Tile({ name, of, bare, selectable }: { name: string; of: EntrySignal; b
       </div>
       <StatePills entry={entry} />
       <Steady entry={entry} bare={bare} />
-      <footer class="tile-foot">
+      <footer class="tile-foot" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name })}>
         <Notice entry={entry} />
         <TileHolder entry={entry} />
         <ResultLine axis={name} id={resultId(name)} />

@@ -1,5 +1,5 @@
-// What is wrong: a compact list at the top of the overview, each entry a link to where it can be mended. In: the store. Out: a list, or nothing.
-// Old values are no news: without a connection the strip says what there is to say. What there is no room for is one press away, never only counted.
+// What is wrong: a place of fixed height at the top of the overview, each entry a link to where it can be mended. In: the store. Out: a list, or that
+// nothing is wrong. It is always there, so that an alarm moves no stop; what it has no room for is scrolled to.
 import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { gatewayText, t } from '../language';
@@ -7,8 +7,8 @@ import { withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
 import { errorsNow, type ErrorEntry } from '../text/errors';
 import { Icon } from './icon';
+import { Empty } from './lines';
 import { AxisName, SimulatedMark } from './name';
-import { Section } from './section';
 
 const most = 12;
 const mostAxes = 8;
@@ -16,46 +16,53 @@ const mostAxes = 8;
 export function ErrorList() {
   const { store } = useGateway();
   const whole = useSignal(false);
-  if (!store.connected.value || !store.listed.value) return null;
+  const known = store.connected.value && store.listed.value;
   const alarms = store.alarms.value;
-  const all = errorsNow(
-    store.axisNames.value.flatMap((n) => store.axis(n)?.value.data ?? []),
-    store.lineNames.value.flatMap((n) => store.line(n)?.value.data ?? []),
-    store.driveNames.value.flatMap((n) => store.drive(n)?.value.data ?? []),
-    alarms?.unacknowledged ?? 0,
-    alarms?.alarms ?? [],
-  );
-  if (all.length === 0) return null;
+  const all = known
+    ? errorsNow(
+        store.axisNames.value.flatMap((n) => store.axis(n)?.value.data ?? []),
+        store.lineNames.value.flatMap((n) => store.line(n)?.value.data ?? []),
+        store.driveNames.value.flatMap((n) => store.drive(n)?.value.data ?? []),
+        alarms?.unacknowledged ?? 0,
+        alarms?.alarms ?? [],
+      )
+    : [];
   const shown = whole.value ? all : all.slice(0, most);
   return (
-    <Section title={t('What is wrong')} class="wrong">
-      <ul class="card" aria-label={t('What is wrong')} data-field="wrong">
-        {shown.map((w) => (
-          <li key={w.key}>
-            <a class={`wrong-item tone-${w.word.tone}`} href={w.path} data-wrong={w.key}>
-              <span class="wrong-word">
-                <Icon name={w.word.icon} size={14} /> {w.word.text}
-              </span>
-              {w.about && (
-                <b>
-                  {w.about}
-                  <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
-                </b>
-              )}
-              <span class="wrong-text" {...gatewayText}>{plain(withoutSubject(w.text, w.about))}</span>
-            </a>
-            {w.axes.length > 0 && <ErrorAxes of={w} />}
-          </li>
-        ))}
-        {all.length > most && (
-          <li class="wrong-item">
-            <button type="button" class="link" aria-expanded={whole.value} data-field="wrong-more" onClick={() => (whole.value = !whole.value)}>
-              {whole.value ? t('Show less') : t('and {n} more', { n: all.length - most })}
-            </button>
-          </li>
+    <section class="wrong" aria-label={t('What is wrong')}>
+      <div class="card">
+        {all.length === 0 ? (
+          <Empty text={known ? t('Nothing is wrong.') : t('Not connected: what is wrong now is not known.')} />
+        ) : (
+          <ul aria-label={t('What is wrong')} data-field="wrong">
+            {shown.map((w) => (
+              <li key={w.key}>
+                <a class={`wrong-item tone-${w.word.tone}`} href={w.path} data-wrong={w.key}>
+                  <span class="wrong-word">
+                    <Icon name={w.word.icon} size={14} /> {w.word.text}
+                  </span>
+                  {w.about && (
+                    <b>
+                      {w.about}
+                      <SimulatedMark of={w.about} kind={w.path.startsWith('/axes/') ? 'axis' : 'drive'} lead=" " />
+                    </b>
+                  )}
+                  <span class="wrong-text" {...gatewayText}>{plain(withoutSubject(w.text, w.about))}</span>
+                </a>
+                {w.axes.length > 0 && <ErrorAxes of={w} />}
+              </li>
+            ))}
+            {all.length > most && (
+              <li class="wrong-item">
+                <button type="button" class="link" aria-expanded={whole.value} data-field="wrong-more" onClick={() => (whole.value = !whole.value)}>
+                  {whole.value ? t('Show less') : t('and {n} more', { n: all.length - most })}
+                </button>
+              </li>
+            )}
+          </ul>
         )}
-      </ul>
-    </Section>
+      </div>
+    </section>
   );
 }
 

@@ -6,7 +6,7 @@ import { useSignal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal, type Step } from '../api/fail-safe';
 import { useGateway } from '../gateway';
-import { actionChoices, causeHint, causeText, cellHeads, cellRow, changed, limitsText, namedText, readWatchdog, steps, watchdogText } from '../text/fail-safe';
+import { actionChoices, causeHint, causeText, cellHeads, cellRow, changed, failSafeHint, limitsText, namedText, readWatchdog, steps, watchdogText } from '../text/fail-safe';
 import { dateTime } from '../text/time';
 import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { useBarred } from './gate';
@@ -38,7 +38,7 @@ export function FailSafe({ revision }: { revision: unknown }) {
   return (
     <Section title={t('When who commands is lost')} class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
-        {t('What the gateway does to an axis when its controller, scanner or script is gone. By default a motion without an end is halted, and a motion to a target goes on. What is chosen holds for every motion. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.')}
+        {t('What the gateway does to an axis when its controller, scanner or script is gone: {rule}. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.', { rule: failSafeHint })}
       </p>
       <Tell reported={reported.value} field="fail-safe-told" />
       {axes.map((row) => (

@@ -1,6 +1,6 @@
 // Playback: a recording at one instant: a slider over its time, the curves of its axes with that instant as cursor A, the axes as they were,
-// their registers, the frames before it in words, and what had happened. In: GET .../playback, 100 ms after the slider rests, or four times a
-// second while it plays. Out: a part of the page. Nothing in it can be commanded.
+// their registers, the frames before it in words, and what had happened. In: GET .../playback, one at a time, as the slider moves or four times a
+// second while it plays. Out: a part of the page, which says of which instant it is. Nothing in it can be commanded.
 import { t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
@@ -10,6 +10,7 @@ import { RecorderDoor } from '../api/recorder';
 import type { Playback } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { Moments } from '../state/playback';
 import { readAt } from '../state/plot';
 import { joined, trendPart } from '../state/recorder';
 import { formatNumber } from '../text/number';
@@ -19,7 +20,6 @@ import { CursorTable, Plot, PlotButtons, PlotView } from './plot';
 import { trendCurves } from './recorder-trends';
 import { Section } from './section';
 
-const rest_ms = 100;
 const step_ms = 250;
 interface FrameRow {
   line: string;
@@ -56,30 +56,41 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
   const v = view.current;
   const reported = (error: unknown) => (fault.value = capital(asProblem(error).text));
 
+  const moments = useMemo(
+    () =>
+      new Moments<Playback>(
+        (ms) => door.playback(name, { at_ms: ms, frames: 40 }),
+        (doc) => {
+          fault.value = '';
+          moment.value = doc;
+        },
+        reported,
+      ),
+    [name, door],
+  );
   useEffect(() => {
     let here = true;
-    door.playback(name, { frames: 40, columns: 1500 }).then((doc) => {
+    door.playback(name, { ...(at_ms === undefined ? {} : { at_ms }), frames: 40, columns: 1500 }).then((doc) => {
       if (!here) return;
       const [from, to] = [Date.parse(doc.from) / 1000, Date.parse(doc.to) / 1000];
       v.whole.value = [from, Math.max(to, from + 0.01)];
       v.all();
-      at.value = at_ms === undefined ? to : Math.min(to, Math.max(from, at_ms / 1000));
-      moment.value = doc;
+      const first = at_ms === undefined ? to : Math.min(to, Math.max(from, at_ms / 1000));
+      moments.known(first * 1000, doc);
+      at.value = first;
       whole.value = doc;
       axis.value = doc.curves[0]?.axis ?? '';
     }, reported);
-    return () => void (here = false);
+    return () => {
+      here = false;
+      moments.end();
+    };
   }, [name, door]);
   useEffect(() => {
     const instant = at.value;
     if (instant === null || !whole.value) return;
     v.cursors[0].value = instant;
-    let here = true;
-    const timer = setTimeout(() => void door.playback(name, { at_ms: instant * 1000, frames: 40 }).then((doc) => here && (moment.value = doc), reported), playing.peek() ? 0 : rest_ms);
-    return () => {
-      here = false;
-      clearTimeout(timer);
-    };
+    moments.want(instant * 1000);
   }, [at.value]);
   // A click into the plot is an instant, too.
   useEffect(() => v.cursors[0].subscribe((instant) => void (instant !== null && whole.peek() && instant !== at.peek() && (at.value = instant))), [v]);
@@ -154,6 +165,7 @@ export function PlaybackPart({ name, at_ms, close }: { name: string; at_ms?: num
                 <CursorTable view={v} curves={curves} read={(c, instant) => readAt(drawn.at, drawn.columns[curves.indexOf(c)] ?? [], instant)} clock={(instant) => instantText(instant, 1)} />
               </div>
             )}
+            <p data-field="playback-shown">{t('Axes, registers, frames and events at {at}', { at: instantText(Date.parse(now.at) / 1000, 1) })}</p>
             <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Axes at that instant')}>
               <table class="table">
                 <thead>

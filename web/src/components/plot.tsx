@@ -334,7 +334,7 @@ export function CursorTable({ view, curves, read, clock }: { view: PlotView; cur
               {[a, b].map((instant, i) => (
                 <tr key={i}>
                   <th scope="row">{i === 0 ? 'A' : 'B'}</th>
-                  <td class="mono" data-label="Time">
+                  <td class="mono" data-label={t('Time')}>
                     {instant === null ? '–' : clock(instant)}
                   </td>
                   {curves.map((c) => (
@@ -347,7 +347,7 @@ export function CursorTable({ view, curves, read, clock }: { view: PlotView; cur
               {a !== null && b !== null && (
                 <tr>
                   <th scope="row">B − A</th>
-                  <td class="mono" data-label="Time">
+                  <td class="mono" data-label={t('Time')}>
                     {formatNumber(b - a, 3)} s
                   </td>
                   {curves.map((c) => {

@@ -1,6 +1,6 @@
 // Captures: a form that arms one, the list of those that run and are kept, and a plot of one or of several laid over each other at their
 // triggers. In: GET /recorder/captures, twice a second while one runs. Out: requests. Rows are asked for when a capture is drawn, once.
-import { midSentence, t, theirs } from '../language';
+import { t, theirs } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
@@ -14,18 +14,19 @@ import { captureParts, joined } from '../state/recorder';
 import { parseNumber, parseQuantity } from '../text/number';
 import { bytesText, captureAbout, captureWord, freeName, levelText, nameFault, pointNames, points, pointUnit, sinceText, stateNames, triggerText, type TracePoint } from '../text/recorder';
 import { dateTime } from '../text/time';
+import { DeleteButton } from './ask';
 import { Choice, quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { Pill } from './pill';
-import { CursorTable, Plot, PlotButtons, PlotView, type Curve } from './plot';
+import { CursorTable, Plot, PlotButtons, PlotView } from './plot';
+import { scaleOf, toggled, traceCurves } from './recorder-trends';
 import { RenameForm } from './rename-form';
 import { saveText } from './save';
 import { Section } from './section';
 import { refusal, tellOf } from './reported';
 
-const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-5'];
 export const mostOverlaid = 4;
 const chosenPoints = persisted('captures.points', 'position,following_error', 'browser');
 
@@ -101,6 +102,7 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   const runs = c.state === 'armed' || c.state === 'triggered';
   const unit = c.axes.find((a) => a.axis === c.trigger?.axis)?.unit ?? '';
   const csv = () => void act(async () => saveText(`${c.name}.csv`, 'text/csv', await door.captureCsv(c.name)), t('{name}.csv is saved.', { name: c.name }));
+  const remove = (done: string) => void act(() => door.remove('captures', c.name), done).then((good) => good && gone(c.name));
   return (
     <li class="row recorder-row" data-capture={c.name} data-state={c.state}>
       <Pill word={captureWord(c)} label={t('State')} />
@@ -126,15 +128,13 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
             </button>
           </>
         )}
-        <button
-          type="button"
-          class="button quiet"
-          {...no}
-          aria-label={runs ? t('Cancel {name}', { name: c.name }) : t('Delete {name}', { name: c.name })}
-          onClick={() => void act(() => door.remove('captures', c.name), runs ? t('{name} is cancelled.', { name: c.name }) : t('{name} is deleted.', { name: c.name })).then((good) => good && gone(c.name))}
-        >
-          {runs ? t('Cancel') : t('Delete')}
-        </button>
+        {runs ? (
+          <button type="button" class="button quiet" {...no} aria-label={t('Cancel {name}', { name: c.name })} onClick={() => remove(t('{name} is cancelled.', { name: c.name }))}>
+            {t('Cancel')}
+          </button>
+        ) : (
+          <DeleteButton name={c.name} no={no} onYes={() => remove(t('{name} is deleted.', { name: c.name }))} />
+        )}
       </span>
       {renaming.value && (
         <RenameForm
@@ -151,8 +151,6 @@ function CaptureRow({ capture: c, drawn, show, door, act, gone }: { capture: Cap
   );
 }
 
-const scaleOf = (p: TracePoint, unit: string): string => `${p === 'demand' ? 'position' : p} ${unit}`;
-
 export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) {
   const view = useRef<PlotView>(null as unknown as PlotView);
   view.current ??= new PlotView();
@@ -167,17 +165,7 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
     return [{ scale: scaleOf(trigger.point, unit), value: trigger.level ?? 0, text: levelText(trigger, unit) }];
   });
   const { data, curves } = useMemo(() => {
-    let n = 0;
-    const list: Curve[] = captures.flatMap((c) =>
-      c.columns.flatMap((a) =>
-        seen.map((p) => {
-          const ink = inks[n % inks.length] as string;
-          const round = Math.floor(n / inks.length);
-          n += 1;
-          return { id: `${c.name} ${a.axis} ${p}`, name: `${several ? `${c.name}: ` : ''}${a.axis} ${midSentence(pointNames[p])}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
-        }),
-      ),
-    );
+    const list = traceCurves(captures.flatMap((c) => c.columns.map((x) => ({ id: `${c.name} ${x.axis}`, name: `${several ? `${c.name}: ` : ''}${x.axis}`, unit: x.unit }))), seen);
     return { data: joined(captures.flatMap((c) => captureParts(c, seen))), curves: list };
   }, [key]);
   useEffect(() => {
@@ -192,7 +180,7 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
         <div class="scope-head">
           <div class="group scope-channels" role="group" aria-label={t('Points of the captures')}>
             {points.map((p) => (
-              <button key={p} type="button" class="button small" aria-pressed={seen.includes(p)} onClick={() => (chosenPoints.value = flip(seen, p))}>
+              <button key={p} type="button" class="button small" aria-pressed={seen.includes(p)} onClick={() => (chosenPoints.value = toggled(seen, p).join(',') || p)}>
                 {pointNames[p]}
               </button>
             ))}
@@ -227,8 +215,6 @@ export function Overlay({ captures }: { captures: readonly CaptureWithRows[] }) 
     </Section>
   );
 }
-const flip = (seen: readonly TracePoint[], p: TracePoint) => (seen.includes(p) ? seen.filter((x) => x !== p) : [...seen, p]).join(',') || p;
-
 function ArmForm({ first, taken, arm }: { first: string; taken: readonly string[]; arm: (wish: CaptureWish) => Promise<boolean> }) {
   const { store } = useGateway();
   const f = {

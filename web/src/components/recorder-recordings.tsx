@@ -10,6 +10,7 @@ import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { bytesText, freeName, nameFault, recordingWord } from '../text/recorder';
 import { dateTime } from '../text/time';
+import { DeleteButton } from './ask';
 import { quiet, Tell, TextField, type Reported } from './form';
 import { Gate, useBarred } from './gate';
 import { Empty } from './lines';
@@ -109,9 +110,7 @@ function RecordingRow({ recording: r, open, play, door, act }: { recording: Reco
         <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={t('Rename {name}', { name: r.name })} onClick={() => (renaming.value = !renaming.value)}>
           {t('Rename')}
         </button>
-        <button type="button" class="button quiet" {...no} aria-label={t('Delete {name}', { name: r.name })} onClick={() => void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }))}>
-          {t('Delete')}
-        </button>
+        <DeleteButton name={r.name} no={no} onYes={() => void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }))} />
       </span>
       {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), t('{name} is called {to} now.', { name: r.name, to })).then((good) => good && (renaming.value = false))} />}
     </li>

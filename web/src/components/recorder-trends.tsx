@@ -26,7 +26,7 @@ const inks = ['--series-1', '--series-2', '--series-3', '--series-4', '--series-
 const period_ms = 1_000;
 
 /** The axes of a list that are chosen by a click on one of them. */
-const toggled = (list: readonly string[], one: string) => (list.includes(one) ? list.filter((x) => x !== one) : [...list, one]);
+export const toggled = (list: readonly string[], one: string) => (list.includes(one) ? list.filter((x) => x !== one) : [...list, one]);
 
 export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: string | undefined }) {
   const { client, store } = useGateway();
@@ -192,16 +192,20 @@ export function TrendsPart({ at_ms, axis }: { at_ms: number | undefined; axis: s
   );
 }
 
-/** A curve for each point of each axis; points of one unit share a side. */
-export function trendCurves(doc: Pick<Trends, 'axes'> | null, axes: readonly string[], seen: readonly TracePoint[]): Curve[] {
-  let n = 0;
-  return axes.flatMap((a) => {
-    const unit = doc?.axes.find((x) => x.axis === a)?.unit ?? '';
-    return seen.map((p) => {
-      const ink = inks[n % inks.length] as string;
+/** Curves of points share a side where they share a unit; each has an ink, and further ones are dashed. */
+export const traceCurves = (list: readonly { id: string; name: string; unit: string }[], seen: readonly TracePoint[]): Curve[] =>
+  list.flatMap((a, i) =>
+    seen.map((p, k) => {
+      const n = i * seen.length + k;
       const round = Math.floor(n / inks.length);
-      n += 1;
-      return { id: `${a} ${p}`, name: `${a} ${midSentence(pointNames[p])}`, unit: pointUnit(p, unit), scale: `${p === 'demand' ? 'position' : p} ${unit}`, color: ink, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
-    });
-  });
-}
+      return { id: `${a.id} ${p}`, name: `${a.name} ${midSentence(pointNames[p])}`, unit: pointUnit(p, a.unit), scale: scaleOf(p, a.unit), color: inks[n % inks.length] as string, withZero: p === 'velocity' || p === 'following_error', ...(p === 'following_error' ? { least: 1e-3 } : {}), ...(round > 0 ? { dash: [6, 3 * round] } : {}) };
+    }),
+  );
+export const scaleOf = (p: TracePoint, unit: string): string => `${p === 'demand' ? 'position' : p} ${unit}`;
+
+/** A curve for each point of each axis. */
+export const trendCurves = (doc: Pick<Trends, 'axes'> | null, axes: readonly string[], seen: readonly TracePoint[]): Curve[] =>
+  traceCurves(
+    axes.map((a) => ({ id: a, name: a, unit: doc?.axes.find((x) => x.axis === a)?.unit ?? '' })),
+    seen,
+  );

@@ -13,6 +13,7 @@ import { emptied, persisted } from '../state/persisted';
 import { steppedText, unitText, valueText } from '../text/parameter';
 import { foreignText, snapshotText } from '../text/snapshot';
 import { leftOut, parametersText } from '../text/transfer';
+import { DeleteButton } from './ask';
 import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
@@ -32,7 +33,6 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const comment = persisted(`snapshot.${axis}.comment`);
   const from = useSignal('device');
   const invalid = useSignal(false);
-  const removing = useSignal<number | null>(null);
   const no = useBarred('engineer');
   const live = useSignal(false);
   const titles = store.familyTitles.value;
@@ -83,9 +83,8 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
   const remove = (s: Snapshot) =>
     tell(t('Removing …'), async () => {
       await door.remove(s.n);
-      removing.value = null;
       await again();
-      return t('{name} is removed.', { name: s.name });
+      return t('{name} is deleted.', { name: s.name });
     });
 
   if (why) {
@@ -137,20 +136,7 @@ export function Snapshots({ axis, family, onList }: { axis: string; family: stri
                   <button type="button" class="button small" aria-label={t('Restore {name}', { name: s.name })} {...(no.disabled ? no : barred(other))} onClick={() => void look(s)}>
                     {t('Restore')}
                   </button>
-                  {removing.value === s.n ? (
-                    <>
-                      <button type="button" class="button small" aria-label={t('Remove for good: {name}', { name: s.name })} {...no} onClick={() => void remove(s)}>
-                        {t('Remove for good')}
-                      </button>
-                      <button type="button" class="button small quiet" onClick={() => (removing.value = null)}>
-                        {t('Keep')}
-                      </button>
-                    </>
-                  ) : (
-                    <button type="button" class="button small quiet" aria-label={t('Remove {name}', { name: s.name })} {...no} onClick={() => (removing.value = s.n)}>
-                      {t('Remove')}
-                    </button>
-                  )}
+                  <DeleteButton name={s.name} class="small quiet" no={no} onYes={() => void remove(s)} />
                 </div>
                 <p class="where">
                   {snapshotText(s, titles)}

@@ -7,6 +7,7 @@ import { t } from '../language';
 import { barred, roles, roleWord } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
+import { DeleteButton } from './ask';
 import { Choice, quiet, Tell, TextField, type Reported } from './form';
 import { refusal } from './reported';
 
@@ -23,7 +24,6 @@ export function Tokens() {
   const [tokens, setTokens] = useState<Token[] | null>(null);
   const [made, setMade] = useState<MadeToken | null>(null);
   const [reported, setReported] = useState<Reported>(quiet);
-  const [asked, setAsked] = useState('');
   const [name, setName] = useState('');
   const [role, setRole] = useState<string>('viewer');
   const [end, setEnd] = useState('2592000');
@@ -45,12 +45,10 @@ export function Tokens() {
     }
   };
   const remove = async (k: Token) => {
-    if (asked !== k.id) return setAsked(k.id);
-    setAsked('');
     try {
       await client.call(`/tokens/${encodeURIComponent(k.id)}`, { method: 'DELETE' });
       if (made?.id === k.id) setMade(null);
-      setReported({ tone: 'good', text: t('Deleted {name}.', { name: k.name }) });
+      setReported({ tone: 'good', text: t('{name} is deleted.', { name: k.name }) });
       await list();
     } catch (error) {
       setReported(refusal(error));
@@ -79,9 +77,7 @@ export function Tokens() {
               </span>
             </span>
             <span class="access-acts">
-              <button type="button" class="button" aria-label={asked === k.id ? t('Really delete token {name}', { name: k.name }) : t('Delete token {name}', { name: k.name })} onClick={() => void remove(k)} onBlur={() => setAsked('')}>
-                {asked === k.id ? t('Really delete') : t('Delete')}
-              </button>
+              <DeleteButton name={k.name} class="" onYes={() => void remove(k)} />
             </span>
           </li>
         ))}

@@ -1,5 +1,5 @@
 // User list: who can sign in, with role; for administrators. In: GET /users. Out: added, changed, disabled and deleted users.
-// A deletion is asked twice, a role is chosen and then saved: an arrow key on the choice alone changes nobody's rights. A password is typed by the administrator and never shown again.
+// A deletion is asked for, a role is chosen and then saved: an arrow key on the choice alone changes nobody's rights. A password is typed by the administrator and never shown again.
 import { useState } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Role, User } from '../api/types';
@@ -8,6 +8,7 @@ import { t } from '../language';
 import { passwordFault, roles, roleWord, userFault } from '../state/session';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
+import { DeleteButton } from './ask';
 import { Choice, quiet, Tell, TextField, type Reported } from './form';
 
 export const roleChoices = roles.map((r) => ({ value: r, text: roleWord(r) }));
@@ -16,7 +17,6 @@ export function UserList() {
   const { client, session } = useGateway();
   const [users, setUsers] = useState<User[] | null>(null);
   const [reported, setReported] = useState<Reported>(quiet);
-  const [asked, setAsked] = useState('');
   const [chosen, setChosen] = useState<Record<string, string>>({});
   const [renewing, setRenewing] = useState('');
   const [name, setName] = useState('');
@@ -45,11 +45,6 @@ export function UserList() {
   const patch = (n: string, text: string, body: object) => act(text, () => client.call(at(n), { method: 'PATCH', body }));
   const saveRole = async (n: string, to: string) => {
     if (await patch(n, t('Role of {name}: {role}', { name: n, role: roleWord(to as Role) }), { role: to })) setChosen(({ [n]: _, ...rest }) => rest);
-  };
-  const remove = (n: string) => {
-    if (asked !== n) return setAsked(n);
-    setAsked('');
-    void act(t('Delete {name}', { name: n }), () => client.call(at(n), { method: 'DELETE' }));
   };
   const renew = async (n: string) => {
     if (renewing !== n) {
@@ -106,9 +101,7 @@ export function UserList() {
               <button type="button" class="button" aria-label={renewing === u.name ? t('Set the password of {name}', { name: u.name }) : t('Give {name} a new password', { name: u.name })} onClick={() => void renew(u.name)}>
                 {renewing === u.name ? t('Set password') : t('New password')}
               </button>
-              <button type="button" class="button" aria-label={asked === u.name ? t('Really delete {name}', { name: u.name }) : t('Delete {name}', { name: u.name })} onClick={() => remove(u.name)} onBlur={() => setAsked('')}>
-                {asked === u.name ? t('Really delete') : t('Delete')}
-              </button>
+              <DeleteButton name={u.name} class="" onYes={() => void act(t('Delete {name}', { name: u.name }), () => client.call(at(u.name), { method: 'DELETE' }))} />
             </span>
           </li>
         ))}

@@ -80,8 +80,10 @@ export function AxisPage({ name, tab }: { name: string; tab: AxisTab }) {
             <div class="axis-state card" data-condition={trust} data-presence={axis.presence}>
               <Readout entry={entry} large />
               <StatePills entry={entry} />
-              <Notice entry={entry} />
-              <ErrorHelp axis={name} code={axis.fault || axis.warning ? axis.error.code : 0} />
+              <div class="axis-said" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name })}>
+                <Notice entry={entry} whole />
+                <ErrorHelp axis={name} code={axis.fault || axis.warning ? axis.error.code : 0} />
+              </div>
               <AuthorityBar entry={entry.value} />
               <Controls axis={axis} />
             </div>

@@ -2,6 +2,7 @@
 // In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
 import { gatewayText, t } from '../language';
 import { marked } from '../components/marked';
+import { DeleteButton } from '../components/ask';
 import { Gate, useBarred, Why } from '../components/gate';
 import { useSignal, type Signal } from '@preact/signals';
 import { useEffect, useMemo } from 'preact/hooks';
@@ -172,12 +173,7 @@ export function RecipePage({ name }: { name: string }) {
     stored.value = now ? text.peek() : '';
     result.value = { tone: 'none', text: t('In view is what the gateway has now.') };
   };
-  const sure = useSignal(false);
   const remove = async () => {
-    if (!sure.peek() && clash.peek()?.act !== 'remove') {
-      sure.value = true;
-      return;
-    }
     const outcome = file.there ? await file.remove() : ({ good: true } as const);
     if (outcome.good) return go('/recipes');
     clash.value = outcome.clash ? { ...outcome.clash, act: 'remove' } : null;
@@ -235,9 +231,7 @@ export function RecipePage({ name }: { name: string }) {
               <button type="button" class="button primary" disabled={!unsaved || textFault.value !== '' || clash.value !== null} {...no} onClick={() => void save()}>
                 {t('Save')}
               </button>
-              <button type="button" class="button" {...no} onClick={() => void remove()} onBlur={() => (sure.value = false)}>
-                {sure.value ? t('Delete: sure?') : t('Delete')}
-              </button>
+              <DeleteButton name={name} class="" no={no} onYes={() => void remove()} />
             </div>
           </Gate>
           <p class={`result result-${result.value.tone}`} role="status">

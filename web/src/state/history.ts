@@ -34,7 +34,7 @@ const empty = (): HistoryColumns => ({ at: [], position: [], velocity: [], targe
 const known = (v: number): number | null => (Number.isNaN(v) ? null : v);
 const orNaN = (v: number | null | undefined): number => v ?? NaN;
 /** What is drawn as a line between two samples. */
-const lines = ['position', 'demand', 'error'] as const;
+const lines = ['position', 'demand', 'error', 'velocity'] as const;
 const differ = (a: HistorySample, b: HistorySample): boolean => lines.some((c) => (a[c] ?? null) !== (b[c] ?? null));
 
 export class AxisHistory {
@@ -104,46 +104,55 @@ export class AxisHistory {
   }
 
   /**
-   * The same, for a plot that is `width` points wide: where many samples fall on one point, the least and the greatest of them are given,
-   * in the order in which they came, so that no peak is lost. At most 2 * width + 1 rows, whatever the number of samples.
+   * The same, for a plot that is `width` points wide: where many samples fall on one point, the first, the least, the greatest and the last of
+   * them are given, the two in the middle in the order in which they came: no peak is lost, and what held at the end goes on. Of two points
+   * together, so at most 2 * width + 4 rows whatever the number of samples.
    */
   seen(from_ms: number, to_ms: number, width: number): HistoryColumns {
     const begin = Math.max(0, this.lowerBound(from_ms) - 1);
     const end = this.lowerBound(to_ms + 1e-6);
     if (end - begin <= 2 * width) return this.since(from_ms, to_ms);
     const out = empty();
-    const step = (to_ms - from_ms) / width;
+    const step = (2 * (to_ms - from_ms)) / width;
     let i = begin;
     while (i < end) {
       const first = i;
       const limit = from_ms + (Math.floor(((this.at_ms[this.place(i)] as number) - from_ms) / step) + 1) * step;
       while (i < end && (this.at_ms[this.place(i)] as number) < limit) i += 1;
       if (i === first) i += 1; // a sample that lies on the limit by rounding
-      const last = i - 1;
-      out.at.push((this.at_ms[this.place(first)] as number) / 1000);
-      out.source.push(this.sourceAt(this.place(first)));
-      if (last > first) {
-        out.at.push((this.at_ms[this.place(last)] as number) / 1000);
-        out.source.push(this.sourceAt(this.place(last)));
-      }
-      columns.forEach((c, n) => {
-        const v = this.values[n] as Float64Array;
-        let low = NaN;
-        let high = NaN;
-        let lowAt = 0;
-        let highAt = 0;
-        for (let j = first; j <= last; j += 1) {
-          const x = v[this.place(j)] as number;
-          if (Number.isNaN(x)) continue;
-          if (!(x >= low)) [low, lowAt] = [x, j];
-          if (!(x <= high)) [high, highAt] = [x, j];
-        }
-        const [a, b] = lowAt <= highAt ? [low, high] : [high, low];
-        out[c].push(known(a));
-        if (last > first) out[c].push(known(b));
-      });
+      this.condensed(out, first, i);
     }
     return out;
+  }
+
+  /** At most four rows for the samples from `first` to before `end`. */
+  private condensed(out: HistoryColumns, first: number, end: number): void {
+    const last = end - 1;
+    const rows = Math.min(4, end - first);
+    const [begin_ms, end_ms] = [this.at_ms[this.place(first)] as number, this.at_ms[this.place(last)] as number];
+    for (let r = 0; r < rows; r += 1) {
+      out.at.push((rows === 1 ? begin_ms : begin_ms + ((end_ms - begin_ms) * r) / (rows - 1)) / 1000);
+      out.source.push(this.sourceAt(this.place(r === 0 ? first : last)));
+    }
+    columns.forEach((c, n) => {
+      const v = this.values[n] as Float64Array;
+      if (rows < 4) {
+        for (let j = first; j < end; j += 1) out[c].push(known(v[this.place(j)] as number));
+        return;
+      }
+      let low = NaN;
+      let high = NaN;
+      let lowAt = 0;
+      let highAt = 0;
+      for (let j = first; j < end; j += 1) {
+        const x = v[this.place(j)] as number;
+        if (Number.isNaN(x)) continue;
+        if (!(x >= low)) [low, lowAt] = [x, j];
+        if (!(x <= high)) [high, highAt] = [x, j];
+      }
+      const middle = lowAt <= highAt ? [low, high] : [high, low];
+      out[c].push(...[v[this.place(first)] as number, ...middle, v[this.place(last)] as number].map(known));
+    });
   }
 
   /** Number of samples before that time. */

@@ -41,12 +41,17 @@ export function handOverChoices(held: readonly { door: string; holder: string }[
  * nothing about who holds the axis now.
  */
 export function commandedText(door: string, who: string, tab = ''): string {
-  const [first = '', ...rest] = who.split(' ');
-  const by = (who === '' ? (door === 'none' ? '' : door) : first).replace('_', '/');
+  const by = clientText(who || door, tab);
+  return by === 'none' || by === '' ? t('nobody has commanded it') : t('last commanded by {by}', { by });
+}
+
+/** A client as the gateway writes it, "http anna page-1a2b3c", to people; a door alone, where it names nobody. */
+export function clientText(who: string, tab = ''): string {
+  const [door = '', ...rest] = who.split(' ');
   const client = rest.join(' ');
-  if (by === '') return t('nobody has commanded it');
-  if (tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return t('last commanded by this page');
-  return client === '' ? t('last commanded by {by}', { by }) : t('last commanded by {holder} ({by})', { holder: holderName(client), by });
+  const by = door.replace('_', '/');
+  if (tab !== '' && (client === tab || client.endsWith(` ${tab}`))) return t('this page');
+  return client === '' ? by : `${holderName(client)} (${by})`;
 }
 
 export function heldText(h: Held): string {

@@ -3,6 +3,8 @@
 import { midSentence, t } from '../language';
 import type { Axis, AxisStateName } from '../api/types';
 import type { Trust } from '../state/store';
+import { clientText } from './authority';
+import { causeText } from './fail-safe';
 import { decimalsOf, formatNumber } from './number';
 import type { IconName } from '../components/icon';
 
@@ -37,7 +39,7 @@ export function stateWord(axis: Pick<Axis, 'state'>, trust: Trust): Word {
   return states[axis.state];
 }
 
-export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'target_reached'>, trust: Trust): Word {
+export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'target_reached' | 'state' | 'fault'>, trust: Trust): Word {
   if (trust === 'disconnected') return { text: t('Not live'), icon: 'unplugged', tone: 'muted', long: t('Whether it moves now is not known') };
   if (trust === 'offline') return { text: t('Not known'), icon: 'circle-dashed', tone: 'muted', long: t('Whether it moves is not known') };
   if (trust === 'stale') return { text: t('Stale'), icon: 'clock', tone: 'warning', long: t('The last data is too old to be trusted') };
@@ -46,7 +48,8 @@ export function motionWord(axis: Pick<Axis, 'moving' | 'velocity' | 'mode' | 'ta
     const homing = axis.mode === 'homing';
     return { text: homing ? t('Homing') : t('Moving'), icon: back ? 'arrow-left' : 'arrow-right', tone: 'active', long: homing ? t('Homing') : back ? t('Moving, negative') : t('Moving, positive') };
   }
-  if (axis.target_reached) return { text: t('In position'), icon: 'target', tone: 'good', long: t('Target reached') };
+  // A drive in fault may say that it has reached its target; where it stands was nobody's order.
+  if (axis.target_reached && !axis.fault && !/^fault/.test(axis.state)) return { text: t('In position'), icon: 'target', tone: 'good', long: t('Target reached') };
   return { text: t('At rest'), icon: 'pause', tone: 'neutral', long: t('At rest, not at a target') };
 }
 
@@ -79,8 +82,19 @@ export function setPositionText(axis: Axis, position: number): string {
   return t('The axis stands where it is; its position is {old} now and will be called {position} {unit}. Targets, limits and what other machines read count from the new zero. Set it?', { old, position: formatNumber(position, decimalsOf(axis.increments_per_unit)), unit });
 }
 
+/** Whose stop is latched and what a person does to move the axis again; behind it what a controller has to do. Nothing: none is latched. */
+export function latchOf(axis: Pick<Axis, 'stop_latch' | 'stop_latch_by' | 'fail_safe_cause'>, tab = ''): Pick<Word, 'text' | 'long'> | null {
+  const { stop_latch: bits, stop_latch_by: by, fail_safe_cause: cause } = axis;
+  if (!(bits & latch.latched)) return null;
+  const who = bits & latch.byClient ? clientText(by ?? '', tab) || t('another client') : cause ? t('the gateway ({cause})', { cause: midSentence(causeText(cause)) }) : t('the gateway');
+  const text = bits & latch.bySafeInput ? t('Stopped by a safe input. Give the input back, then enable the axis.') : t('Stopped by {who}. Enable it and order a new motion.', { who });
+  return { text, long: `${text} ${t('A controller that repeats its words does not move it: it has to change them.')}` };
+}
+/** Register 23. */
+const latch = { latched: 1, byClient: 4, bySafeInput: 8 };
+
 /** The one thing about the axis that a person must know now. */
-export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown: string): Word {
+export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown: string, tab = ''): Word {
   if (trust === 'disconnected') {
     return { text: t('Not live: last known {lastKnown} ago', { lastKnown }), icon: 'unplugged', tone: 'warning', long: t('The connection to the gateway is lost') };
   }
@@ -88,11 +102,13 @@ export function noticeOf(axis: Axis, trust: Trust, driveText: string, lastKnown:
     const why = driveText || t('nobody answers');
     return { text: t('Offline: {why}', { why }), icon: 'unplugged', tone: 'warning', long: t('Offline: {why}', { why }) };
   }
+  const stopped = latchOf(axis, tab);
   if (axis.fault || axis.error.code !== 0) {
     const text = axis.fault ? t('Fault {code}: {n}', { code: axis.error.code, n: axis.error.text || t('the drive says no more') }) : t('Error {code}: {n}', { code: axis.error.code, n: axis.error.text || t('the drive says no more') });
-    return { text, icon: 'triangle', tone: axis.fault ? 'fault' : 'warning', long: text };
+    return { text, icon: 'triangle', tone: axis.fault ? 'fault' : 'warning', long: stopped ? `${text}. ${stopped.long}` : text };
   }
   if (trust === 'stale') return { text: t('Stale: the drive has not said anything new'), icon: 'clock', tone: 'warning', long: t('Stale data') };
+  if (stopped) return { ...stopped, icon: 'pause', tone: 'warning' };
   if (axis.internal_limit) return { text: t('A limit is active'), icon: 'triangle', tone: 'warning', long: t('Internal limit active') };
   if (axis.warning) return { text: t('Warning'), icon: 'triangle', tone: 'warning', long: t('The drive reports a warning') };
   if (!axis.referenced) return { text: t('No error. Not referenced'), icon: 'dot', tone: 'muted', long: t('No error. The position has no known zero: home the axis') };

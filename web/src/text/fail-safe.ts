@@ -19,6 +19,8 @@ const causes: Record<Cause, string> = {
   enip_silent: t('EtherNet/IP client silent'),
   motion_unowned: t('Motion without an order'),
 };
+export const failSafeHint = t('the default halts a velocity move and lets a move to a target end; what is chosen holds for every motion');
+export const causeNames = Object.keys(causes) as Cause[];
 const actions: Record<Action, string> = { nothing: t('Nothing'), halt: t('Halt'), quick_stop: t('Quick stop'), disable: t('Switch off') };
 
 export const steps: Record<Step, string> = { second_client: t('A second client speaks'), refused_commands: t('Commands are refused'), gateway_restart: t('The gateway restarts'), old_image: t('The controller is back with its old image') };
@@ -39,7 +41,7 @@ export function causeHint(cause: Matrix['causes'][number]): string {
 
 /** What an axis has named, in one line. */
 export function namedText(row: FailSafeRow): string {
-  const own = (Object.keys(causes) as Cause[]).flatMap((c) => {
+  const own = causeNames.flatMap((c) => {
     const action = row.fail_safe[c];
     return action ? [t('{cause}: {action}', { cause: midSentence(causeText(c)), action: midSentence(actionText(action)) })] : [];
   });

@@ -30,13 +30,14 @@ export function clockText(ahead_ms: number): string {
 export const trustOf = (g: FleetGateway, a: FleetAxis, connected: boolean): Trust => (!connected || !g.alive ? 'disconnected' : !a.online ? 'offline' : a.stale ? 'stale' : 'live');
 
 /** The members that words about an axis are made of, as an axis of this gateway has them. */
-export function asAxis(a: FleetAxis): Pick<Axis, 'state' | 'moving' | 'velocity' | 'mode' | 'target_reached' | 'presence' | 'position' | 'increments_per_unit' | 'unit'> {
+export function asAxis(a: FleetAxis): Pick<Axis, 'state' | 'moving' | 'velocity' | 'mode' | 'target_reached' | 'fault' | 'presence' | 'position' | 'increments_per_unit' | 'unit'> {
   return {
     state: a.state,
     moving: a.moving,
     velocity: a.velocity,
     mode: a.mode === 6 ? 'homing' : 'other',
     target_reached: a.target_reached,
+    fault: a.fault,
     presence: !a.online ? 'offline' : a.simulated ? 'twin' : 'device',
     position: a.age_ms === null ? null : a.position,
     increments_per_unit: a.increments_per_unit,

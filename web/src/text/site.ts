@@ -1,6 +1,7 @@
 // A site in words and forms: fields of lines, drives and axes, what was typed for them, what differs between two sites, and one person's changes put
 // on top of another's. In: documents, text. Out: entries, faults per field, differences. Pure. Members that the page does not know are kept.
-import { t } from '../language';
+import { midSentence, t } from '../language';
+import { causeNames, causeText, failSafeHint } from './fail-safe';
 import { formatExact, parseNumber, typedNumber } from './number';
 import { optionFault, optionPrefix, optionsFrom, optionTexts, type OptionSpec } from './options';
 import { presences } from './presence';
@@ -37,8 +38,6 @@ export interface FieldSpec {
 const timing = (key: string, label: string, min: number, max: number, hint: string): FieldSpec => ({ key: `timing.${key}`, label, kind: 'integer', min, max, more: true, placeholder: t("the family's"), hint });
 export const uriKinds = ['twin', 'can:can0', 'serial:/dev/ttyUSB0?baud=9600&rs485=1', 'tcp:192.0.2.10:8888', 'tcp-listen:127.0.0.1:4001', 'udp:192.0.2.10:503', 'pty:/run/axisgate/drive', 'dds'];
 
-/** The default is told once, beside the first of them. */
-const failSafeHint = t('the default halts a velocity move and lets a move to a target end; what is chosen holds for every motion');
 const failSafeActions = [
   { value: '', text: t('the default') },
   { value: 'nothing', text: t('nothing') },
@@ -82,19 +81,7 @@ export const fieldsOf: Record<Room, readonly FieldSpec[]> = {
     { key: 'position_max', label: t('Highest position'), kind: 'number', hint: t('software limit, in unit') },
     { key: 'velocity_max', label: t('Highest speed'), kind: 'number', above: 0, hint: t('in unit/s') },
     { key: 'acceleration_max', label: t('Highest acceleration'), kind: 'number', above: 0, hint: t('in unit/s²') },
-    { key: 'fail_safe.modbus_closed', label: t('When its Modbus client has closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.modbus_silent', label: t('When its Modbus client is silent'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.set_points_silent', label: t('When its streamed set-points stop'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.lease_ended', label: t('When the lease of who moves it expires'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.enip_closed', label: t('When its EtherNet/IP connection is closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.enip_timed_out', label: t('When its EtherNet/IP connection times out'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.enip_idle', label: t('When its EtherNet/IP scanner is idle'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.line_lost', label: t('When it could not be reached'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.gateway_ends', label: t('When the gateway ends'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.dds_deadline', label: t('When its DDS client misses a deadline or is gone'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.enip_session_closed', label: t('When the EtherNet/IP session of its client is closed'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.enip_silent', label: t('When its EtherNet/IP client is silent'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
-    { key: 'fail_safe.motion_unowned', label: t('When it moves without an order'), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint },
+    ...causeNames.map((c): FieldSpec => ({ key: `fail_safe.${c}`, label: t('Fail-safe: {cause}', { cause: midSentence(causeText(c)) }), kind: 'choice', more: true, choices: failSafeActions, hint: failSafeHint })),
     { key: 'fail_safe.watchdog_ms', label: t('Silent after, ms'), kind: 'integer', min: 0, max: 600000, more: true, placeholder: t('the gateway\'s'), hint: t('0: silence is not watched') },
     {
       key: 'stored_parameters',

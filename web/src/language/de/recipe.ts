@@ -32,7 +32,6 @@ export const recipe: Table = {
   'Default': 'Standard',
   'Delete it all the same': 'Trotzdem löschen',
   'Delete {title}': '{title} löschen',
-  'Delete: sure?': 'Löschen: sicher?',
   'Description': 'Beschreibung',
   'Else': 'Sonst',
   'else': 'sonst',

@@ -32,7 +32,6 @@ export const recipe: Table = {
   'Default': '默认值',
   'Delete it all the same': '仍然删除',
   'Delete {title}': '删除 {title}',
-  'Delete: sure?': '确定删除？',
   'Description': '说明',
   'Else': '否则',
   'else': '否则',

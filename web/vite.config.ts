@@ -13,6 +13,8 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     sourcemap: false,
     reportCompressedSize: false,
+    // One file but for the languages: what is packed together is smaller, and one request less is waited for.
+    rolldownOptions: { output: { codeSplitting: { groups: [{ name: 'start', test: /node_modules|src\/(?!language\/(de|zh))/ }] } } },
   },
   test: {
     include: ['tests/**/*.test.{ts,tsx}'],

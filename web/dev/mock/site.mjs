@@ -93,7 +93,7 @@ export class SiteDesk {
     const some = s && { state: s.state, id: s.id, by: s.by, client: (s.applier || s.stager) || null, staged_at: s.staged_at, base_revision: s.base };
     return {
       head: { etag: this.tag },
-      body: { ...none, ...some, revision: this.world.revision, faults: [], diff, disturbs: diff.filter((d) => d.kind !== 'added' && d.what.startsWith('axes/')).map((d) => d.what.slice(5)), confirm_by: s?.confirm_by ? new Date(s.confirm_by / 1e6).toISOString() : null },
+      body: { ...none, ...some, revision: this.world.revision, faults: [], diff, disturbs: diff.filter((d) => d.kind !== 'added' && d.what.startsWith('axes/')).map((d) => d.what.slice(5)), closes: [], confirm_by: s?.confirm_by ? new Date(s.confirm_by / 1e6).toISOString() : null },
     };
   }
 

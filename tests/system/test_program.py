@@ -214,15 +214,6 @@ def test_second_gateway_on_the_same_data_is_refused(folder):
         assert code == 1 and str(folder / "data") in err, err
 
 
-def test_taken_port_is_said(folder):
-    with socket.socket() as s:
-        s.bind(("127.0.0.1", 0))
-        s.listen()
-        port = s.getsockname()[1]
-        code, _, err = run("serve", "--data", str(folder / "d"), "--set", f"modbus.bind=127.0.0.1:{port}", "--set", "http.bind=off")
-        assert code == 1 and str(port) in err, err
-
-
 def test_backup_and_restore(folder):
     copy = folder / "copy.tar"
     with Gateway(folder) as g:

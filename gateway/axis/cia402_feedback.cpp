@@ -130,11 +130,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         settle(s);
     } else if (std::holds_alternative<Home>(order)) {
         s.homing_refused = !good;
-        if (good) {
-            s.ordered_velocity = 0;  // it does not turn at that speed any more: the same speed is an order again
-        } else if (s.mode == mode_homing && s.ordered_velocity != 0) {
-            s.mode = mode_profile_velocity;  // it turns on as it did, and the next speed of its client counts
-        }
+        if (good) s.ordered_velocity = 0;  // it does not turn at that speed any more: the same speed is an order again
     } else if (std::holds_alternative<SetPosition>(order)) {
         if (good) s.active.reset();  // its target was a place by the old count
     } else if (const auto* m = std::get_if<Move>(&order)) {

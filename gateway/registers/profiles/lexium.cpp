@@ -120,8 +120,10 @@ void LexiumMap::instruct(const Written& w, Meaning meaning, WritePlan& plan) {
             return give(move(Move::Kind::relative, n));
         case Meaning::move_velocity:
             // It turns at this speed already; an axis behind that cannot take it on the way would stop and start for each write.
-            if (n != 0 && n == turns_at_ && flag(0, flag_moving)) return;
+            // It may be a while until an axis that was told so is seen to move.
+            if (n != 0 && n == turns_at_ && (flag(0, flag_moving) || now() - turned_at_ < std::chrono::seconds(1))) return;
             turns_at_ = n;
+            turned_at_ = now();
             return n == 0 ? give(Halt{}) : give(move(Move::Kind::velocity, n));
         case Meaning::home: {
             constexpr std::array<std::int16_t, 4> methods{21, 22, 19, 20};

@@ -59,6 +59,7 @@ private:
     std::vector<std::uint32_t> values_;                                       // by row, of what is kept
     std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // rows
     double run_ = 0;                                                          // SL as it was written last
+    Instant turned_at_{};                                                     // when that was ordered
     double turns_at_ = 0;  // the speed of the last SL, if no other motion was ordered behind it
     int error_ = 0;
     std::vector<Written> acting_;  // of the write that is looked at; kept, so that nothing is allocated for it

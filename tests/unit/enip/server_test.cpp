@@ -25,6 +25,7 @@ struct Sockets {
         site.axis_ids = {one};
         site.site.axes.resize(1);
         site.site.axes[0].name = "feeder";
+        site.site.axes[0].number = 1;
         put_site();
         const std::string at = server.addresses().at(0);
         number = static_cast<std::uint16_t>(std::stoi(at.substr(at.rfind(':') + 1)));

@@ -2,7 +2,15 @@
 /// <reference types="vitest/config" />
 import { defineConfig } from 'vite';
 
+/** The languages are all that is loaded later, and they bring nothing that could be asked for beforehand. */
+const nothingToPreload = {
+  name: 'nothing-to-preload',
+  enforce: 'pre' as const,
+  load: (id: string) => (id === '\0vite/preload-helper.js' ? 'export const __vitePreload = (load) => load();' : undefined),
+};
+
 export default defineConfig({
+  plugins: [nothingToPreload],
   oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   build: {
     target: 'es2023',
@@ -10,11 +18,10 @@ export default defineConfig({
     outDir: 'dist',
     emptyOutDir: true,
     assetsInlineLimit: 0, // data: addresses are not allowed by the content security policy
-    modulePreload: { polyfill: false },
+    modulePreload: false,
+    cssCodeSplit: false,
     sourcemap: false,
     reportCompressedSize: false,
-    // One file but for the languages: what is packed together is smaller, and one request less is waited for.
-    rolldownOptions: { output: { codeSplitting: { groups: [{ name: 'start', test: /node_modules|src\/(?!language\/(de|zh))/ }] } } },
   },
   test: {
     include: ['tests/**/*.test.{ts,tsx}'],

@@ -192,7 +192,7 @@ test('a line, a drive and an axis are added by their forms and applied as one', 
   await page.getByRole('button', { name: 'Add an axis' }).click();
   const a = form('Add an axis');
   await a.getByLabel('Name').fill('extra');
-  await a.getByLabel('Drive').selectOption('extra');
+  await a.getByLabel('Drive', { exact: true }).selectOption('extra');
   await becomes('a free number is there', () => a.getByLabel('Number').inputValue(), '3');
   await a.getByRole('button', { name: 'Save to draft' }).click();
   await becomes('three differences wait', () => page.locator('[data-diff]').count(), 3);

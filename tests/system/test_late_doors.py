@@ -1,6 +1,7 @@
 """Doors whose address or interface is late, and a DDS interface that goes away: the program in a network namespace of its own.
 
 In: a pair of veth interfaces. Out: doors that wait, say so, and open when their address has come; an end within its time-out."""
+import random
 import socket
 import subprocess
 import time
@@ -57,10 +58,27 @@ def test_a_gateway_ends_while_its_dds_interface_is_down(folder):
     assert time.monotonic() - begun < 50
 
 
+def taken_port(kind):
+    """A socket that has a port for itself. Below the ports that a system gives to connections, so that none of those takes it when it is given back."""
+    for port in random.sample(range(20000, 30000), 100):
+        other = socket.socket(socket.AF_INET, socket.SOCK_DGRAM if kind == socket.SOCK_STREAM else socket.SOCK_STREAM)
+        taken = socket.socket(socket.AF_INET, kind)
+        try:
+            with other:
+                other.bind(("127.0.0.1", port))
+                taken.bind(("127.0.0.1", port))
+            if kind == socket.SOCK_STREAM:
+                taken.listen()
+            return taken
+        except OSError:
+            taken.close()
+    raise AssertionError("a hundred ports are all taken")
+
+
 def test_a_taken_port_is_waited_for_and_told(folder):
     """Each of the three doors in turn: another program has its port at the start, and gives it back."""
     for door, told, key in (("http", "the http door waits", "http.bind"), ("modbus", "the Modbus door waits", "modbus.bind"), ("enip", "the EtherNet/IP door waits", "enip.bind")):
-        with socket.create_server(("127.0.0.1", 0)) as taken:
+        with taken_port(socket.SOCK_STREAM) as taken:
             address = "127.0.0.1:%d" % taken.getsockname()[1]
             binds = {"http.bind": "127.0.0.1:0", "modbus.bind": "127.0.0.1:0", "enip.bind": "127.0.0.1:0", key: address}
             more = [x for k, v in binds.items() for x in ("--set", f"{k}={v}")]
@@ -91,8 +109,7 @@ def test_a_taken_port_is_waited_for_and_told(folder):
 
 
 def test_a_taken_udp_port_of_ethernet_ip_is_waited_for(folder):
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
-        taken.bind(("127.0.0.1", 0))
+    with taken_port(socket.SOCK_DGRAM) as taken:
         port = taken.getsockname()[1]
         with harness.Process("serve", "--data", str(folder / "data"), "--set", "http.bind=127.0.0.1:0", "--set", "modbus.bind=127.0.0.1:0", "--set", f"enip.bind=127.0.0.1:{port}") as g:
             assert "the EtherNet/IP door waits" in g.ready, g.ready

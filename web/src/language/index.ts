@@ -1,7 +1,7 @@
 // Language: which one the page speaks, and its sentences. The English text is its own key; German and Chinese are tables that are loaded only when
 // chosen, before any other module of the page runs: so a sentence may stand in a constant. A change of the language loads the page again.
 // In: the reader's choice, else the browser's languages. Out: text; the attribute lang of the document.
-import { persisted } from '../state/persisted';
+import { keep, kept } from '../state/kept'; // no signals: this module is read before the rest of the page
 
 export const languages = { en: 'English', de: 'Deutsch', zh: '中文' } as const;
 export type Language = keyof typeof languages;
@@ -12,7 +12,6 @@ const tables: Record<Exclude<Language, 'en'>, () => Promise<{ table: Table }>> =
   de: () => import('./de'),
   zh: () => import('./zh'),
 };
-const choice = persisted('language', '', 'browser');
 let spoken: Language = 'en';
 let table: Table = {};
 
@@ -24,7 +23,7 @@ export const language = (): Language => spoken;
 
 /** Loads the table; one that does not come leaves the page English. To be awaited before the rest of the page is loaded. */
 export async function startLanguage(browser: readonly string[] = globalThis.navigator?.languages ?? []): Promise<void> {
-  const wanted = languageOf(choice.value, browser);
+  const wanted = languageOf(kept('language', '', 'browser'), browser);
   if (wanted !== 'en') {
     const loaded = await tables[wanted]().catch(() => undefined);
     if (loaded) [spoken, table] = [wanted, loaded.table];
@@ -34,7 +33,7 @@ export async function startLanguage(browser: readonly string[] = globalThis.navi
 
 /** Keeps the choice in this browser and loads the page again. */
 export function chooseLanguage(l: Language): void {
-  choice.value = l;
+  keep('language', l, '', 'browser');
   location.reload();
 }
 

@@ -26,6 +26,7 @@ void Cia402Axis::forget_motion(State& s) {
     forget_velocity(s);
     s.setpoint_acknowledged = false;
     s.halted = false;
+    s.asked_velocity.reset();
     leave_stream(s);
 }
 
@@ -310,13 +311,15 @@ bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
     }
     if (s.mode == mode_profile_velocity && !s.halted && (r.current || r.fresh)) {
         const bool released = (falling & cw_halt) && r.own.velocity_forgotten == s.forgotten;
-        if ((r.data.target_velocity || released) && r.own.target_velocity != s.ordered_velocity) {
+        // A speed whose order has no answer yet is not ordered once more because its client repeats it.
+        if ((r.data.target_velocity || released) && r.own.target_velocity != s.asked_velocity.value_or(s.ordered_velocity)) {
             Move m;
             m.kind = Move::Kind::velocity;
             m.target = r.own.target_velocity;
             if (r.own.acceleration) m.acceleration = r.own.acceleration;
             if (r.own.deceleration) m.deceleration = r.own.deceleration;
             d.orders.emplace_back(m);
+            s.asked_velocity = m.target;
         }
     }
     return true;
@@ -420,6 +423,36 @@ Cia402Axis::Decision Cia402Axis::may_home(const State& s) const {
     return {};
 }
 
+/// A motion by command: what it is shown as, and what it makes forgotten. While another one runs, that waits until the drive has taken it:
+/// an order that is refused leaves the motion of another client, its mode and what waits behind it as they are.
+void Cia402Axis::ask_motion(State& s, const CommandBody& body) {
+    if (runs(s)) {
+        ++s.asked_motions;
+    } else {
+        take_motion(s, body);
+    }
+}
+
+bool Cia402Axis::runs(const State& s) noexcept {
+    return s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0 || s.following || s.active || s.buffered;
+}
+
+void Cia402Axis::take_motion(State& s, const CommandBody& body) {
+    s.buffered.reset();
+    if (const auto* home = std::get_if<Home>(&body)) {
+        s.active.reset();
+        s.mode = mode_homing;
+        s.homing_method = home->method;
+    } else if (const auto* move = std::get_if<Move>(&body); move && move->kind == Move::Kind::velocity) {
+        s.mode = mode_profile_velocity;
+        s.target_velocity = static_cast<std::int32_t>(move->target);
+    } else if (move) {
+        s.mode = mode_profile_position;
+        const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
+        s.target_position = static_cast<std::int32_t>(from + move->target);
+    }
+}
+
 Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origin& by) {
     State s = s_;
     Decision d;
@@ -468,10 +501,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
             return faulty();
         }
         if (Decision no = may_home(s); no.refused) return no;
-        s.buffered.reset();
-        s.active.reset();
-        s.mode = mode_homing;
-        s.homing_method = home->method;
+        ask_motion(s, body);
         d.orders.emplace_back(*home);
     } else if (const auto* set = std::get_if<SetPosition>(&body)) {
         if (s.buffered)
@@ -486,15 +516,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         }
         if (s.halted)
             return refuse(Reason::wrong_state, "halt (bit 8 of the control word) is set: clear it, or enable the axis again, first");
-        s.buffered.reset();
-        if (move->kind == Move::Kind::velocity) {
-            s.mode = mode_profile_velocity;
-            s.target_velocity = static_cast<std::int32_t>(move->target);
-        } else {
-            s.mode = mode_profile_position;
-            const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
-            s.target_position = static_cast<std::int32_t>(from + move->target);
-        }
+        ask_motion(s, body);
         d.orders.emplace_back(*move);
         if (move->kind == Move::Kind::velocity) std::get<Move>(d.orders.back()).velocity.reset();
     } else if (const auto* together = std::get_if<StartTogether>(&body)) {

@@ -164,12 +164,14 @@ private:
         bool quick_stopped = false;      // quick stop active until left by a control word or command
         bool setpoint_acknowledged = false;  // bit 12 in mode 1
         int repeated_moves = 0;              // moves on their way to the drive that are no new set-points: after a halt, or buffered before
+        int asked_motions = 0;               // by command while another motion runs; the drive has not answered yet
         bool halted = false;
         bool homing_refused = false;  // the last homing was not taken: bit 13, and an older "attained" is not shown
         bool reacting = false;        // the stop of the present fault is on its way, or was taken
         Instant reaction_at{};
-        std::int64_t ordered_velocity = 0;  // mode 3: last velocity given to the drive
-        bool following = false;             // streamed set-points, in a mode of their own
+        std::int64_t ordered_velocity = 0;           // mode 3: last velocity given to the drive
+        std::optional<std::int64_t> asked_velocity;  // mode 3: of words, on its way to the drive
+        bool following = false;                      // streamed set-points, in a mode of their own
         std::int16_t mode_before = cia402::mode_none;
         std::optional<Move> active;    // motion that a halt interrupts and its end continues (absolute target)
         std::optional<Move> buffered;  // one set-point that waits for the running one
@@ -208,6 +210,10 @@ private:
     static void order_reset(State& s, Decision& d);
     static void forget_motion(State& s);
     static void forget_velocity(State& s);
+    static void ask_motion(State& s, const CommandBody& body);
+    static void take_motion(State& s, const CommandBody& body);
+    [[nodiscard]] static bool runs(const State& s) noexcept;
+    [[nodiscard]] static bool asked_beside_another(State& s, const CommandBody& order, bool good);
     static void end_turn(State& s) noexcept;
     static void leave_stream(State& s);
     State s_;

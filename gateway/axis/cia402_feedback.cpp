@@ -103,6 +103,14 @@ PowerState Cia402Axis::state_when_off(const State& s) noexcept {
     return own <= PowerState::switched_on ? std::max(own, step) : step;
 }
 
+/// Whether it was asked for by command while another motion ran: then it counts from here on, if the drive has taken it.
+bool Cia402Axis::asked_beside_another(State& s, const CommandBody& order, bool good) {
+    if (s.asked_motions == 0) return false;
+    --s.asked_motions;
+    if (good) take_motion(s, order);
+    return true;
+}
+
 void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant now) {
     State& s = s_;
     if (std::holds_alternative<Enable>(order)) {
@@ -129,13 +137,19 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         if (!good) s.reacting = false;
         settle(s);
     } else if (std::holds_alternative<Home>(order)) {
-        s.homing_refused = !good;
+        const bool beside_another = asked_beside_another(s, order, good);
+        if (!beside_another || good) s.homing_refused = !good;
         if (good) s.ordered_velocity = 0;  // it does not turn at that speed any more: the same speed is an order again
     } else if (std::holds_alternative<SetPosition>(order)) {
         if (good) s.active.reset();  // its target was a place by the old count
     } else if (const auto* m = std::get_if<Move>(&order)) {
+        if (m->kind == Move::Kind::velocity && s.asked_velocity == m->target) s.asked_velocity.reset();
         const bool again = s.repeated_moves > 0;
-        if (again) --s.repeated_moves;
+        if (again) {
+            --s.repeated_moves;
+        } else {
+            (void)asked_beside_another(s, order, good);
+        }
         if (!good) return;
         if (!again) ++s.setpoints_accepted;
         const auto shown = [](std::uint32_t& into, const std::optional<std::int64_t>& v) {
@@ -182,7 +196,7 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
     s.reaction_at = {};
     if (s.state != PowerState::operation_enabled) return std::nullopt;
     if (f.target_reached && !f.moving) {
-        if (s.buffered && !s.halted) {
+        if (s.buffered && !s.halted && s.asked_motions == 0) {
             Move next = *s.buffered;
             s.buffered.reset();
             ++s.repeated_moves;  // counted when it was buffered
@@ -219,6 +233,7 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.reaction_at = {};
     ++s_.enables;  // written targets count no more
     s_.ordered_on = false;
+    s_.asked_motions = 0;
     forget_motion(s_);
     end_turn(s_);
     settle(s_);

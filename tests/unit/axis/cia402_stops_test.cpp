@@ -178,6 +178,23 @@ TEST(Cia402Handshake, TheEndOfAHaltGoesOnWithoutANewSetPoint) {
     EXPECT_EQ(b.picture().setpoints_accepted, 2);
 }
 
+/// The place to which a halted axis would go on has another name when its position is set meanwhile.
+TEST(Cia402Handshake, TheEndOfAHaltDoesNotGoOnToAPlaceByTheOldCount) {
+    for (const bool taken : {true, false}) {
+        Bench b;
+        b.enable(mode_profile_position);
+        moving_to(b, 1000);
+        b.word(0x0F);
+        b.word(0x10F);
+        const auto set = b.profile.on_command(SetPosition{0});
+        ASSERT_TRUE(has<SetPosition>(set));
+        for (const auto& o : set.orders)
+            b.profile.on_order_result(o, taken, b.now);
+        b.say();
+        EXPECT_EQ(has<Move>(b.word(0x0F)), !taken) << "a refusal changes nothing";
+    }
+}
+
 /// A controller writes its speed with every cycle. What somebody else has done since is not undone by that, only by another speed.
 TEST(Cia402Stops, ASpeedThatIsRepeatedDoesNotUndoWhatSomebodyElseHasDone) {
     Origin panel;

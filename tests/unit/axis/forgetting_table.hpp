@@ -43,7 +43,10 @@ inline std::vector<Rule> rules() {
     const Events halt_words{E::halt_bit, E::set_point_with_halt_bit};
     const Events words =
         on_words | off_words | set_points | halt_words | Events{E::end_of_halt_bit, E::end_of_bit_4, E::quick_stop_bit, E::fault_reset_bit};
-    const Events positions{E::move_absolute, E::move_relative}, moves = positions | Events{E::move_velocity, E::move_refused};
+    const Events positions{E::move_absolute, E::move_relative}, taken = positions | Events{E::move_velocity},
+                                                                moves = taken | Events{E::move_refused};
+    // Something runs, so that an order which its drive refuses has another motion beside it.
+    const Situations running{S::moving, S::waiting, S::turning, S::searching, S::following, S::following_speed, S::being_disabled};
     const Events quick_stops{E::quick_stop_bit, E::quick_stop, E::stopped_at_the_drive};
     const Events switch_off = off_words | Events{E::disable, E::power_lost}, homings{E::home, E::home_refused};
     const Events streamed{E::stream_position, E::stream_velocity}, served{E::silence, E::another_drive, E::another_drive_that_is_on};
@@ -166,23 +169,33 @@ inline std::vector<Rule> rules() {
         {"a target is its client's alone", E::target_of_another, any, {}, {{V::shown_target, "4000"}}},
         {"speeds are their client's alone", E::speeds_of_another, any, {}, {{V::shown_speeds, "21 31 41"}}},
         // ---- commands ----
+        {"an order that is refused leaves the motion of another as it is", {E::home_refused, E::move_refused}, running},
         {"homing forgets the motion and what waits",
-         homings,
+         E::home,
          homable,
          {V::active, V::waiting, V::end_of_halt, V::bit_12},
          {{V::mode, "6"}, {V::mode_after_stream, "6"}, {V::homing_method, "35"}}},
+        {"homing that is refused is shown, and its mode with it",
+         E::home_refused,
+         homable.but(running),
+         {V::active, V::waiting, V::end_of_halt, V::bit_12},
+         {{V::mode, "6"}, {V::mode_after_stream, "6"}, {V::homing_method, "35"}, {V::bit_13, "1"}}},
         {"homing forgets the speed when the drive has taken it", E::home, homable, {V::bit_13, V::ordered_velocity}},
-        {"homing that is refused is shown", E::home_refused, homable, {}, {{V::bit_13, "1"}}},
         {"homing is refused in fault, under halt, in quick stop, and where nobody is heard", homings,
          absent | faults | halts | S::quick_stopped},
         {"set position is refused while the axis moves, and at rest there is nothing to forget", E::set_position, any},
         {"set position that is refused forgets nothing", E::set_position_refused, any},
-        {"a motion forgets what waits", moves, free, V::waiting},
-        {"bit 12 falls with what waited", moves, S::waiting, V::bit_12},
+        {"a motion forgets what waits", taken, free, V::waiting},
+        {"bit 12 falls with what waited", taken, S::waiting, V::bit_12},
         {"a motion is refused under halt, in other states, and where nobody is heard", moves, any.but(free)},
         {"a motion to a place is of its mode",
-         positions | E::move_refused,
+         positions,
          free,
+         V::bit_13,
+         {{V::mode, "1"}, {V::mode_after_stream, "1"}, {V::shown_target, "600"}}},
+        {"and at rest it is, too, where it is refused",
+         E::move_refused,
+         free.but(running),
          V::bit_13,
          {{V::mode, "1"}, {V::mode_after_stream, "1"}, {V::shown_target, "600"}}},
         {"a motion by a distance is shown by its end", E::move_relative, free, {}, {{V::shown_target, "670"}}},
@@ -190,7 +203,6 @@ inline std::vector<Rule> rules() {
         {"a motion to a place", E::move_absolute, free.but({S::standing, S::homing_refused}), {}, {{V::active, "600"}}},
         {"a motion by a distance", E::move_relative, free.but({S::standing, S::homing_refused}), {}, {{V::active, "670"}}},
         {"a motion that is taken while bit 4 is set sets bit 12", positions, homes, {}, {{V::bit_12, "1"}}},
-        {"a motion that is refused has ended the stream", E::move_refused, streams, V::bit_12},
         {"a motion with a speed forgets the place",
          E::move_velocity,
          free,

@@ -35,16 +35,20 @@ std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) 
     return std::nullopt;
 }
 
+std::optional<Refusal> check_limit(std::string_view what, std::int64_t value, std::optional<std::int64_t> max, const AxisLimits& l,
+                                   std::string_view per) {
+    if (!max || value <= *max) return std::nullopt;
+    return Refusal{Reason::out_of_range,
+                   fmt::format("{} {} is above the axis' limit of {}", what, in_unit(value, l, per), in_unit(*max, l, per))};
+}
+
 std::optional<Refusal> check_rate(std::string_view what, std::optional<std::int64_t> value, std::optional<std::int64_t> max,
                                   const AxisLimits& l, std::string_view per) {
     if (!value) return std::nullopt;
     constexpr std::int64_t high = std::numeric_limits<std::uint32_t>::max();
     if (*value < 1 || *value > high)
         return Refusal{Reason::out_of_range, fmt::format("{} {} is outside 1..{} increments{}", what, *value, high, per)};
-    if (max && *value > *max)
-        return Refusal{Reason::out_of_range,
-                       fmt::format("{} {} is above the axis' limit of {}", what, in_unit(*value, l, per), in_unit(*max, l, per))};
-    return std::nullopt;
+    return check_limit(what, *value, max, l, per);
 }
 }  // namespace
 
@@ -93,12 +97,9 @@ std::optional<Refusal> guard_move(const Move& m, const AxisLimits& l, std::int64
 }
 
 std::optional<Refusal> guard_rates(const DriveRates& r, const AxisLimits& l) {
-    const auto rate = [&](std::string_view what, std::int64_t v, std::optional<std::int64_t> max, std::string_view per) {
-        return v == 0 ? std::nullopt : check_rate(what, v, max, l, per);
-    };
-    if (auto no = rate("velocity", r.velocity, l.velocity_max, "/s")) return no;
-    if (auto no = rate("acceleration", r.acceleration, l.acceleration_max, "/s^2")) return no;
-    return rate("deceleration", r.deceleration, l.acceleration_max, "/s^2");
+    if (auto no = check_limit("velocity", std::llabs(r.velocity), l.velocity_max, l, "/s")) return no;
+    if (auto no = check_limit("acceleration", std::llabs(r.acceleration), l.acceleration_max, l, "/s^2")) return no;
+    return check_limit("deceleration", std::llabs(r.deceleration), l.acceleration_max, l, "/s^2");
 }
 
 void name_rates(Move& m, const AxisLimits& l, const DriveRates& drive) {

@@ -36,7 +36,8 @@ struct Refusal {
 [[nodiscard]] std::optional<Refusal> guard_move(const Move& move, const AxisLimits& limits, std::int64_t position);
 /// The mode of operation of register 33: one that the drive offers, and that is not entered by streaming set-points. 0 changes nothing.
 [[nodiscard]] std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_t> offered);
-/// Rates that a statement sets for later motions; 0: not these.
+/// Rates that a statement sets for later motions, in either direction; 0: not these. Only the site bounds them: what else a drive takes is
+/// its own.
 [[nodiscard]] std::optional<Refusal> guard_rates(const DriveRates& rates, const AxisLimits& limits);
 /// Gives a move the rates that it does not name where the site limits them and the drive's own are not known to keep the limit.
 void name_rates(Move& move, const AxisLimits& limits, const DriveRates& drive);

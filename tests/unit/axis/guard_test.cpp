@@ -218,4 +218,21 @@ TEST(Guard, ModesThatAreStreamed) {
 }
 
 }  // namespace
+TEST(Guard, RatesThatADriveKeepsAreBoundedByTheSiteAlone) {
+    constexpr std::int64_t beyond_32_bits = 42'949'672'950;
+    EXPECT_FALSE(guard_rates({beyond_32_bits, beyond_32_bits, beyond_32_bits}, {})) << "what a drive takes is its own";
+    AxisLimits l;
+    l.velocity_max = 1000;
+    l.acceleration_max = 2000;
+    EXPECT_FALSE(guard_rates({0, 0, 0}, l)) << "none of them is set";
+    EXPECT_FALSE(guard_rates({1000, 2000, 2000}, l));
+    for (const DriveRates& r :
+         {DriveRates{1001, 0, 0}, DriveRates{-1001, 0, 0}, DriveRates{0, 2001, 0}, DriveRates{0, -2001, 0}, DriveRates{0, 0, 2001}}) {
+        const auto no = guard_rates(r, l);
+        ASSERT_TRUE(no);
+        EXPECT_EQ(no->reason, Reason::out_of_range);
+        EXPECT_NE(no->text.find("above the axis' limit"), std::string::npos) << no->text;
+    }
+}
+
 }  // namespace axisgate

@@ -123,11 +123,12 @@ void Engine::housekeeping(Instant now) {
         p.motions.check(a, now);
         p.loss.check_watchdog(a, now);
         p.streams.check(a, now);
-        const bool led = a.motion.runs() ? a.motion.is_of(a.authority.holder()) : a.authority.holder() == a.owner();
-        if (const auto v = a.authority.expire(now); v.change != AxisAuthority::Change::none) {
-            if (led) p.loss.act(a, LossCause::lease_ended, now);
-            p.authority.changed(a, v, nullptr, now);
-        }
+        if (a.authority.holder().door == Door::none || a.authority.held(now)) continue;
+        const AuthorityClient holder = a.authority.holder();
+        const bool led = a.motion.runs() ? a.motion.is_of(holder) : holder == a.owner();
+        const auto v = a.authority.expire(now);
+        if (led) p.loss.act(a, LossCause::lease_ended, now, &holder);
+        p.authority.changed(a, v, nullptr, now);
     }
     for (const auto& slot : p.machine.drives) {
         if (!slot) continue;

@@ -60,7 +60,7 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
         const bool owns = a->motion.runs() ? a->motion.is_of(who) : a->owner() == who;
         if (feed ? !streams : !owns || (cause == LossCause::dds_deadline && streams)) continue;
-        act(*a, feed ? silence_of(who) : cause, now);
+        act(*a, feed ? silence_of(who) : cause, now, &who);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
     for (auto& [ticket, order] : pending_.orders) {  // what the drive takes now begins without its owner
@@ -77,7 +77,7 @@ AtLoss LossOfCommand::at_loss(const Axis& a) {
     return at;
 }
 
-void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
+void LossOfCommand::act(Axis& a, LossCause cause, Instant now, const AuthorityClient* lost) {
     AtLoss at = at_loss(a);
     if (const auto before = std::exchange(a.lost_line, std::nullopt); before && cause == LossCause::line_lost) {
         at.endless = at.endless || before->endless;  // it forgets, or does not say at once, what it was about
@@ -107,7 +107,7 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now) {
         cause == LossCause::modbus_silent || cause == LossCause::enip_silent ? a.spec.fail_safe.watchdog(machine_.watchdog)
         : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for ? a.stream.good_for
                                                                                                          : Duration::zero();
-    const AuthorityClient& who = a.stream.on ? a.stream.who : a.owner();
+    const AuthorityClient& who = lost ? *lost : a.stream.on ? a.stream.who : a.owner();
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
                          why_lost(cause, limit));
     publisher_.event(std::move(e), now);

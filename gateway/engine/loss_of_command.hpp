@@ -12,8 +12,8 @@ public:
     LossOfCommand(Machine& machine, Pending& pending, EngineHost& host, Publisher& publisher, Orders& orders, Streams& streams)
         : machine_(machine), pending_(pending), host_(host), publisher_(publisher), orders_(orders), streams_(streams) {}
     void on_client_lost(const AuthorityClient& who, LossCause cause, Instant now);
-    /// What the axis' site entry says to this cause.
-    void act(Axis& axis, LossCause cause, Instant now);
+    /// What the axis' site entry says to this cause. `lost`: who is lost, where that need not be the owner of its motion.
+    void act(Axis& axis, LossCause cause, Instant now, const AuthorityClient* lost = nullptr);
     /// It moves, and nobody has ordered it: what the site says to that, told either way.
     void unowned(Axis& axis, Instant now);
     void check_watchdog(Axis& axis, Instant now);

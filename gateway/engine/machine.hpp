@@ -303,10 +303,11 @@ struct Axis {
     Drive* drive = nullptr;
     AxisLimits limits;
     Cia402Axis profile;
-    Motion motion;                    ///< what moves it
-    std::size_t motions_asked = 0;    ///< orders on their way that make another record if the drive takes them
-    Motion asked;                     ///< the newest of those: the drive may carry it out before its answer is here
-    std::optional<Motion> suspected;  ///< of an order that left and was answered as failed: it may begin all the same
+    Motion motion;                  ///< what moves it
+    std::size_t motions_asked = 0;  ///< orders on their way that make another record if the drive takes them
+    Motion asked;                   ///< the newest of those: the drive may carry it out before its answer is here
+    std::optional<Motion>
+        suspected;  ///< of an order that left and was answered as failed, or that a stop came after: it may begin all the same
     std::optional<Motion> statement;  ///< whose motion begins if the axis moves without an order: it came after an unread statement
     Origin waiting;                   ///< whose set-point waits behind the running motion, or waited last
     Stops stops;

@@ -162,8 +162,9 @@ void Motions::moves_without_record(Axis& a, Instant now) {
     if (a.suspected) {
         m = *std::exchange(a.suspected, std::nullopt);
         e.severity = Severity::alarm;
-        e.text =
-            fmt::format("a motion that {} asked for, and that was answered as failed, has begun all the same: it is stopped", m.who.text());
+        e.text = fmt::format(
+            "a motion that {} asked for has begun, although its order was answered as failed or a stop had come after it: it is stopped",
+            m.who.text());
     } else if (a.statement) {
         m = *std::exchange(a.statement, std::nullopt);
         m.kind = Motion::Kind::statement;

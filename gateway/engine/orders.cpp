@@ -47,7 +47,7 @@ bool Orders::join_stop(Axis& a, Client* client, const CommandBody& body) {
     const auto kind = Stops::of(body);
     if (!kind) return false;
     a.stops.asked = make_ticket(engine_itself, pending_.next);
-    a.stops.asked_kind = *kind;
+    a.stops.asked_kind = std::max(*kind, a.stops.wanted.value_or(*kind));
     if (a.stops.of(*kind).order == no_ticket) return false;
     if (!client) return true;
     auto& joined = a.stops.of(*kind).joined;
@@ -88,7 +88,6 @@ void Orders::stop_behind(Axis& a, std::string_view what, const Origin& by, Insta
     a.stops.wanted = a.stops.asked_kind;
     a.stops.first_at = now;
     a.stops.speed_then = std::llabs(a.profile.feedback().velocity);
-    a.latch.bits |= StopLatch::latched;
     if (a.stops.of(a.stops.asked_kind).order == no_ticket) stop_again(a, now);
 }
 
@@ -295,9 +294,14 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
         if (moves->motions_asked == 0) moves->asked = {};
         if (is_good) {
             machine_.image.picture(moves->id).motion_ticket = mover;
+            const bool behind_a_stop = r.ticket < moves->stops.asked;
+            const StopLatch latch = moves->latch;
             motions_.acknowledged(*moves, std::move(*record.motion), record.client, name_of(record.body), now);
+            if (behind_a_stop) {
+                moves->latch = latch;  // the stop is still the one that counts
+                stop_behind(*moves, name_of(record.body), moves->motion.origin, now);
+            }
             if (record.owner_lost != LossCause::none) loss_.act(*moves, record.owner_lost, now);
-            if (r.ticket < moves->stops.asked) stop_behind(*moves, name_of(record.body), moves->motion.origin, now);
         } else if (r.outcome == Outcome::failed) {
             motions_.suspect(*moves, std::move(*record.motion));
         }

@@ -140,7 +140,8 @@ void Supervisor::inputs(Axis& a, Instant now) {
     e.kind = "safe_stop";
     e.axis = a.spec.name;
     e.text = acts ? "a safe input has taken its power or motion away: the axis is switched off, and enabled again only by an order"
-                  : "the safe input is given back: enable the axis to move it again";
+             : a.profile.commanded() ? "the axis is enabled again after a safe input had taken its power or motion away"
+                                     : "the safe input is given back: enable the axis to move it again";
     publisher_.event(std::move(e), now);
     if (!acts) return;
     a.latch.bits = StopLatch::latched | StopLatch::by_safe_input;

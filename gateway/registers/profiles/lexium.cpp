@@ -111,7 +111,7 @@ Move LexiumMap::move(Move::Kind kind, double counts) const {
 void LexiumMap::instruct(const Written& w, Meaning meaning, WritePlan& plan) {
     const LanguageRow& row = language().rows[w.row];
     const double n = number_of(row.type, w.bits);
-    if (moves(meaning) && meaning != Meaning::move_velocity) turns_at_ = 0;
+    if (meaning != Meaning::move_velocity && (moves(meaning) || meaning == Meaning::enable)) ordered_speed_ = 0;
     const auto give = [&](CommandBody body) { order(plan, 0, std::move(body), 0, Answer::client); };
     switch (meaning) {
         case Meaning::move_absolute:
@@ -119,11 +119,9 @@ void LexiumMap::instruct(const Written& w, Meaning meaning, WritePlan& plan) {
         case Meaning::move_relative:
             return give(move(Move::Kind::relative, n));
         case Meaning::move_velocity:
-            // It turns at this speed already; an axis behind that cannot take it on the way would stop and start for each write.
-            // It may be a while until an axis that was told so is seen to move.
-            if (n != 0 && n == turns_at_ && (flag(0, flag_moving) || now() - turned_at_ < std::chrono::seconds(1))) return;
-            turns_at_ = n;
-            turned_at_ = now();
+            if (n != 0 && turns_at(n)) return;
+            ordered_speed_ = n;
+            ordered_at_ = now();
             return n == 0 ? give(Halt{}) : give(move(Move::Kind::velocity, n));
         case Meaning::home: {
             constexpr std::array<std::int16_t, 4> methods{21, 22, 19, 20};
@@ -179,7 +177,7 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
         error_ = language().error_of(Reason::wrong_state);
         (void)refused(
             0, Reason::wrong_state,
-            fmt::format("axis {}: somebody else has stopped it: what is merely repeated begins nothing; write another value, or EE "
+            fmt::format("axis {}: somebody else has stopped it: what is merely repeated begins nothing; write another value, or DE "
                         "as 0 and then as 1",
                         axis(0).name));
     }
@@ -192,10 +190,22 @@ bool LexiumMap::moves(Meaning m) noexcept {
            m == Meaning::home_index;
 }
 
-/// An axis that was moving before its client said anything here is nobody's: the client's first words may be as old as that motion.
+/// It turns so already, or was told so a moment ago and is not seen to move yet: an axis behind that cannot take a speed on its way would
+/// stop and start for each write of a controller that repeats it.
+bool LexiumMap::turns_at(double counts) const {
+    constexpr Duration begins_within = std::chrono::seconds(1);
+    if (counts == ordered_speed_ && now() - ordered_at_ < begins_within) return true;
+    return flag(0, flag_moving) && picture(0).mode_display == cia402::mode_profile_velocity &&
+           picture(0).target_velocity == increments(0, counts);
+}
+
+/// An axis that was moving before its client said anything here is nobody's: the client's first words may be as old as that motion. What
+/// was said while another drive, channel or twin spoke for the axis was said to that one.
 void LexiumMap::look_for_a_stop() noexcept {
     const bool found_moving = !received_ && flag(0, flag_online) && flag(0, flag_moving);
-    if ((picture(0).stop_latch & latched) == 0 && !found_moving) return;
+    const bool another = picture(0).current && source_ != 0 && picture(0).source != source_;
+    if (picture(0).current) source_ = picture(0).source;
+    if ((picture(0).stop_latch & latched) == 0 && !found_moving && !another) return;
     if (!std::exchange(held_, true)) unheard_ = !received_;
 }
 
@@ -239,7 +249,9 @@ void LexiumMap::adopted(std::span<const Written> rows, WritePlan& plan) {
 void LexiumMap::out_of_range() { error_ = language().error_of(Reason::out_of_range); }
 
 void LexiumMap::on_own_result(std::uint32_t, const Result& result) {
-    if (!good(result)) error_ = language().error_of(result.reason);
+    if (good(result)) return;
+    error_ = language().error_of(result.reason);
+    ordered_speed_ = 0;  // whatever it was, nothing is taken for begun
 }
 
 }  // namespace axisgate::registers

@@ -47,6 +47,7 @@ private:
     void instruct(const Written& w, Meaning meaning, WritePlan& plan);
     void out_of_range() override;
     Verdict refuse_with(Reason reason, std::string text);
+    [[nodiscard]] bool turns_at(double counts) const;
     void look_for_a_stop() noexcept;
     [[nodiscard]] bool is_held(const Written& w) const;
     [[nodiscard]] static bool moves(Meaning meaning) noexcept;
@@ -59,11 +60,12 @@ private:
     std::vector<std::uint32_t> values_;                                       // by row, of what is kept
     std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // rows
     double run_ = 0;                                                          // SL as it was written last
-    Instant turned_at_{};                                                     // when that was ordered
-    double turns_at_ = 0;  // the speed of the last SL, if no other motion was ordered behind it
+    double ordered_speed_ = 0;  // of the last SL, if nothing was ordered behind it and it was not refused
+    Instant ordered_at_{};
     int error_ = 0;
     std::vector<Written> acting_;  // of the write that is looked at; kept, so that nothing is allocated for it
     bool received_ = false;        // something was written since the start, to an axis that is heard
+    std::uint32_t source_ = 0;     // who spoke for the axis when something was written last; 0: nobody yet
     bool held_ = false;            // somebody else has stopped the axis, and its client has given no fresh word since
     bool unheard_ = false;         // ... and it had said nothing before that: its first words may be as old as the motion
     bool held_told_ = false;

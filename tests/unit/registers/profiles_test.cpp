@@ -189,6 +189,25 @@ TEST_F(Lexium, ErZeroResetsAFault) {
     (void)order<ResetFault>("06 00 21 00 00");
 }
 
+/// A controller repeats SL while the axis behind takes its time, and changes nothing by it; what was refused is asked for again.
+TEST_F(Lexium, AnSlThatIsRepeatedIsOneOrderUnlessItWasRefused) {
+    put(ProfileLanguage::lexium);
+    const std::string sl = "10 00 78 00 02 04 00 64 00 00";
+    (void)order<Move>(sl);
+    result = [this] { ADD_FAILURE() << "once more: " << name_of(port.commands.front().body); };
+    EXPECT_EQ(at(sl), "10 00 78 00 02") << "it is not seen to move yet";
+    port.time += std::chrono::seconds(5);
+    port.edit(x, [](AxisPicture& p) { p.flags |= flag_moving, p.mode_display = 3, p.target_velocity = 1000; });
+    EXPECT_EQ(at(sl), "10 00 78 00 02") << "it turns so";
+    port.edit(x, [](AxisPicture& p) { p.mode_display = 1; });
+    EXPECT_EQ(order<Move>(sl).target, 1000) << "it moves for somebody else: the instruction acts, as in the drive";
+    (void)order<Halt>("10 00 78 00 02 04 00 00 00 00");
+    result = [this] { port.refuse(Reason::wrong_state); };
+    EXPECT_EQ(at(sl).substr(0, 2), "90");
+    result = [this] { port.answer(); };
+    EXPECT_EQ(order<Move>(sl).target, 1000) << "a refusal is no order that is on its way";
+}
+
 /// What the axis shows after somebody else has stopped it: registers 23 and the status word.
 void stopped_by_another(AxisPicture& p, std::uint16_t statusword) {
     p.stop_latch = 0b101;
@@ -197,7 +216,7 @@ void stopped_by_another(AxisPicture& p, std::uint16_t statusword) {
 }
 constexpr std::uint16_t still_enabled = 0x0627, quick_stopped = 0x0607;
 
-/// EE 1, SL 100 and MA 50: a controller that writes them in cycles.
+/// DE 1, SL 100 and MA 50: a controller that writes them in cycles.
 TEST_F(Lexium, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
     put(ProfileLanguage::lexium);
     const auto cycle = [&] {

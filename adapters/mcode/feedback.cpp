@@ -30,6 +30,7 @@ void Errors::learn(int code, bool ours, Turn& t) {
     last_ = code;
     if (!ours && code != 0) drive_.program.reported(code);
     if (is_fault_code(code)) fault_ = code;
+    if (code == 48 || code == 91) stopped_by_input_ = true;
     // SM says whether a stall (86) ends the motion, and the flags tell that.
     if (!ours && code != 86 && (is_fault_code(code) || code == 83 || code == 84 || code == 91)) feedback().demand.ended(t.now);
     const bool no_news = std::exchange(by_search_, false) && !is_fault_code(code);
@@ -170,6 +171,7 @@ void Feedback::derive() {
     fb_.moving = mv && (fb_.velocity != 0 || vc || encoder_mode() || torque() || motion_.kind == Motion::Kind::home);
     fb_.fault = errors.fault() != 0 || stalled || locked;
     fb_.error_code = static_cast<std::uint16_t>(errors.fault() != 0 ? errors.fault() : stalled ? 86 : locked ? 104 : errors.last());
+    fb_.safe_stop = errors.stopped_by_input();
     fb_.internal_limit = errors.last() == 83 || errors.last() == 84;
     fb_.warning = errors.last() == 71 || fb_.internal_limit;
     fb_.native_status = 0;

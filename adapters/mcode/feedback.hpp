@@ -33,6 +33,10 @@ public:
     void clear_last() noexcept { last_ = 0; }
     [[nodiscard]] int fault() const noexcept { return fault_; }  ///< code that must be reset; 0: none
     void clear_fault() noexcept { fault_ = 0; }
+    /// An input of type 5 has ended a motion (91) or a program (48) [L776]: its level cannot be read, so it counts until the axis is
+    /// enabled.
+    [[nodiscard]] bool stopped_by_input() const noexcept { return stopped_by_input_; }
+    void clear_input_stop() noexcept { stopped_by_input_ = false; }
     /// Looking for it may have raised an error in it: that one is no news.
     void raised_by_search() noexcept { by_search_ = true; }
     /// "error 24, ..."
@@ -40,7 +44,7 @@ public:
 
 private:
     void learn(int code, bool ours, Turn& t);
-    bool wanted_ = false, ours_ = false, by_search_ = false;
+    bool wanted_ = false, ours_ = false, by_search_ = false, stopped_by_input_ = false;
     int tries_ = 0;  ///< answers to ER that were none
     int fault_ = 0, last_ = 0;
 };

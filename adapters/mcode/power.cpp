@@ -19,6 +19,7 @@ void Power::plan(const Command& c, Turn&) {
 
 void Power::done(Turn& t) {
     if (std::holds_alternative<Enable>(job().command.body)) {
+        drive_.errors.clear_input_stop();
         feedback().powered(t);
         if (!feedback().flags().de) return fail(Reason::drive_refused, fmt::format("{} took DE=1 but is off", name()), t);
     } else {

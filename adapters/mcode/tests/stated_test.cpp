@@ -97,6 +97,27 @@ TEST(MCodeRates, TheCourseIsThatOfTheOrderElseWhatTheFlagsSay) {
     EXPECT_EQ(axis.course, Course::endless);
 }
 
+TEST(MCodePower, AnInputThatStopsIsToldUntilTheAxisIsEnabledAgain) {
+    LineBench b("!", 115200);
+    b.run(5s);
+    const AxisFeedback& axis = b.feedback[AxisId{0}];
+    (void)b.wait(line("IS=1,5,0"));
+    ASSERT_TRUE(good(b.wait(Enable{})));
+    ASSERT_TRUE(good(b.wait(run_at(20'000))));
+    b.run(500ms);
+    EXPECT_FALSE(axis.safe_stop);
+    b.hand(0, "active_inputs", Value{std::int64_t{1}});
+    b.run(2s);
+    EXPECT_EQ(axis.velocity, 0);
+    EXPECT_TRUE(axis.safe_stop) << "error 91";
+    b.hand(0, "active_inputs", Value{std::int64_t{0}});
+    b.run(2s);
+    EXPECT_TRUE(axis.safe_stop) << "its level is not known";
+    ASSERT_TRUE(good(b.wait(Enable{})));
+    b.run(500ms);
+    EXPECT_FALSE(axis.safe_stop);
+}
+
 TEST(MCodeStop, AMotionBehindAQuickStopOnItsWayIsNotCarriedOut) {
     LineBench b("!", 115200);
     b.run(5s);

@@ -59,6 +59,8 @@ public:
             const Servo& s = a.servo();
             const std::string p = n == 1 ? "" : "axis" + std::to_string(n) + ".";
             items.push_back({p + "stall", Value{s.shaft().held()}, true, "the shaft is held"});
+            items.push_back({p + "safe_voltage_enable", Value{s.safe_voltage}, true,
+                             "the input that lets the motor have power (STO); bit 4 of the status word"});
             items.push_back({p + "load", Value{a.load}, true, "part of AMPMAXCUR that the motor takes, 0 to 1"});
             items.push_back({p + "encoder", Value{macs_.coupling().by_hand[static_cast<std::size_t>(n - 1)]}, true,
                              "master encoder turned by hand, qc"});
@@ -191,6 +193,10 @@ private:
         if (n < 0 || n > 1) return name + ": write true or false";
         if (name == "stall") {
             s.hold(on, now);
+        } else if (name == "safe_voltage_enable") {
+            s.safe_voltage = on;
+            s.inputs_changed(now);
+            macs_.begin_ticks(now);
         } else if (name == "index") {
             a.index_pulses = on;
         } else if (name == "limit_positive" || name == "limit_negative" || name == "home_switch") {

@@ -472,6 +472,27 @@ TEST(Cia402Twin, OutputsAreWhatTheMaskLetsThrough) {
     EXPECT_EQ(outputs(), 0x10000);
 }
 
+TEST(Cia402Twin, WithoutSafeVoltageTheShaftRunsDownAndNoWordSwitchesItOn) {
+    Bench b;
+    b.enable(3);
+    ASSERT_EQ(b.write(0x60FF, 0, 5000, 4), Abort::none);
+    b.pass(1s);
+    EXPECT_NE(b.status() & 0x10u, 0u);
+    Out out;
+    ASSERT_EQ(b.twin->set_hand("safe_voltage_enable", Value{false}, b.now, out), "");
+    EXPECT_EQ(b.status() & 0x7Fu, 0x40u) << "switch on disabled, and bit 4 is 0";
+    b.pass(1s);
+    EXPECT_EQ(b.read(0x606C), 0);
+    for (const int word : {0x06, 0x07, 0x0F})
+        b.word(static_cast<std::uint16_t>(word));
+    EXPECT_EQ(b.status() & 0x6Fu, 0x40u);
+    ASSERT_EQ(b.twin->set_hand("safe_voltage_enable", Value{true}, b.now, out), "");
+    EXPECT_EQ(b.status() & 0x7Fu, 0x50u) << "nothing comes back by itself";
+    b.pass(1s);
+    EXPECT_EQ(b.read(0x606C), 0);
+    b.enable(3);
+}
+
 TEST(Cia402Twin, IsBuiltFromADescriptionAndSaysWhatItDoesNotModel) {
     const std::string text =
         "[FileInfo]\nFileName=a.eds\n[DeviceInfo]\nVendorNumber=0x99\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n"

@@ -145,6 +145,7 @@ void Servo::command(unsigned cw, Instant now) {
         if (powered()) m_.stop(coasting, now);
         return enter(State::switch_on_disabled, now);
     }
+    if (!safe_voltage) return;
     if ((cw & 4u) == 0) {  // quick stop
         if (state_ == State::ready || state_ == State::switched_on) return enter(State::switch_on_disabled, now);
         if (state_ != State::enabled) return;
@@ -208,6 +209,14 @@ void Servo::set_mode(Instant now) {
 }
 
 void Servo::inputs_changed(Instant now) {
+    const bool in_fault = state_ == State::fault || state_ == State::fault_reaction;
+    if (!safe_voltage && !in_fault && state_ != State::switch_on_disabled) {
+        if (powered()) {
+            orders_.forget();
+            m_.stop(coasting, now);
+        }
+        enter(State::switch_on_disabled, now);
+    }
     for (unsigned k = 0; k < 2; ++k)
         probes_.level(k, (inputs >> (16 + k) & 1u) != 0, units_.in_units(m_.shaft(now).position));
     if (!m_.moves(now) || !powered()) return;
@@ -304,7 +313,7 @@ void Servo::homing_ended(std::optional<double> zero) {
 std::uint16_t Servo::statusword(Instant now) const {
     static constexpr unsigned states[] = {0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
     const int mode = orders_.mode();
-    unsigned sw = states[static_cast<std::size_t>(state_)] | 0x210u;
+    unsigned sw = states[static_cast<std::size_t>(state_)] | 0x200u | (safe_voltage ? 0x10u : 0u);
     const bool stands = !m_.moves(now);
     bool ten = orders_.reached();
     if (mode == 3)

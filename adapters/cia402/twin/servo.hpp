@@ -50,6 +50,9 @@ public:
 
     // the hand
     void hold(bool held, Instant now);
+    /// The input that lets the motor have power (STO), bit 4 of the status word: without it the shaft runs down, and no control word
+    /// switches it on.
+    bool safe_voltage = true;
     std::uint32_t inputs = 0;  ///< 60FDh, bits 16 and up
     bool limit_negative = false, limit_positive = false, home_switch = false;
     void inputs_changed(Instant now);

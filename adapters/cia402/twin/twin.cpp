@@ -51,6 +51,8 @@ public:
             {"power", Value{node_.powered()}, true, "supply of the drive"},
             {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
             {"stall", Value{stalled_}, true, "the shaft is held"},
+            {"safe_voltage_enable", Value{s.safe_voltage}, true,
+             "the input that lets the motor have power (STO); bit 4 of the status word"},
             {"inputs", Value{static_cast<std::int64_t>(s.inputs >> 16)}, true, "digital inputs, bit mask; they are bits 16 to 31 of 60FDh"},
             {"outputs", Value{outputs()}, false, "60FEh:01 as the mask of 60FEh:02 lets it through"},
             {"limit_positive", Value{s.limit_positive}, true, "the upper limit switch"},
@@ -92,6 +94,9 @@ public:
         } else if (name == "stall") {
             stalled_ = on;
             s.hold(on, now);
+        } else if (name == "safe_voltage_enable") {
+            s.safe_voltage = on;
+            s.inputs_changed(now);
         } else if (name == "limit_positive" || name == "limit_negative" || name == "home_switch") {
             (name == "limit_positive" ? s.limit_positive : name == "limit_negative" ? s.limit_negative : s.home_switch) = on;
             s.inputs_changed(now);

@@ -255,7 +255,7 @@ void AxisValues::on_result(const Result& result) {
         const auto owner = owners_.find(asked.output);
         if (owner == owners_.end()) return;
         const auto lane = owner->second.lanes.find(asked.axis);
-        if (lane != owner->second.lanes.end()) carry_out(asked.output, owner->second, asked.axis, lane->second.done(), now);
+        if (lane != owner->second.lanes.end()) carry_out(asked.output, owner->second, asked.axis, lane->second.done(good(result)), now);
         return;
     }
     --questions_;

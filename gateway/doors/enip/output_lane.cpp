@@ -99,6 +99,10 @@ void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
 }
 
 OutputLane::Step OutputLane::take(const Wanted& given, const AxisPicture& axis) {
+    if (axis.current && axis.source != source_) {
+        if (any_) reset();
+        source_ = axis.source;
+    }
     Wanted wanted = given;
     if (!has(has_mode)) wanted.mode = axis.mode;
     compare(wanted, axis);
@@ -121,15 +125,24 @@ OutputLane::Step OutputLane::take(const Wanted& given, const AxisPicture& axis) 
     return step;
 }
 
-OutputLane::Step OutputLane::done() {
+OutputLane::Step OutputLane::done(bool taken) {
     if (on_their_way_ > 0) --on_their_way_;
-    return any_ ? next() : Step{};
+    if (!any_) return {};
+    if (!taken) {
+        const auto word = sent_.controlword;
+        sent_ = {};
+        sent_.controlword = word;
+        refused_ = wanted_;
+    }
+    return next();
 }
 
 OutputLane::Step OutputLane::next() {
     const bool streamed = streams(wanted_);
     const bool word = has(has_controlword) && sent_.controlword != wanted_.controlword;
     const bool mode = has(has_mode) && !streamed && sent_.mode != wanted_.mode;
+    if (!word && refused_ == wanted_) return {};
+    refused_.reset();
     ProcessData d;
     bool any = false;
     const auto put = [&](WantedMember member, auto& into, const auto& value, auto& before) {

@@ -3,6 +3,8 @@
 // The first image is handed on whole, zeros too: a control word of 0 switches off what others have switched on.
 // Never moves anything by the first image: bits 4 and 7 of its control word count as held until they were low once, an axis that stands
 // halted stays so, and its speed and positions are a base: another one counts. Values wait while a command is on its way; a word does not.
+// Where a drive begins to answer, or another drive, channel or twin speaks for the axis, the next image is a first one: what was sent was
+// sent to nobody, or to the one before.
 #pragma once
 
 #include <optional>
@@ -56,9 +58,10 @@ public:
     /// From here on as if nothing had been sent.
     void reset() { *this = OutputLane(members_); }
     [[nodiscard]] Step take(const Wanted& wanted, const AxisPicture& axis);
-    /// A command of step() was handed on / has its result: then what waited may go.
+    /// A command of step() was handed on / has its result: then what waited may go. Not taken: its values are not known to the axis, and go
+    /// with the next image that differs; the same image is not refused again and again.
     void begun() noexcept { ++on_their_way_; }
-    [[nodiscard]] Step done();
+    [[nodiscard]] Step done(bool taken);
 
 private:
     void compare(const Wanted& image, const AxisPicture& axis);
@@ -67,11 +70,13 @@ private:
     std::uint8_t members_;
     Wanted base_, newest_;  // images as they came: the first, and the one before the newest
     Wanted wanted_;
-    ProcessData sent_;        // what was handed on last; what never was is not known to the axis, not 0
-    std::uint16_t held_ = 0;  // bits that were set from the start
-    bool halt_held_ = false;  // the axis stood halted at the start, and the first word would have released it
+    std::optional<Wanted> refused_;  // what was wanted when a command came back that was not taken
+    ProcessData sent_;               // what was handed on last; what never was is not known to the axis, not 0
+    std::uint16_t held_ = 0;         // bits that were set from the start
+    bool halt_held_ = false;         // the axis stood halted at the start, and the first word would have released it
     bool speed_counts_ = false, stream_counts_ = false;
     std::uint32_t on_their_way_ = 0;
+    std::uint32_t source_ = 0;  // who spoke for the axis when something was sent last; 0: nobody yet
     bool any_ = false;
 };
 

@@ -36,6 +36,52 @@ TEST(EnipOutputLane, TheFirstImageIsHandedOnWholeThoughAllIsZero) {
     EXPECT_FALSE(speed_alone.take({}, enabled_axis()).command) << "what it has not is never sent";
 }
 
+/// A controller that was there before its drive, and one whose drive was replaced by its twin: neither changes its image for that.
+TEST(EnipOutputLane, AnotherDriveHasTheImageWholeAndIsNotMovedByIt) {
+    OutputLane lane;
+    AxisPicture axis;
+    ASSERT_TRUE(lane.take(wanted(0x0F, 3), axis).command) << "nobody is there yet: it is refused";
+    EXPECT_FALSE(lane.take(wanted(0x0F, 3), axis).command);
+    for (const std::uint32_t source : {1u, 2u}) {
+        axis = enabled_axis();
+        axis.source = source;
+        EXPECT_FALSE(lane.take(wanted(0x0F, 3), axis).command) << "it has not answered yet";
+        axis.current = true;
+        const auto step = lane.take(wanted(0x0F, 3), axis);
+        ASSERT_TRUE(step.command) << source;
+        EXPECT_EQ(step.command->mode, std::int16_t{3});
+        EXPECT_FALSE(step.command->target_velocity) << "a speed counts when it changes";
+        auto turning = wanted(0x0F, 3);
+        turning.target_velocity = 500;
+        const auto speed = lane.take(turning, axis);
+        ASSERT_TRUE(speed.command);
+        EXPECT_EQ(speed.command->target_velocity, 500);
+        (void)lane.take(wanted(0x0F, 3), axis);
+    }
+}
+
+TEST(EnipOutputLane, WhatWasNotTakenGoesWithTheNextImageThatDiffersAndIsNotRepeatedByItself) {
+    OutputLane lane;
+    ASSERT_TRUE(lane.take(wanted(0x06, 3), enabled_axis()).command);
+    lane.begun();
+    EXPECT_FALSE(lane.done(false).command) << "nothing has changed";
+    EXPECT_FALSE(lane.take(wanted(0x06, 3), enabled_axis()).command) << "it would be refused with each image";
+    const auto step = lane.take(wanted(0x07, 3), enabled_axis());
+    ASSERT_TRUE(step.command);
+    EXPECT_EQ(step.command->controlword, 0x07);
+    EXPECT_EQ(step.command->mode, std::int16_t{3}) << "which the axis never had";
+    lane.begun();
+    EXPECT_FALSE(lane.done(true).command);
+    // A stop that is not taken is not held back by that either.
+    const auto stop = lane.take(wanted(0x00, 3), enabled_axis());
+    ASSERT_TRUE(stop.command);
+    lane.begun();
+    EXPECT_FALSE(lane.done(false).command);
+    const auto next = lane.take(wanted(0x02, 3), enabled_axis());
+    ASSERT_TRUE(next.command);
+    EXPECT_EQ(next.command->controlword, 0x02);
+}
+
 TEST(EnipOutputLane, AnEdgeCarriesWhatHasChanged) {
     OutputLane lane;
     auto step = lane.take(wanted(0x0F), {});
@@ -74,7 +120,7 @@ TEST(EnipOutputLane, ASpeedIsFollowedOneCommandAtATimeAndAStopWaitsForNone) {
     EXPECT_FALSE(lane.take(w, {}).command) << "the command before it has no result yet";
     w.target_velocity = 200;
     EXPECT_FALSE(lane.take(w, {}).command);
-    auto step = lane.done();
+    auto step = lane.done(true);
     ASSERT_TRUE(step.command);
     EXPECT_EQ(step.command->target_velocity, 200) << "the newest counts";
     lane.begun();

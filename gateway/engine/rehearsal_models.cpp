@@ -8,26 +8,11 @@
 
 #include "gateway/core/line_uri.hpp"
 #include "gateway/engine/door.hpp"
+#include "gateway/wire/twin_bus_end.hpp"
 
 namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
-
-/// One end of the cable: the drives are behind it, and stay when it is pulled out.
-class ModelCable final : public Line {
-public:
-    explicit ModelCable(TwinBus& bus) : bus_(bus) {}
-    ~ModelCable() override { bus_.close(); }
-    void open(LineEvents& events, Instant now) override { bus_.open(events, now); }
-    void close() override { bus_.close(); }
-    bool send(const Frame& frame, Priority priority, Instant now) override { return bus_.send(frame, priority, now); }
-    [[nodiscard]] Instant deadline() const override { return bus_.deadline(); }
-    void on_deadline(Instant now) override { bus_.on_deadline(now); }
-    [[nodiscard]] LineStatus status(Instant now) const override { return bus_.status(now); }
-
-private:
-    TwinBus& bus_;
-};
 
 /// At the end of the cable while there is no gateway.
 class NoGateway final : public LineEvents {
@@ -112,7 +97,7 @@ std::unique_ptr<Line> RehearsalModels::make_line(const LineSpec& spec, const Lin
         bus_ = std::make_unique<TwinBus>(o);
         plug_in(setup);
     }
-    return std::make_unique<ModelCable>(*bus_);
+    return std::make_unique<TwinBusEnd>(*bus_);
 }
 
 /// Each drive's model with the channels that the site uses. A gateway numbers the drives in the site's order.

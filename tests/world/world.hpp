@@ -18,6 +18,7 @@
 #include "gateway/engine/engine.hpp"
 #include "gateway/wire/fault_line.hpp"
 #include "gateway/wire/twin_bus.hpp"
+#include "gateway/wire/twin_bus_end.hpp"
 
 namespace axisgate::test {
 
@@ -106,23 +107,6 @@ struct Plant {
     std::map<std::string, std::unique_ptr<TwinBus>> buses;
 };
 
-/// One end of a cable of the plant: the bus is closed with it, and stays.
-class PlantLine final : public Line {
-public:
-    explicit PlantLine(std::shared_ptr<Plant> plant, TwinBus& bus) : plant_(std::move(plant)), bus_(bus) {}
-    ~PlantLine() override { bus_.close(); }
-    void open(LineEvents& events, Instant now) override { bus_.open(events, now); }
-    void close() override { bus_.close(); }
-    bool send(const Frame& frame, Priority priority, Instant now) override { return bus_.send(frame, priority, now); }
-    [[nodiscard]] Instant deadline() const override { return bus_.deadline(); }
-    void on_deadline(Instant now) override { bus_.on_deadline(now); }
-    [[nodiscard]] LineStatus status(Instant now) const override { return bus_.status(now); }
-
-private:
-    std::shared_ptr<Plant> plant_;
-    TwinBus& bus_;
-};
-
 class World final : public EngineHost {
 public:
     /// A gateway that has just started; with `drives`, at those of another one that is gone.
@@ -159,7 +143,7 @@ public:
         buses[spec.name] = bus.get();
         FaultPlan plan;
         plan.seed = seed ^ std::hash<std::string>{}(spec.name);
-        auto line = std::make_unique<FaultLine>(std::make_unique<PlantLine>(plant, *bus), plan);
+        auto line = std::make_unique<FaultLine>(std::make_unique<TwinBusEnd>(*bus, plant), plan);
         cables[spec.name] = line.get();
         return line;
     }

@@ -21,7 +21,10 @@ std::string Drive::plan(Job& job, Reason& reason) const {
     if (std::holds_alternative<ResetFault>(body)) return add(write(channel, "R24", 1));
     if (const auto* home = std::get_if<Home>(&body); home && (home->method == 0 || home->method == 35 || home->method == 37))
         return add(write(channel, "R25", 0));
-    if (const auto* set = std::get_if<SetPosition>(&body)) return add(write(channel, "R25", set->position));
+    if (const auto* set = std::get_if<SetPosition>(&body)) {
+        job.steps.push_back(write(channel, "R25", set->position));
+        return add(poll(channel));  // done when the axis shows it
+    }
     if (const auto* move = std::get_if<Move>(&body); move && !move->prepare_only) return plan_move(job, *move, reason);
     if (const auto* native = std::get_if<Native>(&body)) return plan_native(job, *native, reason);
     const auto item = [&](const Point& point) {

@@ -4,7 +4,10 @@
 // family; a way that a drive lacks is asked for all the same, and nothing may move by it.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "gateway/axis/cia402.hpp"
+#include "gateway/site/ways_in.hpp"
 #include "tests/conformance/ways.hpp"
 
 namespace axisgate::test {
@@ -42,6 +45,7 @@ public:
     void tighter_limit();
     void other_unit();
     void axis_removed();
+    void twin_and_device();
     void safe_input();
     void ends_of_numbers();
 
@@ -103,7 +107,7 @@ public:
         pass(300ms);
         const double place = shaft().position;
         pass(1200ms);
-        EXPECT_LT(std::fabs(shaft().position - place), 60) << why << ": it has moved on without a fresh edge";
+        EXPECT_LT(std::fabs(shaft().position - place), 60) << why << ": it has moved on without a fresh edge" << told();
     }
 
     [[nodiscard]] Site site_of(Bench& of, bool cable, std::string_view presence = "device") const {
@@ -277,6 +281,13 @@ void Motions::refused_words_of_another() {
     }
     pass(200ms);
     EXPECT_GT(std::fabs(shaft().velocity), 500) << "a refusal changes nothing";
+    if (way->takes_speeds()) {
+        way->set_off_to(*b, Way::speed / 2);
+        const auto followed = [&] { return std::fabs(shaft().velocity - Way::speed / 2.0) < Way::speed / 8.0; };
+        (void)pass_until(followed, 5s);
+        pass(1s);  // some drives stop first
+        EXPECT_TRUE(followed()) << "its client's next speed is not followed: it turns at " << shaft().velocity << told();
+    }
     ends_with_its_client(way->losses().front());
 }
 
@@ -339,24 +350,39 @@ void Motions::stop_at_every_instant() {
     begin();
     std::string why;
     if (!way->offered(e, why)) return lacking(why);
-    if (way->unowned()) return;  // its order was given to the gateway before
     for (const Duration after : {0ms, 1ms, 3ms, 10ms, 30ms, 100ms}) {
-        SCOPED_TRACE(std::to_string(milliseconds_of(after)) + " ms behind the order");
-        ASSERT_TRUE(way->prepare(*b)) << way->refusal(*b);
-        way->set_off(*b);
+        SCOPED_TRACE(std::to_string(milliseconds_of(after)) + " ms behind the order, or behind the first sight of it");
+        if (way->unowned()) {
+            begin();
+            ASSERT_TRUE(running());
+        } else {
+            ASSERT_TRUE(way->prepare(*b)) << way->refusal(*b);
+            way->set_off(*b);
+        }
         if (after > Duration{}) b->run(after);
         another_stops(QuickStop{});
         rests_and_stays(3s, "stopped");
         if (HasFailure()) return;
     }
-    moves_again("after all of them");
+    if (!way->unowned()) moves_again("after all of them");
 }
 
 void Motions::order_behind_a_stop() {
     begin();
     std::string why;
     if (!way->offered(e, why)) return lacking(why);
-    if (way->unowned()) return;
+    if (way->unowned()) {
+        // It is stopped; the order behind that stop is somebody's of this gateway.
+        ASSERT_TRUE(running());
+        const Ticket stop = b->give(QuickStop{}, bert);
+        const Result* r = b->ask(Home{}, way->origin());
+        ASSERT_TRUE(r);
+        EXPECT_FALSE(good(*r)) << "behind a quick stop that is on its way nothing begins";
+        rests_and_stays(5s, "stopped");
+        r = b->world.result(stop);
+        EXPECT_TRUE(r && good(*r)) << "the stop has an answer";
+        return;
+    }
     ASSERT_TRUE(way->prepare(*b)) << way->refusal(*b);
     b->run(200ms);
     const Ticket stop = b->give(QuickStop{}, bert);
@@ -451,6 +477,30 @@ void Motions::axis_removed() {
     }
 }
 
+/// The twin takes the drive's place, and gives it back: the motion of neither is the other's.
+void Motions::twin_and_device() {
+    begin({}, true);
+    if (!running()) return;
+    const auto served_by = [&](PresenceRule rule, std::uint16_t simulated) {
+        Site s = b->site->site;
+        s.drives.at(0).presence = rule;
+        b->use(b->world.change(std::move(s)));
+        EXPECT_LT(std::fabs(shaft().velocity), 1) << "the drive is let go, or taken, while it turns";
+        ASSERT_TRUE(pass_until([&] { return (b->picture().flags & (flag_online | flag_simulated)) == (flag_online | simulated); }, 30s));
+        pass(2s);
+    };
+    served_by(PresenceRule::twin, flag_simulated);
+    if (HasFatalFailure()) return;
+    EXPECT_LT(std::fabs(b->world.engine.twin(b->site->drive_ids.at(0))->mechanics(1, b->world.now).velocity), 1)
+        << "the words that moved the drive move the twin" << told();
+    rests_and_stays(1s, "the twin has taken its place");
+    served_by(PresenceRule::device, 0);
+    if (HasFatalFailure()) return;
+    rests_and_stays(1s, "it is there again");
+    if (HasFailure() || way->unowned()) return;
+    moves_again("by the drive again");
+}
+
 void Motions::safe_input() {
     const json::object& input = facts_of(e).at("safe_input").as_object();
     begin();
@@ -463,7 +513,10 @@ void Motions::safe_input() {
     if (!running()) return;
     if (const auto* lacks = input.if_contains("lacks")) {
         EXPECT_FALSE(lacks->as_string().empty());
-        return;
+        EXPECT_TRUE(e.catalogue->document().at("safe_inputs").as_array().empty())
+            << "its page names safe inputs: one of them is tried here";
+        way->lose(*b, way->losses().front());
+        return rests_and_stays(8s, "its client is lost where there is no such input");
     }
     const auto hand = [&](const char* which) {
         const json::object& h = input.at(which).as_object();
@@ -489,8 +542,17 @@ void Motions::ends_of_numbers() {
     std::string why;
     begin();
     if (!way->offered(e, why)) return lacking(why);
-    if (way->unowned()) return;
-    for (const std::int64_t target : {std::int64_t{INT32_MAX}, std::int64_t{INT32_MIN}, std::int64_t{INT32_MIN} + 1}) {
+    if (way->unowned()) {
+        // The numbers are those of the site of the gateway that finds it: a unit and limits which no counter reaches.
+        ASSERT_TRUE(running());
+        Site s = b->site->site;
+        s.axes.at(0).increments_per_unit = 1e12;
+        s.axes.at(0).position_min = -1e300;
+        s.axes.at(0).position_max = 1e300;
+        b->use(b->world.change(std::move(s)));
+        return rests_and_stays(8s, "nobody owns it");
+    }
+    for (const std::int64_t target : way->ends(e)) {
         SCOPED_TRACE(target);
         begin([](Site& s) {
             s.axes.at(0).position_min = -100;
@@ -523,6 +585,7 @@ constexpr Hazard hazards[]{
     {"tighter_limit", &Motions::tighter_limit},
     {"other_unit", &Motions::other_unit},
     {"axis_removed", &Motions::axis_removed},
+    {"twin_and_device", &Motions::twin_and_device},
     {"safe_input", &Motions::safe_input},
     {"ends_of_numbers", &Motions::ends_of_numbers},
 };
@@ -538,6 +601,23 @@ std::vector<Cell> cells() {
         }
     }
     return all;
+}
+
+/// The doors' own descriptors: a way that they name and that is not tried here fails, and so does a loss that no way is lost by.
+TEST(MotionCells, EachWayOfADoorIsTriedWithEachOfItsLosses) {
+    for (const auto& door : ways_of_all_doors) {
+        for (const WayIn& of_door : door) {
+            std::set<LossCause> tried;
+            for (const WayKind& kind : ways_in()) {
+                if (kind.of_door != of_door.name) continue;
+                const auto losses = kind.make()->losses();
+                tried.insert(losses.begin(), losses.end());
+            }
+            if (of_door.name == "recipes") tried.insert(LossCause::lease_ended);  // its commands are its starter's: "http"
+            for (const LossCause cause : of_door.losses)
+                EXPECT_TRUE(tried.contains(cause)) << of_door.name << " is not tried with " << name_of(cause);
+        }
+    }
 }
 
 TEST_P(Motions, Hold) { (this->*GetParam().hazard->play)(); }

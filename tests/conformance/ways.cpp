@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <numeric>
 
 #include "gateway/axis/cia402.hpp"
 #include "gateway/registers/register_map.hpp"
@@ -191,6 +192,7 @@ public:
         return powered_on(b);
     }
     void set_off(Bench& b) override { set_off_to(b, speed); }
+    [[nodiscard]] bool takes_speeds() const override { return true; }
     void set_off_to(Bench& b, std::int64_t target) override {
         words_.velocity = target;
         send(b, address(), block());
@@ -229,8 +231,10 @@ public:
 private:
     [[nodiscard]] std::uint8_t unit() const override { return 10; }
 };
+/// A site's own map, by a master on a serial line.
 class OwnMapWay final : public BlockWay {
 public:
+    OwnMapWay() { plc_ = origin_of(Door::modbus, "serial:/dev/ttyS1"); }
     void fit(Site& site, const Subject&) const override {
         struct Row {
             AxisPoint point;
@@ -293,6 +297,7 @@ public:
                write32(b, slew_, 0);
     }
     void set_off(Bench& b) override { set_off_to(b, speed); }
+    [[nodiscard]] bool takes_speeds() const override { return true; }
     void set_off_to(Bench& b, std::int64_t target) override { send(b, slew_, words_of(b, target)); }
 
 private:
@@ -397,6 +402,7 @@ public:
         return powered_on(b);
     }
     void set_off(Bench& b) override { set_off_to(b, speed); }
+    [[nodiscard]] bool takes_speeds() const override { return true; }
     void set_off_to(Bench& b, std::int64_t target) override {
         words_.target_velocity = static_cast<std::int32_t>(target);
         send(b);
@@ -432,9 +438,11 @@ protected:
 class EnipMessageWay final : public EnipWay {
 public:
     EnipMessageWay() { plc_ = origin_of(Door::ethernet_ip, "192.0.2.7:50000"); }
-    [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::enip_session_closed}; }
-    void lose(Bench& b, LossCause) override {
+    [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::enip_session_closed, LossCause::enip_silent}; }
+    void lose(Bench& b, LossCause cause) override {
         silent = true;
+        if (cause == LossCause::enip_silent) return;  // World::received_at stands still
+        b.world.received_at.reset();
         b.enip->values.messages_ended(peer_);
     }
     [[nodiscard]] std::string refusal(const Bench& b) const override {
@@ -445,6 +453,7 @@ private:
     bool open(Bench&) override { return true; }
     void deliver(Bench& b, const cip::Bytes& bytes) override {
         bool later = false;
+        b.world.received_at = b.world.now;
         b.enip->published.reset();
         const auto general = b.enip->values.write(output, bytes, ++token_, peer_, b.world.now, later);
         if (!later) b.enip->published = general;
@@ -507,7 +516,7 @@ Move turning(std::int64_t speed) {
     return m;
 }
 
-/// A held key: the command is renewed, and halts when it is not; and the client may leave its lease to end.
+/// A page that holds the axis by a lease, and renews that while it is open.
 class HttpWay : public CommandWay {
 public:
     HttpWay() { by_ = origin_of(Door::http, "anna"); }
@@ -518,8 +527,8 @@ public:
         return enable_by(b, by_);
     }
     void set_off(Bench& b) override { set_off_to(b, speed); }
+    [[nodiscard]] bool takes_speeds() const override { return true; }
     void set_off_to(Bench& b, std::int64_t target) override { last_ = b.give(turning(target), by_); }
-    /// A page that is open renews its lease.
     void cycle(Bench& b) override {
         if (silent || b.world.now < next_cycle_) return;
         next_cycle_ = b.world.now + 500ms;
@@ -568,7 +577,16 @@ public:
         const char* const which = std::exchange(other_, !other_) && m.if_contains("begin_next") ? "begin_next" : "begin";
         last_ = b.give(m.if_contains("lacks") ? CommandBody{lacking()} : body(m.at(which).as_object()), by_);
     }
-    void set_off_to(Bench& b, std::int64_t) override { set_off(b); }
+    [[nodiscard]] bool takes_speeds() const override { return false; }
+    /// The statement of this number among those at the ends of numbers.
+    void set_off_to(Bench& b, std::int64_t number) override {
+        last_ = b.give(body(motion(b.subject).at("ends").as_array().at(static_cast<std::size_t>(number)).as_object()), by_);
+    }
+    [[nodiscard]] std::vector<std::int64_t> ends(const Subject& s) const override {
+        std::vector<std::int64_t> numbers(motion(s).at("ends").as_array().size());
+        std::iota(numbers.begin(), numbers.end(), 0);
+        return numbers;
+    }
 
 protected:
     mutable bool endless_ = true;
@@ -607,6 +625,7 @@ class ProgramWay final : public StatementWay {
 class RecipeWay final : public HttpWay {
 public:
     RecipeWay() { by_ = origin_of(Door::http, "recipe demo"); }
+    [[nodiscard]] bool takes_speeds() const override { return false; }
     void fit(Site&, const Subject&) const override {}
     [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::none}; }
     void set_off_to(Bench& b, std::int64_t target) override {
@@ -749,33 +768,34 @@ template <class W>
 std::unique_ptr<Way> made() {
     return std::make_unique<W>();
 }
+template <SetPoint::Mode mode, Door door>
+std::unique_ptr<Way> made_stream() {
+    return std::make_unique<StreamWay>(mode, origin_of(door, "anna"));
+}
 
 }  // namespace
 
 const std::vector<WayKind>& ways_in() {
     using Mode = SetPoint::Mode;
     static const std::vector<WayKind> all{
-        {"modbus", made<StandardMapWay>},
-        {"modbus_own_map", made<OwnMapWay>},
-        {"profile_cia402", made<Cia402ProfileWay>},
-        {"profile_lexium", made<LexiumWay>},
-        {"profile_linmot", made<LinMotWay>},
-        {"profile_pacontrol", made<PaControlWay>},
-        {"enip_message", made<EnipMessageWay>},
-        {"enip_owner", made<EnipOwnerWay>},
-        {"http", made<HttpWay>},
-        {"action", made<ActionWay>},
-        {"native", made<NativeWay>},
-        {"recipe", made<RecipeWay>},
-        {"dds", made<DdsWay>},
-        {"stream_position",
-         []() -> std::unique_ptr<Way> { return std::make_unique<StreamWay>(Mode::position, origin_of(Door::http, "anna")); }},
-        {"stream_velocity",
-         []() -> std::unique_ptr<Way> { return std::make_unique<StreamWay>(Mode::velocity, origin_of(Door::dds, "yard")); }},
-        {"stream_torque",
-         []() -> std::unique_ptr<Way> { return std::make_unique<StreamWay>(Mode::torque, origin_of(Door::ethernet_ip, "192.0.2.9:5")); }},
-        {"program", made<ProgramWay>},
-        {"found", made<FoundWay>},
+        {"modbus", "modbus_tcp", made<StandardMapWay>},
+        {"modbus_own_map", "modbus_rtu", made<OwnMapWay>},
+        {"profile_cia402", "modbus_tcp", made<Cia402ProfileWay>},
+        {"profile_lexium", "modbus_tcp", made<LexiumWay>},
+        {"profile_linmot", "modbus_tcp", made<LinMotWay>},
+        {"profile_pacontrol", "modbus_tcp", made<PaControlWay>},
+        {"enip_message", "enip_messages", made<EnipMessageWay>},
+        {"enip_owner", "enip_implicit", made<EnipOwnerWay>},
+        {"http", "http_commands", made<HttpWay>},
+        {"action", "http_commands", made<ActionWay>},
+        {"native", "http_commands", made<NativeWay>},
+        {"recipe", "recipes", made<RecipeWay>},
+        {"dds", "dds_commands", made<DdsWay>},
+        {"stream_position", "http_set_points", made_stream<Mode::position, Door::http>},
+        {"stream_velocity", "dds_set_points", made_stream<Mode::velocity, Door::dds>},
+        {"stream_torque", "http_set_points", made_stream<Mode::torque, Door::http>},
+        {"program", "", made<ProgramWay>},
+        {"found", "", made<FoundWay>},
     };
     return all;
 }

@@ -68,8 +68,12 @@ public:
     [[nodiscard]] virtual bool prepare(Bench&) = 0;
     /// The message that begins the motion in positive direction. Its answer is not waited for.
     virtual void set_off(Bench&) = 0;
-    /// An order that ends at the numbers' end.
+    /// The same to another speed or place, as the way names it.
     virtual void set_off_to(Bench&, std::int64_t target) = 0;
+    /// Targets at the ends of numbers, as set_off_to() takes them.
+    [[nodiscard]] virtual std::vector<std::int64_t> ends(const Subject&) const { return {INT32_MAX, INT32_MIN, INT32_MIN + 1}; }
+    /// set_off_to() takes a speed, at which the axis goes on without another word.
+    [[nodiscard]] virtual bool takes_speeds() const { return false; }
     /// What its client says in each of its cycles while nothing changes.
     virtual void cycle(Bench&) {}
     /// The client is lost in this way; from now on it says nothing.
@@ -89,6 +93,7 @@ public:
 
 struct WayKind {
     std::string_view name;
+    std::string_view of_door;  ///< as gateway/site/ways_in.hpp calls the way; empty: it is no door's
     std::unique_ptr<Way> (*make)();
 };
 /// All of them.

@@ -132,10 +132,13 @@ public:
     /// Stops every axis that is not at rest and closes all lines: the gateway's own end is a loss of command.
     void shut_down(Instant now);
 
+    struct Parts;  // engine_parts.hpp
+    /// One part alone, for what measures it. Only on the hot thread.
+    [[nodiscard]] Parts& parts() noexcept { return *parts_; }
+
 private:
     void housekeeping(Instant now);
 
-    struct Parts;
     std::unique_ptr<Parts> parts_;
     Instant next_housekeeping_{};
 };

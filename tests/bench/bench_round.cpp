@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/engine/engine_parts.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/world/world.hpp"
 
@@ -42,7 +43,7 @@ std::vector<std::string> addresses_for(const FamilyEntry& e, std::size_t n) {
 }
 
 Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t axes, std::size_t per_line, std::string_view presence,
-               int poll_period_ms) {
+               int poll_period_ms, bool limited = false) {
     namespace json = boost::json;
     json::array lines, drives, places;
     const auto addresses = addresses_for(e, per_line);
@@ -58,6 +59,12 @@ Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t axes, std
         const std::string name = "a" + std::to_string(i + 1);
         drives.push_back({{"name", name}, {"line", line}, {"address", addresses[i % addresses.size()]}, {"presence", presence}});
         places.push_back({{"name", name}, {"drive", name}, {"number", i + 1}, {"unit", "u"}, {"increments_per_unit", 100}});
+        if (limited) {
+            auto& axis = places.back().as_object();
+            axis["position_min"] = -1'000'000;
+            axis["position_max"] = 1'000'000;
+            axis["velocity_max"] = 1'000;
+        }
     }
     std::vector<SiteFault> faults;
     auto site = parse_site(json::object{{"lines", lines}, {"drives", drives}, {"axes", places}}, families(), faults);
@@ -89,8 +96,8 @@ struct Plant {
     std::uint64_t turns = 0;
     std::uint64_t sequence = 0;
 
-    Plant(const FamilyEntry& e, std::size_t axes, std::size_t per_line, int poll_period_ms) {
-        site = engine.apply_site(make_site(e, "twin", axes, per_line, "twin", poll_period_ms), {}, 1, now);
+    Plant(const FamilyEntry& e, std::size_t axes, std::size_t per_line, int poll_period_ms, bool limited = false) {
+        site = engine.apply_site(make_site(e, "twin", axes, per_line, "twin", poll_period_ms, limited), {}, 1, now);
     }
     void command(AxisId axis, CommandBody body) {
         Command c;
@@ -314,8 +321,49 @@ bool run_unobserved(const FamilyEntry& e) {
     return kept && p.host.bad == 0;
 }
 
+/// What it costs that each feedback of a moving axis is compared with its record of motion and with its limits, of all three kinds.
+bool run_supervision(const FamilyEntry& e) {
+    constexpr std::size_t axes = 1000;
+    constexpr double rate = 100;
+    constexpr std::size_t turns = 2000;
+    std::printf("%zu moving axes of %s with limits: records of motion and the supervisor alone\n", axes,
+                std::string(e.family->name).c_str());
+    Plant p(e, axes, 40, 20, true);
+    p.run_for(2s);
+    for (const auto a : p.site->axis_ids)
+        p.command(a, Enable{});
+    p.run_for(1s);
+    for (const auto a : p.site->axis_ids) {
+        Move m;
+        m.kind = Move::Kind::velocity;
+        m.target = 1000;
+        m.acceleration = 20000;
+        m.deceleration = 20000;
+        p.command(a, m);
+    }
+    p.run_for(2s);
+    auto& parts = p.engine.parts();
+    std::size_t moving = 0;
+    for (const auto& a : parts.machine.axes)
+        moving += a && a->motion.runs() && a->profile.feedback().moving && a->limits.position_max && a->limits.velocity_max;
+    const auto events = p.host.events;
+    const double begun = processor_seconds();
+    for (std::size_t i = 0; i < turns; ++i) {
+        for (const auto& a : parts.machine.axes) {
+            if (!a) continue;
+            parts.motions.look(*a, p.now);
+            parts.supervisor.look(*a, p.now);
+        }
+    }
+    const double look = (processor_seconds() - begun) / static_cast<double>(turns * axes);
+    bool kept = say("share of a processor", look * rate * axes, "<=", 0.02, "each look", look * 1e9, "looks", rate * axes, "ns, a second");
+    kept &= say("looked at / all axes", static_cast<double>(moving) / axes, ">=", 1.0, "moving with limits", static_cast<double>(moving),
+                "all", axes, "axes");
+    return kept && p.host.bad == 0 && p.host.events == events;
+}
+
 constexpr const char* usage =
-    "bench_round [thousand|ten_thousand|world|unobserved]... [--seconds S] [--report-only]\n"
+    "bench_round [thousand|ten_thousand|supervision|world|unobserved]... [--seconds S] [--report-only]\n"
     "  --seconds S     simulated time of the world (default 3000)\n"
     "  --report-only   exit 0 even if a limit is not kept\n";
 }  // namespace
@@ -332,7 +380,7 @@ int main(int argc, char** argv) {
             report_only = true;
         } else if (a == "--seconds" && i + 1 < argc) {
             world = std::clamp(std::atof(argv[++i]), 1.0, 1e6);
-        } else if (a == "thousand" || a == "ten_thousand" || a == "world" || a == "unobserved") {
+        } else if (a == "thousand" || a == "ten_thousand" || a == "supervision" || a == "world" || a == "unobserved") {
             wanted.push_back(a);
         } else {
             std::fputs(bench::usage, stderr);
@@ -348,6 +396,7 @@ int main(int argc, char** argv) {
         const bool asked = e.family->name != "cia402" && e.family->name != "aposs";
         if (runs("thousand") && e.family->uses_can && asked) kept &= bench::run_polled(e, 1);
         if (runs("ten_thousand") && e.family->uses_can && asked) kept &= bench::run_polled(e, 10);
+        if (runs("supervision") && e.family->uses_can && asked) kept &= bench::run_supervision(e);
         // A control that is alone on its line cannot be sixteen there.
         if (runs("world") && bench::addresses_for(e, 16).size() == 16) kept &= bench::run_world(e, world);
         // A hundred drives are not set in motion over one slow serial line in the time that this takes.

@@ -58,12 +58,22 @@ test('an axis of the other gateway is enabled, moved and stopped, and the page t
   assert.deepEqual(page.faults(), []);
 });
 
-test('a refusal of the other gateway is told in its words', async () => {
+test('a refusal of the other gateway is told in its words, and moves no stop', async () => {
+  const stops = () => page.evaluate(() => [...document.querySelectorAll('.fleet-axis .stop')].map((b) => [b.getAttribute('aria-label'), b.getBoundingClientRect().y + scrollY].join(' ')));
   const at = 'hall-2/slide.x';
   await page.getByRole('button', { name: `Command ${at}` }).click();
   await page.getByLabel(`Target of ${at}`, { exact: true }).fill('3');
+  const before = await stops();
+  assert.ok(before.length >= 4, before.join('; '));
   await page.getByRole('button', { name: `Move to target of ${at}` }).click();
   await until('it is refused', async () => /refused\./.test(await result(at)) || (await result(at)));
+  assert.deepEqual(await stops(), before);
+  // Nor does the word that the gateway of this page is gone.
+  await page.route('**/api/v1/fleet**', (r) => r.fulfill({ status: 503, contentType: 'application/problem+json', body: JSON.stringify({ type: 'about:blank', title: 'x', status: 503, detail: 'no fleet for a reason that takes some words to tell. '.repeat(8), reason: 'busy' }) }));
+  await page.locator('[data-field=fleet-fault]').waitFor();
+  assert.deepEqual(await stops(), before);
+  await page.unroute('**/api/v1/fleet**');
+  await page.locator('[data-field=fleet-fault]').waitFor({ state: 'detached' });
 });
 
 test('pictures, accessibility', async () => {

@@ -56,6 +56,15 @@ describe('an axis that is offline while its drive answers', () => {
   });
 });
 
+it('the events page says that all is acknowledged only while it is told so', async () => {
+  await open('/events');
+  p.gateway.store.alarms.value = { unacknowledged: 0, dropped: 0, alarms: [] } as never;
+  await vi.waitFor(() => expect(p.root.textContent).toContain('No alarm. Everything that was is acknowledged.'));
+  p.gateway.store.connection.value = { ...p.gateway.store.connection.value, phase: 'waiting' };
+  await vi.waitFor(() => expect(p.root.textContent).toContain('Not connected: what is wrong now is not known.'));
+  expect(p.root.textContent).not.toContain('Everything that was is acknowledged');
+});
+
 it('more than there is room for under what is wrong is shown by a press', async () => {
   const site = structuredClone(door.world.site);
   for (let i = 0; i < 15; i += 1) {

@@ -58,12 +58,16 @@ export function FleetPage() {
   return (
     <main class="page fleet">
       <h1 tabIndex={-1}>{t('Fleet')}</h1>
-      {fault.value && <p class="card form" role="status" data-field="fleet-fault">{marked(fault.value)}</p>}
+      {!known?.enabled && fault.value && <p class="card form" role="status" data-field="fleet-fault">{marked(fault.value)}</p>}
       {!known && !fault.value && <Empty text={awayText(connection) || waiting} />}
       {known && !known.enabled && <Empty text={t('This gateway is in no domain with others. The configuration switches it on: [dds] enabled = true.')} />}
       {known?.enabled && (
         <>
-          <p class="where">{t('A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.')}</p>
+          {/* One place for both, always as high: no stop moves. */}
+          <div class="fleet-told" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name: t('Fleet') })}>
+            {fault.value && <p role="status" data-field="fleet-fault">{marked(fault.value)}</p>}
+            <p class="where">{t('A stop here goes to its one axis. The STOP in the head and the Escape key stop the axes of this gateway alone.')}</p>
+          </div>
           <Why need="operator" what={t('Every command but a stop')} />
           {known.gateways.map((g) => (
             <GatewayCard key={g.instance} gateway={g} title={known.gateways.some((o) => o !== g && o.gateway === g.gateway) ? `${g.gateway} · ${g.instance}` : g.gateway} connected={fresh} many={many} />
@@ -81,24 +85,26 @@ function GatewayCard({ gateway: g, title, connected, many }: { gateway: FleetGat
   return (
     <Section title={title} class="fleet-gateway" beside={<Pill label={t('Gateway')} word={gatewayWord(g, connected)} id="gateway-state" />}>
       <div class="card" data-gateway={g.gateway} data-instance={g.instance} data-alive={g.alive}>
-        <p class="where fleet-about">
-          <span data-field="heard">{receivedText(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}
-          {clock && ` · ${clock}`}
-          {g.page && !g.here && (
-            <>
-              {' · '}
-              <a href={g.page} target="_blank" rel="noopener">
-                {t('its page')}
-              </a>
-            </>
+        <div class="fleet-card-told" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name: title })}>
+          {g.namesake && (
+            <p class="notice tone-warning" data-field="namesake">
+              <Icon name="triangle" size={14} />
+              <span>{t('Another gateway of the domain is called {name} as well: commands to either are refused, stops are not. Give one of them another name: [dds] name.', { name: g.gateway })}</span>
+            </p>
           )}
-        </p>
-        {g.namesake && (
-          <p class="notice tone-warning fleet-namesake" data-field="namesake">
-            <Icon name="triangle" size={14} />
-            <span>{t('Another gateway of the domain is called {name} as well: commands to either are refused, stops are not. Give one of them another name: [dds] name.', { name: g.gateway })}</span>
+          <p class="where">
+            <span data-field="heard">{receivedText(g)}</span> · {rich('version {version}', { version: <span class="mono">{g.version}</span> })} · {g.alive ? t('running for {time}', { time: duration(g.uptime_s * 1000) }) : t('had run for {time}', { time: duration(g.uptime_s * 1000) })}
+            {clock && ` · ${clock}`}
+            {g.page && !g.here && (
+              <>
+                {' · '}
+                <a href={g.page} target="_blank" rel="noopener">
+                  {t('its page')}
+                </a>
+              </>
+            )}
           </p>
-        )}
+        </div>
         {g.axes.length === 0 ? (
           <p class="where fleet-about">{t('No axis has been told.')}</p>
         ) : open.value ? (
@@ -139,13 +145,15 @@ function AxisLine({ gateway: g, axis: a, connected }: { gateway: FleetGateway; a
         <Pill label={t('State')} word={stateWord(shown, trust)} id="state" />
         <Pill label={t('Motion')} word={motionWord(shown, trust)} id="motion" />
       </p>
-      <p class="where" data-field="about">{aboutAxis(g, a)}</p>
+      <div class="fleet-said" tabIndex={0} role="group" aria-label={t('Messages of {name}', { name: at })}>
+        <ResultLine axis={at} id={result} by={fleet} />
+        <p class="where" data-field="about">{aboutAxis(g, a)}</p>
+      </div>
       <button type="button" class="button fleet-command" aria-expanded={open.value} aria-label={t('Command {at}', { at })} onClick={() => (open.value = !open.value)}>
         {t('Command')}
       </button>
       <StopButton axis={at} urgent={a.moving && trust === 'live'} by={fleet} />
       {open.value && <Controls at={at} unit={unitOf(shown)} result={result} />}
-      <ResultLine axis={at} id={result} by={fleet} />
     </li>
   );
 }

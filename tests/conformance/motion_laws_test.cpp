@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gateway/axis/cia402.hpp"
+#include "gateway/engine/engine_parts.hpp"
 #include "gateway/site/ways_in.hpp"
 #include "tests/conformance/ways.hpp"
 
@@ -61,7 +62,7 @@ public:
     DriveId drive{0};
     bool behind_a_cable = false;
     double farthest = 0, nearest = 0, fastest = 0;  ///< of the shaft, since the cell began or from_here()
-    Duration unsaid{};
+    Duration unsaid{}, unrecorded{}, unowned{};
 
     [[nodiscard]] TwinMechanics shaft() const {
         const Twin* t = behind_a_cable ? plant->buses.at("line")->twin(drive) : b->world.engine.twin(b->site->drive_ids.at(0));
@@ -78,6 +79,19 @@ public:
         const bool said = (p.flags & flag_moving) != 0;
         unsaid = heard && !said && std::fabs(m.velocity) > 200 ? unsaid + tick : Duration{};
         EXPECT_LT(unsaid, 1s) << "it turns at " << m.velocity << " and is said to stand";
+        records(heard && std::fabs(m.velocity) > 200);
+    }
+    /// Nothing moves that no record has; and a record has an owner, or is one of a motion that nobody owns, which the site's rule ends.
+    void records(bool turns) {
+        const engine::Axis* a = b->world.engine.parts().machine.axis(b->axis);
+        if (!a) return;
+        const engine::Motion& r = a->motion;
+        unrecorded = turns && !r.runs() && !a->asked.runs() ? unrecorded + tick : Duration{};
+        EXPECT_LT(unrecorded, 1s) << "it turns, and no record has it" << told();
+        unowned = r.runs() && r.kind != engine::Motion::Kind::found && r.who.door == Door::none && r.keeper.door == Door::none && !r.over
+                      ? unowned + tick
+                      : Duration{};
+        EXPECT_LT(unowned, 1s) << "a motion of kind " << static_cast<int>(r.kind) << " that was ordered has no owner" << told();
     }
     void from_here() { farthest = nearest = shaft().position; }
     /// Time passes; the client does what it does in each of its cycles.

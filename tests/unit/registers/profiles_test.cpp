@@ -267,6 +267,26 @@ TEST_F(Lexium, TheFirstWordsBehindAStopAreAnOldImage) {
     EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 65 00 00").target, 1010);
 }
 
+/// The drive is replaced by its twin, and back, while its controller repeats its words: they were said to the one before.
+TEST_F(Lexium, WhatWasSaidToADriveIsNotSaidToTheTwinThatTakesItsPlace) {
+    put(ProfileLanguage::lexium);
+    port.edit(x, [](AxisPicture& p) { p.current = true, p.source = 4; });
+    EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 64 00 00").target, 1000);
+    for (const std::uint32_t source : {5u, 6u}) {
+        result = [this] {
+            ADD_FAILURE() << "a repeated word is an order: " << name_of(port.commands.front().body);
+            port.answer();
+        };
+        port.time += std::chrono::seconds(5);
+        port.edit(x, [&](AxisPicture& p) { p.source = source; });
+        for (int i = 0; i < 3; ++i)
+            EXPECT_EQ(at("10 00 78 00 02 04 00 64 00 00"), "10 00 78 00 02");
+        result = [this] { port.answer(); };
+        EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 65 00 00").target, 1010) << "another value is a fresh word";
+        EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 64 00 00").target, 1000);
+    }
+}
+
 struct PaControl : ProfileTest {
     /// Words of the CMD interface; the answer's.
     std::string cmd(std::string_view words) {

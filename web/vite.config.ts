@@ -2,7 +2,7 @@
 /// <reference types="vitest/config" />
 import { defineConfig } from 'vite';
 
-/** The languages are all that is loaded later, and they bring nothing that could be asked for beforehand. */
+/** What is loaded later, a language and then the page itself, imports nothing that a browser could ask for beforehand. */
 const nothingToPreload = {
   name: 'nothing-to-preload',
   enforce: 'pre' as const,

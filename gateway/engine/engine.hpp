@@ -133,7 +133,7 @@ public:
     void shut_down(Instant now);
 
     struct Parts;  // engine_parts.hpp
-    /// One part alone, for what measures it. Only on the hot thread.
+    /// Its parts, for benchmarks and tests that look at one of them alone. Only on the hot thread.
     [[nodiscard]] Parts& parts() noexcept { return *parts_; }
 
 private:

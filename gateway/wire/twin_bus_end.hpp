@@ -1,5 +1,5 @@
 // TwinBusEnd: one end of a bus of twins that outlives it, as a cable that is pulled out of a gateway leaves the drives behind it as they
-// are. In: a bus. Out: the same line. Never keeps the bus alive by itself: whoever owns it may be given along.
+// are. In: a bus. Out: the same line. Never keeps the bus alive by itself: an owner of the bus may be handed over to be kept.
 #pragma once
 
 #include <memory>

@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 
+#include "gateway/axis/points.hpp"
 #include "gateway/core/text.hpp"
 
 namespace axisgate {
@@ -99,30 +100,8 @@ std::string st_comment(std::string_view text) {
 }  // namespace
 
 std::string unit_of(AxisPoint point, std::string_view axis_unit) {
-    switch (point) {
-        case AxisPoint::position:
-        case AxisPoint::position_demand:
-        case AxisPoint::following_error:
-        case AxisPoint::target_position:
-            return "increments";
-        case AxisPoint::velocity:
-        case AxisPoint::profile_velocity:
-        case AxisPoint::target_velocity:
-            return "increments/s";
-        case AxisPoint::profile_acceleration:
-        case AxisPoint::profile_deceleration:
-            return "increments/s^2";
-        case AxisPoint::age_ms:
-            return "ms";
-        case AxisPoint::heartbeat:
-            return "s";
-        case AxisPoint::position_units:
-            return std::string(axis_unit);
-        case AxisPoint::velocity_units:
-            return axis_unit.empty() ? std::string("1/s") : fmt::format("{}/s", axis_unit);
-        default:
-            return {};
-    }
+    const auto* row = row_of(point);
+    return row ? text_of(row->unit, axis_unit) : std::string();
 }
 
 std::string register_number(MapTable table, std::uint32_t address) {

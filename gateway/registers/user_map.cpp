@@ -17,87 +17,27 @@ namespace {
 
 constexpr std::size_t widest = 2 * 64;  // bytes of the longest text
 
-Value axis_value(const Image& image, const AxisPicture& p, AxisPoint point, double increments_per_unit, Instant now) {
+}  // namespace
+
+Value axis_value(const AxisPointRow& row, const Image& image, const AxisPicture& p, double increments_per_unit, Instant now) {
     const auto whole = [](auto n) { return Value{static_cast<std::int64_t>(n)}; };
-    const auto flag = [&](std::uint16_t f) { return Value{(p.flags & f) != 0}; };
-    switch (point) {
-        case AxisPoint::statusword:
-            return whole(p.statusword);
-        case AxisPoint::mode_display:
-            return whole(p.mode_display);
-        case AxisPoint::position:
-            return whole(p.position);
-        case AxisPoint::velocity:
-            return whole(p.velocity);
-        case AxisPoint::position_demand:
-            return whole(p.position_demand);
-        case AxisPoint::following_error:
-            return whole(p.following_error());
-        case AxisPoint::error_code:
-            return whole(p.error_code);
-        case AxisPoint::flags:
-            return whole(p.flags);
-        case AxisPoint::native_status:
-            return whole(p.native_status);
-        case AxisPoint::age_ms:
-            return whole(age_ms(p, now));
-        case AxisPoint::setpoints_accepted:
-            return whole(p.setpoints_accepted);
-        case AxisPoint::authority:
-            return whole(static_cast<int>(p.authority));
-        case AxisPoint::controlword:
-            return whole(p.controlword);
-        case AxisPoint::mode:
-            return whole(p.mode);
-        case AxisPoint::target_position:
-            return whole(p.target_position);
-        case AxisPoint::profile_velocity:
-            return whole(p.profile_velocity);
-        case AxisPoint::profile_acceleration:
-            return whole(p.profile_acceleration);
-        case AxisPoint::profile_deceleration:
-            return whole(p.profile_deceleration);
-        case AxisPoint::target_velocity:
-            return whole(p.target_velocity);
-        case AxisPoint::homing_method:
-            return whole(p.homing_method);
-        case AxisPoint::online:
-            return flag(flag_online);
-        case AxisPoint::simulated:
-            return flag(flag_simulated);
-        case AxisPoint::stale:
-            return flag(flag_stale);
-        case AxisPoint::referenced:
-            return flag(flag_referenced);
-        case AxisPoint::moving:
-            return flag(flag_moving);
-        case AxisPoint::target_reached:
-            return flag(flag_target_reached);
-        case AxisPoint::fault:
-            return flag(flag_fault);
-        case AxisPoint::warning:
-            return flag(flag_warning);
-        case AxisPoint::position_units:
-            return static_cast<double>(p.position) / increments_per_unit;
-        case AxisPoint::velocity_units:
-            return static_cast<double>(p.velocity) / increments_per_unit;
-        case AxisPoint::heartbeat:
-            return whole(heartbeat(now));
-        case AxisPoint::family:
-            return whole(p.family_number);
-        case AxisPoint::mapping_revision:
-            return whole(image.mapping_revision);
-    }
+    if (row.map == AxisPoint::age_ms) return whole(age_ms(p, now));
+    if (row.map == AxisPoint::heartbeat) return whole(heartbeat(now));
+    if (row.map == AxisPoint::mapping_revision) return whole(image.mapping_revision);
+    const PointValue v = measured(row, p, increments_per_unit);
+    if (const auto* b = std::get_if<bool>(&v)) return *b;
+    if (const auto* n = std::get_if<std::int64_t>(&v)) return *n;
+    if (const auto* d = std::get_if<double>(&v)) return *d;
+    if (const auto* s = std::get_if<std::string_view>(&v)) return std::string(*s);
     return {};
 }
-
-}  // namespace
 
 UserMap::UserMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask)
     : port_(port), gaps_(gaps), ask_(std::move(ask)) {
     std::ranges::sort(mappings, {}, [](const PlacedMapping& m) { return m.mapping.address; });
     for (auto& m : mappings) {
-        Place place{std::move(m), 0};
+        Place place{std::move(m)};
+        if (const auto* point = std::get_if<AxisPoint>(&place.at.mapping.what)) place.row = row_of(*point);
         if (const auto* point = std::get_if<Point>(&place.at.mapping.what)) {
             const auto [it, added] = index_.emplace(std::pair(place.at.axis, *point), static_cast<std::uint32_t>(values_.size()));
             if (added) values_.push_back({place.at.axis, *point, {}, {}, false});
@@ -194,8 +134,8 @@ void UserMap::on_sample(const Sample& sample) {
 Verdict UserMap::value_of(const Place& place, Instant now, Value& value) {
     const AxisPicture& picture = port_.image().picture(place.at.axis);
     if (picture.number == 0) return refuse_axis(place);
-    if (const auto* point = std::get_if<AxisPoint>(&place.at.mapping.what)) {
-        value = axis_value(port_.image(), picture, *point, place.at.increments_per_unit, now);
+    if (place.row) {
+        value = axis_value(*place.row, port_.image(), picture, place.at.increments_per_unit, now);
         return Verdict::good;
     }
     if ((picture.flags & flag_online) == 0) return Verdict::no_answer;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/axis/points.hpp"
 #include "gateway/engine/door.hpp"
 #include "gateway/registers/unit_map.hpp"
 #include "gateway/site/mapping.hpp"
@@ -23,6 +24,10 @@ struct PlacedMapping {
     AxisId axis = no_axis;
     double increments_per_unit = 1;
 };
+
+/// What a register shows of an axis, before scale and offset. What no picture says is told here: the age, the heartbeat, the mapping.
+[[nodiscard]] Value axis_value(const AxisPointRow& row, const Image& image, const AxisPicture& picture, double increments_per_unit,
+                               Instant now);
 
 class UserMap final : public UnitMap {
 public:
@@ -52,7 +57,8 @@ public:
 private:
     struct Place {
         PlacedMapping at;
-        std::uint32_t value = 0;  ///< index in values_, for parameters
+        const AxisPointRow* row = nullptr;  ///< of the axis; null: a parameter
+        std::uint32_t value = 0;            ///< index in values_, for parameters
     };
     struct ParameterValue {
         AxisId axis = no_axis;

@@ -8,7 +8,6 @@
 #include <array>
 
 #include "gateway/axis/cia402.hpp"
-#include "gateway/core/axis_members.hpp"
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/text.hpp"
 
@@ -16,9 +15,6 @@ namespace axisgate {
 namespace json = boost::json;
 namespace {
 
-/// Beside those that tell the state in one value.
-constexpr std::array<std::string_view, 10> other_axis_live_members{
-    "at", "authority_holder", "authority_until", "error", "family", "line", "modes", "set_points", "stop_latch_by", "stop_latch_text"};
 constexpr std::array<std::string_view, 2> drive_live_members{"axes", "status"};
 constexpr std::array<std::string_view, 2> line_live_members{"drives", "status"};
 
@@ -31,43 +27,6 @@ json::object status_document(const LineStatus& s) {
 
 json::value bound(const std::optional<double>& v) { return v ? number(*v) : json::value(nullptr); }
 }  // namespace
-
-std::string_view mode_name(std::int16_t mode) noexcept {
-    switch (mode) {
-        case cia402::mode_none:
-            return "none";
-        case cia402::mode_profile_position:
-            return "profile_position";
-        case cia402::mode_profile_velocity:
-            return "profile_velocity";
-        case cia402::mode_homing:
-            return "homing";
-        case cia402::mode_profile_torque:
-            return "profile_torque";
-        case cia402::mode_interpolated_position:
-            return "interpolated_position";
-        case cia402::mode_cyclic_position:
-            return "cyclic_position";
-        case cia402::mode_cyclic_velocity:
-            return "cyclic_velocity";
-        case cia402::mode_cyclic_torque:
-            return "cyclic_torque";
-        default:
-            return "other";
-    }
-}
-
-std::string_view name_of(Presence presence) noexcept {
-    switch (presence) {
-        case Presence::offline:
-            return "offline";
-        case Presence::device:
-            return "device";
-        case Presence::twin:
-            return "twin";
-    }
-    return "offline";
-}
 
 std::string_view name_of(Quality quality) noexcept {
     switch (quality) {
@@ -101,6 +60,15 @@ json::value to_json(const Value& value) {
     return nullptr;
 }
 
+namespace {
+json::value json_of(const PointValue& value) {
+    if (const auto* b = std::get_if<bool>(&value)) return *b;
+    if (const auto* i = std::get_if<std::int64_t>(&value)) return *i;
+    if (const auto* d = std::get_if<double>(&value)) return number(*d);
+    if (const auto* s = std::get_if<std::string_view>(&value)) return json::value(*s);
+    return nullptr;
+}
+
 /// Whose stop holds the axis, and what moves it again; null: none does.
 json::value stop_latch_text(const AxisPicture& p) {
     constexpr std::uint16_t latched = 1u << 0, by_client = 1u << 2, by_safe_input = 1u << 3;  // register 23
@@ -118,82 +86,91 @@ json::value stop_latch_text(const AxisPicture& p) {
     return json::value(fmt::format("{} has stopped it: {}", by, fresh));
 }
 
-json::object axis_document(const AxisView& v) {
-    const AxisPicture& p = v.picture;
-    const double scale = v.spec.increments_per_unit;
-    const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
-    const auto increments = [&p](std::int64_t n) { return p.ever_seen ? json::value(n) : json::value(nullptr); };
-    const auto in_unit = [&p, scale](std::int64_t n) {
-        return p.ever_seen ? number(static_cast<double>(n) / scale) : json::value(nullptr);
-    };
-
-    json::object o = to_json(v.spec);
-    o["line"] = v.line;
-    o["family"] = v.family;
-    o["online"] = flag(flag_online);
-    o["simulated"] = flag(flag_simulated);
-    o["stale"] = flag(flag_stale);
-    o["presence"] = name_of(p.presence);
-    o["state"] = name_of(power_state_of(p.statusword));
-    o["statusword"] = p.statusword;
-    o["controlword"] = p.controlword;
-    o["mode"] = mode_name(p.mode_display);
-    o["mode_number"] = p.mode_display;
+json::value modes_of(const AxisView& v) {
     json::array modes;
     if (v.catalogue) {
         for (const std::int16_t mode : v.catalogue->modes())
             modes.emplace_back(mode);
     }
-    o["modes"] = std::move(modes);
-    o["set_points"] =
-        json::object{{"streaming", p.streaming},
-                     {"mode", p.streaming ? json::value(name_of(p.stream_mode)) : json::value(nullptr)},
-                     {"taken", p.set_points},
-                     {"refused", p.set_points_refused},
-                     {"reason", p.set_point_refusal == Reason::none ? json::value(nullptr) : json::value(name_of(p.set_point_refusal))}};
-    o["moving"] = flag(flag_moving);
-    o["target_reached"] = flag(flag_target_reached);
-    o["referenced"] = flag(flag_referenced);
-    o["fault"] = flag(flag_fault);
-    o["warning"] = flag(flag_warning);
-    o["internal_limit"] = (p.statusword & cia402::sw_internal_limit) != 0;
-    o["fail_safe_cause"] = p.fail_safe_cause == 0 ? json::value(nullptr) : json::value(name_of(static_cast<LossCause>(p.fail_safe_cause)));
-    o["stop_latch"] = p.stop_latch;
-    o["stop_latch_by"] = p.stop_latch_by[0] != 0 ? json::value(p.stop_latch_by.data()) : json::value(nullptr);
-    o["stop_latch_text"] = stop_latch_text(p);
-    o["position"] = in_unit(p.position);
-    const bool demanded = p.demand_source != DemandSource::none;
-    o["demand_known"] = demanded;
-    o["demand_source"] = demanded ? json::value(name_of(p.demand_source)) : json::value(nullptr);
-    o["position_demand"] = demanded ? in_unit(p.position_demand) : json::value(nullptr);
-    o["following_error"] = p.following_error_known() ? in_unit(p.following_error()) : json::value(nullptr);
-    o["velocity"] = in_unit(p.velocity);
-    o["target_position"] = in_unit(p.target_position);
-    o["target_velocity"] = in_unit(p.target_velocity);
-    o["position_increments"] = increments(p.position);
-    o["position_demand_increments"] = demanded ? increments(p.position_demand) : json::value(nullptr);
-    o["following_error_increments"] = p.following_error_known() ? increments(p.following_error()) : json::value(nullptr);
-    o["velocity_increments"] = increments(p.velocity);
-    o["target_position_increments"] = increments(p.target_position);
+    return modes;
+}
 
-    std::string error_text;
+json::value set_points_of(const AxisView& v) {
+    const AxisPicture& p = v.picture;
+    return json::object{{"streaming", p.streaming},
+                        {"mode", p.streaming ? json::value(name_of(p.stream_mode)) : json::value(nullptr)},
+                        {"taken", p.set_points},
+                        {"refused", p.set_points_refused},
+                        {"reason", p.set_point_refusal == Reason::none ? json::value(nullptr) : json::value(name_of(p.set_point_refusal))}};
+}
+
+json::value error_of(const AxisView& v) {
+    const AxisPicture& p = v.picture;
+    std::string text;
     if (p.error_code != 0) {
         const ErrorCode* e = v.catalogue ? v.catalogue->error(p.error_code) : nullptr;
-        error_text = !e ? "not in the catalogue" : !e->text.empty() ? e->text : e->name;
+        text = !e ? "not in the catalogue" : !e->text.empty() ? e->text : e->name;
     }
-    o["error"] = json::object{{"code", p.error_code}, {"text", error_text}};
-    o["native"] = p.native_status;
-    o["authority"] = name_of(p.authority);
-    o["authority_holder"] = p.authority_holder.data();
-    o["authority_until"] =
-        p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at))) : json::value(nullptr);
-    o["setpoints_accepted"] = p.setpoints_accepted;
-    o["at"] = p.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr);
-    if (v.now_unix_ns) {
-        o["age_ms"] =
-            p.ever_seen ? json::value(std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000)) : json::value(nullptr);
+    return json::object{{"code", p.error_code}, {"text", text}};
+}
+
+json::value authority_until(const AxisView& v) {
+    const AxisPicture& p = v.picture;
+    return p.authority_holder[0] != 0 ? json::value(format_time(v.at_unix_ns + ns_of(p.authority_until) - ns_of(p.at)))
+                                      : json::value(nullptr);
+}
+
+json::value age_of(const AxisView& v) {
+    if (!v.picture.ever_seen || !v.now_unix_ns) return nullptr;
+    return std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000);
+}
+
+/// Rows that are made of more than their value in the picture.
+struct Composed {
+    std::string_view name;
+    json::value (*make)(const AxisView&);
+};
+constexpr auto composed = std::to_array<Composed>({
+    {"line", [](const AxisView& v) { return json::value(v.line); }},
+    {"family", [](const AxisView& v) { return json::value(v.family); }},
+    {"modes", modes_of},
+    {"set_points", set_points_of},
+    {"stop_latch_text", [](const AxisView& v) { return stop_latch_text(v.picture); }},
+    {"error", error_of},
+    {"authority_until", authority_until},
+    {"at", [](const AxisView& v) { return v.picture.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr); }},
+    {"age_ms", age_of},
+    {"number", [](const AxisView& v) { return json::value(v.spec.number); }},  // as the site has it: a picture may not have been made yet
+});
+static_assert(std::ranges::all_of(axis_point_table,
+                                  [](const AxisPointRow& row) {
+                                      return row.document != PointInDocument::composed ||
+                                             std::ranges::find(composed, row.name, &Composed::name) != composed.end();
+                                  }),
+              "what the table calls composed is made here");
+
+/// What the document and a recipe show of one row; null while it is not known.
+json::value axis_member(const AxisView& v, const AxisPointRow& row) {
+    const auto c = std::ranges::find(composed, row.name, &Composed::name);
+    return c != composed.end() ? c->make(v) : json_of(said(row, v.picture, v.spec.increments_per_unit));
+}
+}  // namespace
+
+json::object axis_document(const AxisView& v, AxisPointRows rows) {
+    json::object o = to_json(v.spec);
+    for (const auto& row : rows) {
+        if (row.document == PointInDocument::no || (row.name == "age_ms" && !v.now_unix_ns)) continue;
+        o[row.name] = axis_member(v, row);
     }
     return o;
+}
+
+json::value recipe_point(const AxisView& v, std::string_view name, AxisPointRows rows) {
+    const auto* row = point_named(name, rows);
+    if (!row || row->recipe == PointInRecipe::no) return nullptr;
+    const AxisPicture& p = v.picture;
+    const bool answers = p.ever_seen && (p.flags & flag_stale) == 0 && (p.flags & flag_online) != 0;
+    return answers || row->recipe == PointInRecipe::always ? axis_member(v, *row) : json::value(nullptr);
 }
 
 static json::value sync_document(const DriveBeats& b) {
@@ -395,9 +372,6 @@ json::object family_document(const FamilyEntry& entry) {
     return o;
 }
 
-bool is_read_only_axis_member(std::string_view name) noexcept {
-    return is_axis_state_member(name) || std::ranges::find(other_axis_live_members, name) != other_axis_live_members.end();
-}
 bool is_read_only_drive_member(std::string_view name) noexcept {
     return std::ranges::find(drive_live_members, name) != drive_live_members.end();
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "gateway/axis/image.hpp"
+#include "gateway/axis/points.hpp"
 #include "gateway/core/catalogue.hpp"
 #include "gateway/core/event.hpp"
 #include "gateway/core/family.hpp"
@@ -22,9 +23,6 @@
 
 namespace axisgate {
 
-/// "none", "profile_position", "profile_velocity", "homing", "other".
-[[nodiscard]] std::string_view mode_name(std::int16_t mode) noexcept;
-[[nodiscard]] std::string_view name_of(Presence presence) noexcept;
 [[nodiscard]] std::string_view name_of(Quality quality) noexcept;
 [[nodiscard]] std::string_view name_of(Access access) noexcept;  ///< "R", "W", "RW"
 
@@ -39,7 +37,11 @@ struct AxisView {
     std::int64_t at_unix_ns = 0;                ///< of picture.at
     std::optional<std::int64_t> now_unix_ns{};  ///< for age_ms; without it that member is left out (the live feed)
 };
-[[nodiscard]] boost::json::object axis_document(const AxisView& view);
+/// The site's members, then those of the table, in its order.
+[[nodiscard]] boost::json::object axis_document(const AxisView& view, AxisPointRows rows = axis_point_table);
+/// What a recipe's condition sees under this name; null: it is no point of recipes, or not known now. What is said of an axis that does not
+/// answer, or was said too long ago, is not known to a recipe.
+[[nodiscard]] boost::json::value recipe_point(const AxisView& view, std::string_view name, AxisPointRows rows = axis_point_table);
 
 [[nodiscard]] boost::json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status);
 [[nodiscard]] boost::json::object line_document(const SiteState& site, std::size_t index, const LineReport& report);
@@ -54,8 +56,8 @@ struct AxisView {
 /// A family, with whatever its catalogue says beside the three lists.
 [[nodiscard]] boost::json::object family_document(const FamilyEntry& entry);
 
-/// Members of the documents above that only tell the state: requests may carry them, and they are ignored there.
-[[nodiscard]] bool is_read_only_axis_member(std::string_view name) noexcept;
+/// Members of the documents above that only tell the state: requests may carry them, and they are ignored there. Of an axis:
+/// is_document_member.
 [[nodiscard]] bool is_read_only_drive_member(std::string_view name) noexcept;
 [[nodiscard]] bool is_read_only_line_member(std::string_view name) noexcept;
 

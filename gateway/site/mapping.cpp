@@ -63,44 +63,6 @@ constexpr std::array order_names{std::pair{std::string_view("high_first"), MapWo
 constexpr std::array overflow_names{std::pair{std::string_view("mark"), MapOverflow::mark},
                                     std::pair{std::string_view("clamp"), MapOverflow::clamp}};
 
-using P = AxisPoint;
-constexpr std::array<AxisPointInfo, 33> points{{
-    {P::statusword, "statusword", false, "CiA 402 status word, with 8 simulated, 14 stale, 15 referenced"},
-    {P::mode_display, "mode_display", false, "modes of operation display"},
-    {P::position, "position", false, "position actual value, increments"},
-    {P::velocity, "velocity", false, "velocity actual value, increments/s"},
-    {P::position_demand, "position_demand", false, "position demand value, increments; the position while nobody says another"},
-    {P::following_error, "following_error", false,
-     "following error actual value: demand less position, increments; 0 while it is not known"},
-    {P::error_code, "error_code", false, "the drive's own error code, 0 = none"},
-    {P::flags, "flags", false, "0 online, 1 simulated, 2 stale, 3 referenced, 4 moving, 5 target reached, 6 fault, 7 warning"},
-    {P::native_status, "native_status", false, "the drive's own status"},
-    {P::age_ms, "age_ms", false, "age of the data, ms"},
-    {P::setpoints_accepted, "setpoints_accepted", false, "counts up with each accepted set-point"},
-    {P::authority, "authority", false, "who commands: 0 none, 1 Modbus, 2 EtherNet/IP, 3 HTTP, 4 DDS"},
-    {P::controlword, "controlword", true, "CiA 402 control word"},
-    {P::mode, "mode", true, "modes of operation: 1 position, 3 velocity, 6 homing"},
-    {P::target_position, "target_position", true, "target position, increments"},
-    {P::profile_velocity, "profile_velocity", true, "profile velocity, increments/s"},
-    {P::profile_acceleration, "profile_acceleration", true, "profile acceleration, increments/s^2"},
-    {P::profile_deceleration, "profile_deceleration", true, "profile deceleration, increments/s^2"},
-    {P::target_velocity, "target_velocity", true, "target velocity, increments/s"},
-    {P::homing_method, "homing_method", true, "CiA 402 homing method"},
-    {P::online, "online", false, "the drive or its model answers"},
-    {P::simulated, "simulated", false, "the drive's model answers"},
-    {P::stale, "stale", false, "the data are too old to be trusted"},
-    {P::referenced, "referenced", false, "the position has a known zero"},
-    {P::moving, "moving", false, "the axis moves"},
-    {P::target_reached, "target_reached", false, "the last motion ended at its target"},
-    {P::fault, "fault", false, "an error that must be reset"},
-    {P::warning, "warning", false, "a warning"},
-    {P::position_units, "position_units", false, "position actual value in the axis' unit"},
-    {P::velocity_units, "velocity_units", false, "velocity actual value in the axis' unit per second"},
-    {P::heartbeat, "heartbeat", false, "counts up each second"},
-    {P::family, "family", false, "number of the drive's family"},
-    {P::mapping_revision, "mapping_revision", false, "revision of the mapping (hash)"},
-}};
-
 constexpr bool is_bits(MapTable t) noexcept { return t == MapTable::coils || t == MapTable::discrete_inputs; }
 
 /// Reads one entry's members; each fault gets its pointer.
@@ -245,23 +207,6 @@ std::string_view name_of(MapType t) noexcept { return name_in(type_names, t); }
 std::string_view name_of(MapAccess a) noexcept { return name_in(access_names, a); }
 std::string_view name_of(MapWordOrder o) noexcept { return name_in(order_names, o); }
 std::string_view name_of(MapOverflow o) noexcept { return name_in(overflow_names, o); }
-std::string_view name_of(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].name; }
-bool writable(AxisPoint p) noexcept { return points[static_cast<std::size_t>(p)].writable; }
-std::span<const AxisPointInfo> axis_points() noexcept { return points; }
-
-std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept {
-    // CiA 402's longer names are known too.
-    constexpr std::array<std::pair<std::string_view, AxisPoint>, 7> longer{{{"position_actual_value", P::position},
-                                                                            {"velocity_actual_value", P::velocity},
-                                                                            {"position_demand_value", P::position_demand},
-                                                                            {"following_error_actual_value", P::following_error},
-                                                                            {"modes_of_operation", P::mode},
-                                                                            {"modes_of_operation_display", P::mode_display},
-                                                                            {"position_increments", P::position}}};
-    if (const auto p = named(longer, name)) return p;
-    const auto it = std::ranges::find(points, name, &AxisPointInfo::name);
-    return it == points.end() ? std::nullopt : std::optional(it->point);
-}
 
 std::uint16_t Mapping::size() const noexcept {
     if (is_bits(table)) return 1;
@@ -367,7 +312,7 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
             if (const auto p = axis_point_named(m.point)) {
                 m.what = *p;
                 point_writable = writable(*p);
-                point_is_bit = *p >= P::online && *p <= P::warning;
+                point_is_bit = info_of(*p).type == ValueType::boolean;
             } else if (const auto found = catalogue ? catalogue->find(m.point) : std::nullopt) {
                 m.what = *found;
                 const Parameter& parameter = *catalogue->parameter(*found);

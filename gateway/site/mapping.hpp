@@ -16,6 +16,7 @@
 
 #include "gateway/core/ids.hpp"
 #include "gateway/core/value.hpp"
+#include "gateway/site/axis_points.hpp"
 #include "gateway/site/site.hpp"
 
 namespace axisgate {
@@ -33,56 +34,6 @@ enum class MapOverflow : std::uint8_t { mark, clamp };
 [[nodiscard]] std::string_view name_of(MapAccess access) noexcept;
 [[nodiscard]] std::string_view name_of(MapWordOrder order) noexcept;
 [[nodiscard]] std::string_view name_of(MapOverflow overflow) noexcept;
-
-/// What every axis has beside its parameters. The names are those of the register map and of CiA 402; positions and velocities are in the
-/// axis' increments, as in the standard map, unless the name ends in _units.
-enum class AxisPoint : std::uint8_t {
-    statusword,
-    mode_display,
-    position,
-    velocity,
-    position_demand,
-    following_error,
-    error_code,
-    flags,
-    native_status,
-    age_ms,
-    setpoints_accepted,
-    authority,
-    controlword,
-    mode,
-    target_position,
-    profile_velocity,
-    profile_acceleration,
-    profile_deceleration,
-    target_velocity,
-    homing_method,
-    online,
-    simulated,
-    stale,
-    referenced,
-    moving,
-    target_reached,
-    fault,
-    warning,
-    position_units,
-    velocity_units,
-    heartbeat,
-    family,
-    mapping_revision
-};
-[[nodiscard]] std::string_view name_of(AxisPoint point) noexcept;
-[[nodiscard]] std::optional<AxisPoint> axis_point_named(std::string_view name) noexcept;
-/// Registers 32..44 of the standard map.
-[[nodiscard]] bool writable(AxisPoint point) noexcept;
-/// One per line: name, whether it is writable, in words what it is. For the API and messages.
-struct AxisPointInfo {
-    AxisPoint point;
-    std::string_view name;
-    bool writable;
-    std::string_view description;
-};
-[[nodiscard]] std::span<const AxisPointInfo> axis_points() noexcept;
 
 /// Register value = point value * scale + offset; written back: point value = (register value - offset) / scale.
 struct Mapping {

@@ -11,6 +11,7 @@
 
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/plain_text.hpp"
+#include "gateway/doors/dds/axis_sample.hpp"
 #include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
@@ -240,37 +241,14 @@ void DdsDoor::tell_axes(Instant now) {
 
 void DdsDoor::fill(axisgate_AxisState& s, const AxisPlace& place) {
     const AxisPicture p = ports_.get<AxisPort>().picture(place.id());
-    const auto flag = [&p](std::uint16_t bit) { return (p.flags & bit) != 0; };
     put_text(s.gateway, settings_.name);
     put_text(s.axis, place.spec().name);
     s.instance = settings_.instance;
-    s.number = p.number;
     put_text(s.family, place.family);
     put_text(s.unit, place.spec().unit);
     s.increments_per_unit = place.spec().increments_per_unit;
-    s.online = flag(flag_online);
-    s.simulated = flag(flag_simulated);
-    s.stale = flag(flag_stale);
-    s.referenced = flag(flag_referenced);
-    s.moving = flag(flag_moving);
-    s.target_reached = flag(flag_target_reached);
-    s.fault = flag(flag_fault);
-    s.warning = flag(flag_warning);
-    s.statusword = p.statusword;
-    s.mode = p.mode_display;
-    s.position = p.position;
-    s.velocity = p.velocity;
-    s.error_code = p.error_code;
-    s.fail_safe_cause = p.fail_safe_cause;
-    put_text(s.authority, axisgate::name_of(p.authority));
-    put_text(s.authority_holder, p.authority_holder.data());
     s.at_unix_ns = p.ever_seen ? ports_.get<ClockPort>().to_unix_ns(p.at) : 0;
-    s.streaming = p.streaming;
-    s.set_points = p.set_points;
-    s.set_points_refused = p.set_points_refused;
-    put_text(s.set_point_refusal, axisgate::name_of(p.set_point_refusal));
-    s.position_demand = p.position_demand;
-    put_text(s.demand_source, axisgate::name_of(p.demand_source));
+    put_points<axis_point_table, axis_state_members>(s, p);
     s.count = ++sequence_;
 }
 

@@ -9,6 +9,7 @@
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/recorder/axr.hpp"
+#include "gateway/services/recorder/channels.hpp"
 #include "gateway/site/document_fields.hpp"
 
 namespace axisgate::http {
@@ -74,7 +75,7 @@ void read_trigger(const json::value& v, CaptureOrder& order, std::vector<SiteFau
     } else if (kind == "level") {
         t.kind = Kind::level;
         const auto p = capture_point_named(point.empty() ? "position" : point);
-        if (!p) f.fault("point", fmt::format("{} is no point", point), "write position, velocity, demand or following_error");
+        if (!p) f.fault("point", fmt::format("{} is no point", point), "write " + listed_points(level_points, " or "));
         t.point = p.value_or(CapturePoint::position);
         if (!level) f.fault("level", "a trigger of the kind level needs one", "write \"level\": 12.5, in units of its axis");
         t.level = level ? increments(f, "level", *level, scale).value_or(0) : 0;

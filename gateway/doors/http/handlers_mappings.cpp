@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "gateway/axis/points.hpp"
+#include "gateway/core/text.hpp"
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/doors/http/table_import.hpp"
 #include "gateway/site/mapping.hpp"
@@ -247,8 +249,16 @@ Handled add_mappings_csv(Call& c, SitePort& sites, const StagePort& staging) {
 
 Handled list_mapping_points(Call&) {
     json::array out;
-    for (const auto& p : axis_points())
-        out.push_back({{"point", p.name}, {"access", p.writable ? "RW" : "R"}, {"description", p.description}});
+    for (const auto& p : axis_point_list) {
+        const AxisPointRow& row = *row_of(p.point);
+        const bool same = row.document == PointInDocument::value && !row.word;
+        out.push_back({{"point", p.name},
+                       {"access", p.writable ? "RW" : "R"},
+                       {"description", p.description},
+                       {"type", name_of(p.type)},
+                       {"unit", text_or_null(text_of(row.unit, "unit"))},
+                       {"member", same ? json::value(row.name) : json::value(nullptr)}});
+    }
     return json_response(out);
 }
 

@@ -104,8 +104,7 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
     std::vector<std::string> points = comma_list(c.target.query.get("points").value_or(""));
     if (points.empty()) points.assign(trend_points.begin(), trend_points.end());
     for (const auto& p : points) {
-        if (std::ranges::find(trend_points, p) == trend_points.end())
-            return bad_query("points", "some of position, velocity, demand, following_error, state");
+        if (std::ranges::find(trend_points, p) == trend_points.end()) return bad_query("points", "some of " + listed_points(trend_points));
     }
     std::optional<Response> fault;
     const auto [from, to] = asked_stretch(c, clock, fault);

@@ -20,7 +20,7 @@ bool is_read_only(Collection collection, std::string_view name) {
         case Collection::drives:
             return is_read_only_drive_member(name);
         case Collection::axes:
-            return is_read_only_axis_member(name);
+            return is_document_member(name);
     }
     return false;
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "gateway/axis/points.hpp"
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/websocket_codec.hpp"
 #include "gateway/services/axis_texts.hpp"
@@ -25,20 +26,6 @@ SharedFrame message_of(std::string_view topic, std::int64_t at_unix_ns, std::str
 
 SharedFrame stream_message(std::string_view topic, std::int64_t at_unix_ns, const json::value& data) {
     return message_of(topic, at_unix_ns, json_text(data));
-}
-
-bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept {
-    return a.number == b.number && a.family_number == b.family_number && a.position == b.position &&
-           a.position_demand == b.position_demand && a.velocity == b.velocity && a.native_status == b.native_status &&
-           a.error_code == b.error_code && a.statusword == b.statusword && a.mode_display == b.mode_display && a.flags == b.flags &&
-           a.controlword == b.controlword && a.mode == b.mode && a.target_position == b.target_position &&
-           a.profile_velocity == b.profile_velocity && a.profile_acceleration == b.profile_acceleration &&
-           a.profile_deceleration == b.profile_deceleration && a.target_velocity == b.target_velocity &&
-           a.homing_method == b.homing_method && a.setpoints_accepted == b.setpoints_accepted && a.fail_safe_cause == b.fail_safe_cause &&
-           a.stop_latch == b.stop_latch && a.stop_latch_by == b.stop_latch_by && a.authority == b.authority &&
-           a.authority_until == b.authority_until && a.authority_holder == b.authority_holder && a.streaming == b.streaming &&
-           a.set_points == b.set_points && a.set_points_refused == b.set_points_refused && a.set_point_refusal == b.set_point_refusal &&
-           a.presence == b.presence && a.ever_seen == b.ever_seen && a.demand_source == b.demand_source;
 }
 
 void StreamSources::take_site(std::shared_ptr<const SiteState> site) {

@@ -40,9 +40,6 @@ struct Source {
     bool fresh = true;  ///< nothing was built since the site was put in force
 };
 
-/// Same for a client, the instant of the data apart.
-[[nodiscard]] bool same_but_time(const AxisPicture& a, const AxisPicture& b) noexcept;
-
 class StreamSources {
 public:
     /// When only the instant of an axis' data moves on, a frame is worth sending this often.

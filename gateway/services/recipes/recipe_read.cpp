@@ -7,7 +7,7 @@
 #include <boost/json/serialize.hpp>
 #include <cmath>
 
-#include "gateway/core/axis_members.hpp"
+#include "gateway/axis/points.hpp"
 #include "gateway/services/recipes/recipe.hpp"
 #include "gateway/services/recipes/recipe_words.hpp"
 
@@ -18,15 +18,10 @@ using Kind = RecipeStep::Kind;
 using Op = RecipeCondition::Op;
 
 constexpr std::string_view condition_members = " axis point parameter is is_not at_least at_most above below tolerance ";
-/// What a condition can look at: the members of the axis' document that have one value, and two more.
-constexpr auto condition_points = [] {
-    std::array<std::string_view, axis_state_members.size() + 2> all{};
-    std::ranges::copy(axis_state_members, all.begin());
-    all[all.size() - 2] = "error_code";
-    all[all.size() - 1] = "number";
-    return all;
-}();
-bool is_condition_point(std::string_view name) { return std::ranges::find(condition_points, name) != condition_points.end(); }
+bool is_condition_point(std::string_view name) {
+    const auto* row = point_named(name);
+    return row && row->recipe != PointInRecipe::no;
+}
 constexpr double default_wait_s = 10, default_home_s = 120, default_timeout_s = 30, default_run_s = 3600;
 
 bool listed(std::string_view list, std::string_view key) { return list.find(fmt::format(" {} ", key)) != std::string_view::npos; }
@@ -254,7 +249,7 @@ public:
         c.point = text(o, has_point ? "point" : "parameter", at, true);
         if (has_point && !c.point.empty() && !is_condition_point(c.point)) {
             std::string list;
-            for (const auto p : condition_points)
+            for (const auto p : recipe_points())
                 list += (list.empty() ? "" : ", ") + std::string(p);
             fault(at + "/point", fmt::format("an axis has no point {}", c.point), "use one of: " + list);
         }

@@ -34,14 +34,9 @@ struct RecipeService::World final : RecipeWorld {
         const auto place = find_axis(service.sites_, axis);
         if (!place) return nullptr;
         const AxisPicture picture = service.axes_.picture(place->id());
-        const auto document = axis_document({place->spec(), place->line, place->family, place->catalogue, picture,
-                                             service.wall_.to_unix_ns(picture.at), service.wall_.now_unix_ns()});
-        const bool about_itself = point == "online" || point == "stale" || point == "presence" || point == "simulated" || point == "number";
-        if (!about_itself && (!picture.ever_seen || (picture.flags & flag_stale) != 0 || (picture.flags & flag_online) == 0))
-            return nullptr;
-        if (point == "error_code") return document.at("error").get_object().at("code");
-        const auto* v = document.if_contains(point);
-        return v ? *v : json::value(nullptr);
+        return recipe_point({place->spec(), place->line, place->family, place->catalogue, picture, service.wall_.to_unix_ns(picture.at),
+                             service.wall_.now_unix_ns()},
+                            point);
     }
 };
 

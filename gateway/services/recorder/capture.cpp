@@ -8,56 +8,37 @@
 #include <array>
 #include <utility>
 
-#include "gateway/axis/image.hpp"
+#include "gateway/axis/points.hpp"
+#include "gateway/services/recorder/channels.hpp"
 
 namespace axisgate {
+static_assert(level_points[static_cast<std::size_t>(CapturePoint::position)] == "position" &&
+              level_points[static_cast<std::size_t>(CapturePoint::following_error)] == "following_error");
 namespace {
-constexpr std::array<std::pair<std::string_view, std::uint16_t>, 7> states{{{"moving", flag_moving},
-                                                                            {"target_reached", flag_target_reached},
-                                                                            {"fault", flag_fault},
-                                                                            {"warning", flag_warning},
-                                                                            {"referenced", flag_referenced},
-                                                                            {"online", flag_online},
-                                                                            {"fail_safe", flag_fail_safe}}};
-
 /// Nothing: nobody knows it.
 std::optional<std::int64_t> value_of(const TrendRow& r, CapturePoint point) {
-    switch (point) {
-        case CapturePoint::position:
-            return r.position;
-        case CapturePoint::velocity:
-            return r.velocity;
-        case CapturePoint::demand:
-            return r.demand_known ? std::optional(r.demand) : std::nullopt;
-        case CapturePoint::following_error:
-            return r.demand_known ? std::optional(r.following_error()) : std::nullopt;
-    }
-    return std::nullopt;
+    return channel_places[static_cast<std::size_t>(point)].of(r);
 }
 }  // namespace
 
-std::string_view name_of(CapturePoint point) noexcept {
-    constexpr std::array<std::string_view, 4> names{"position", "velocity", "demand", "following_error"};
-    return names[static_cast<std::size_t>(point)];
-}
+std::string_view name_of(CapturePoint point) noexcept { return level_points[static_cast<std::size_t>(point)]; }
 std::optional<CapturePoint> capture_point_named(std::string_view name) noexcept {
-    for (const auto p : {CapturePoint::position, CapturePoint::velocity, CapturePoint::demand, CapturePoint::following_error})
-        if (name_of(p) == name) return p;
-    return std::nullopt;
+    const auto it = std::ranges::find(level_points, name);
+    return it == level_points.end() ? std::nullopt : std::optional(static_cast<CapturePoint>(it - level_points.begin()));
 }
 std::uint16_t capture_state_named(std::string_view name) noexcept {
-    const auto it = std::ranges::find(states, name, [](const auto& s) { return s.first; });
-    return it == states.end() ? std::uint16_t{0} : it->second;
+    const auto* row = point_named(name);
+    return row && row->trigger ? row->flag : std::uint16_t{0};
 }
 std::string_view capture_state_name(std::uint16_t state) noexcept {
-    const auto it = std::ranges::find(states, state, [](const auto& s) { return s.second; });
-    return it == states.end() ? std::string_view() : it->first;
+    const auto it = std::ranges::find_if(axis_point_table, [state](const AxisPointRow& row) { return row.trigger && row.flag == state; });
+    return it == axis_point_table.end() ? std::string_view() : it->name;
 }
 std::string capture_state_names() {
-    std::string all;
-    for (const auto& [name, flag] : states)
-        all += (all.empty() ? "" : ", ") + std::string(name);
-    return all;
+    std::vector<std::string_view> names;
+    for (const auto& row : axis_point_table)
+        if (row.trigger) names.push_back(row.name);
+    return listed_points(names);
 }
 std::string_view name_of(Capture::State state) noexcept {
     constexpr std::array<std::string_view, 4> names{"armed", "triggered", "done", "cancelled"};

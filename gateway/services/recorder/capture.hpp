@@ -14,12 +14,13 @@
 
 namespace axisgate {
 
+/// A place in `level_points`; those that the program speaks of itself have names.
 enum class CapturePoint : std::uint8_t { position, velocity, demand, following_error };
 [[nodiscard]] std::string_view name_of(CapturePoint point) noexcept;
 [[nodiscard]] std::optional<CapturePoint> capture_point_named(std::string_view name) noexcept;
 
-/// Words of an axis' state by which a capture may begin: "moving", "target_reached", "fault", "warning", "referenced", "online",
-/// "fail_safe". 0: there is none of that name.
+/// Words of an axis' state by which a capture may begin: the flags that are triggers in the table of points, such as "moving". 0: there is
+/// none of that name.
 [[nodiscard]] std::uint16_t capture_state_named(std::string_view name) noexcept;
 [[nodiscard]] std::string_view capture_state_name(std::uint16_t state) noexcept;
 [[nodiscard]] std::string capture_state_names();

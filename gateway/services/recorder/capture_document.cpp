@@ -4,15 +4,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "gateway/core/text.hpp"
+#include "gateway/services/recorder/channels.hpp"
 
 namespace axisgate {
 namespace {
 namespace json = boost::json;
-constexpr std::array<std::string_view, 6> columns_of{"seconds", "position", "velocity", "demand", "following_error", "statusword"};
+/// The instant, the channels that are numbers, and the word of which the state is a part.
+constexpr auto columns_of = [] {
+    std::array<std::string_view, level_points.size() + 2> names{"seconds"};
+    std::ranges::copy(level_points, names.begin() + 1);
+    names.back() = "statusword";
+    return names;
+}();
 
 double seconds_of(Duration d) { return std::chrono::duration<double>(d).count(); }
 double ms_of(Duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
@@ -70,11 +78,11 @@ json::array capture_columns(const CaptureOrder& o, const Capture& c) {
         const double scale = o.axes[i].scale;
         for (const TrendRow& r : c.rows(i)) {
             columns[0].emplace_back(seconds_of(r.at - zero));
-            columns[1].emplace_back(static_cast<double>(r.position) / scale);
-            columns[2].emplace_back(static_cast<double>(r.velocity) / scale);
-            columns[3].push_back(r.demand_known ? json::value(static_cast<double>(r.demand) / scale) : json::value(nullptr));
-            columns[4].push_back(r.demand_known ? json::value(static_cast<double>(r.following_error()) / scale) : json::value(nullptr));
-            columns[5].emplace_back(r.statusword);
+            for (std::size_t k = 0; k < channel_places.size(); ++k) {
+                const auto n = channel_places[k].of(r);
+                columns[k + 1].push_back(n ? json::value(static_cast<double>(*n) / scale) : json::value(nullptr));
+            }
+            columns.back().emplace_back(r.statusword);
         }
         json::object axis{{"axis", o.axes[i].name}, {"unit", o.axes[i].unit}};
         for (std::size_t k = 0; k < columns.size(); ++k)
@@ -85,7 +93,10 @@ json::array capture_columns(const CaptureOrder& o, const Capture& c) {
 }
 
 std::string capture_csv(const json::array& list) {
-    std::string out = "seconds,axis,unit,position,velocity,demand,following_error,statusword\r\n";
+    std::string out = fmt::format("{},axis,unit", columns_of[0]);
+    for (std::size_t k = 1; k < columns_of.size(); ++k)
+        out += fmt::format(",{}", columns_of[k]);
+    out += "\r\n";
     for (const auto& v : list) {
         const auto* o = v.if_object();
         if (!o) continue;

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/json/array.hpp>
 #include <cmath>
 #include <optional>
@@ -25,14 +27,12 @@ constexpr std::array<Told, 6> told{
 
 /// In units; nothing: it is not known.
 std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, Of of) {
+    const auto channel = std::ranges::find(channel_places, point, &ChannelPlace::name);
     const bool one = of == Of::first || of == Of::last;
-    const TrendRow& r = of == Of::first ? c.first : of == Of::least ? c.low : of == Of::greatest ? c.high : c.last;
-    if (one ? !r.known() : !c.known) return std::nullopt;
-    if (point == "position") return static_cast<double>(r.position) / a.scale;
-    if (point == "velocity") return static_cast<double>(r.velocity) / a.scale;
-    if (one ? !r.demand_known : !c.demand_known) return std::nullopt;
-    if (point == "demand") return static_cast<double>(r.demand) / a.scale;
-    return static_cast<double>(one ? r.following_error() : of == Of::least ? c.least_error : c.greatest_error) / a.scale;
+    const TrendRow& r = of == Of::first ? c.first : c.last;
+    if (channel == channel_places.end() || (one ? !r.known() : !c.known)) return std::nullopt;
+    const auto n = one ? channel->of(r) : of == Of::least ? channel->least(c) : channel->greatest(c);
+    return n ? std::optional(static_cast<double>(*n) / a.scale) : std::nullopt;
 }
 double ms_of(std::int64_t unix_ns) { return static_cast<double>(unix_ns / 1000) / 1000; }
 

@@ -2,18 +2,16 @@
 // In: stretches with the names of their axes, the points that are wanted. Out: documents. Times are ms since 1970, or RFC 3339.
 #pragma once
 
-#include <array>
 #include <boost/json/object.hpp>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "gateway/services/recorder/channels.hpp"
 #include "gateway/services/recorder/trends.hpp"
 
 namespace axisgate {
-
-inline constexpr std::array<std::string_view, 5> trend_points{"position", "velocity", "demand", "following_error", "state"};
 
 struct TrendAxis {
     std::string name, unit;

@@ -113,7 +113,20 @@ TEST_F(HttpTest, ATemplateIsTriedOnTheSiteThatIsMeant) {
 TEST_F(HttpTest, PointsThatCanBeMapped) {
     const auto a = call("GET", "/api/v1/mapping-points");
     ASSERT_GT(a.array().size(), 20u);
-    EXPECT_EQ(a.array()[0].at("point"), "statusword");
+    EXPECT_EQ(json_text(a.array()[0]),
+              R"({"point":"statusword","access":"R","description":"CiA 402 status word, with 8 simulated, 14 stale, 15 )"
+              R"(referenced","type":"u16","unit":null,"member":"statusword"})");
+    const auto of = [&a](std::string_view point) {
+        for (const auto& p : a.array())
+            if (p.at("point").get_string() == point)
+                return std::string(p.at("type").get_string()) + " " + json_text(p.at("unit")) + " " + json_text(p.at("member"));
+        return std::string("none");
+    };
+    EXPECT_EQ(of("position"), R"(i32 "increments" "position_increments")");
+    EXPECT_EQ(of("velocity_units"), R"(f32 "unit/s" "velocity")");
+    EXPECT_EQ(of("mode"), "i16 null null") << "the document's mode is another value";
+    EXPECT_EQ(of("authority"), "u16 null null") << "the document has its word";
+    EXPECT_EQ(of("moving"), R"(bool null "moving")");
 }
 
 TEST_F(HttpTest, SeveralMappingsAreRemovedAtOnceOrNone) {

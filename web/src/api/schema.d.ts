@@ -4463,6 +4463,18 @@ export interface components {
             /** @enum {string} */
             access: "R" | "RW";
             description: string;
+            /**
+             * @description of registers that hold all of it
+             * @enum {string}
+             */
+            type: "bool" | "u16" | "i16" | "u32" | "i32" | "f32";
+            /**
+             * @description what it is measured in, before `scale` and `offset`; `unit` - the axis' own; null - nothing
+             * @enum {string|null}
+             */
+            unit: "increments" | "increments/s" | "increments/s^2" | "unit" | "unit/s" | "ms" | "s" | null;
+            /** @description the member of an Axis that has the same value; null - none has */
+            member: string | null;
         };
         SiteChange: {
             dry_run: boolean;

@@ -1,8 +1,11 @@
-// Fixtures: an axis, drive, line and event as the gateway tells them, from the mock world. Each test changes what it is about.
+// Fixtures: an axis, drive, line, event and the points of an axis as the gateway tells them, from the mock world. Each test changes what it is about.
 import type { Axis, GatewayEvent } from '../src/api/types';
+import type { MappingPoint } from '../src/text/mapping';
+import { points as mockPoints } from '../dev/mock/configure.mjs';
 import { World } from '../dev/mock/world.mjs';
 
 export const world = () => new World();
+export const points = mockPoints as MappingPoint[];
 const base = new World().axis('feeder');
 
 export function axis(change: Partial<Axis> = {}): Axis {

@@ -4,12 +4,12 @@ import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeText, differenceText
 import { bitName, notMapped } from '../src/text/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/text/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/text/table-text';
-import { axis } from './fixtures';
+import { axis, points } from './fixtures';
 
 const m = (id: string, address: number, type: Mapping['type'] = 'i32', more: Partial<Mapping> = {}): Mapping => ({ id, unit: 2, table: 'holding_registers', address, axis: 'feeder', point: 'position', type, word_order: 'high_first', scale: 1, offset: 0, access: 'R', ...more });
 const known: Known = {
   axes: ['feeder', 'slide.x'],
-  points: [{ point: 'position', access: 'R', description: '' }, { point: 'target_position', access: 'RW', description: '' }],
+  points: points.filter((p) => p.point === 'position' || p.point === 'target_position'),
   parameters: (a) => (a === 'feeder' ? ['MT[1]', 'working_current', 'PP'] : null),
 };
 const texts = (change: Partial<Texts>): Partial<Texts> => ({ unit: '2', table: 'holding_registers', address: '4', axis: 'feeder', point: 'position', type: 'i32', ...change });
@@ -121,16 +121,23 @@ describe('tables', () => {
 describe('values', () => {
   it('come from the axis where it has them', () => {
     const a = axis({ position: 12.5, position_increments: 40000, moving: true, online: true, simulated: true });
-    expect(pointValue(a, 'position')).toBe(40000);
-    expect(pointValue(a, 'position_units')).toBe(12.5);
-    expect((pointValue(a, 'flags') as number) & 0b10011).toBe(0b10011);
-    expect(pointValue(a, 'MT[1]')).toBeUndefined();
+    expect(pointValue(a, 'position', points)).toBe(40000);
+    expect(pointValue(a, 'position_units', points)).toBe(12.5);
+    expect((pointValue(a, 'flags', points) as number) & 0b10011).toBe(0b10011);
+    expect(pointValue(a, 'MT[1]', points)).toBeUndefined();
+    expect(pointValue(axis({ authority: 'ethernet_ip' }), 'authority', points)).toBe(2);
+  });
+  it('of a point that only the gateway knows come by the member that it names', () => {
+    const one = { point: 'temperature', access: 'R', description: '', type: 'i16', unit: null, member: 'temperature' } as const;
+    expect(pointValue({ ...axis(), temperature: 41 } as never, 'temperature', [one])).toBe(41);
+    expect(pointUnit({ unit: 'mm' }, 'temperature', [{ ...one, unit: 'unit/s' }])).toBe('mm/s');
+    expect(signWarning({ point: 'temperature', type: 'u16', offset: 0 }, [one])).toContain('i16 holds it');
   });
   it('of demand and following error are the axis\' increments, and not known while nobody says them', () => {
     const reported = axis({ demand_source: 'computed', position_demand_increments: 40010, following_error_increments: -7 });
-    expect(['position_demand', 'following_error'].map((p) => [pointValue(reported, p), pointUnit(reported, p)])).toEqual([[40010, 'inc'], [-7, 'inc']]);
-    expect(pointValue(axis({ following_error_increments: null }), 'following_error')).toBeNull();
-    expect(signWarning({ point: 'following_error', type: 'u32', offset: 0 })).toContain('can be negative');
+    expect(['position_demand', 'following_error'].map((p) => [pointValue(reported, p, points), pointUnit(reported, p, points)])).toEqual([[40010, 'inc'], [-7, 'inc']]);
+    expect(pointValue(axis({ following_error_increments: null }), 'following_error', points)).toBeNull();
+    expect(signWarning({ point: 'following_error', type: 'u32', offset: 0 }, points)).toContain('can be negative');
   });
   it('are scaled as in the register', () => {
     expect(registerValue(12.5, m('a', 0, 'i16', { scale: 10, offset: 1 }))).toBe(126);
@@ -151,8 +158,8 @@ describe('values', () => {
 
 describe('before it is mapped, and where nothing is', () => {
   it('warns of a point that can be negative in a type that cannot', () => {
-    expect(signWarning({ point: 'position', type: 'u32', offset: 0 })).toBe('position can be negative, and u32 holds no negative value: reading it then is an exception. i32 holds it.');
-    for (const fine of [{ point: 'position', type: 'i32', offset: 0 }, { point: 'statusword', type: 'u16', offset: 0 }, { point: 'position_units', type: 'u16', offset: 500 }, { point: 'position', type: 'f32', offset: 0 }]) expect(signWarning(fine)).toBe('');
+    expect(signWarning({ point: 'position', type: 'u32', offset: 0 }, points)).toBe('position can be negative, and u32 holds no negative value: reading it then is an exception. i32 holds it.');
+    for (const fine of [{ point: 'position', type: 'i32', offset: 0 }, { point: 'statusword', type: 'u16', offset: 0 }, { point: 'position_units', type: 'u16', offset: 500 }, { point: 'position', type: 'f32', offset: 0 }]) expect(signWarning(fine, points)).toBe('');
   });
   it('names the places of a span that are not mapped', () => {
     const span = { unit: 2, table: 'holding_registers' as const, address: 0, count: 10 };

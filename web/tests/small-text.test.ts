@@ -3,6 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { groupsOf, inUnits } from '../src/text/event';
 import { allowedText } from '../src/text/register-map';
 import type { GatewayEvent } from '../src/api/types';
+import { points } from './fixtures';
 import { plain } from '../src/text/plain';
 import { naturalType, valueUnit } from '../src/text/mapping-type';
 import type { Known } from '../src/text/mapping';
@@ -48,7 +49,7 @@ it.each([
 });
 
 describe('a mapped value by itself', () => {
-  const known: Known = { axes: ['a'], points: [], parameters: () => ['MT', 'AC'], parameter: (_, id) => (id === 'MT' ? { type: 'u8', unit: null } : id === 'AC' ? { type: 'u32', unit: 'pulse/s^2' } : null) };
+  const known: Known = { axes: ['a'], points, parameters: () => ['MT', 'AC'], parameter: (_, id) => (id === 'MT' ? { type: 'u8', unit: null } : id === 'AC' ? { type: 'u32', unit: 'pulse/s^2' } : null) };
   it.each([['position', 'i32'], ['statusword', 'u16'], ['position_units', 'f32'], ['moving', 'bool'], ['mode', 'i16'], ['AC', 'u32'], ['MT[3]', 'u16'], ['toString', null], ['', null], ['nothing', null]])('%s is %s', (point, type) => {
     expect(naturalType('a', point, known)).toBe(type);
   });

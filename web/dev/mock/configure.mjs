@@ -11,13 +11,21 @@ import { Refusal } from './world.mjs';
  */
 
 const columns = ['id', 'unit', 'table', 'address', 'axis', 'point', 'type', 'word_order', 'scale', 'offset', 'access', 'length', 'comment'];
-const points = [
-  ['statusword', 'R', 'CiA 402 status word'], ['position', 'R', 'position actual value, increments'], ['velocity', 'R', 'velocity actual value, increments/s'],
-  ['position_demand', 'R', 'position demand value, increments; the position while nobody says it'],
-  ['following_error', 'R', 'following error actual value: demand less position, increments; 0 while nobody says the demand'],
-  ['target_position', 'RW', 'target position, increments'], ['flags', 'R', 'flags'], ['online', 'R', 'the drive answers'], ['moving', 'R', 'the axis moves'],
-  ['position_units', 'R', "position actual value in the axis' unit"], ['velocity_units', 'R', "velocity actual value in the axis' unit per second"],
-].map(([point, access, description]) => ({ point, access, description }));
+/** Some of those of the gateway. */
+export const points = [
+  ['statusword', 'R', 'CiA 402 status word', 'u16', null, 'statusword'],
+  ['position', 'R', 'position actual value, increments', 'i32', 'increments', 'position_increments'],
+  ['velocity', 'R', 'velocity actual value, increments/s', 'i32', 'increments/s', 'velocity_increments'],
+  ['position_demand', 'R', 'position demand value, increments; the position while nobody says it', 'i32', 'increments', 'position_demand_increments'],
+  ['following_error', 'R', 'following error actual value: demand less position, increments; 0 while nobody says the demand', 'i32', 'increments', 'following_error_increments'],
+  ['target_position', 'RW', 'target position, increments', 'i32', 'increments', 'target_position_increments'],
+  ['mode', 'RW', 'modes of operation: 1 position, 3 velocity, 6 homing', 'i16', null, null],
+  ['flags', 'R', 'flags', 'u16', null, null],
+  ['online', 'R', 'the drive answers', 'bool', null, 'online'],
+  ['moving', 'R', 'the axis moves', 'bool', null, 'moving'],
+  ['position_units', 'R', "position actual value in the axis' unit", 'f32', 'unit', 'position'],
+  ['velocity_units', 'R', "velocity actual value in the axis' unit per second", 'f32', 'unit/s', 'velocity'],
+].map(([point, access, description, type, unit, member]) => ({ point, access, description, type, unit, member }));
 /** @param {any} m */
 const width = (m) => ({ bool: 1, u16: 1, i16: 1, u64: 4, i64: 4, f64: 4, string: m.length ?? 16 })[/** @type {'bool'} */ (m.type)] ?? 2;
 

@@ -5,7 +5,7 @@ import { computed, type ReadonlySignal } from '@preact/signals';
 import { useMemo } from 'preact/hooks';
 import { useGateway } from '../gateway';
 import { t } from '../language';
-import { pointUnit, pointValue, tableOf, type Mapping } from '../text/mapping';
+import { pointUnit, pointValue, tableOf, type Mapping, type MappingPoint } from '../text/mapping';
 import type { Block } from '../text/mapping-blocks';
 import { formatExact } from '../text/number';
 import type { Received } from '../state/register-look';
@@ -28,11 +28,11 @@ export interface Published {
   why: string;
 }
 
-export function publishedOf(b: Block, store: Store, received: ReadonlyMap<string, Received>): Published {
+export function publishedOf(b: Block, store: Store, received: ReadonlyMap<string, Received>, points: readonly MappingPoint[]): Published {
   const entry = b.axis ? store.axis(b.axis)?.value : undefined;
   const axis = entry?.data;
   const trust = entry ? store.trustOf(entry) : 'offline';
-  const fromAxis = axis && b.point ? pointValue(axis, b.point) : undefined;
+  const fromAxis = axis && b.point ? pointValue(axis, b.point, points) : undefined;
   const h = received.get(b.key);
   const bits = tableOf(b.table).bits;
   const inWord = b.width === 1 && !b.mapping && h?.words?.length === 1 ? (b.type === 'bool' ? h.words[0] === 1 : h.words[0]) : undefined;
@@ -41,7 +41,7 @@ export function publishedOf(b: Block, store: Store, received: ReadonlyMap<string
   const known = value !== null && value !== undefined;
   return {
     text: known ? valueWords(value) : '',
-    unit: known && axis && b.point ? pointUnit(axis, b.point) : '',
+    unit: known && axis && b.point ? pointUnit(axis, b.point, points) : '',
     live,
     note: live || !known ? '' : trust === 'live' ? t('not live') : trustText[trust],
     raw: h?.words ? (bits ? h.words.join(' ') : hexWords(h.words)) : '',
@@ -50,16 +50,16 @@ export function publishedOf(b: Block, store: Store, received: ReadonlyMap<string
 }
 
 /** Follows one block; changes only when one of its texts does. */
-export function usePublished(b: Block, received: ReadonlySignal<ReadonlyMap<string, Received>>): Published {
+export function usePublished(b: Block, received: ReadonlySignal<ReadonlyMap<string, Received>>, points: readonly MappingPoint[]): Published {
   const { store } = useGateway();
   const published = useMemo(() => {
     let last: Published | null = null;
     return computed(() => {
-      const now = publishedOf(b, store, received.value);
+      const now = publishedOf(b, store, received.value, points);
       if (last && (Object.keys(now) as (keyof Published)[]).every((k) => last![k] === now[k])) return last;
       return (last = now);
     });
-  }, [b, received]);
+  }, [b, received, points]);
   return published.value;
 }
 
@@ -86,8 +86,8 @@ export function RawOf({ published }: { published: Published }) {
   );
 }
 
-export function BlockCell({ block: b, received }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>> }) {
-  const published = usePublished(b, received);
+export function BlockCell({ block: b, received, points }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>>; points: readonly MappingPoint[] }) {
+  const published = usePublished(b, received, points);
   return (
     <>
       <span class="map-name mono" title={b.name}>{b.name}</span>

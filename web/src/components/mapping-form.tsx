@@ -115,7 +115,7 @@ export function MappingForm({ book, known, editing, focus = true, drafts, done }
   const taken = conflicts.length === 0 ? undefined : conflicts.length > 3 ? t('Taken by {list} and {n} more.', { list: others, n: conflicts.length - 3 }) : t('Taken by {list}.', { list: others });
 
   const typeHint = !natural || bits ? undefined : natural === texts.type ? t('the point’s own type') : t('the point’s own type is {type}', { type: natural });
-  const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 });
+  const warning = signWarning({ point: texts.point.trim(), type: texts.type, offset: Number(texts.offset) || 0 }, known.points);
 
   const send = async (opened: Mapping | null) => {
     touched.value = true;

@@ -12,7 +12,7 @@ import { midSentence, t } from '../language';
 import { addressBase, addressField } from '../state/address-base';
 import { persisted } from '../state/persisted';
 import { addressText, otherText, readAddress } from '../text/address';
-import { decodeText, pointUnit, tableOf, tables, types, widthOf, type Mapping, type RegisterType, type Table } from '../text/mapping';
+import { decodeText, pointUnit, tableOf, tables, types, widthOf, type Mapping, type MappingPoint, type RegisterType, type Table } from '../text/mapping';
 import type { Block } from '../text/mapping-blocks';
 import { formatExact, parseNumber } from '../text/number';
 import { bitAxis, bitName, isStandard, notMapped } from '../text/register-map';
@@ -36,7 +36,7 @@ const within = (text: string, min: number, max: number): number | null => {
   return p.good && Number.isInteger(p.value) && p.value >= min && p.value <= max ? p.value : null;
 };
 
-export function MappingHmi({ door, rows }: { door: MappingDoor; rows: readonly Mapping[] }) {
+export function MappingHmi({ door, rows, points }: { door: MappingDoor; rows: readonly Mapping[]; points: readonly MappingPoint[] }) {
   const { store } = useGateway();
   const answer = useSignal<Registers | null>(null);
   const why = useSignal('');
@@ -137,7 +137,7 @@ export function MappingHmi({ door, rows }: { door: MappingDoor; rows: readonly M
           </p>
         )}
       </form>
-      {a && !a.exception && <AnswerMap a={a} axes={axes} rows={rows} former={former} />}
+      {a && !a.exception && <AnswerMap a={a} axes={axes} rows={rows} points={points} former={former} />}
     </div>
   );
 }
@@ -151,15 +151,15 @@ function sourceOf(d: { name?: string; mapping?: string }, rows: readonly Mapping
 }
 
 /** In words: a bare number beside "position" could be anything. */
-function decodedUnit(reported: string | null | undefined, source: { axis: string; point: string } | null, axes: readonly Axis[]): string {
-  const text = reported || (source ? pointUnit(axes.find((x) => x.name === source.axis) ?? { unit: '' }, source.point) : '');
+function decodedUnit(reported: string | null | undefined, source: { axis: string; point: string } | null, axes: readonly Axis[], points: readonly MappingPoint[]): string {
+  const text = reported || (source ? pointUnit(axes.find((x) => x.name === source.axis) ?? { unit: '' }, source.point, points) : '');
   return text.replace(/^inc\b/, t('increments'));
 }
 
 type Decoded = NonNullable<Registers['decoded']>[number];
 
 /** Each register of the answer as a cell of the map. */
-function AnswerMap({ a, axes, rows, former }: { a: Registers; axes: readonly Axis[]; rows: readonly Mapping[]; former: boolean }) {
+function AnswerMap({ a, axes, rows, points, former }: { a: Registers; axes: readonly Axis[]; rows: readonly Mapping[]; points: readonly MappingPoint[]; former: boolean }) {
   const base = addressBase();
   const handle = useRef<MapHandle | null>(null);
   const cursor = useSignal(a.address);
@@ -181,11 +181,11 @@ function AnswerMap({ a, axes, rows, former }: { a: Registers; axes: readonly Axi
         <>
           <span class="map-name mono">{addressText(a.table, b.address, base)} {bits ? '' : w.toString(16).toUpperCase().padStart(4, '0')}</span>
           <span class="map-value mono" title={bits ? undefined : t('u16; as {type}: {value}', { type, value: shown(read) })}>{bits ? w : `${w} · ${shown(read)}`}</span>
-          {d ? <What d={d} rows={rows} axes={axes} /> : <BitWhat a={a} bits={bits} at={b.address} axes={axes} />}
+          {d ? <What d={d} rows={rows} axes={axes} points={points} /> : <BitWhat a={a} bits={bits} at={b.address} axes={axes} />}
         </>
       );
     };
-  }, [a, raw, bits, type, wordOrder, base, rows, axes.map((x) => x.name).join()]);
+  }, [a, raw, bits, type, wordOrder, base, rows, points, axes.map((x) => x.name).join()]);
   return (
     <div class={`hmi-map${former ? ' is-old' : ''}`}>
       <RegisterMap
@@ -217,7 +217,7 @@ const notAsked = (place: string) => t('{place} not asked', { place });
 const never = () => false;
 const nop = () => undefined;
 
-function What({ d, rows, axes }: { d: Decoded; rows: readonly Mapping[]; axes: readonly Axis[] }) {
+function What({ d, rows, axes, points }: { d: Decoded; rows: readonly Mapping[]; axes: readonly Axis[]; points: readonly MappingPoint[] }) {
   const source = sourceOf(d, rows, axes);
   return (
     <>
@@ -225,7 +225,7 @@ function What({ d, rows, axes }: { d: Decoded; rows: readonly Mapping[]; axes: r
         {d.name ?? d.mapping} {source && <SimulatedMark of={source.axis} />}
       </span>
       <span class="map-foot">
-        <span class="mono">{shown(d.value)}</span> <span class="unit">{decodedUnit(d.unit, source, axes)}</span> {d.text === shown(d.value) || d.text === String(d.value) ? '' : d.text} <span class="map-type mono">{d.type}</span>
+        <span class="mono">{shown(d.value)}</span> <span class="unit">{decodedUnit(d.unit, source, axes, points)}</span> {d.text === shown(d.value) || d.text === String(d.value) ? '' : d.text} <span class="map-type mono">{d.type}</span>
       </span>
     </>
   );

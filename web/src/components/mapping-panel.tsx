@@ -6,7 +6,7 @@ import { t } from '../language';
 import { otherText } from '../text/address';
 import { addressBase } from '../state/address-base';
 import type { Received } from '../state/register-look';
-import { placeText } from '../text/mapping';
+import { placeText, type MappingPoint } from '../text/mapping';
 import { bitsOf, type Block } from '../text/mapping-blocks';
 import { formatExact } from '../text/number';
 import { useBarred } from './gate';
@@ -16,6 +16,7 @@ import { AxisName } from './name';
 export interface PanelProps {
   chosen: readonly Block[];
   received: ReadonlySignal<ReadonlyMap<string, Received>>;
+  points: readonly MappingPoint[];
   copyTo: string;
   remove: () => void;
   move: () => void;
@@ -24,14 +25,14 @@ export interface PanelProps {
   children: ComponentChildren;
 }
 
-export function MappingPanel({ chosen, received, copyTo, remove, move, copy, whole, children }: PanelProps) {
+export function MappingPanel({ chosen, received, points, copyTo, remove, move, copy, whole, children }: PanelProps) {
   const no = useBarred('engineer');
   const own = chosen.filter((b) => b.mapping);
   const [one] = chosen;
   const ids = own.length === 1 ? own[0]!.key : t('{n} mappings', { n: own.length });
   return (
     <aside class="map-panel" aria-label={t('Chosen place')}>
-      {one && chosen.length === 1 && <BlockFacts block={one} received={received} />}
+      {one && chosen.length === 1 && <BlockFacts block={one} received={received} points={points} />}
       {chosen.length > 1 && <p data-field="chosen">{t('{n} entries are chosen.', { n: chosen.length })}</p>}
       {own.length > 0 && (
         <div class="form-foot">
@@ -63,9 +64,9 @@ export function scaleText(m: { scale: number; offset: number }): string {
   return [scale, offset].filter(Boolean).join(' ') || '1 : 1';
 }
 
-function BlockFacts({ block: b, received }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>> }) {
+function BlockFacts({ block: b, received, points }: { block: Block; received: ReadonlySignal<ReadonlyMap<string, Received>>; points: readonly MappingPoint[] }) {
   const base = addressBase();
-  const published = usePublished(b, received);
+  const published = usePublished(b, received, points);
   const words = received.value.get(b.key)?.words;
   const bits = words?.length === 1 ? bitsOf(b.point, words[0]!) : [];
   const m = b.mapping;

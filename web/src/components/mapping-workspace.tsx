@@ -223,7 +223,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
     if (!withShift) choose(b, false);
     else if (b && !selected.peek().has(b.key)) choose(b, true);
   };
-  const draw = useMemo(() => (b: Block) => <BlockCell block={b} received={received} />, [received]);
+  const draw = useMemo(() => (b: Block) => <BlockCell block={b} received={received} points={known.points} />, [received, known.points]);
   const canResize = useMemo(() => (b: Block) => b.mapping !== undefined && !tableOf(b.table).bits && b.type !== 'bool', []);
   const carryText = hand.text();
   return (
@@ -267,6 +267,7 @@ export function MappingWorkspace({ book, known, blocks, unit, table, base, open,
         <MappingPanel
           chosen={chosen}
           received={received}
+          points={known.points}
           copyTo={copyTo}
           remove={() => void remove(owned(chosen))}
           move={() => pickUp({ kind: 'move', own: owned(chosen) }, Math.min(...owned(chosen).map((m) => m.address)))}

@@ -208,7 +208,7 @@ export function MappingsPage() {
       >
         <Why need="engineer" what={t('Changing the mappings')} />
         {mode.value === 'hmi' ? (
-          <MappingHmi door={door} rows={rows} />
+          <MappingHmi door={door} rows={rows} points={known.points} />
         ) : why ? (
           <Empty text={why} />
         ) : (

@@ -205,39 +205,28 @@ export function differenceText(before: Mapping | null | undefined, after: Mappin
   return parts.join(', ') || t('the same');
 }
 
-const doors = ['none', 'modbus', 'enip', 'http', 'dds'];
+const doors = ['none', 'modbus', 'ethernet_ip', 'http', 'dds', 'internal'];
+type Points = readonly MappingPoint[];
+const pointOf = (points: Points, name: string): MappingPoint | undefined => points.find((p) => p.point === name);
 
 /** The point's value from the axis document; undefined: the document does not have it (a parameter, a set-point register). */
-export function pointValue(axis: Axis, point: string): number | boolean | null | undefined {
-  switch (point) {
-    case 'statusword': return axis.statusword;
-    case 'mode_display': return axis.mode_number;
-    case 'position': return axis.position_increments;
-    case 'velocity': return axis.velocity_increments;
-    case 'position_demand': return axis.position_demand_increments;
-    case 'following_error': return axis.following_error_increments;
+export function pointValue(axis: Axis, name: string, points: Points): number | boolean | null | undefined {
+  switch (name) {
     case 'error_code': return axis.error.code;
-    case 'native_status': return axis.native;
-    case 'setpoints_accepted': return axis.setpoints_accepted;
     case 'authority': return Math.max(0, doors.indexOf(axis.authority));
-    case 'controlword': return axis.controlword;
-    case 'online': case 'simulated': case 'stale': case 'referenced': case 'moving': case 'target_reached': case 'fault': case 'warning': return axis[point];
     case 'flags':
       return [axis.online, axis.simulated, axis.stale, axis.referenced, axis.moving, axis.target_reached, axis.fault, axis.warning].reduce((n, b, i) => n | (b ? 1 << i : 0), 0);
-    case 'position_units': return axis.position;
-    case 'velocity_units': return axis.velocity;
-    default: return undefined;
+    default: {
+      const member = pointOf(points, name)?.member;
+      return member ? (axis[member as keyof Axis] as number | boolean | null | undefined) : undefined;
+    }
   }
 }
 
-export function pointUnit(axis: Pick<Axis, 'unit'>, point: string): string {
-  const unit = axis.unit || 'inc';
-  if (point === 'position_units') return unit;
-  if (point === 'velocity_units') return `${unit}/s`;
-  if (point === 'position' || point === 'position_demand' || point === 'following_error' || point === 'target_position') return 'inc';
-  if (point === 'velocity' || point === 'profile_velocity' || point === 'target_velocity') return 'inc/s';
-  if (point === 'profile_acceleration' || point === 'profile_deceleration') return 'inc/s²';
-  return point === 'age_ms' ? 'ms' : '';
+export function pointUnit(axis: Pick<Axis, 'unit'>, name: string, points: Points): string {
+  const unit = pointOf(points, name)?.unit ?? '';
+  const own = axis.unit || 'inc';
+  return unit === 'unit' ? own : unit === 'unit/s' ? `${own}/s` : unit.replace('increments', 'inc').replace('^2', '²');
 }
 
 /** What stands in the register for a value of the point: value * scale + offset, cut to the type as the gateway cuts it. */
@@ -246,12 +235,12 @@ export function registerValue(value: number | boolean, m: Pick<Mapping, 'type' |
   return m.type === 'f32' ? Math.fround(n) : m.type === 'f64' ? n : m.type === 'bool' ? Number(n !== 0) : Math.round(n);
 }
 
-const signedPoints = new Set(['position', 'velocity', 'position_demand', 'following_error', 'position_units', 'velocity_units', 'target_position', 'target_velocity', 'mode_display', 'mode', 'homing_method']);
 const signedOf: Partial<Record<RegisterType, RegisterType>> = { u16: 'i16', u32: 'i32', u64: 'i64' };
 /** What to think of before a point that can be negative goes into a type that cannot; empty: nothing. An offset may be meant to lift it. */
-export function signWarning(m: { point: string; type: string; offset: number }): string {
+export function signWarning(m: { point: string; type: string; offset: number }, points: Points): string {
+  const own = pointOf(points, m.point)?.type ?? '';
   const better = signedOf[m.type as RegisterType];
-  return better && m.offset <= 0 && signedPoints.has(m.point) ? t('{point} can be negative, and {type} holds no negative value: reading it then is an exception. {better} holds it.', { point: m.point, type: m.type, better }) : '';
+  return better && m.offset <= 0 && /^[if]/.test(own) ? t('{point} can be negative, and {type} holds no negative value: reading it then is an exception. {better} holds it.', { point: m.point, type: m.type, better }) : '';
 }
 
 /** Reads raw words as a type, as an HMI does. */

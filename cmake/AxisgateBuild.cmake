@@ -291,6 +291,7 @@ function(axisgate_test_suites)
   axisgate_test_program(test_cip tests/unit/cip LINKS axisgate::cip)
   axisgate_test_program(test_wire tests/unit/wire LINKS axisgate::wire)
   axisgate_test_program(test_services tests/unit/services LINKS axisgate::services)
+  target_sources(test_services PRIVATE tests/unit/http/fake_gateway.cpp)  # the ports' doubles
   axisgate_test_program(test_lines tests/unit/lines LINKS axisgate::lines)
   axisgate_test_program(test_store tests/unit/store LINKS axisgate::store axisgate_assets)
   axisgate_test_program(test_modbus tests/unit/modbus LINKS axisgate::door_modbus)

@@ -1,13 +1,10 @@
-// Accounts: when users and tokens were last seen is kept through the same queue as changes, so that no older record comes behind a newer.
-// In: bodies. Out: documents, answers. Bounds: 20 s for a hash and the disk together. Never shows a digest of a password.
+// Accounts: members of bodies one by one, so that all that is wrong is told at once.
+// In: bodies. Out: documents, answers. Bounds: 20 s for a hash and the disk together.
 #include "gateway/doors/http/accounts.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-
-#include "gateway/doors/http/preconditions.hpp"
-#include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -91,59 +88,7 @@ json::object session_document(AccessPort* port, const Identity& i) {
             {"roles", json::array{"viewer", "operator", "engineer", "administrator"}}};
 }
 
-std::string tag_of(const User& u) {
-    // The digest stands for the stored password: a change of it is a change, but the tag leads nobody to it.
-    return tag_over({u.name, axisgate::name_of(u.role), u.enabled ? "enabled" : "", digest_of(u.hash), std::to_string(u.created_ns)});
-}
-
-json::object document_of(const User& u) {
-    return {{"name", u.name},
-            {"etag", tag_of(u)},
-            {"role", name_of(u.role)},
-            {"enabled", u.enabled},
-            {"created_at", format_time(u.created_ns)},
-            {"last_sign_in_at", time_or_null(u.last_sign_in_ns)}};
-}
-
-json::object document_of(const Token& t) {
-    return {{"id", t.id},
-            {"name", t.name},
-            {"role", name_of(t.role)},
-            {"owner", t.owner},
-            {"created_at", format_time(t.created_ns)},
-            {"expires_at", time_or_null(t.expires_ns)},
-            {"last_used_at", time_or_null(t.last_used_ns)}};
-}
-
-void note_access(AccessPort& port, std::string by, std::string text, Severity severity) {
-    Event e;
-    e.kind = "access";
-    e.severity = severity;
-    e.text = std::move(text);
-    e.who = std::move(by);
-    e.door = std::string(name_of(Door::http));
-    port.note(std::move(e));
-}
-
-void keep_uses(const std::shared_ptr<AccessPort>& port) {
-    if (port->uses_wait || !port->accounts().has_uses()) return;
-    port->uses_wait = true;
-    const bool queued = port->changes->run(
-        [port](std::function<void()> done) {
-            port->uses_wait = false;
-            auto records = port->accounts().take_uses();
-            if (records.empty()) return done();
-            port->keep(std::move(records), "axisgate", [done](const std::string&) { done(); });
-        },
-        nullptr);
-    if (!queued) port->uses_wait = false;  // the next use tries again
-}
-
 Response no_accounts() { return problem(503, "not_ready", "this door keeps no users"); }
-Response too_many_passwords() { return problem(503, "busy", "too many passwords are being checked: come again in a moment"); }
-Response not_kept(const std::string& fault) {
-    return problem(507, "not_stored", fmt::format("the change could not be stored and is not in force: {}", fault));
-}
 Handled soon() { return {longest, problem(504, "no_answer", "no result in time: look again whether it was done")}; }
 
 }  // namespace axisgate::http

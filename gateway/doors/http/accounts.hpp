@@ -1,4 +1,4 @@
-// Accounts: what the handlers of sessions, users and tokens share: bodies, documents, keeping a change, telling of it.
+// Accounts: what the handlers of sessions, users and tokens share: bodies, the session's document, what is said where there are none.
 // In: calls. Out: documents and answers. Never holds a password longer than a call and the hash that it becomes.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/services/access/account_changes.hpp"
 
 namespace axisgate::http {
 
@@ -36,23 +37,8 @@ private:
 
 /// The answer of /session.
 [[nodiscard]] boost::json::object session_document(AccessPort* port, const Identity& identity);
-/// Names this state of a user, for If-Match; a sign-in is no other state.
-[[nodiscard]] std::string tag_of(const User& user);
-[[nodiscard]] boost::json::object document_of(const User& user);
-[[nodiscard]] boost::json::object document_of(const Token& token);
-
-/// An event of kind "access".
-void note_access(AccessPort& port, std::string who, std::string text, Severity severity = Severity::info);
-
-/// Stores who was here last, in its turn behind the changes that wait. Nobody waits for it, and it may be lost.
-void keep_uses(const std::shared_ptr<AccessPort>& port);
-
 /// 503: the door has no users; for the handlers that need them.
 [[nodiscard]] Response no_accounts();
-/// 503: too many passwords are being computed.
-[[nodiscard]] Response too_many_passwords();
-/// 507: the store did not take it.
-[[nodiscard]] Response not_kept(const std::string& fault);
 /// A promise for what waits for a hash and the disk.
 [[nodiscard]] Handled soon();
 

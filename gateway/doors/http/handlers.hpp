@@ -15,18 +15,26 @@
 #include <vector>
 
 #include "gateway/doors/http/access_gate.hpp"
-#include "gateway/doors/http/clients_seen.hpp"
 #include "gateway/doors/http/message.hpp"
 #include "gateway/doors/http/problem.hpp"
 #include "gateway/doors/http/settings.hpp"
 #include "gateway/doors/http/text.hpp"
+#include "gateway/services/access/authority_view.hpp"
+#include "gateway/services/access/clients_seen.hpp"
 #include "gateway/services/alarms/alarm.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/axis_texts.hpp"
 #include "gateway/services/change_queue.hpp"
+#include "gateway/services/descriptions/description_files.hpp"
+#include "gateway/services/fail_safe/fail_safe_matrix.hpp"
 #include "gateway/services/parameters/axis_jobs.hpp"
+#include "gateway/services/parameters/snapshots.hpp"
 #include "gateway/services/ports.hpp"
+#include "gateway/services/recipes/recipe_documents.hpp"
+#include "gateway/services/recipes/recipe_steps.hpp"
 #include "gateway/services/services.hpp"
+#include "gateway/services/site/site_entries.hpp"
+#include "gateway/services/site/site_staging.hpp"
 #include "gateway/services/site/stage_owner.hpp"
 
 namespace axisgate::http {
@@ -79,27 +87,40 @@ struct Call {
 
 using Handler = Handled (*)(Call&);
 
-/// One parameter of a handler out of all ports: a port, or a set of some.
+/// One parameter of a handler: a port, a set of some, or a service that is made of ports and what is shared.
 template <class Part>
 struct Picked {
-    static Part from(const Ports& ports) { return ports.get<std::remove_cvref_t<Part>>(); }
+    static Part from(const Context& context) { return context.ports.get<std::remove_cvref_t<Part>>(); }
 };
 template <class... Port>
 struct Picked<const PortSet<Port...>&> {
-    static PortSet<Port...> from(const Ports& ports) { return ports; }
+    static PortSet<Port...> from(const Context& context) { return context.ports; }
+};
+template <>
+struct Picked<const Snapshots&> {
+    static Snapshots from(const Context& context) { return {context.ports, context.jobs}; }
+};
+template <>
+struct Picked<const SiteStaging&> {
+    static SiteStaging from(const Context& context) { return {context.ports, context.stages}; }
+};
+template <>
+struct Picked<const DescriptionFiles&> {
+    static DescriptionFiles from(const Context& context) { return {context.ports, context.changes}; }
+};
+template <>
+struct Picked<const RecipeDocuments&> {
+    static RecipeDocuments from(const Context& context) { return {context.ports, context.recipes}; }
 };
 template <class... Parts>
 Handled call_with_ports(Handled (*handler)(Call&, Parts...), Call& call) {
-    return handler(call, Picked<Parts>::from(call.context.ports)...);
+    return handler(call, Picked<Parts>::from(call.context)...);
 }
 /// A function with the ports that it takes, as the router calls it.
 template <auto handler>
 Handled take(Call& call) {
     return call_with_ports(handler, call);
 }
-
-/// What the document of a line, a drive or an axis is made from.
-using EntryPorts = PortSet<AxisPort, ClockPort, DrivePort, LinePort, SitePort>;
 
 // --- handlers_gateway.cpp ---------------------------------------------------------------------------------------------
 Handled get_health(Call&, const StatusPort&);
@@ -171,14 +192,11 @@ Handled get_modbus_door(Call&, ModbusPort&);
 Handled change_modbus_door(Call&, ModbusPort&);
 // --- handlers_connections.cpp -----------------------------------------------------------------------------------------
 Handled list_connections(Call&, ConnectionPort&);
-[[nodiscard]] boost::json::object document_of(const ClientConnection& connection);
 Handled close_connection(Call&, ConnectionPort&);
 // --- handlers_authority.cpp -------------------------------------------------------------------------------------------
 Handled list_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
 Handled get_authority(Call&, const AxisPort&, const ClockPort&, ModbusPort&, const SitePort&);
 Handled take_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
-/// Gives up what this user, or this user's token ("anna line3"), holds: he may not command any more. `by`: who did that.
-void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view client, const std::string& by);
 Handled release_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
 Handled hand_over_authority(Call&, AxisPort&, const ClockPort&, const SitePort&);
 // --- handlers_parameters.cpp ------------------------------------------------------------------------------------------
@@ -194,9 +212,9 @@ Handled get_trace(Call&, const LinePort&, const SitePort&);
 Handled list_events(Call&, EventPort&);
 
 // --- handlers_fail_safe.cpp -------------------------------------------------------------------------------------------
-Handled get_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
-Handled get_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&);
-Handled put_axis_fail_safe(Call&, AxisPort&, DrivePort&, RehearsalPort&, SitePort&, const StagePort&);
+Handled get_fail_safe(Call&, const MatrixPorts&);
+Handled get_axis_fail_safe(Call&, const MatrixPorts&);
+Handled put_axis_fail_safe(Call&, const MatrixPorts&, const StagePort&);
 Handled get_rehearsal(Call&);
 Handled start_rehearsal(Call&);
 // --- handlers_alarms.cpp ----------------------------------------------------------------------------------------------
@@ -211,10 +229,10 @@ Handled get_scan(Call&, LinePort&, const SitePort&);
 Handled list_host_ports(Call&, const LinePort&, const SitePort&);
 Handled cancel_scan(Call&, LinePort&, const SitePort&);
 // --- handlers_descriptions.cpp ----------------------------------------------------------------------------------------
-Handled list_descriptions(Call&, const DescriptionPort&, const SitePort&, const StagePort&);
-Handled get_drive_description(Call&, const DescriptionPort&, const SitePort&, const StagePort&);
-Handled add_description(Call&, const ClockPort&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
-Handled remove_description(Call&, DescriptionPort&, EventPort&, const SitePort&, const StagePort&);
+Handled list_descriptions(Call&, const DescriptionFiles&);
+Handled get_drive_description(Call&, const DescriptionFiles&);
+Handled add_description(Call&, const DescriptionFiles&);
+Handled remove_description(Call&, const DescriptionFiles&);
 // --- handlers_recorder.cpp --------------------------------------------------------------------------------------------
 Handled get_trends(Call&, const ClockPort&, RecorderPort&, const SitePort&);
 Handled get_recorded_steps(Call&, const ClockPort&, RecorderPort&, const SitePort&);
@@ -233,36 +251,36 @@ Handled get_capture(Call&, CapturePort&);
 Handled rename_capture(Call&, CapturePort&);
 Handled remove_capture(Call&, CapturePort&);
 // --- handlers_recipes.cpp ---------------------------------------------------------------------------------------------
-Handled list_recipes(Call&, const DocumentPort&);
-Handled get_recipe(Call&, const DocumentPort&);
-Handled put_recipe(Call&, const ClockPort&, DocumentPort&, EventPort&);
-Handled remove_recipe(Call&, DocumentPort&, EventPort&);
-Handled run_recipe(Call&, const AxisPort&, const DocumentPort&, const SitePort&);
-Handled list_recipe_runs(Call&, const DocumentPort&);
+Handled list_recipes(Call&, const RecipeDocuments&);
+Handled get_recipe(Call&, const RecipeDocuments&);
+Handled put_recipe(Call&, const RecipeDocuments&);
+Handled remove_recipe(Call&, const RecipeDocuments&);
+Handled run_recipe(Call&, const RecipeDocuments&);
+Handled list_recipe_runs(Call&, const RecipeDocuments&);
 Handled get_recipe_run(Call&);
 Handled cancel_recipe_run(Call&);
 // --- handlers_snapshots.cpp -------------------------------------------------------------------------------------------
-Handled list_snapshots(Call&, const SitePort&, const SnapshotPort&);
-Handled take_snapshot(Call&, AxisPort&, const ClockPort&, EventPort&, const ParameterPort&, const SitePort&, SnapshotPort&);
+Handled list_snapshots(Call&, const Snapshots&);
+Handled take_snapshot(Call&, const SitePort&, const Snapshots&);
 Handled get_snapshot_progress(Call&, const SitePort&);
-Handled get_snapshot(Call&, const DescriptionPort&, const SitePort&, const SnapshotPort&);
-Handled remove_snapshot(Call&, EventPort&, const SitePort&, SnapshotPort&);
-Handled diff_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);
-Handled restore_snapshot(Call&, AxisPort&, const ParameterPort&, const SitePort&, const SnapshotPort&);
+Handled get_snapshot(Call&, const Snapshots&);
+Handled remove_snapshot(Call&, const Snapshots&);
+Handled diff_snapshot(Call&, const Snapshots&);
+Handled restore_snapshot(Call&, const Snapshots&);
 // --- handlers_parameter_table.cpp -------------------------------------------------------------------------------------
 Handled get_parameter_history(Call&, const ParameterPort&, const SitePort&);
 Handled get_parameters_csv(Call&, const ParameterPort&, const SitePort&);
 Handled put_parameters_csv(Call&, AxisPort&, const ParameterPort&, const SitePort&);
 // --- handlers_stage.cpp -----------------------------------------------------------------------------------------------
-Handled stage_site(Call&, const ClockPort&, ConnectionPort&, const SitePort&, StagePort&);
-Handled get_stage(Call&, ConnectionPort&, const SitePort&, const StagePort&);
-Handled discard_stage(Call&, StagePort&);
-Handled apply_stage(Call&, const SitePort&, StagePort&);
-Handled confirm_stage(Call&, const ClockPort&, const SitePort&, StagePort&);
-Handled roll_back_stage(Call&, const SitePort&, StagePort&);
+Handled stage_site(Call&, const SitePort&, const SiteStaging&);
+Handled get_stage(Call&, const SitePort&, const SiteStaging&);
+Handled discard_stage(Call&, const SiteStaging&);
+Handled apply_stage(Call&, const SitePort&, const SiteStaging&);
+Handled confirm_stage(Call&, const SitePort&, const SiteStaging&);
+Handled roll_back_stage(Call&, const SitePort&, const SiteStaging&);
 Handled list_site_history(Call&, const SitePort&);
 Handled get_site_revision(Call&, const SitePort&);
-Handled restore_site_revision(Call&, const ClockPort&, ConnectionPort&, const SitePort&, StagePort&);
+Handled restore_site_revision(Call&, const SitePort&, const SiteStaging&);
 Handled get_backup(Call&, BackupPort&, EventPort&);
 Handled put_backup(Call&, BackupPort&);
 Handled get_waiting_backup(Call&, BackupPort&);
@@ -290,6 +308,25 @@ Handled add_token(Call&, const ClockPort&);
 Handled remove_token(Call&, AxisPort&, const SitePort&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
+
+/// What a service gives, or the problem that its refusal is.
+template <class T, class Show>
+[[nodiscard]] Response given(const Refusable<T>& answer, Show&& show) {
+    const auto* refusal = std::get_if<ServiceRefusal>(&answer);
+    return refusal ? problem_of(*refusal) : show(std::get<T>(answer));
+}
+/// 200 with it, for given().
+inline constexpr auto json_answer = [](const auto& document) { return json_response(document); };
+/// 204.
+[[nodiscard]] Response nothing_left();
+/// 200 with a file to be kept under this name.
+[[nodiscard]] Response file_answer(std::string_view media, std::string_view name, std::string text);
+/// Of what is JSON or a text: by ?format=json or `other`, else by Accept. On a fault (400, 406): `fault` holds the answer.
+[[nodiscard]] bool wants_json(const Call& call, std::string_view other, std::optional<Response>& fault);
+/// A job on an axis' parameters has begun: its answer, or 202 with the place of its progress when it takes longer.
+[[nodiscard]] Handled job_later(const std::string& axis);
+/// The answer to many parameters that were written.
+[[nodiscard]] std::function<void(const Refusable<WrittenParameters>&)> show_written(Respond respond);
 
 /// 404 that names what there is none of: "there is no axis slide".
 [[nodiscard]] Response nothing_named(std::string_view what, std::string_view name);

@@ -3,69 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <set>
 
 #include "gateway/doors/http/handlers.hpp"
-#include "gateway/services/documents.hpp"
+#include "gateway/services/access/authority_view.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-
-json::object authority_document(const AxisPort& axes, const ClockPort& clock, const AxisSpec& spec, AxisId id) {
-    const AxisPicture p = axes.picture(id);
-    const std::int64_t now = clock.now_unix_ns();
-    const std::int64_t until = p.authority_holder[0] != 0 ? clock.to_unix_ns(p.authority_until) : 0;
-    const bool held = until > now;
-    json::object o{{"axis", spec.name},
-                   {"door", axisgate::name_of(held ? p.authority : Door::none)},
-                   {"holder", held ? p.authority_holder.data() : ""},
-                   {"mode", axisgate::name_of(spec.authority_mode)}};
-    o["expires_in_s"] = held ? number(static_cast<double>((until - now) / 1'000'000) / 1000.0) : json::value(nullptr);
-    o["since"] = held ? json::value(format_time(clock.to_unix_ns(p.authority_since))) : json::value(nullptr);
-    o["last_commander"] = p.authority_commander.data();
-    return o;
-}
-
-/// The connections behind a holder that came by Modbus: all of its host, since one client is one address.
-void add_connections(json::object& document, const std::optional<ModbusReport>& report) {
-    const std::string axis(document.at("axis").get_string()), holder(document.at("holder").get_string());
-    json::array peers;
-    std::string list;
-    if (report && document.at("door") == json::value("modbus")) {
-        for (const auto& x : report->connections) {
-            if (std::ranges::find(x.holds, axis) == x.holds.end()) continue;
-            peers.emplace_back(x.peer);
-            list += (list.empty() ? "" : ", ") + x.peer;
-        }
-    }
-    const std::string door(document.at("door").get_string());
-    document["holder_text"] = holder.empty() ? std::string("nobody")
-                              : peers.size() > 1
-                                  ? fmt::format("{} {}: one client with {} connections, {}", door, holder, peers.size(), list)
-                              : peers.size() == 1 ? fmt::format("{} {}, connected from {}", door, holder, list)
-                                                  : fmt::format("{} {}", door, holder);
-    document["connections"] = std::move(peers);
-}
-/// Who could be named as the next holder: clients of this door that gave themselves a name or signed in, and hosts that are connected by
-/// Modbus.
-json::array clients_document(const Context& context, const ClockPort& clock, const std::optional<ModbusReport>& report) {
-    json::array out;
-    for (const auto& x : context.clients->list(clock.now_unix_ns())) {
-        out.push_back(json::object{{"client", "http " + x.name}, {"door", "http"}, {"at", format_time(x.at_unix_ns)}});
-    }
-    std::set<std::string> hosts;
-    if (report) {
-        for (const auto& x : report->connections) {
-            const std::string host = x.peer.substr(0, x.peer.rfind(':'));
-            if (hosts.insert(host).second) out.push_back(json::object{{"client", "modbus " + host}, {"door", "modbus"}, {"at", nullptr}});
-        }
-    }
-    return out;
-}
-bool held_by_modbus(const json::object& document) {
-    return document.at("door") == json::value("modbus") && !document.at("holder").get_string().empty();
-}
 
 /// Hands a wish to the hot thread and answers with what holds then.
 Handled submit_hold(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites, HoldAxis wish, bool empty_answer) {
@@ -82,9 +26,7 @@ Handled submit_hold(Call& c, AxisPort& axes, const ClockPort& clock, const SiteP
                                   add_connections(o, std::nullopt);
                                   return json_response(o);
                               }
-                              Response r;
-                              r.status = 204;
-                              return r;
+                              return nothing_left();
                           });
 }
 
@@ -115,23 +57,6 @@ Origin origin_of(const Request& request, const Identity& identity, std::string w
     return o;
 }
 
-void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view client, const std::string& by) {
-    const std::string prefix = std::string(client) + ' ';
-    for (const AxisId id : sites.site()->axis_ids) {
-        const AxisPicture p = axes.picture(id);
-        const std::string holder = p.authority_holder.data();
-        if (p.authority != Door::http || (holder != client && !holder.starts_with(prefix))) continue;
-        Command command;
-        command.axis = id;
-        command.origin = {Door::http, std::make_shared<const std::string>(by), std::make_shared<const std::string>(holder)};
-        HoldAxis wish;
-        wish.kind = HoldAxis::Kind::release;
-        command.body = wish;
-        (void)axes.submit(std::move(command), [](const Result&) {});
-        axes.client_lost({Door::http, holder}, LossCause::lease_ended);
-    }
-}
-
 Handled list_authority(Call& c, const AxisPort& axes, const ClockPort& clock, ModbusPort& modbus, const SitePort& sites) {
     const auto site = sites.site();
     auto list = std::make_shared<std::vector<json::object>>();
@@ -144,7 +69,7 @@ Handled list_authority(Call& c, const AxisPort& axes, const ClockPort& clock, Mo
             add_connections(o, report);
             out.push_back(std::move(o));
         }
-        return json_response(json::object{{"axes", std::move(out)}, {"clients", clients_document(context, clock, report)}});
+        return json_response(json::object{{"axes", std::move(out)}, {"clients", clients_document(*context.clients, clock, report)}});
     };
     modbus.modbus_report([answer, respond = c.respond](const std::optional<ModbusReport>& r) { respond(answer(r)); });
     return {gateway_limit, late_modbus()};

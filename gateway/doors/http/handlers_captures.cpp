@@ -4,32 +4,14 @@
 
 #include <algorithm>
 #include <boost/json/array.hpp>
-#include <cmath>
 
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
-#include "gateway/services/recorder/axr.hpp"
-#include "gateway/services/recorder/channels.hpp"
-#include "gateway/site/document_fields.hpp"
+#include "gateway/services/recorder/capture_order.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-json::object capture_document(const CaptureInfo& i) {
-    json::object o = i.summary;
-    o["name"] = i.name;
-    if (i.summary.empty()) {
-        // A file that is not to be trusted says nothing of itself.
-        for (const auto key : {"why", "who", "armed_at", "triggered_at", "trigger", "wanted_hz", "before_ms", "after_ms", "wait_ms"})
-            o[key] = nullptr;
-        o["state"] = "done";
-        o["axes"] = json::array();
-    }
-    o["bytes"] = i.bytes;
-    o["fault"] = text_or_null(i.fault);
-    return o;
-}
-
 const CaptureInfo* capture_in(const std::vector<CaptureInfo>& list, std::string_view name) {
     const auto it = std::ranges::find(list, name, &CaptureInfo::name);
     return it == list.end() ? nullptr : &*it;
@@ -42,99 +24,6 @@ Response refused(std::vector<SiteFault> wrong) {
     return invalid(std::move(faults));
 }
 
-/// A value of an axis in increments; nothing: it is beyond what an axis can have, and a fault says so.
-std::optional<std::int64_t> increments(DocumentFields& f, std::string_view key, double value, double scale) {
-    const double scaled = value * scale;
-    if (std::isfinite(scaled) && std::fabs(scaled) < 9e15) return std::llround(scaled);
-    f.fault(key, "this is further than an axis can go", "write a smaller value");
-    return std::nullopt;
-}
-
-void read_trigger(const json::value& v, CaptureOrder& order, std::vector<SiteFault>& faults) {
-    using Kind = CaptureTrigger::Kind;
-    DocumentFields f(v, "/trigger", faults);
-    CaptureTrigger& t = order.wish.trigger;
-    const std::string kind = f.text("kind", true, "level");
-    std::string axis = f.text("axis", false, "feeder"), edge = f.text("edge", false, "rising"), point = f.text("point", false, "position"),
-                state = f.text("state", false, "moving");
-    const auto level = f.number("level", "12.5");
-    if (axis.empty() && !order.axes.empty()) axis = order.axes.front().name;
-    double scale = 1;
-    if (const auto i = index_of_name(order.axes, axis)) {
-        t.axis = order.wish.axes[*i];
-        scale = order.axes[*i].scale;
-    } else if (!order.axes.empty()) {
-        f.fault("axis", fmt::format("{} is none of the axes that are captured", axis), "name one of them");
-    }
-    if (!edge.empty() && edge != "rising" && edge != "falling") f.fault("edge", "an edge is rising or falling", "write one of them");
-    t.rising = edge != "falling";
-    if (kind == "at_once") {
-        t.kind = Kind::at_once;
-    } else if (kind == "command") {
-        t.kind = Kind::command;
-    } else if (kind == "level") {
-        t.kind = Kind::level;
-        const auto p = capture_point_named(point.empty() ? "position" : point);
-        if (!p) f.fault("point", fmt::format("{} is no point", point), "write " + listed_points(level_points, " or "));
-        t.point = p.value_or(CapturePoint::position);
-        if (!level) f.fault("level", "a trigger of the kind level needs one", "write \"level\": 12.5, in units of its axis");
-        t.level = level ? increments(f, "level", *level, scale).value_or(0) : 0;
-    } else if (kind == "state") {
-        t.kind = Kind::state;
-        t.state = capture_state_named(state);
-        if (t.state == 0) f.fault("state", fmt::format("\"{}\" is no state", state), "write one of " + capture_state_names());
-    } else if (!kind.empty()) {
-        f.fault("kind", fmt::format("{} is no trigger", kind), "write at_once, level, state or command");
-    }
-    f.unknown_keys();
-}
-
-void read_axes(const json::value* v, CaptureOrder& order, DocumentFields& f, const SiteState& site) {
-    if (!v || !v->is_array() || v->get_array().empty() || v->get_array().size() > CaptureWish::most_axes)
-        return f.fault("axes", fmt::format("axes is a list of 1 to {} names", CaptureWish::most_axes), "write \"axes\": [\"feeder\"]");
-    for (std::size_t k = 0; k < v->get_array().size(); ++k) {
-        const auto& x = v->get_array()[k];
-        const std::string at = fmt::format("axes/{}", k);
-        const auto i = x.is_string() ? index_of_name(site.site.axes, std::string(x.get_string())) : std::nullopt;
-        if (!i || *i >= site.axis_ids.size()) {
-            f.fault(at, "there is no such axis", "write the name of an axis");
-            continue;
-        }
-        const AxisSpec& spec = site.site.axes[*i];
-        const auto drive = index_of_name(site.site.drives, spec.drive);
-        const std::string line = drive ? site.site.drives[*drive].line : std::string();
-        if (order.line.empty()) order.line = line;
-        if (line != order.line)
-            f.fault(at, fmt::format("{} is on line {}, not on {}", spec.name, line, order.line), "capture axes of one line");
-        if (index_of_name(order.axes, spec.name)) f.fault(at, fmt::format("{} stands there twice", spec.name), "name it once");
-        order.axes.push_back({spec.name, spec.unit, spec.increments_per_unit});
-        order.wish.axes.push_back(site.axis_ids[*i]);
-    }
-}
-
-CaptureOrder order_of(const json::value& body, const SiteState& site, std::vector<SiteFault>& faults) {
-    CaptureOrder o;
-    DocumentFields f(body, "", faults);
-    o.name = f.text("name", true, "before-tuning");
-    if (const auto wrong = check_recording_name(o.name); !o.name.empty() && !wrong.empty()) f.fault("name", wrong, "choose another name");
-    read_axes(f.get("axes"), o, f, site);
-    const auto ms = [&](std::string_view key, std::int64_t low, std::int64_t high, std::int64_t otherwise) {
-        return std::chrono::milliseconds(f.integer(key, low, high).value_or(otherwise));
-    };
-    const auto most_ms = std::chrono::duration_cast<std::chrono::milliseconds>(CaptureWish::longest).count();
-    o.wish.period = Duration(std::chrono::seconds(1)) / f.integer("rate_hz", 1, 1000).value_or(1000);
-    o.wish.before = ms("before_ms", 0, most_ms, 200);
-    o.wish.after = ms("after_ms", 1, most_ms, 1000);
-    o.wish.wait = ms("wait_ms", 100, std::chrono::duration_cast<std::chrono::milliseconds>(CaptureWish::longest_wait).count(), 60'000);
-    if (const auto* t = f.get("trigger"); t && !o.axes.empty()) read_trigger(*t, o, faults);
-    if (o.wish.before + o.wish.after > CaptureWish::longest)
-        f.fault("after_ms", fmt::format("before_ms and after_ms are {} ms together at most", most_ms), "capture less");
-    if (o.wish.rows() > Capture::most_rows)
-        f.fault("after_ms", fmt::format("this would be {} rows of {}", o.wish.rows(), Capture::most_rows),
-                "capture a shorter time, fewer axes or at a smaller rate");
-    f.unknown_keys();
-    return o;
-}
 }  // namespace
 
 Handled list_captures(Call&, CapturePort& captures) {
@@ -151,7 +40,7 @@ Handled list_captures(Call&, CapturePort& captures) {
 Handled arm_capture(Call& c, CapturePort& captures, EventPort& events, const SitePort& sites) {
     const auto site = sites.site();
     std::vector<SiteFault> wrong;
-    CaptureOrder order = order_of(c.body, *site, wrong);
+    CaptureOrder order = read_capture_order(c.body, *site, wrong);
     if (!wrong.empty()) return refused(std::move(wrong));
     order.who = c.who();
     const std::string name = order.name;
@@ -183,9 +72,7 @@ Handled get_capture(Call& c, CapturePort& captures) {
         if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         Response r;
         if (csv) {
-            r.headers.set("Content-Type", "text/csv; charset=utf-8");
-            r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}.csv\"", name));
-            r.body = capture_csv(columns);
+            r = file_answer("text/csv; charset=utf-8", name + ".csv", capture_csv(columns));
         } else {
             document["columns"] = std::move(columns);
             r = json_response(std::move(document));
@@ -198,10 +85,7 @@ Handled get_capture(Call& c, CapturePort& captures) {
 
 Handled rename_capture(Call& c, CapturePort& captures) {
     std::vector<SiteFault> wrong;
-    DocumentFields f(c.body, "", wrong);
-    const std::string to = f.text("name", true, "after-tuning");
-    if (const auto fault = check_recording_name(to); !to.empty() && !fault.empty()) f.fault("name", fault, "choose another name");
-    f.unknown_keys();
+    const std::string to = read_capture_name(c.body, wrong);
     if (!wrong.empty()) return refused(std::move(wrong));
     captures.rename_capture(c.names[0], to, [name = c.names[0], to, &captures, respond = c.respond](const RecordingFault& fault) {
         if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
@@ -215,9 +99,7 @@ Handled rename_capture(Call& c, CapturePort& captures) {
 Handled remove_capture(Call& c, CapturePort& captures) {
     captures.remove_capture(c.names[0], [name = c.names[0], respond = c.respond](const RecordingFault& fault) {
         if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
-        Response r;
-        r.status = 204;
-        respond(std::move(r));
+        respond(nothing_left());
     });
     return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
 }

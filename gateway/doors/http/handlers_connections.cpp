@@ -8,28 +8,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 Response too_busy() { return problem(503, "busy", "the doors cannot say now: come again in a moment"); }
-
-Response no_content() {
-    Response r;
-    r.status = 204;
-    return r;
-}
-
 }  // namespace
-
-json::object document_of(const ClientConnection& c) {
-    json::array axes;
-    for (const auto& axis : c.axes)
-        axes.emplace_back(axis);
-    return {{"id", c.id},
-            {"door", c.door},
-            {"kind", c.kind},
-            {"peer", c.peer},
-            {"since", format_time(c.since_unix_ns)},
-            {"received_at", format_time(c.received_unix_ns)},
-            {"axes", std::move(axes)},
-            {"commands", c.commands}};
-}
 
 Handled list_connections(Call& c, ConnectionPort& connections) {
     connections.list_connections([respond = c.respond](const std::optional<std::vector<ClientConnection>>& list) {
@@ -45,7 +24,7 @@ Handled list_connections(Call& c, ConnectionPort& connections) {
 Handled close_connection(Call& c, ConnectionPort& connections) {
     using Closed = ConnectionPort::Closed;
     connections.close_connection(std::string(c.names[0]), c.origin(), [respond = c.respond, id = std::string(c.names[0])](Closed closed) {
-        if (closed == Closed::done) return respond(no_content());
+        if (closed == Closed::done) return respond(nothing_left());
         respond(closed == Closed::busy ? too_busy() : nothing_named("connection", id));
     });
     return {gateway_limit, late_modbus()};

@@ -1,248 +1,47 @@
 // Handlers of loss of command: the matrix of cause and action per axis, its change, and its rehearsal on models.
 // In: calls. Out: what the site names, what holds where it names nothing, and the last report. Never stops or moves anything.
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <boost/json/array.hpp>
 
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
-#include "gateway/doors/http/site_edit.hpp"
+#include "gateway/services/fail_safe/fail_safe_matrix.hpp"
 #include "gateway/services/fail_safe/rehearsals.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// What happens to a motion without an end, and to one with an end, where the site says nothing.
-struct ByDefault {
-    FailSafeAction endless, to_a_target;
-};
-ByDefault by_default(LossCause cause) {
-    const FailSafe none;
-    return {none.action(cause, {.endless = true, .moving = true, .powered = true}),
-            none.action(cause, {.endless = false, .moving = true, .powered = true})};
-}
-
-std::string_view described(LossCause cause) {
-    switch (cause) {
-        case LossCause::modbus_closed:
-            return "the last Modbus connection of who commands the axis has ended";
-        case LossCause::modbus_silent:
-            return "who commands it is connected over Modbus, and has asked nothing for longer than watchdog_ms";
-        case LossCause::set_points_silent:
-            return "the set-points that it follows (other than over DDS) are not renewed in time, or their connection has ended";
-        case LossCause::lease_ended:
-            return "who commands it held it by a lease, and the lease has expired or was taken back with the right to command";
-        case LossCause::enip_closed:
-            return "the EtherNet/IP connection of who commands it was closed";
-        case LossCause::enip_timed_out:
-            return "the EtherNet/IP connection of who commands it has timed out (interval x multiplier)";
-        case LossCause::enip_idle:
-            return "the EtherNet/IP scanner of who commands it says that it is idle (program mode)";
-        case LossCause::line_lost:
-            return "the drive could not be reached while it was commanded; done as soon as it answers again";
-        case LossCause::gateway_ends:
-            return "the gateway is told to end";
-        case LossCause::dds_deadline:
-            return "who commands it does so over DDS, and its set-points have missed their deadline or nobody writes for it any more";
-        case LossCause::enip_session_closed:
-            return "who commands it does so by EtherNet/IP messages, and its last session has ended";
-        case LossCause::enip_silent:
-            return "who commands it does so by EtherNet/IP messages, and has sent none for longer than watchdog_ms";
-        case LossCause::motion_unowned:
-            return "it moves and no client of this gateway has ordered it: found at the start, or begun at the drive";
-        case LossCause::none:
-            break;
-    }
-    return "";
-}
-
-json::object choice_of(const FailSafe& chosen) {
-    json::object o;
-    for (const LossCause cause : loss_causes) {
-        const auto& action = chosen.of(cause);
-        o[name_of(cause)] = action ? json::value(name_of(*action)) : json::value(nullptr);
-    }
-    o["watchdog_ms"] = chosen.watchdog_ms ? json::value(*chosen.watchdog_ms) : json::value(nullptr);
-    return o;
-}
-
-/// The word of the API for a state of what the drive keeps by itself; null: unknown.
-template <class Kept>
-json::value state_of(typename Kept::State state) {
-    switch (state) {
-        case Kept::State::off:
-            return "off";
-        case Kept::State::armed:
-            return "armed";
-        case Kept::State::refused:
-            return "refused";
-        case Kept::State::unknown:
-            break;
-    }
-    return nullptr;
-}
-
-using MatrixPorts = PortSet<AxisPort, DrivePort, RehearsalPort, SitePort>;
-
-/// What the drive of an axis keeps by itself: what its family's page says of it, and what is known of this drive where the family has it.
-struct KeptByDrive {
-    bool available = false;
-    std::string description;
-    std::optional<DriveStatus> status;
-};
-KeptByDrive kept_by_drive(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec, std::string_view member) {
-    KeptByDrive kept;
-    const auto d = index_of_name(site.site.drives, spec.drive);
-    const auto page = d ? catalogue_of(site.site, site.site.drives[*d], ports.get<SitePort>().families()) : nullptr;
-    const auto* says = page ? page->document().if_contains(member) : nullptr;
-    if (!says || !says->is_object()) return kept;
-    kept.available = says->get_object().at("available").as_bool();
-    kept.description = says->get_object().at("description").as_string();
-    if (kept.available && *d < site.drive_ids.size()) kept.status = ports.get<DrivePort>().drive_status(site.drive_ids[*d]);
-    return kept;
-}
-
-/// What it does when it does not hear the gateway any more, as it was programmed.
-json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
-    const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_watchdog");
-    const DriveWatchdog w = kept.status ? kept.status->watchdog : DriveWatchdog{};
-    const bool armed = w.state == DriveWatchdog::State::armed;
-    return {{"available", kept.available},
-            {"state", state_of<DriveWatchdog>(w.state)},
-            {"time_ms", armed ? json::value(milliseconds_of(w.time)) : json::value(nullptr)},
-            {"action", armed ? json::value(w.action) : json::value(nullptr)},
-            {"description", kept.description}};
-}
-
-/// The site's limits of position, as the drive has acknowledged them.
-json::object limits_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
-    const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_limits");
-    const bool wanted = spec.position_min || spec.position_max;  // the state is the drive's, and another axis of it may be limited
-    const DriveLimits limits = kept.status && wanted ? kept.status->limits : DriveLimits{};
-    const bool refused = limits.state == DriveLimits::State::refused;
-    return {{"available", kept.available},
-            {"wanted", wanted},
-            {"state", state_of<DriveLimits>(limits.state)},
-            {"refusal", refused ? json::value(limits.text) : json::value(nullptr)},
-            {"description", kept.description}};
-}
-
-json::object axis_row(const MatrixPorts& ports, const SiteState& site, std::size_t i) {
-    const AxisSpec& spec = site.site.axes[i];
-    const auto cause = static_cast<LossCause>(ports.get<AxisPort>().picture(site.axis_ids[i]).fail_safe_cause);
-    return {{"axis", spec.name},
-            {"fail_safe", choice_of(spec.fail_safe)},
-            {"watchdog_ms_in_force", milliseconds_of(spec.fail_safe.watchdog(ports.get<RehearsalPort>().watchdog()))},
-            {"last_cause", cause == LossCause::none ? json::value(nullptr) : json::value(name_of(cause))},
-            {"drive_watchdog", watchdog_of(ports, site, spec)},
-            {"drive_limits", limits_of(ports, site, spec)}};
-}
-
-std::optional<Response> row_of(const MatrixPorts& ports, std::string_view name) {
+Response row_of(const MatrixPorts& ports, std::string_view name) {
     const auto site = ports.get<SitePort>().site();
     const auto i = index_of_name(site->site.axes, name);
-    if (!i) return std::nullopt;
-    Response r = json_response(axis_row(ports, *site, *i));
-    put_revision(r, *site);
-    return r;
+    return i ? site_answer(*site, fail_safe_row(ports, *site, *i)) : nothing_named("axis", name);
 }
 }  // namespace
 
-Handled get_fail_safe(Call&, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites) {
-    const MatrixPorts ports{axes, drives, player, sites};
-    json::array causes, rows;
-    for (const LossCause cause : loss_causes) {
-        const auto [endless, to_a_target] = by_default(cause);
-        causes.push_back(json::object{{"cause", name_of(cause)},
-                                      {"number", static_cast<int>(cause)},
-                                      {"description", described(cause)},
-                                      {"default_endless", name_of(endless)},
-                                      {"default_to_a_target", name_of(to_a_target)}});
-    }
-    const auto site = sites.site();
+Handled get_fail_safe(Call&, const MatrixPorts& ports) {
+    const auto site = ports.get<SitePort>().site();
+    json::array rows;
     for (std::size_t i = 0; i < site->site.axes.size() && i < site->axis_ids.size(); ++i)
-        rows.push_back(axis_row(ports, *site, i));
-    Response r = json_response(json::object{{"causes", std::move(causes)}, {"axes", std::move(rows)}});
-    put_revision(r, *site);
-    return r;
+        rows.push_back(fail_safe_row(ports, *site, i));
+    return site_answer(*site, json::object{{"causes", loss_causes_document()}, {"axes", std::move(rows)}});
 }
 
-Handled get_axis_fail_safe(Call& c, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites) {
-    auto row = row_of({axes, drives, player, sites}, c.names[0]);
-    return row ? std::move(*row) : nothing_named("axis", c.names[0]);
-}
+Handled get_axis_fail_safe(Call& c, const MatrixPorts& ports) { return row_of(ports, c.names[0]); }
 
-Handled put_axis_fail_safe(Call& c, AxisPort& axes, DrivePort& drives, RehearsalPort& player, SitePort& sites, const StagePort& staging) {
-    json::object wanted;  // null is the default, as GET tells it
-    for (const auto& [key, value] : c.body.get_object()) {
-        if (!value.is_null()) wanted[key] = value;
-    }
-    const MatrixPorts ports{axes, drives, player, sites};
-    return change_site(
-        c, sites, staging, false, [ports, wanted = std::move(wanted), name = c.names[0]](const SiteState& before) -> Planned {
-            auto edited = patch_entry(to_json(before.site), Collection::axes, name, {{"fail_safe", nullptr}});
-            if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
-            edited = patch_entry(std::move(std::get<Edit>(edited).document), Collection::axes, name, {{"fail_safe", wanted}});
-            if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
-            const Edit& edit = std::get<Edit>(edited);
-            std::vector<SiteFault> faults;
-            auto site = parse_site(edit.document, ports.get<SitePort>().families(), faults);
-            if (!site) return refusal_for(faults, edit.pointer + "/fail_safe", false);
-            return Plan{std::move(*site), [ports, name](const std::shared_ptr<const SiteState>&) {
-                            auto row = row_of(ports, name);
-                            return row ? std::move(*row) : nothing_named("axis", name);
-                        }};
-        });
+Handled put_axis_fail_safe(Call& c, const MatrixPorts& ports, const StagePort& staging) {
+    return change_site(c, ports.get<SitePort>(), staging, false,
+                       [ports, choice = c.body.get_object(), name = c.names[0]](const SiteState& before) {
+                           return planned(with_fail_safe(before.site, ports.get<SitePort>().families(), name, choice),
+                                          [ports, name](const std::shared_ptr<const SiteState>&) { return row_of(ports, name); });
+                       });
 }
 
 Handled get_rehearsal(Call& c) { return json_response(c.context.rehearsals->state()); }
 
-namespace {
-/// A list of names, or nothing and why not.
-std::optional<std::vector<std::string>> names_in(std::string_view key, const json::value& v, std::vector<Fault>& faults) {
-    if (!v.is_array() || !std::ranges::all_of(v.get_array(), [](const json::value& one) { return one.is_string(); })) {
-        faults.push_back({"/" + std::string(key), fmt::format("{} must be a list of names", key), "leave it out for all"});
-        return std::nullopt;
-    }
-    std::vector<std::string> names;
-    for (const auto& one : v.get_array())
-        names.emplace_back(one.get_string());
-    return names;
-}
-
-RehearsalSteps steps_in(const json::value& v, std::vector<Fault>& faults) {
-    RehearsalSteps steps;
-    const auto names = names_in("steps", v, faults);
-    for (std::size_t i = 0; names && i < names->size(); ++i) {
-        if (const auto step = rehearsal_step_of((*names)[i])) {
-            steps.add(*step);
-        } else {
-            std::string known;
-            for (const RehearsalStep s : rehearsal_steps)
-                known += (known.empty() ? "" : ", ") + std::string(name_of(s));
-            faults.push_back({fmt::format("/steps/{}", i), fmt::format("{} is no step of a rehearsal", (*names)[i]), "one of " + known});
-        }
-    }
-    return steps;
-}
-}  // namespace
-
 Handled start_rehearsal(Call& c) {
-    std::vector<std::string> axes;
-    RehearsalSteps steps = RehearsalSteps::all();
     std::vector<Fault> faults;
-    for (const auto& [key, value] : c.body.get_object()) {
-        if (key == "axes") {
-            if (auto names = names_in(key, value, faults)) axes = std::move(*names);
-        } else if (key == "steps") {
-            steps = steps_in(value, faults);
-        } else {
-            faults.push_back({"/" + std::string(key), fmt::format("{} is not known here", std::string_view(key)), "leave it out"});
-        }
-    }
+    auto wish = read_rehearsal_choice(c.body.get_object(), faults);
     if (!faults.empty()) return invalid(std::move(faults));
-    if (auto why = c.context.rehearsals->start(std::move(axes), steps, c.origin()); !why.empty())
+    if (auto why = c.context.rehearsals->start(std::move(wish.axes), wish.steps, c.origin()); !why.empty())
         return problem(409, "conflict", std::move(why));
     return json_response(c.context.rehearsals->state(), 202);
 }

@@ -121,6 +121,30 @@ Response nothing_named(std::string_view what, std::string_view name) {
     return problem(404, "not_found", fmt::format("there is no {} {}", what, name));
 }
 
+Response nothing_left() {
+    Response r;
+    r.status = 204;
+    return r;
+}
+
+Response file_answer(std::string_view media, std::string_view name, std::string text) {
+    Response r;
+    r.headers.set("Content-Type", std::string(media));
+    r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
+    r.body = std::move(text);
+    return r;
+}
+
+bool wants_json(const Call& c, std::string_view other, std::optional<Response>& fault) {
+    const auto format = c.target.query.get("format");
+    if (format && *format != other && *format != "json")
+        fault = problem(400, "bad_request", fmt::format("format must be {} or json", other));
+    static constexpr std::string_view media[] = {"application/json", "text/plain"};
+    const auto liked = best_accepted(c.request.headers.get("Accept"), media);
+    if (!fault && !format && !liked) fault = problem(406, "not_acceptable", "this is application/json or text/plain");
+    return format ? *format == "json" : liked == std::size_t{0};
+}
+
 Response bad_query(std::string_view name, std::string_view must) {
     return problem(400, "bad_request", fmt::format("{} must be {}", name, must));
 }

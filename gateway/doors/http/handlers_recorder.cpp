@@ -10,7 +10,7 @@
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/recipes/recipe_record.hpp"
 #include "gateway/services/recorder/axr.hpp"
-#include "gateway/services/recorder/trend_document.hpp"
+#include "gateway/services/recorder/recording_document.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
@@ -42,22 +42,6 @@ std::pair<std::int64_t, std::int64_t> asked_stretch(Call& c, const ClockPort& cl
     constexpr std::int64_t ms_limit = INT64_MAX / 1'000'000;
     const std::int64_t to = query_whole(c, "to", 0, ms_limit, clock.now_unix_ns() / 1'000'000, fault);
     return {query_whole(c, "from", 0, ms_limit, std::max<std::int64_t>(0, to - 60'000), fault), to};
-}
-
-json::object recording_document(const RecordingInfo& i) {
-    const auto time_or_null = [](std::int64_t ns) { return ns == 0 ? json::value(nullptr) : json::value(format_time(ns)); };
-    return {{"name", i.name},
-            {"at", time_or_null(i.at_unix_ns)},
-            {"from", time_or_null(i.from_unix_ns)},
-            {"to", time_or_null(i.to_unix_ns)},
-            {"bytes", i.bytes},
-            {"why", text_or_null(i.why)},
-            {"who", text_or_null(i.who)},
-            {"version", text_or_null(i.version)},
-            {"automatic", i.automatic},
-            {"replayable", i.fault.empty() && i.not_replayable.empty()},
-            {"not_replayable", text_or_null(i.not_replayable)},
-            {"fault", text_or_null(i.fault)}};
 }
 
 const RecordingInfo* recording_in(const std::vector<RecordingInfo>& list, std::string_view name) {
@@ -114,21 +98,12 @@ Handled get_trends(Call& c, const ClockPort& clock, RecorderPort& recorder, cons
     const auto liked = best_accepted(c.request.headers.get("Accept"), media);
     if (!liked) return problem(406, "not_acceptable", "this is application/json or text/csv");
     const std::int64_t offset = clock.to_unix_ns(at_ns(0));
-    std::vector<TrendAxis> axes;
-    for (const auto& name : names) {
-        const auto i = index_of_name(site->site.axes, name);
-        if (!i || *i >= site->axis_ids.size()) return nothing_named("axis", name);
-        const AxisSpec& spec = site->site.axes[*i];
-        axes.push_back({name, spec.unit, spec.increments_per_unit,
-                        recorder.trend(site->axis_ids[*i], at_ns(saturated_difference(from * 1'000'000, offset)),
-                                       at_ns(saturated_difference(to * 1'000'000, offset)), static_cast<std::size_t>(columns))});
-    }
+    const auto found = trends_of(recorder, clock, *site, names, {from, to}, static_cast<std::size_t>(columns));
+    if (const auto* refusal = std::get_if<ServiceRefusal>(&found)) return problem_of(*refusal);
+    const auto& axes = std::get<std::vector<TrendAxis>>(found);
     if (*liked == 1) {
-        Response r;
-        r.headers.set("Content-Type", "text/csv; charset=utf-8");
-        r.headers.set("Content-Disposition", "attachment; filename=\"trends.csv\"");
+        Response r = file_answer("text/csv; charset=utf-8", "trends.csv", trend_csv(axes, points, offset));
         r.headers.set("Vary", "Accept");
-        r.body = trend_csv(axes, points, offset);
         return r;
     }
     json::array list;
@@ -170,25 +145,7 @@ Handled get_recorded_steps(Call& c, const ClockPort& clock, RecorderPort& record
     return {gateway_limit, problem(504, "no_answer", "the recorder has not answered")};
 }
 
-Handled list_recordings(Call&, const ClockPort& clock, RecorderPort& recorder) {
-    const auto s = recorder.recorder_state();
-    json::array list;
-    for (const auto& i : recorder.recordings())
-        list.push_back(recording_document(i));
-    return json_response(json::object{{"from", s.from ? json::value(format_time(clock.to_unix_ns(*s.from))) : json::value(nullptr)},
-                                      {"bytes", s.bytes},
-                                      {"most_bytes", s.bound},
-                                      {"lost", s.lost},
-                                      {"replayable", s.not_replayable.empty()},
-                                      {"not_replayable", text_or_null(s.not_replayable)},
-                                      {"trend_bytes", s.trend_bytes},
-                                      {"trend_most_bytes", s.trend_bound},
-                                      {"trend_minutes", s.trend_minutes},
-                                      {"disk_bytes", s.disk_bytes},
-                                      {"disk_most_bytes", s.disk_bound},
-                                      {"disk_fault", text_or_null(s.disk_fault)},
-                                      {"recordings", std::move(list)}});
-}
+Handled list_recordings(Call&, const ClockPort& clock, RecorderPort& recorder) { return json_response(recorder_document(recorder, clock)); }
 
 Handled make_recording(Call& c, EventPort& events, RecorderPort& recorder) {
     std::string name, why;
@@ -226,11 +183,8 @@ Handled get_recording(Call& c, RecorderPort& recorder) {
     }
     recorder.load_recording(c.names[0], [name = c.names[0], respond = c.respond](std::optional<std::string> bytes) {
         if (!bytes) return respond(nothing_named("recording", name));
-        Response r;
-        r.headers.set("Content-Type", "application/vnd.axisgate.axr");
-        r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}.axr\"", name));
+        Response r = file_answer("application/vnd.axisgate.axr", name + ".axr", std::move(*bytes));
         r.headers.set("Vary", "Accept");
-        r.body = std::move(*bytes);
         respond(std::move(r));
     });
     return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
@@ -270,9 +224,7 @@ Handled rename_recording(Call& c, RecorderPort& recorder) {
 Handled remove_recording(Call& c, RecorderPort& recorder) {
     recorder.remove_recording(c.names[0], [name = c.names[0], respond = c.respond](const RecordingFault& fault) {
         if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("recording", fault, name));
-        Response r;
-        r.status = 204;
-        respond(std::move(r));
+        respond(nothing_left());
     });
     return {gateway_limit, problem(504, "no_answer", "the disk has not answered")};
 }

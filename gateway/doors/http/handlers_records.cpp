@@ -8,6 +8,7 @@
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/alarms/alarm_service.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/services/event_lists.hpp"
 #include "gateway/services/frame_decoder.hpp"
 #include "gateway/wire/frame_export.hpp"
 
@@ -38,14 +39,6 @@ std::optional<Format> format_of(const Call& c, std::optional<Response>& fault) {
     }
     static constexpr std::array<Format, 4> formats{Format::json, Format::candump, Format::pcapng, Format::pcapng};
     return formats[*best];
-}
-
-Response file(std::string_view media, std::string name, std::string body) {
-    Response r;
-    r.headers.set("Content-Type", std::string(media));
-    r.headers.set("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
-    r.body = std::move(body);
-    return r;
 }
 
 /// One answer to a question for frames, made in pieces: thousands of frames take longer than a command should wait. A piece is read as the
@@ -105,8 +98,8 @@ private:
     Response answer() {
         if (decoder_)
             return json_response(json::object{{"line", name_}, {"missed", missed_}, {"next", at_}, {"frames", std::move(frames_)}});
-        if (format_ == Format::pcapng) return file("application/x-pcapng", name_ + ".pcapng", capture_.take());
-        return file("text/plain; charset=utf-8", name_ + (format_ == Format::candump ? ".log" : ".txt"), std::move(text_));
+        if (format_ == Format::pcapng) return file_answer("application/x-pcapng", name_ + ".pcapng", capture_.take());
+        return file_answer("text/plain; charset=utf-8", name_ + (format_ == Format::candump ? ".log" : ".txt"), std::move(text_));
     }
 
     const LinePort& lines_;
@@ -142,59 +135,9 @@ std::optional<EventForm> event_form(const Call& c, std::optional<Response>& faul
     return std::nullopt;
 }
 
-std::string events_csv(const std::vector<Event>& events) {
-    std::string out = "id,at,severity,kind,axis,drive,line,code,text,who,door,parameter,old,new\r\n";
-    for (const auto& e : events) {
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", e.id, format_time(e.at_unix_ns), name_of(e.severity),
-                           csv_cell(e.kind), csv_cell(e.axis), csv_cell(e.drive), csv_cell(e.line),
-                           e.code == 0 ? std::string() : std::to_string(e.code), csv_cell(e.text), csv_cell(e.who), csv_cell(e.door),
-                           csv_cell(e.parameter), csv_cell(e.old_value), csv_cell(e.new_value));
-    }
-    return out;
-}
-
-/// The events that raised the alarms of the list which are in that state now, the newest ones: an alarm has the id of its event. Bounded
-/// by the length of the list.
-std::vector<Event> events_of_alarms(const Context& context, const EventPort& events, const EventQuery& wanted, AlarmFilter state) {
-    std::vector<Event> out;
-    std::vector<std::uint64_t> ids;
-    for (const auto& [id, alarm] : context.alarms->list().all()) {
-        if (fits(alarm, state) && id > wanted.since_id && (wanted.before_id == 0 || id < wanted.before_id)) ids.push_back(id);
-    }
-    if (!wanted.oldest_first) std::ranges::reverse(ids);
-    for (const auto id : ids) {
-        if (out.size() >= wanted.limit) break;
-        EventQuery one = wanted;
-        one.since_id = id - 1;
-        one.before_id = id + 1;
-        one.limit = 1;
-        for (auto& e : events.events(one))
-            out.push_back(std::move(e));
-    }
-    return out;
-}
-
-/// One line per event, whatever its text has in it.
-std::string events_text(const std::vector<Event>& events) {
-    std::string out;
-    for (const auto& e : events) {
-        const std::string& about = !e.axis.empty() ? e.axis : !e.drive.empty() ? e.drive : e.line;
-        std::string line = fmt::format("{} {:7} {:12} {:16} {}", format_time(e.at_unix_ns), name_of(e.severity), e.kind,
-                                       about.empty() ? "-" : about, e.text);
-        if (!e.parameter.empty()) line += fmt::format(" [{}: {} -> {}]", e.parameter, e.old_value, e.new_value);
-        if (e.code != 0) line += fmt::format(" (code {})", e.code);
-        if (!e.who.empty()) line += fmt::format(" by {}", e.who);
-        for (char& x : line) {
-            if (static_cast<unsigned char>(x) < 0x20 || x == 0x7F) x = ' ';
-        }
-        out += line + "\n";
-    }
-    return out;
-}
-
 Response events_answer(const std::vector<Event>& events, EventForm form) {
-    if (form == EventForm::csv) return file("text/csv; charset=utf-8", "events.csv", events_csv(events));
-    if (form == EventForm::text) return file("text/plain; charset=utf-8", "events.txt", events_text(events));
+    if (form == EventForm::csv) return file_answer("text/csv; charset=utf-8", "events.csv", events_csv(events));
+    if (form == EventForm::text) return file_answer("text/plain; charset=utf-8", "events.txt", events_text(events));
     json::array out;
     for (const auto& e : events)
         out.push_back(event_document(e));
@@ -249,7 +192,7 @@ Handled list_events(Call& c, EventPort& events) {
     if (fault) return *fault;
     // Who has just done something finds it here, even though events share their way to the disk.
     events.events_settled([&context = c.context, &events, query, state, form = *form, respond = c.respond] {
-        auto list = state ? events_of_alarms(context, events, query, *state) : events.events(query);
+        auto list = state ? events_of_alarms(context.alarms->list(), events, query, *state) : events.events(query);
         std::ranges::sort(list, {}, &Event::id);
         respond(events_answer(list, form));
     });

@@ -4,67 +4,24 @@
 
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/site_change.hpp"
-#include "gateway/doors/http/site_edit.hpp"
-#include "gateway/services/documents.hpp"
+#include "gateway/services/site/site_edit.hpp"
+#include "gateway/services/site/site_entries.hpp"
 #include "gateway/site/names.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-json::object entry_document(const EntryPorts& ports, const std::shared_ptr<const SiteState>& site, Collection collection, std::size_t i) {
-    switch (collection) {
-        case Collection::lines:
-            return line_document(*site, i, i < site->line_ids.size() ? ports.get<LinePort>().line_report(site->line_ids[i]) : LineReport{});
-        case Collection::drives:
-            return drive_document(*site, i,
-                                  i < site->drive_ids.size() ? ports.get<DrivePort>().drive_status(site->drive_ids[i]) : DriveStatus{});
-        case Collection::axes:
-            break;
-    }
-    const auto& clock = ports.get<ClockPort>();
-    const AxisPlace place = axis_at(ports.get<SitePort>(), site, i);
-    const AxisPicture picture = place.id() == no_axis ? AxisPicture{} : ports.get<AxisPort>().picture(place.id());
-    return axis_document(
-        {place.spec(), place.line, place.family, place.catalogue, picture, clock.to_unix_ns(picture.at), clock.now_unix_ns()});
-}
-
-std::size_t size_of(const Site& site, Collection collection) {
-    switch (collection) {
-        case Collection::lines:
-            return site.lines.size();
-        case Collection::drives:
-            return site.drives.size();
-        case Collection::axes:
-            return site.axes.size();
-    }
-    return 0;
-}
-
-std::optional<std::size_t> find_in(const Site& site, Collection collection, std::string_view name) {
-    switch (collection) {
-        case Collection::lines:
-            return index_of_name(site.lines, name);
-        case Collection::drives:
-            return index_of_name(site.drives, name);
-        case Collection::axes:
-            return index_of_name(site.axes, name);
-    }
-    return std::nullopt;
-}
-
 Handled list(const EntryPorts& ports, Collection collection) {
     const auto site = ports.get<SitePort>().site();
     json::array out;
-    for (std::size_t i = 0; i < size_of(site->site, collection); ++i)
+    for (std::size_t i = 0; i < entries_of(site->site, collection); ++i)
         out.push_back(entry_document(ports, site, collection, i));
-    Response r = json_response(out);
-    put_revision(r, *site);
-    return r;
+    return site_answer(*site, out);
 }
 
 Handled get(Call& c, const EntryPorts& ports, Collection collection) {
     const auto site = ports.get<SitePort>().site();
-    const auto i = find_in(site->site, collection, c.names[0]);
+    const auto i = entry_named(site->site, collection, c.names[0]);
     if (!i) return nothing_named(item_name(collection), c.names[0]);
     if (collection == Collection::axes) {
         Response r;
@@ -74,9 +31,7 @@ Handled get(Call& c, const EntryPorts& ports, Collection collection) {
         put_revision(r, *site);
         return r;
     }
-    Response r = json_response(entry_document(ports, site, collection, *i));
-    put_revision(r, *site);
-    return r;
+    return site_answer(*site, entry_document(ports, site, collection, *i));
 }
 
 /// A change of one entry: made on the document, checked as a whole, shown by its entry.
@@ -85,20 +40,18 @@ Handled change_entry(Call& c, SitePort& sites, const StagePort& staging, std::fu
     return change_site(
         c, sites, staging, false, [&sites, make = std::move(make), show = std::move(show)](const SiteState& before) -> Planned {
             auto edited = make(to_json(before.site));
-            if (auto* refusal = std::get_if<Response>(&edited)) return std::move(*refusal);
+            if (auto* refusal = std::get_if<ServiceRefusal>(&edited)) return std::move(*refusal);
             auto& edit = std::get<Edit>(edited);
-            std::vector<SiteFault> faults;
-            auto site = parse_site(edit.document, sites.families(), faults);
-            if (!site) return refusal_for(faults, edit.pointer, false);
-            return Plan{std::move(*site),
-                        [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); }};
+            auto site = checked_site(edit.document, sites.families(), edit.pointer);
+            return planned(std::move(site),
+                           [show, edit = std::move(edit)](const std::shared_ptr<const SiteState>& now) { return show(now, edit); });
         });
 }
 
 /// 200, or 201 with its place, with the entry as it is now.
 auto show_entry(const EntryPorts& ports, Collection collection, bool created) {
     return [ports, collection, created](const std::shared_ptr<const SiteState>& now, const Edit& edit) {
-        const auto i = find_in(now->site, collection, edit.name);
+        const auto i = entry_named(now->site, collection, edit.name);
         if (!i)
             return problem(409, "conflict", fmt::format("{} {} was removed by another client meanwhile", item_name(collection), edit.name));
         Response r = json_response(entry_document(ports, now, collection, *i), created ? 201 : 200);
@@ -137,12 +90,7 @@ Handled remove(Call& c, SitePort& sites, const StagePort& staging, Collection co
     return change_entry(
         c, sites, staging,
         [collection, name = c.names[0], cascade](json::object d) { return remove_entry(std::move(d), collection, name, cascade); },
-        [](const std::shared_ptr<const SiteState>& now, const Edit&) {
-            Response r;
-            r.status = 204;
-            put_revision(r, *now);
-            return r;
-        });
+        [](const std::shared_ptr<const SiteState>& now, const Edit&) { return site_without(now); });
 }
 
 Response site_change(const SiteState& now, bool dry_run, const std::vector<std::string>& differences, const std::vector<Fault>& faults) {

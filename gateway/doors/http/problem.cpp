@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "gateway/doors/http/preconditions.hpp"
 #include "gateway/doors/http/text.hpp"
 
 namespace axisgate::http {
@@ -61,21 +62,58 @@ Response to_response(const Problem& p) {
     return r;
 }
 
-Response problem_of(const RunRefusal& r) {
+Response problem_of(const ServiceRefusal& r) {
+    using Why = ServiceRefusal::Why;
     const auto [status, reason] = [&]() -> std::pair<unsigned, const char*> {
         switch (r.why) {
-            case RunRefusal::Why::running:
-                return {409, "running"};
-            case RunRefusal::Why::busy:
-                return {503, "busy"};
-            case RunRefusal::Why::no_such_run:
+            case Why::not_found:
                 return {404, "not_found"};
-            case RunRefusal::Why::ended:
+            case Why::unknown_point:
+                return {404, "unknown_point"};
+            case Why::unreadable:
+                return {400, "bad_request"};
+            case Why::invalid:
+                return {422, "invalid"};
+            case Why::out_of_range:
+                return {422, "out_of_range"};
+            case Why::not_writable:
+                return {409, "not_writable"};
+            case Why::conflict:
                 break;
+            case Why::overtaken:
+                return {412, "precondition_failed"};
+            case Why::stage_taken:
+                return {409, "stage_taken"};
+            case Why::stage_replaced:
+                return {409, "stage_replaced"};
+            case Why::too_many:
+                return {409, "too_many"};
+            case Why::in_use:
+                return {409, "busy"};
+            case Why::running:
+                return {409, "running"};
+            case Why::not_simulated:
+                return {409, "not_simulated"};
+            case Why::wrong_state:
+                return {409, "wrong_state"};
+            case Why::overloaded:
+                return {503, "busy"};
+            case Why::no_answer:
+                return {504, "no_answer"};
+            case Why::not_stored:
+                return {507, "not_stored"};
         }
-        return {409, "wrong_state"};
+        return {409, "conflict"};
     }();
-    return to_response(Problem{.status = status, .reason = reason, .detail = r.text, .axis = r.axis});
+    Problem p{.status = status, .reason = reason, .detail = r.text, .axis = r.axis, .faults = r.faults};
+    const std::string tag = r.revision != 0 ? site_tag(r.revision) : r.tag;
+    if (r.why == Why::overtaken) p.more["etag"] = text_or_null(tag);
+    for (const auto& [k, v] : r.more)
+        p.more[k] = v;
+    Response answer = to_response(p);
+    if (!tag.empty()) answer.headers.set("ETag", tag);
+    if (r.revision != 0) answer.headers.set("Site-Revision", std::to_string(r.revision));
+    return answer;
 }
 
 Response problem(unsigned status, std::string_view reason, std::string detail) {
@@ -83,8 +121,7 @@ Response problem(unsigned status, std::string_view reason, std::string detail) {
 }
 
 Response invalid(std::vector<Fault> faults, std::string_view axis, std::string_view reason, std::size_t more) {
-    std::string detail = faults.empty() ? std::string("the document is not right") : faults.front().text;
-    if (faults.size() + more > 1) detail += fmt::format(" (and {} more)", faults.size() + more - 1);
+    std::string detail = first_of(faults, more);
     return to_response(Problem{.status = 422,
                                .reason = std::string(reason),
                                .detail = std::move(detail),

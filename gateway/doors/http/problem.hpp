@@ -12,8 +12,7 @@
 
 #include "gateway/core/command.hpp"
 #include "gateway/doors/http/message.hpp"
-#include "gateway/services/fault.hpp"
-#include "gateway/services/recipes/recipe_service.hpp"
+#include "gateway/services/refusal.hpp"
 #include "gateway/site/site.hpp"
 
 namespace axisgate::http {
@@ -43,8 +42,8 @@ struct Problem {
 
 /// The status for a reason, as command.hpp gives it.
 [[nodiscard]] unsigned status_of(Reason reason) noexcept;
-/// A run of a recipe that could not begin, or be cancelled.
-[[nodiscard]] Response problem_of(const RunRefusal& refusal);
+/// What a service has refused.
+[[nodiscard]] Response problem_of(const ServiceRefusal& refusal);
 /// A refused or failed command; carries ticket, result and reason too, so that a client can read either form.
 [[nodiscard]] Response problem_of(const Result& result, std::string_view axis, std::string_view command);
 /// The number of a ticket for clients: below 2^53, counts up.

@@ -1,16 +1,15 @@
-// Site change: one change of the site on its way: planned on the site in force, put in force, and shown; one after the other.
-// In: a call, a plan. Out: Handled. A change that lost a race against another is planned anew on the newer site.
-// Never puts a site in force that parse_site has not checked as a whole.
+// Site changes as requests: If-Match, Site-Revision and the answers of a change of the site.
+// In: a call, a plan. Out: Handled. The change itself is the service's.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string_view>
-#include <variant>
-#include <vector>
 
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/preconditions.hpp"
+#include "gateway/services/site/site_change.hpp"
+#include "gateway/services/site/site_table.hpp"
 
 namespace axisgate::http {
 
@@ -19,22 +18,25 @@ struct Plan {
     Site site;
     std::function<Response(const std::shared_ptr<const SiteState>& now)> show;
 };
-using Planned = std::variant<Plan, Response>;
-
-/// The entity tag of the site of this revision.
-[[nodiscard]] std::string site_tag(std::uint64_t revision);
+using Planned = Refusable<Plan>;
+/// A site that was checked, or why it is none, as a plan.
+[[nodiscard]] Planned planned(Refusable<Site> site, std::function<Response(const std::shared_ptr<const SiteState>& now)> show);
 
 /// Queues the change. `if_match_demanded`: 428 without If-Match.
 [[nodiscard]] Handled change_site(Call& call, SitePort& sites, const StagePort& staging, bool if_match_demanded,
                                   std::function<Planned(const SiteState& before)> plan);
-
 /// 412 or 428 where If-Match says so.
 [[nodiscard]] std::optional<Response> precondition(const Call& call, const SitePort& sites, const SiteState& site, bool demanded);
-/// Pointers into the site become pointers into the request's body where they point into the entry `entry` ("/axes/2").
-[[nodiscard]] std::vector<Fault> faults_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document);
-/// 409 if all there is to say is that a place is taken; else 422.
-[[nodiscard]] Response refusal_for(const std::vector<SiteFault>& faults, std::string_view entry, bool whole_document);
+
 /// The header Site-Revision.
 void put_revision(Response& response, const SiteState& site);
+/// A document with it; 204 with it.
+[[nodiscard]] Response site_answer(const SiteState& now, const boost::json::value& body, unsigned status = 200);
+[[nodiscard]] Response site_without(const std::shared_ptr<const SiteState>& now);
+
+/// A list of the site as CSV, in: tried first by `dry_run`. `whole`: in place of all entries. `table` outlives the call's job.
+[[nodiscard]] Handled import_table(Call& call, SitePort& sites, const StagePort& staging, const SiteTable& table, bool whole);
+/// The list as a file.
+[[nodiscard]] Response table_answer(const SiteState& now, const SiteTable& table, std::string csv);
 
 }  // namespace axisgate::http

@@ -40,18 +40,18 @@ struct RecipeService::World final : RecipeWorld {
     }
 };
 
-std::variant<json::object, RunRefusal> RecipeService::start(const std::string& name, Recipe recipe, json::object arguments,
-                                                            const Origin& origin) {
-    using Why = RunRefusal::Why;
+Refusable<json::object> RecipeService::start(const std::string& name, Recipe recipe, json::object arguments, const Origin& origin) {
+    using Why = ServiceRefusal::Why;
     if (const auto n = running(name); n != 0)
-        return RunRefusal{Why::running, fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
+        return ServiceRefusal{Why::running, fmt::format("recipe {} is running already (run {}): wait for its end, or cancel it", name, n)};
     if (active_.size() >= most_runs || !reports_->room())
-        return RunRefusal{Why::busy, fmt::format("{} recipes are running already: wait for one to end", active_.size())};
+        return ServiceRefusal{Why::overloaded, fmt::format("{} recipes are running already: wait for one to end", active_.size())};
     auto axes = commanded_axes(recipe);
     for (const auto& other : active_) {
         for (const auto& axis : axes) {
             if (std::ranges::find(other->axes, axis) != other->axes.end())
-                return RunRefusal{Why::running, fmt::format("axis {} is in use by recipe {} (run {})", axis, other->name, other->n), axis};
+                return ServiceRefusal{Why::running, fmt::format("axis {} is in use by recipe {} (run {})", axis, other->name, other->n),
+                                      axis};
         }
     }
     auto a = std::make_shared<Active>();
@@ -73,7 +73,7 @@ std::variant<json::object, RunRefusal> RecipeService::start(const std::string& n
     return document(*a);
 }
 
-std::variant<json::object, RunRefusal> RecipeService::cancel(const std::string& name, std::uint64_t n, const Origin& origin) {
+Refusable<json::object> RecipeService::cancel(const std::string& name, std::uint64_t n, const Origin& origin) {
     for (const auto& a : active_) {
         if (a->name != name || a->n != n) continue;
         (void)a->run->cancel(fmt::format("cancelled by {}", origin.who ? *origin.who : "nobody known"));
@@ -81,8 +81,8 @@ std::variant<json::object, RunRefusal> RecipeService::cancel(const std::string& 
         if (rearm) rearm();
         return document(*a);
     }
-    if (!report(name, n)) return RunRefusal{RunRefusal::Why::no_such_run, fmt::format("recipe {} has no run {}", name, n)};
-    return RunRefusal{RunRefusal::Why::ended, fmt::format("run {} of recipe {} has ended already", n, name)};
+    if (!report(name, n)) return ServiceRefusal{ServiceRefusal::Why::not_found, fmt::format("recipe {} has no run {}", name, n)};
+    return ServiceRefusal{ServiceRefusal::Why::wrong_state, fmt::format("run {} of recipe {} has ended already", n, name)};
 }
 
 std::uint64_t RecipeService::running(const std::string& name) const {

@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "gateway/services/change_queue.hpp"
@@ -22,15 +21,9 @@
 #include "gateway/services/recipes/recipe_claims.hpp"
 #include "gateway/services/recipes/recipe_reports.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
+#include "gateway/services/refusal.hpp"
 
 namespace axisgate {
-
-/// Why a run does not begin, or is not cancelled.
-struct RunRefusal {
-    enum class Why : std::uint8_t { running, busy, no_such_run, ended } why = Why::busy;
-    std::string text;
-    std::string axis{};
-};
 
 class RecipeService : public std::enable_shared_from_this<RecipeService> {
 public:
@@ -62,9 +55,9 @@ public:
     std::function<void(const std::string& recipe, const boost::json::object& report)> publish;
 
     /// A checked recipe begins; its report as it is then, or why it cannot begin.
-    [[nodiscard]] std::variant<boost::json::object, RunRefusal> start(const std::string& name, Recipe recipe, boost::json::object arguments,
-                                                                      const Origin& origin);
-    [[nodiscard]] std::variant<boost::json::object, RunRefusal> cancel(const std::string& name, std::uint64_t n, const Origin& origin);
+    [[nodiscard]] Refusable<boost::json::object> start(const std::string& name, Recipe recipe, boost::json::object arguments,
+                                                       const Origin& origin);
+    [[nodiscard]] Refusable<boost::json::object> cancel(const std::string& name, std::uint64_t n, const Origin& origin);
     [[nodiscard]] std::optional<boost::json::object> report(const std::string& name, std::uint64_t n) const;
     /// Newest first, without their steps.
     [[nodiscard]] std::vector<boost::json::object> reports(const std::string& name) const;

@@ -90,6 +90,19 @@ std::optional<CommandBody> process_data(const RecipeStep& s, AxisPoint point, co
     return d;
 }
 
+/// A unit that speaks another device's language: its registers are orders of that language, which no single command is.
+bool speaks_otherwise(const RecipeStep& s, const Site& site, std::vector<SiteFault>& faults) {
+    const auto* unit = s.body.if_contains("unit");
+    const auto profile =
+        unit && unit->is_int64() ? std::ranges::find(site.profiles, unit->get_int64(), &ProfileSpec::unit) : site.profiles.end();
+    if (profile == site.profiles.end()) return false;
+    faults.push_back(
+        {pointer_in(s, "unit"),
+         fmt::format("unit {} speaks the language {}: a recipe does not write its registers", profile->unit, name_of(profile->language)),
+         "give the axis a command, or write the standard map (unit 1) or a mapping", false});
+    return true;
+}
+
 std::optional<Command> register_of(RecipeStep& s, const SitePort& sites, std::vector<SiteFault>& faults) {
     const int unit = s.body.at("unit").to_number<int>(), address = s.body.at("address").to_number<int>();
     const auto* type = s.body.if_contains("type");
@@ -105,6 +118,7 @@ std::optional<Command> register_of(RecipeStep& s, const SitePort& sites, std::ve
         return true;
     };
     const auto site = sites.site();
+    if (speaks_otherwise(s, site->site, faults)) return std::nullopt;
     Command c;
     if (registers::is_standard_unit(unit)) {
         const auto axis = std::ranges::find(site->site.axes, address / registers::registers_per_axis + 1, &AxisSpec::number);
@@ -276,8 +290,9 @@ void check_simulated(const Recipe& recipe, const SitePort& sites, const AxisPort
     });
 }
 
-void check_recipe_form(const Recipe& recipe, std::vector<SiteFault>& faults) {
+void check_recipe_form(const Recipe& recipe, const Site& site, std::vector<SiteFault>& faults) {
     for_each_step(recipe.steps, [&](const RecipeStep& s) {
+        if (faults.size() < 100 && s.kind == Kind::write_register) (void)speaks_otherwise(s, site, faults);
         if (faults.size() < 100 && (s.kind == Kind::command || s.kind == Kind::home)) (void)plain_command(s, 1, "", faults, true);
     });
 }

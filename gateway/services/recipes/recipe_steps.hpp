@@ -22,8 +22,9 @@ namespace axisgate {
 void check_recipe(Recipe& recipe, const SitePort& sites, std::vector<SiteFault>& faults);
 /// Whether the axes that `simulate` steps speak of are simulated now: a real drive is never told what is not so.
 void check_simulated(const Recipe& recipe, const SitePort& sites, const AxisPort& axes, std::vector<SiteFault>& faults);
-/// The form of the commands alone, for a document without arguments and perhaps of another site.
-void check_recipe_form(const Recipe& recipe, std::vector<SiteFault>& faults);
+/// What no site that is like this one could carry out, for a document without arguments and perhaps of another site: the form of the
+/// commands, and registers of units that speak another device's language.
+void check_recipe_form(const Recipe& recipe, const Site& site, std::vector<SiteFault>& faults);
 /// Every axis that it can command or looks at; those that it commands first.
 [[nodiscard]] std::vector<std::string> commanded_axes(const Recipe& recipe);
 

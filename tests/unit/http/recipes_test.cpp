@@ -418,6 +418,29 @@ TEST_F(Recipes, AnAxisThatIsGoneEndsTheRun) {
     EXPECT_EQ(call("GET", "/api/v1/recipes/warm-up/runs/1").at("text"), "there is no axis feeder");
 }
 
+TEST_F(Recipes, AStepToAUnitWithAProfileIsRefusedWhenTheRecipeIsStored) {
+    ASSERT_EQ(call("PUT", "/api/v1/profiles/12", R"({"language":"lexium","axes":[{"axis":"feeder"}]})").status, 200u);
+    const auto recipe = [](int unit) {
+        return fmt::format(R"({{"steps":[{{"repeat":{{"times":2,"steps":[{{"write_register":{{"unit":{},"address":1,"value":2}}}}]}}}}]}})",
+                           unit);
+    };
+    for (const auto* query : {"", "?dry_run=1"}) {
+        const auto refused = call("PUT", std::string("/api/v1/recipes/other") + query, recipe(12));
+        ASSERT_EQ(refused.status, 422u) << refused.text;
+        EXPECT_EQ(refused.fault().at("pointer"), "/steps/0/repeat/steps/0/write_register/unit");
+        EXPECT_EQ(refused.fault().at("document"), "body");
+        EXPECT_EQ(refused.fault().at("text"), "unit 12 speaks the language lexium: a recipe does not write its registers");
+    }
+    EXPECT_EQ(call("GET", "/api/v1/recipes/other").status, 404u) << "nothing is stored";
+    // What is stored before its unit gets a profile is told the same at its run.
+    put("earlier", recipe(13));
+    ASSERT_EQ(call("PUT", "/api/v1/profiles/13", R"({"language":"lexium","axes":[{"axis":"slide"}]})").status, 200u);
+    const auto late = run("earlier");
+    ASSERT_EQ(late.status, 422u) << late.text;
+    EXPECT_EQ(late.fault().at("pointer"), "/steps/0/repeat/steps/0/write_register/unit");
+    EXPECT_EQ(late.fault().at("text"), "unit 13 speaks the language lexium: a recipe does not write its registers");
+}
+
 TEST_F(Recipes, ALineIsScanned) {
     EXPECT_EQ(call("GET", "/api/v1/lines/can0/scan").at("state"), "none");
     const auto a = call("POST", "/api/v1/lines/can0/scan", R"({"from":5,"to":"9","family":"demo","limit_s":3})");

@@ -1,40 +1,9 @@
 // The site by REST: entries one by one, references, renaming, cascades, revisions, races; and the whole document.
-#include "gateway/doors/http/site_edit.hpp"
-
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
 namespace {
 namespace json = boost::json;
-
-TEST(MergePatch, ExamplesOfRfc7396) {
-    struct Row {
-        const char *original, *patch, *result;
-    };
-    for (const auto& [original, patch, result] :
-         {Row{R"({"a":"b"})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"b"})", R"({"b":"c"})", R"({"a":"b","b":"c"})"},
-          Row{R"({"a":"b"})", R"({"a":null})", R"({})"}, Row{R"({"a":"b","b":"c"})", R"({"a":null})", R"({"b":"c"})"},
-          Row{R"({"a":["b"]})", R"({"a":"c"})", R"({"a":"c"})"}, Row{R"({"a":"c"})", R"({"a":["b"]})", R"({"a":["b"]})"},
-          Row{R"({"a":{"b":"c"}})", R"({"a":{"b":"d","c":null}})", R"({"a":{"b":"d"}})"},
-          Row{R"({"a":[{"b":"c"}]})", R"({"a":[1]})", R"({"a":[1]})"}, Row{R"(["a","b"])", R"(["c","d"])", R"(["c","d"])"},
-          Row{R"({"a":"b"})", R"(["c"])", R"(["c"])"}, Row{R"({"a":"foo"})", "null", "null"},
-          Row{R"({"e":null})", R"({"a":1})", R"({"e":null,"a":1})"}, Row{R"([1,2])", R"({"a":"b","c":null})", R"({"a":"b"})"},
-          Row{"{}", R"({"a":{"bb":{"ccc":null}}})", R"({"a":{"bb":{}}})"}}) {
-        auto v = json::parse(original);
-        merge_patch(v, json::parse(patch));
-        EXPECT_EQ(v, json::parse(result)) << original << " with " << patch;
-    }
-}
-
-TEST(SiteEdit, MappingsThatNameAnAxis) {
-    EXPECT_TRUE(mapping_names(json::parse(R"({"axis":"a"})"), "a"));
-    EXPECT_TRUE(mapping_names(json::parse(R"({"point":"a.position"})"), "a"));
-    EXPECT_TRUE(mapping_names(json::parse(R"({"point":"a/position"})"), "a"));
-    EXPECT_FALSE(mapping_names(json::parse(R"({"point":"ab.position"})"), "a"));
-    EXPECT_FALSE(mapping_names(json::parse(R"({"point":"a"})"), "a"));
-    EXPECT_FALSE(mapping_names(json::parse(R"({"point":5})"), "a"));
-    EXPECT_FALSE(mapping_names(json::parse(R"("a.position")"), "a"));
-}
 
 TEST_F(HttpTest, AddingEntries) {
     const auto a = call("POST", "/api/v1/axes", R"({"name":"x.1","drive":"bare","number":3})");

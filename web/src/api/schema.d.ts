@@ -4260,7 +4260,7 @@ export interface components {
              */
             action?: Record<string, never>;
             /**
-             * @description unit, address, value, type: a set-point of the standard map or a user mapping, by the same checks as a Modbus write
+             * @description unit, address, value, type: a set-point of the standard map or a user mapping, by the same checks as a Modbus write; a recipe with a unit that has a profile is refused when it is put, and at its run
              * @example {
              *       "unit": 1,
              *       "address": 36,

@@ -1,13 +1,12 @@
-// ClientsSeen: a short list behind a lock, searched from end to end and sorted when it is asked for.
+// ClientsSeen: a short list, searched from end to end and sorted when it is asked for.
 // In: names with the moment. Out: the list, newest first, without those that are too old. Never grows beyond its bound.
-#include "gateway/doors/http/clients_seen.hpp"
+#include "gateway/services/access/clients_seen.hpp"
 
 #include <algorithm>
 
-namespace axisgate::http {
+namespace axisgate {
 
 void ClientsSeen::note(std::string_view name, std::int64_t now_unix_ns) {
-    const std::lock_guard lock(mutex_);
     const auto it = std::ranges::find(clients_, name, &Client::name);
     if (it != clients_.end()) {
         it->at_unix_ns = now_unix_ns;
@@ -19,13 +18,9 @@ void ClientsSeen::note(std::string_view name, std::int64_t now_unix_ns) {
 
 std::vector<ClientsSeen::Client> ClientsSeen::list(std::int64_t now_unix_ns) const {
     std::vector<Client> out;
-    {
-        const std::lock_guard lock(mutex_);
-        std::ranges::copy_if(clients_, std::back_inserter(out),
-                             [&](const Client& c) { return now_unix_ns - c.at_unix_ns <= forget_after_ns; });
-    }
+    std::ranges::copy_if(clients_, std::back_inserter(out), [&](const Client& c) { return now_unix_ns - c.at_unix_ns <= forget_after_ns; });
     std::ranges::sort(out, std::ranges::greater{}, &Client::at_unix_ns);
     return out;
 }
 
-}  // namespace axisgate::http
+}  // namespace axisgate

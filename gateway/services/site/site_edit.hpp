@@ -1,5 +1,5 @@
 // Site edit: changes of one line, drive or axis as changes of the whole site document.
-// In: the document, a name, what was asked. Out: the changed document, or the answer that refuses it.
+// In: the document, a name, what was asked. Out: the changed document, or why it is refused.
 // Never checks what parse_site checks: the changed document goes through that as a whole.
 #pragma once
 
@@ -7,11 +7,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <variant>
 
-#include "gateway/doors/http/problem.hpp"
+#include "gateway/services/refusal.hpp"
 
-namespace axisgate::http {
+namespace axisgate {
 
 enum class Collection : std::uint8_t { lines, drives, axes };
 [[nodiscard]] std::string_view list_name(Collection collection) noexcept;  ///< "lines"
@@ -24,7 +23,7 @@ struct Edit {
     std::string pointer;  ///< of the entry in the document: "/lines/2"; empty after a removal
 };
 /// The change, or why it cannot be.
-using Edited = std::variant<Edit, Response>;
+using Edited = Refusable<Edit>;
 
 /// `document` has the lists "lines", "drives", "axes" and "mappings", as to_json(Site) gives them.
 /// Members that only tell the state are taken out of `entry` first.
@@ -41,4 +40,4 @@ void merge_patch(boost::json::value& target, const boost::json::value& patch);
 /// Whether a mapping names the axis: its member `axis`, or a `point` that begins with the name and one of `.` `/` `:`.
 [[nodiscard]] bool mapping_names(const boost::json::value& mapping, std::string_view axis);
 
-}  // namespace axisgate::http
+}  // namespace axisgate

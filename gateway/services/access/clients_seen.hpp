@@ -1,15 +1,14 @@
-// ClientsSeen: which clients with a name of their own have lately asked this door for anything: to whom an axis can be handed over.
+// ClientsSeen: which clients with a name of their own have lately asked a door for anything: to whom an axis can be handed over.
 // In: names with the moment. Out: a list, newest first. Bounded: the one that was seen longest ago makes room.
 // Never says who may command: that is the lease's business.
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace axisgate::http {
+namespace axisgate {
 
 class ClientsSeen {
 public:
@@ -24,8 +23,7 @@ public:
     [[nodiscard]] std::vector<Client> list(std::int64_t now_unix_ns) const;
 
 private:
-    mutable std::mutex mutex_;  // connections are served on one thread; answers of the gateway may be built on another
     std::vector<Client> clients_;
 };
 
-}  // namespace axisgate::http
+}  // namespace axisgate

@@ -1,6 +1,6 @@
 // Site edit: a new name of a line or drive is put into what hangs on it; an axis that mappings name keeps its name until they are changed.
 // In: JSON documents. Out: the changed document. Never renames by a name that is missing or no text: parse_site refuses that.
-#include "gateway/doors/http/site_edit.hpp"
+#include "gateway/services/site/site_edit.hpp"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 
 #include "gateway/services/documents.hpp"
 
-namespace axisgate::http {
+namespace axisgate {
 namespace json = boost::json;
 namespace {
 
@@ -33,21 +33,21 @@ json::object without_state(Collection collection, const json::object& entry) {
     return out;
 }
 
-std::string_view text_of(const json::value& entry, std::string_view key) {
+std::string_view text_member(const json::value& entry, std::string_view key) {
     if (!entry.is_object()) return {};
     const auto* v = entry.get_object().if_contains(key);
     return v && v->is_string() ? std::string_view(v->get_string()) : std::string_view();
 }
 
-json::array& list_of(json::object& document, std::string_view name) {
+json::array& list_in(json::object& document, std::string_view name) {
     auto& v = document[name];
     if (!v.is_array()) v = json::array();
     return v.get_array();
 }
 
-std::optional<std::size_t> position_of(const json::array& list, std::string_view name) {
+std::optional<std::size_t> position_in(const json::array& list, std::string_view name) {
     for (std::size_t i = 0; i < list.size(); ++i) {
-        if (text_of(list[i], "name") == name) return i;
+        if (text_member(list[i], "name") == name) return i;
     }
     return std::nullopt;
 }
@@ -70,37 +70,36 @@ std::optional<Hanging> hanging(Collection collection) {
 
 std::vector<std::size_t> mappings_of(json::object& document, std::string_view axis) {
     std::vector<std::size_t> out;
-    const json::array& list = list_of(document, "mappings");
+    const json::array& list = list_in(document, "mappings");
     for (std::size_t i = 0; i < list.size(); ++i) {
         if (mapping_names(list[i], axis)) out.push_back(i);
     }
     return out;
 }
 
-Response absent(Collection collection, std::string_view name) {
-    return problem(404, "not_found", fmt::format("there is no {} {}", item_name(collection), name));
-}
+ServiceRefusal absent(Collection collection, std::string_view name) { return no_such(item_name(collection), name); }
 
-Response taken(Collection collection, std::string_view name) {
-    return problem(409, "conflict",
-                   fmt::format("there is a {} {} already: choose another name, or change that one", item_name(collection), name));
+ServiceRefusal name_taken(Collection collection, std::string_view name) {
+    return {ServiceRefusal::Why::conflict,
+            fmt::format("there is a {} {} already: choose another name, or change that one", item_name(collection), name)};
 }
 
 /// Puts `entry` in the place `i`, whose name was `old_name`, and lets what hangs on it follow to the new name.
 Edited put_entry(json::object document, Collection collection, std::size_t i, std::string_view old_name, json::object entry) {
-    const std::string new_name(text_of(entry, "name"));
+    const std::string new_name(text_member(entry, "name"));
     if (!new_name.empty() && new_name != old_name) {
-        if (position_of(list_of(document, list_name(collection)), new_name)) return taken(collection, new_name);
+        if (position_in(list_in(document, list_name(collection)), new_name)) return name_taken(collection, new_name);
         if (const auto h = hanging(collection)) {
-            for (auto& x : list_of(document, h->list)) {
-                if (text_of(x, h->key) == old_name) x.get_object()[h->key] = new_name;
+            for (auto& x : list_in(document, h->list)) {
+                if (text_member(x, h->key) == old_name) x.get_object()[h->key] = new_name;
             }
         } else if (const auto m = mappings_of(document, old_name); !m.empty()) {
-            return problem(409, "conflict",
-                           fmt::format("mapping {} names the axis {}: change it before the axis gets another name", m.front(), old_name));
+            return ServiceRefusal{
+                ServiceRefusal::Why::conflict,
+                fmt::format("mapping {} names the axis {}: change it before the axis gets another name", m.front(), old_name)};
         }
     }
-    list_of(document, list_name(collection))[i] = std::move(entry);
+    list_in(document, list_name(collection))[i] = std::move(entry);
     return Edit{std::move(document), new_name, fmt::format("/{}/{}", list_name(collection), i)};
 }
 
@@ -113,19 +112,19 @@ json::object with_name(json::object entry, std::string_view name) {
 void erase_entry(json::object& document, Collection collection, std::string_view name) {
     if (const auto h = hanging(collection)) {
         std::vector<std::string> dependents;
-        for (const auto& x : list_of(document, h->list)) {
-            if (text_of(x, h->key) == name) dependents.emplace_back(text_of(x, "name"));
+        for (const auto& x : list_in(document, h->list)) {
+            if (text_member(x, h->key) == name) dependents.emplace_back(text_member(x, "name"));
         }
         for (const auto& d : dependents)
             erase_entry(document, collection == Collection::lines ? Collection::drives : Collection::axes, d);
     } else {
         const auto doomed = mappings_of(document, name);
-        json::array& mappings = list_of(document, "mappings");
+        json::array& mappings = list_in(document, "mappings");
         for (auto it = doomed.rbegin(); it != doomed.rend(); ++it)
             mappings.erase(mappings.begin() + static_cast<std::ptrdiff_t>(*it));
     }
-    json::array& list = list_of(document, list_name(collection));
-    if (const auto i = position_of(list, name)) list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
+    json::array& list = list_in(document, list_name(collection));
+    if (const auto i = position_in(list, name)) list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
 }
 }  // namespace
 
@@ -154,48 +153,48 @@ std::string_view item_name(Collection collection) noexcept {
 }
 
 Edited add_entry(json::object document, Collection collection, json::object entry) {
-    json::array& list = list_of(document, list_name(collection));
-    const std::string name(text_of(entry, "name"));
-    if (!name.empty() && position_of(list, name)) return taken(collection, name);
+    json::array& list = list_in(document, list_name(collection));
+    const std::string name(text_member(entry, "name"));
+    if (!name.empty() && position_in(list, name)) return name_taken(collection, name);
     list.push_back(without_state(collection, entry));
     std::string pointer = fmt::format("/{}/{}", list_name(collection), list.size() - 1);
     return Edit{std::move(document), name, std::move(pointer)};
 }
 
 Edited replace_entry(json::object document, Collection collection, std::string_view name, json::object entry) {
-    const auto i = position_of(list_of(document, list_name(collection)), name);
+    const auto i = position_in(list_in(document, list_name(collection)), name);
     if (!i) return absent(collection, name);
     return put_entry(std::move(document), collection, *i, name, with_name(without_state(collection, entry), name));
 }
 
 Edited patch_entry(json::object document, Collection collection, std::string_view name, json::object patch) {
-    const auto i = position_of(list_of(document, list_name(collection)), name);
+    const auto i = position_in(list_in(document, list_name(collection)), name);
     if (!i) return absent(collection, name);
-    json::value entry = list_of(document, list_name(collection))[*i];
+    json::value entry = list_in(document, list_name(collection))[*i];
     merge_patch(entry, without_state(collection, patch));
     return put_entry(std::move(document), collection, *i, name, std::move(entry.get_object()));
 }
 
 Edited remove_entry(json::object document, Collection collection, std::string_view name, bool cascade) {
-    if (!position_of(list_of(document, list_name(collection)), name)) return absent(collection, name);
+    if (!position_in(list_in(document, list_name(collection)), name)) return absent(collection, name);
     if (!cascade) {
         std::string holders;
         if (const auto h = hanging(collection)) {
-            for (const auto& x : list_of(document, h->list)) {
-                if (text_of(x, h->key) == name) holders += (holders.empty() ? "" : ", ") + std::string(text_of(x, "name"));
+            for (const auto& x : list_in(document, h->list)) {
+                if (text_member(x, h->key) == name) holders += (holders.empty() ? "" : ", ") + std::string(text_member(x, "name"));
             }
             if (!holders.empty()) {
-                return problem(409, "conflict",
-                               fmt::format("{} {} is still used by {}: {}; remove them first, or add ?cascade=1", item_name(collection),
-                                           name, h->list, holders));
+                return ServiceRefusal{ServiceRefusal::Why::conflict,
+                                      fmt::format("{} {} is still used by {}: {}; remove them first, or add ?cascade=1",
+                                                  item_name(collection), name, h->list, holders)};
             }
         } else {
             for (const auto m : mappings_of(document, name))
                 holders += (holders.empty() ? "" : ", ") + std::to_string(m);
             if (!holders.empty()) {
-                return problem(
-                    409, "conflict",
-                    fmt::format("axis {} is still named by the mappings {}; remove them first, or add ?cascade=1", name, holders));
+                return ServiceRefusal{
+                    ServiceRefusal::Why::conflict,
+                    fmt::format("axis {} is still named by the mappings {}; remove them first, or add ?cascade=1", name, holders)};
             }
         }
     }
@@ -219,10 +218,10 @@ void merge_patch(json::value& target, const json::value& patch) {
 }
 
 bool mapping_names(const json::value& mapping, std::string_view axis) {
-    if (text_of(mapping, "axis") == axis) return true;
-    const auto point = text_of(mapping, "point");
+    if (text_member(mapping, "axis") == axis) return true;
+    const auto point = text_member(mapping, "point");
     return point.size() > axis.size() && point.starts_with(axis) &&
            std::string_view("./:").find(point[axis.size()]) != std::string_view::npos;
 }
 
-}  // namespace axisgate::http
+}  // namespace axisgate

@@ -1,0 +1,31 @@
+// Alarm wishes: what a body asks to be done about alarms: acknowledged, one or many; shelved.
+// In: JSON, the list of alarms. Out: wishes, or every fault with its place. Never changes an alarm.
+#pragma once
+
+#include <boost/json/object.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/services/alarms/alarm.hpp"
+#include "gateway/services/fault.hpp"
+
+namespace axisgate {
+
+/// The comment of one that is acknowledged.
+[[nodiscard]] std::string read_comment(const boost::json::object& body, std::vector<Fault>& faults);
+
+struct AcknowledgeWish {
+    std::optional<std::vector<std::uint64_t>> ids;  ///< nothing: all that are open
+    std::string comment;
+};
+[[nodiscard]] AcknowledgeWish read_acknowledge_wish(const boost::json::object& body, const AlarmList& alarms, std::vector<Fault>& faults);
+
+struct ShelveWish {
+    std::int64_t for_s = 0;
+    std::string reason;
+};
+[[nodiscard]] ShelveWish read_shelve_wish(const boost::json::object& body, std::vector<Fault>& faults);
+
+}  // namespace axisgate

@@ -4,10 +4,11 @@ import { after, before, test } from 'node:test';
 import { becomes, examine, launch, look, open, quiet, tileOf, until } from './lib/browser.mjs';
 import { Program } from './lib/program.mjs';
 
-let program, browser;
+let program, browser, bare;
 before(async () => {
   program = await Program.start();
   browser = await launch();
+  bare = await open(browser, program.url, { bypassCSP: true });
 });
 after(async () => {
   await browser?.close();
@@ -17,11 +18,10 @@ const settled = (page) => page.locator('[data-live=true], main h1').first().wait
 
 for (const path of ['/', '/axes/feeder', '/lines', '/lines/can0', '/events', '/gateway', '/recorder/trends/', '/recorder/captures/', '/recorder/recordings/', '/report']) {
   test(`axe-core finds nothing serious on ${path}, in light and in dark, where nothing is furnished`, async () => {
-    const page = await open(browser, program.url + path, { bypassCSP: true });
-    await settled(page);
-    await quiet(page);
-    assert.deepEqual(await look(page, `bare-${path.replaceAll('/', '-')}`), []);
-    await page.context().close();
+    await bare.goto(program.url + path);
+    await settled(bare);
+    await quiet(bare);
+    assert.deepEqual(await look(bare, `bare-${path.replaceAll('/', '-')}`), []);
   });
 }
 

@@ -1,8 +1,7 @@
 // The page of an axis: parameters with their range, the native console, the twin's hand, the state machine, the scope.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { join } from 'node:path';
-import { artefacts, becomes, launch, open, shot, until } from './lib/browser.mjs';
+import { becomes, launch, open, shot, until } from './lib/browser.mjs';
 import { Program, isMock } from './lib/program.mjs';
 
 let program, browser, page, list;
@@ -172,7 +171,7 @@ test('every state in the drawing stands whole inside its box, also where the mar
       });
     });
     assert.deepEqual(wrong, [], `${width} px`);
-    await other.locator('.machine').screenshot({ path: join(artefacts, `machine-${width}.png`) });
+    await shot(other.locator('.machine'), `machine-${width}`);
     await other.context().close();
   }
 });

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Browser tests: the page of the real program in Debian's Chromium without a window.
 # In: AXISGATE_BIN (default build/release/axisgate), CHROMIUM (default /usr/bin/chromium-headless-shell), AXISGATE_BROWSER_PROCESSES (default 3).
-# AXISGATE_PICTURES=1: each part in each language at three widths, light and dark. Out: counts, pictures under build/browser.
+# AXISGATE_PICTURES=1: pictures under build/browser, of each part in each language at three widths, light and dark, and of what tests come to. Out: counts.
 # Arguments are test files; without any, all of them run.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -24,6 +24,6 @@ if [ $# -eq 0 ]; then
   # A page that draws nothing would be waited for by every test.
   if ! node ./lib/draws.mjs; then echo "browser: 1 tests, 0 passed, 1 failed"; exit 1; fi
 fi
-exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-3}" --test-timeout=180000 \
+exec node --test --test-concurrency="${AXISGATE_BROWSER_PROCESSES:-3}" --test-timeout=600000 \
   --test-reporter=spec --test-reporter-destination=stdout \
   --test-reporter=./lib/counts.mjs --test-reporter-destination=stdout "$@"

@@ -1,5 +1,6 @@
 // Browser: Debian's Chromium through playwright-core, with a fresh profile, and a watch over everything that a page must not do.
-// In: CHROMIUM (default /usr/bin/chromium-headless-shell). Out: pages that remember console errors, exceptions and requests to other hosts.
+// In: CHROMIUM (default /usr/bin/chromium-headless-shell), AXISGATE_PICTURES (1: pictures are made, for people to look at; no test judges one).
+// Out: pages that remember console errors, exceptions and requests to other hosts.
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -51,7 +52,9 @@ export async function open(browser, url, options = {}) {
   return page;
 }
 
-export const shot = (page, name, options = {}) => page.screenshot({ path: join(artefacts, `${name}.png`), ...options });
+/** A picture costs more time than most of what is judged beside it, so they are made where somebody wants them. */
+export const pictured = process.env.AXISGATE_PICTURES === '1';
+export const shot = async (page, name, options = {}) => void (pictured && (await page.screenshot({ path: join(artefacts, `${name}.png`), ...options })));
 
 /** One axis on the page, by its name. */
 export function tileOf(page, axis) {

@@ -4,18 +4,19 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 import { launch, look, open } from './browser.mjs';
-import { arrived, furnish, parts } from './parts.mjs';
+import { arrive, furnish, parts } from './parts.mjs';
 import { Program } from './program.mjs';
 
 const half = Math.ceil(parts.length / 2);
 export const halves = { first: parts.slice(0, half), second: parts.slice(half) };
 
 export function gallery({ widths, device }, some) {
-  let program, browser;
+  let program, browser, page; // one page for all: a new one for each part would cost as much as what is looked at
   before(async () => {
     program = await Program.start();
     await furnish(program);
     browser = await launch();
+    page = await open(browser, program.url, { ...device, bypassCSP: true });
   });
   after(async () => {
     await browser?.close();
@@ -23,15 +24,14 @@ export function gallery({ widths, device }, some) {
   });
   for (const part of some) {
     test(`${part.name} at ${widths.join(', ')} px, in light and dark: axe-core finds nothing serious, nothing is cut off; pictures`, async () => {
-      const page = await open(browser, program.url + part.path, { ...device, bypassCSP: true });
-      await arrived(page, part);
+      await page.setViewportSize(device.viewport);
+      await arrive(page, program, part);
       const wrong = await apiWords(page);
       for (const width of widths) {
         await page.setViewportSize({ ...device.viewport, width });
         wrong.push(...(await look(page, `part-${part.name}`)), ...(await cutOff(page)).map((w) => `${width} px: ${w}`));
       }
-      assert.deepEqual([...wrong, ...page.faults()], []);
-      await page.context().close();
+      assert.deepEqual([...wrong, ...page.faults().splice(0)], []);
     });
   }
 }

@@ -3,7 +3,7 @@
 // for each kind of screen; pictures. A file for each language, since each goes through the whole page, and loads each part once for all that is judged.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
-import { drawn, launch, open, quiet, shot, tooWide } from './browser.mjs';
+import { drawn, launch, open, pictured, quiet, shot, tooWide } from './browser.mjs';
 import { cut, unfold } from './cut.mjs';
 import { furnish, parts, typed } from './parts.mjs';
 import { Program } from './program.mjs';
@@ -25,8 +25,6 @@ const more = [
 ];
 const looks = [...parts, ...more].map((p) => ({ ...p, open: steps[p.name] ?? [] }));
 
-/** AXISGATE_PICTURES=1: each part at three widths in both themes, for people to look at; otherwise one picture of each part. */
-const gallery = process.env.AXISGATE_PICTURES === '1';
 const stopWords = { en: 'Stop all', de: 'Alle stoppen', zh: '全部停止' };
 
 /** The stop of all and the navigation, at both ends of the page: whole, on top, where a hand looks for it. What is wrong, in words. */
@@ -83,13 +81,13 @@ export function whole(language) {
           await drawn(p);
           const wide = await tooWide(p);
           note([...(wide > 0 ? [`${part.path} is ${wide} px too wide`] : []), ...(await stops(p, stopWords[language]))], `${part.name} at ${width} px`);
-          if (gallery && [1440, 768, 390].includes(width)) {
+          if (pictured && [1440, 768, 390].includes(width)) {
             for (const colorScheme of ['dark', 'light']) {
               await p.emulateMedia({ colorScheme });
               await drawn(p);
               await shot(p, `${language}-${width}-${colorScheme}-${part.name}`, { fullPage: true });
             }
-          } else if (width === (language === 'en' ? 320 : 1280)) await shot(p, `${language}-${width}-${part.name}`, { fullPage: true });
+          }
         }
         await look(part.name);
         await p.emulateMedia({ colorScheme: 'dark' });

@@ -143,10 +143,10 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
         )}
         <Tell reported={reported.value} field="rehearsal-told" />
       </div>
-      <fieldset class="form-foot">
+      <fieldset class="choices">
         <legend>{t('Beside the loss')}</legend>
         {(Object.keys(steps) as Step[]).map((s) => (
-          <label key={s}>
+          <label key={s} class="check">
             <input type="checkbox" checked={chosen.value.includes(s)} onChange={(e) => (chosen.value = e.currentTarget.checked ? [...chosen.value, s] : chosen.value.filter((x) => x !== s))} /> {steps[s]}
           </label>
         ))}

@@ -63,7 +63,7 @@ export function SiteHistory({ draft, door }: { draft: SiteDraft; door: SiteDoor 
     }
   };
   return (
-    <Section title={t('Applied states')} class="site-history">
+    <Section title={t('Applied states')} class="site-history" fold={list.value.length}>
       <div class="card" data-field="history">
         {why ? (
           <p class="empty">{marked(why)}</p>

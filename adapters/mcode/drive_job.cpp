@@ -183,7 +183,7 @@ void Jobs::block_read(Turn& t) {
         return refuse(Reason::drive_refused, fmt::format("{} refused {}", name(), line), t);
     if (sums && !block_sums_good(job_.listing)) {
         ++drive_.bus.counters.garbled;
-        if (++job_.tries <= drive_.bus.timing.retries && !is(drive_.native)) return;
+        if (++job_.tries <= drive_.bus.timing.retries) return;  // PR and L change nothing, so they are asked again
         return fail(Reason::no_answer, fmt::format("what {} answers to {} does not fit its checksum", name(), line), t);
     }
     job_.verb->listed(text, t);

@@ -177,8 +177,12 @@ bool block_sums_good(std::string_view raw) {
     raw.remove_prefix(ended + 1);
     const auto is_sum = [](char c) { return static_cast<std::uint8_t>(c) >= 0x80; };
     const auto last = std::find_if(raw.rbegin(), raw.rend(), is_sum);
-    if (last == raw.rend()) return raw.find_first_not_of("\r\n\x06\x15>?") == std::string_view::npos;
+    const auto between_lines = [](std::string_view s) {
+        return s.find_first_not_of(std::string_view("\r\n\x06\x15>?\0", 7)) == std::string_view::npos;
+    };
+    if (last == raw.rend()) return between_lines(raw);
     const auto size = static_cast<std::size_t>(raw.rend() - last);
+    if (!between_lines(raw.substr(size))) return false;  // a line end that became something else, or noise behind it
     if (checksum_good(raw.substr(0, size))) return true;
     for (std::size_t from = 0; from < size;) {
         const auto end = std::min(raw.find("\r\n", from), size);

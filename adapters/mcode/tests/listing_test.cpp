@@ -101,6 +101,27 @@ TEST(McodeListing, WithoutItsEndItIsNoListing) {
     EXPECT_EQ(again.text, long_program());
 }
 
+/// A question of a client changes nothing: where its answer is spoilt on the way, it is asked again.
+TEST(McodeListing, AQuestionWhoseAnswerIsSpoiltIsAskedAgain) {
+    LineBench b("!", 9600, {{"ck", "1"}});
+    b.run(4s);
+    for (const std::string& question : {std::string("PR P"), std::string("PR AL")}) {
+        for (std::size_t at = 0; at < 40; ++at) {
+            const Native native{{question.begin(), question.end()}, true};
+            std::size_t came = 0;
+            b.on_cable = [&](std::string bytes) {
+                for (char& c : bytes)
+                    if (came++ == at) c = static_cast<char>(c ^ 0x04);
+                return bytes;
+            };
+            const Result r = b.wait(native, 0, 20s);
+            EXPECT_TRUE(good(r)) << question << " at " << at << ": " << r.text;
+            if (question == "PR P") EXPECT_EQ(r.text, "0") << at;
+            if (came <= at) break;  // the spoilt byte would have been behind the answer
+        }
+    }
+}
+
 /// What the drive lists is what there is: read, written one by one or as a whole, and given back.
 TEST(McodeListing, UserVariablesAreAParameterOfTheAxis) {
     LineBench b("a", 19200);

@@ -15,6 +15,9 @@ from captures import judged
 from harness import DEMO, Gateway, until
 
 
+SO_TIMESTAMPNS = 35
+
+
 class Originator:
     """One session, and one class 1 connection if it is opened."""
 
@@ -23,8 +26,10 @@ class Originator:
         self.tcp = socket.create_connection((host, port), timeout=5)
         self.session = 0
         self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.udp.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
         self.udp.bind((host, 0))
         self.udp.settimeout(1)
+        self.longest_s, self.last_s = 0.0, None  # between two images, by when they reached this machine's socket
         self.session = struct.unpack("<I", self.order(0x65, struct.pack("<HH", 1, 0))[4:8])[0]
 
     def __enter__(self):
@@ -99,7 +104,11 @@ class Originator:
         end = time.monotonic() + 2
         while time.monotonic() < end:
             try:
-                newest = self.udp.recv(2048)
+                newest, more, _, _ = self.udp.recvmsg(2048, 64)
+                seconds, ns = struct.unpack("@qq", more[0][2])
+                at_s = seconds + ns / 1e9
+                self.longest_s = max(self.longest_s, at_s - (self.last_s or at_s))
+                self.last_s = at_s
             except BlockingIOError:
                 if newest:
                     break

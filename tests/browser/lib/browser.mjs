@@ -11,8 +11,8 @@ import { chromium } from 'playwright-core';
 export const artefacts = fileURLToPath(new URL('../../../build/browser', import.meta.url));
 mkdirSync(artefacts, { recursive: true });
 
-/** How long a page, or somebody else, may take. A test that is about a time has a limit of its own. */
-const patience_ms = 10_000;
+/** How long a page, or somebody else, may take on a machine that has other work, too. A test that is about a time has a limit of its own. */
+const patience_ms = 30_000;
 
 const flags = ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 

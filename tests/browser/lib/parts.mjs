@@ -14,7 +14,7 @@ export const parts = [
   { name: 'lines', path: '/lines', title: 'Lines and drives', ready: '[data-drive=feeder]' },
   { name: 'line', path: '/lines/can0', title: 'can0', ready: '.frame-list li' },
   { name: 'mappings', path: '/mappings', title: 'Mappings', ready: '[data-mapping]' },
-  { name: 'site', path: '/site', title: 'Site', ready: '[data-revision]' },
+  { name: 'site', path: '/site', title: 'Site', ready: '.site-history .fold, [data-revision]' },
   { name: 'recipes', path: '/recipes', title: 'Recipes', ready: '[data-recipe]' },
   { name: 'recipe', path: '/recipes/there-and-back', title: 'there-and-back', ready: '[data-report]' },
   { name: 'events', path: '/events', title: 'Events and alarms', ready: '[data-alarm]' },

@@ -95,8 +95,13 @@ def can_vectors():
             yield word == "can>", int(identifier, 16), bytes(int(b.replace("xx", "00"), 16) for b in data)
 
 
+def make_names(*folder):
+    subprocess.run([sys.executable, DISSECTORS / "names.py", *folder], check=True)
+
+
 def scripts():
     # By name, as Wireshark does with its folder of plug-ins.
+    make_names()
     return [f"-Xlua_script:{p}" for p in sorted(DISSECTORS.glob("*.lua"))]
 
 

@@ -6,7 +6,7 @@ import { becomes, examine, launch, look, open, pictures, shot, until } from './l
 import { Program } from './lib/program.mjs';
 
 let program, browser, page;
-const section = () => page.getByRole('region', { name: 'When who commands is lost' });
+const section = () => page.getByRole('region', { name: 'Loss of command' });
 
 before(async () => {
   program = await Program.start();

@@ -121,7 +121,7 @@ async function day(program, language) {
   await page.locator('[data-alarm]').first().waitFor();
   await picture('alarm');
 
-  // What if who commands is lost: on models, with times.
+  // Loss of command: on models, with times.
   await part('/site');
   await press('Rehearse on models');
   await page.locator('[data-field="rehearsal-report"]').waitFor({ timeout: 90_000 });

@@ -32,11 +32,11 @@ export function FailSafe({ revision }: { revision: unknown }) {
   const no = useBarred('engineer');
   const load = async () => void (matrix.value = await door.matrix());
   const why = useLoaded(load, [door, revision], (p) => (p.status === 404 ? notOffered(t('fail-safe actions')) : p.text));
-  if (!matrix.value) return why ? <Section title={t('When who commands is lost')}>{<p class="where">{marked(why)}</p>}</Section> : null;
+  if (!matrix.value) return why ? <Section title={t('Loss of command')}>{<p class="where">{marked(why)}</p>}</Section> : null;
   const { causes, axes } = matrix.value;
   const put = (row: FailSafeRow, choice: Wish, what: string) => tellOf(reported, t('Changing …'), () => door.put(row.axis, choice).then(load), t('{axis}: {what} is in force as chosen.', { axis: row.axis, what }));
   return (
-    <Section title={t('When who commands is lost')} class="fail-safe" id="fail-safe" help="fail-safe">
+    <Section title={t('Loss of command')} class="fail-safe" id="fail-safe" help="fail-safe">
       <p class="where">
         {t('What the gateway does to an axis when its controller, scanner or script is gone: {rule}. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.', { rule: failSafeHint })}
       </p>

@@ -1,5 +1,5 @@
 // Help: which chapter of the handbook a page is about. In: the page's name. Out: an address below /help/.
-// The chapters are made from docs/handbook when the page is built; tests/help-words.test.ts looks whether each is there.
+// The chapters are made from docs/handbook when the page is built; tests/help-text.test.ts checks that each is there.
 import type { Route } from '../router';
 
 const chapters: Record<Route['page'], string> = {

@@ -129,7 +129,6 @@ export const report: Table = {
   'Values are those that the gateway knows; {n} are not read yet.': 'Die Werte sind die dem Gateway bekannten; {n} sind noch nicht gelesen.',
   'Way': 'Weg',
   'What the gateway does to an axis when its controller, scanner or script is gone: {rule}. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.': 'Was das Gateway mit einer Achse tut, wenn deren Steuerung, Scanner oder Skript weg ist: {rule}. Für einen nicht erreichbaren Antrieb und ein Gateway ohne Versorgung sind die eigene Überwachung des Antriebs und der Sicherheitskreis nötig.',
-  'When who commands is lost': 'Wenn der Befehlende ausfällt',
   'Writing {size} …': 'Schreiben: {size} …',
   'yes': 'ja',
   '{action}, by default': '{action}, Standard',

@@ -129,7 +129,6 @@ export const report: Table = {
   'Values are those that the gateway knows; {n} are not read yet.': '数值为网关已知的值；还有 {n} 个尚未读取。',
   'Way': '行程',
   'What the gateway does to an axis when its controller, scanner or script is gone: {rule}. A drive that cannot be reached, and a gateway without supply, need the drive\'s own watchdog and the safety circuit.': '当轴的控制器、扫描器或脚本消失时，网关对该轴采取的动作：{rule}。驱动器无法到达或网关断电时，需依靠驱动器自身看门狗和安全回路。',
-  'When who commands is lost': '命令方失联时',
   'Writing {size} …': '正在写入 {size} …',
   'yes': '是',
   '{action}, by default': '{action}，默认',

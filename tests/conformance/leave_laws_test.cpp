@@ -68,6 +68,10 @@ TEST_P(LeaveLaws, WhatASiteChangeTakesAwayInMotionIsStoppedFirst) {
         ASSERT_TRUE(r);
         EXPECT_EQ(r->outcome, Outcome::refused);
         EXPECT_EQ(r->reason, Reason::busy) << r->text;
+        // A stop is everybody's, until the axis is gone.
+        const Ticket stop = world->command(a1, QuickStop{}, false);
+        const Result* stopped = world->result(stop);
+        EXPECT_FALSE(stopped && stopped->reason == Reason::busy) << stopped->text;
         ASSERT_TRUE(world->run_until_true([&] { return in_force != nullptr; }, 10s));
         EXPECT_LT(world->now - asked, 4s) << "by its own ramp, not by the limit of the wait";
         EXPECT_EQ(published(Severity::warning, "is stopped"), 1);

@@ -92,6 +92,7 @@ TEST(Authority, HandedOverToAUserIsWhicheverClientOfHimComesFirst) {
     EXPECT_TRUE(a.command(olga, AuthorityMode::free, seconds(30), t0).allowed);
     EXPECT_EQ(a.holder(), olga) << "from then on it is this client";
     EXPECT_FALSE(a.may(second, t0).allowed);
+    EXPECT_FALSE(a.may({Door::http, "olga page-1 copy"}, t0).allowed) << "another client, whose name begins with that of the holder";
     EXPECT_FALSE(a.may(panel, t0 + seconds(29)).allowed);
     EXPECT_TRUE(a.may(panel, t0 + seconds(30)).allowed) << "its time is that of the hand-over: a command in free mode does not renew it";
     // What was taken, not handed over, belongs to the client alone.

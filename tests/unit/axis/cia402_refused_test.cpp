@@ -3,49 +3,14 @@
 // In: words of a controller, commands of somebody else. Out: orders. Never uses a family.
 #include <algorithm>
 
-#include "tests/unit/axis/cia402_bench.hpp"
+#include "tests/unit/axis/cia402_words.hpp"
 
 namespace axisgate {
 namespace {
 using namespace cia402;
-using cia402_bench::Bench;
+using cia402_bench::bert, cia402_bench::Bench, cia402_bench::controller, cia402_bench::enable, cia402_bench::only, cia402_bench::place,
+    cia402_bench::say, cia402_bench::speed;
 
-const Origin controller{Door::modbus, std::make_shared<const std::string>("192.0.2.7:5"), {}};
-const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
-
-template <class T>
-const T* only(const Cia402Axis::Decision& d) {
-    return d.orders.size() == 1 ? std::get_if<T>(&d.orders.front()) : nullptr;
-}
-/// Words of the controller, carried out.
-Cia402Axis::Decision say(Bench& b, const ProcessData& d) {
-    auto r = b.profile.on_process_data(d, controller);
-    b.obey(r);
-    return r;
-}
-void enable(Bench& b, std::int16_t mode) {
-    ProcessData d;
-    d.mode = mode;
-    d.profile_velocity = 1000;
-    (void)say(b, d);
-    for (const int word : {0x06, 0x07, 0x0F}) {
-        ProcessData w;
-        w.controlword = static_cast<std::uint16_t>(word);
-        (void)say(b, w);
-    }
-    ASSERT_EQ(b.profile.state(), PowerState::operation_enabled);
-}
-ProcessData speed(std::int32_t v) {
-    ProcessData d;
-    d.target_velocity = v;
-    return d;
-}
-ProcessData place(std::int32_t target, std::uint16_t word) {
-    ProcessData d;
-    d.target_position = target;
-    d.controlword = word;
-    return d;
-}
 void is_refused(Bench& b, const CommandBody& body) {
     const auto d = b.profile.on_command(body, bert);
     for (const auto& o : d.orders)

@@ -28,7 +28,7 @@ test('the loss is shown within a second, and every value is said to be old', asy
   await until('the loss is shown', async () => (await trust()) === 'disconnected' || (await trust()), 1_000);
   assert.match(await page.locator('[data-field=strip]').innerText(), /Connection lost\..*last known/s);
   // Between two attempts: while one is on its way, it says that it connects.
-  await becomes('it is said', () => page.locator('[data-field=connection]').innerText(), 'Not connected');
+  await becomes('it is said', () => page.locator('[data-field=connection]').innerText(), 'Not connected', 5_000);
   assert.equal(await page.locator('[data-live=true]').count(), 0);
   assert.match(await feeder.text('position'), /^Last known position, not live/);
   assert.match(await feeder.text('notice'), /^Not live: last known/);

@@ -60,7 +60,7 @@ TEST_P(AuthorityLaws, WhoDoesNotHoldTheAxisCommandsNothingOfIt) {
     for (const Parameter& p : e.catalogue->parameters()) {
         if (!p.writable() || !p.readable()) continue;
         const Point at = first_point(static_cast<std::uint16_t>(&p - e.catalogue->parameters().data()));
-        const Result read = say(a1, ReadParameter{at}, plc);  // whoever may see the axis may ask
+        const Result read = say(a1, ReadParameter{at}, plc);  // reading needs no lease
         if (!good(read) || !e.catalogue->check_write(at, read.value).fault.empty()) continue;
         is_barred(WriteParameter{at, read.value});
         break;
@@ -130,7 +130,7 @@ TEST_P(AuthorityLaws, AMotionThatAnotherOneReplacesHasAnEnd) {
     if (const Result* ended = world->result(far)) EXPECT_FALSE(good(*ended)) << published(ended);
 }
 
-/// ... and by which stop his motion was ended, as soon as that is asked for.
+/// A client that waits for the end of his motion is told by which stop it was ended, as soon as that stop is asked for.
 TEST_P(AuthorityLaws, AMotionThatIsStoppedIsToldToBeEndedByThatStop) {
     for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}, CommandBody{Disable{}}}) {
         SCOPED_TRACE(name_of(stop));

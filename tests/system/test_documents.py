@@ -33,7 +33,7 @@ def blocks(name):
     return BLOCK.findall((TOP / name).read_text())
 
 
-LIMIT_S = 400  # of a script that hangs: the slowest machine needs a fourth of it
+LIMIT_S = 400  # of a script that hangs; on a machine with other work the longest one has taken more than 100 s
 
 
 def run_lines(text, folder):

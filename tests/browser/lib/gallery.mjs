@@ -11,7 +11,7 @@ const half = Math.ceil(parts.length / 2);
 export const halves = { first: parts.slice(0, half), second: parts.slice(half) };
 
 export function gallery({ widths, device }, some) {
-  let program, browser, page; // one page for all: a new one for each part would cost as much as what is looked at
+  let program, browser, page; // one page for all parts: to open a new one costs a good part of a test
   before(async () => {
     program = await Program.start();
     await furnish(program);

@@ -9,6 +9,7 @@
 #include "gateway/axis/cia402.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "gateway/registers/words.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate::test {
@@ -654,7 +655,7 @@ public:
 
 private:
     struct Looking final : RecipeWorld {
-        [[nodiscard]] json::value point(std::string_view, std::string_view) const override { return nullptr; }
+        [[nodiscard]] Value point(std::string_view, const AxisPointRow&) const override { return {}; }
     };
     void turn(Bench& b) {
         if (!run_) return;

@@ -149,7 +149,7 @@ static_assert(std::ranges::all_of(axis_point_table,
                                   }),
               "what the table calls composed is made here");
 
-/// What the document and a recipe show of one row; null while it is not known.
+/// What the document shows of one row; null while it is not known.
 json::value axis_member(const AxisView& v, const AxisPointRow& row) {
     const auto c = std::ranges::find(composed, row.name, &Composed::name);
     return c != composed.end() ? c->make(v) : json_of(said(row, v.picture, v.spec.increments_per_unit));
@@ -163,14 +163,6 @@ json::object axis_document(const AxisView& v, AxisPointRows rows) {
         o[row.name] = axis_member(v, row);
     }
     return o;
-}
-
-json::value recipe_point(const AxisView& v, std::string_view name, AxisPointRows rows) {
-    const auto* row = point_named(name, rows);
-    if (!row || row->recipe == PointInRecipe::no) return nullptr;
-    const AxisPicture& p = v.picture;
-    const bool answers = p.ever_seen && (p.flags & flag_stale) == 0 && (p.flags & flag_online) != 0;
-    return answers || row->recipe == PointInRecipe::always ? axis_member(v, *row) : json::value(nullptr);
 }
 
 static json::value sync_document(const DriveBeats& b) {

@@ -39,9 +39,6 @@ struct AxisView {
 };
 /// The site's members, then those of the table, in its order.
 [[nodiscard]] boost::json::object axis_document(const AxisView& view, AxisPointRows rows = axis_point_table);
-/// What a recipe's condition sees under this name; null: it is no point of recipes, or not known now. What is said of an axis that does not
-/// answer, or was said too long ago, is not known to a recipe.
-[[nodiscard]] boost::json::value recipe_point(const AxisView& view, std::string_view name, AxisPointRows rows = axis_point_table);
 
 [[nodiscard]] boost::json::object drive_document(const SiteState& site, std::size_t index, const DriveStatus& status);
 [[nodiscard]] boost::json::object line_document(const SiteState& site, std::size_t index, const LineReport& report);

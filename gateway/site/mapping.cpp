@@ -199,7 +199,7 @@ void check_conflicts(const std::vector<Mapping>& all, const std::vector<std::siz
 
 const std::vector<Mapping>& Site::map() const noexcept {
     static const std::vector<Mapping> none;
-    return parsed_mappings ? *parsed_mappings : none;
+    return mappings ? *mappings : none;
 }
 
 std::string_view name_of(MapTable t) noexcept { return name_in(table_names, t); }
@@ -383,6 +383,14 @@ json::object to_json(const Mapping& m) {
     if (m.on_overflow != MapOverflow::mark) o["on_overflow"] = name_of(m.on_overflow);
     if (!m.comment.empty()) o["comment"] = m.comment;
     return o;
+}
+
+json::array to_json(std::span<const Mapping> mappings) {
+    json::array list;
+    list.reserve(mappings.size());
+    for (const auto& m : mappings)
+        list.push_back(to_json(m));
+    return list;
 }
 
 }  // namespace axisgate

@@ -3,6 +3,7 @@
 // Never knows a protocol or a value: the doors read and write what stands behind an entry.
 #pragma once
 
+#include <boost/json/array.hpp>
 #include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 #include <cstdint>
@@ -67,6 +68,8 @@ inline constexpr std::size_t most_mappings = 4096;
                                                                  const std::function<std::string(std::size_t index)>& called = {});
 /// The entry in its full form; parse_mappings of it gives the same.
 [[nodiscard]] boost::json::object to_json(const Mapping& mapping);
+/// The list as a site's document has it.
+[[nodiscard]] boost::json::array to_json(std::span<const Mapping> mappings);
 
 /// The whole list as CSV with a header line, and back, as rows_from_csv says.
 [[nodiscard]] std::string mappings_to_csv(std::span<const Mapping> mappings);

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "gateway/core/line_uri.hpp"
+#include "gateway/site/mapping.hpp"
 
 namespace axisgate {
 
@@ -180,7 +181,8 @@ json::object to_json(const Site& site) {
         drives.push_back(to_json(d));
     for (const auto& a : site.axes)
         axes.push_back(to_json(a));
-    json::object o{{"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", site.mappings}};
+    json::object o{
+        {"lines", std::move(lines)}, {"drives", std::move(drives)}, {"axes", std::move(axes)}, {"mappings", to_json(site.map())}};
     json::array units;
     for (const auto& [unit, gaps] : site.gaps)
         units.push_back(json::object{{"unit", std::int64_t{unit}}, {"gaps", name_of(gaps)}});
@@ -222,6 +224,7 @@ void compare_mappings(const json::array& from, const json::array& to, std::vecto
         }
         return all;
     };
+    if (from == to) return;
     const auto before = by_id(from), after = by_id(to);
     const std::size_t had = out.size();
     for (const auto& [id, x] : before) {
@@ -302,7 +305,7 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
         const auto text = [](const std::string& s) { return s.empty() ? std::string("not set") : s; };
         if (x.first != x.second) out.push_back(fmt::format("assembly {}: {} -> {}", instance, text(x.first), text(x.second)));
     }
-    if (from.mappings != to.mappings) compare_mappings(from.mappings, to.mappings, out);
+    if (from.mappings != to.mappings) compare_mappings(to_json(from.map()), to_json(to.map()), out);
     return out;
 }
 
@@ -329,7 +332,7 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
         for (const auto& p : catalogue->parameters())
             mix(p.id);
     }
-    mix(json::serialize(site.mappings));
+    mix(json::serialize(to_json(site.map())));
     for (const auto& [unit, gaps] : site.gaps)
         mix(fmt::format("{} {}", unit, name_of(gaps)));
     for (const auto& p : site.profiles)

@@ -3,7 +3,7 @@
 // Never touches hardware and never reads a file: a site is a value.
 #pragma once
 
-#include <boost/json/array.hpp>
+#include <boost/json/object.hpp>
 #include <boost/json/value.hpp>
 #include <cstdint>
 #include <functional>
@@ -90,9 +90,7 @@ struct Site {
     std::vector<LineSpec> lines;
     std::vector<DriveSpec> drives;
     std::vector<AxisSpec> axes;
-    boost::json::array mappings;  ///< in their full form
-    /// The same, checked; made by parse_site, absent in a site that was put together by hand.
-    std::shared_ptr<const std::vector<Mapping>> parsed_mappings;
+    std::shared_ptr<const std::vector<Mapping>> mappings;  ///< checked, in the order of the document; null: none
     [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
     std::vector<ProfileSpec> profiles;     ///< units that speak another device's language
     std::vector<AssemblySpec> assemblies;  ///< EtherNet/IP instances of its own, beside those of axes and profiles

@@ -474,9 +474,11 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         }
         return a;
     });
+    const json::array none;
+    const json::array* entries = &none;
     if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {
         if (m->is_array()) {
-            site.mappings = m->get_array();
+            entries = &m->get_array();
         } else {
             faults.push_back({"/mappings", "mappings must be a list", "write []"});
         }
@@ -486,12 +488,8 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     read_assemblies(o.if_contains("assemblies"), site, faults);
     check_relations(site, families, faults);
     // In their full form from here on: ids that were given, defaults that were chosen.
-    if (auto mappings = parse_mappings(site.mappings, site, families, faults)) {
-        site.mappings.clear();
-        for (const auto& mapping : *mappings)
-            site.mappings.push_back(to_json(mapping));
-        site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
-    }
+    if (auto mappings = parse_mappings(*entries, site, families, faults))
+        site.mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     check_profile_units(site, faults);
     // Where the mappings have faults, what lies in a range is not known.
     if (faults.size() == before) check_assemblies(site, faults);

@@ -479,8 +479,7 @@ void Motions::axis_removed() {
     Site s = b->site->site;
     s.axes.clear();
     s.profiles.clear();
-    s.mappings.clear();
-    s.parsed_mappings = std::make_shared<const std::vector<Mapping>>();
+    s.mappings = nullptr;
     const auto bus = b->world.change(std::move(s));
     (void)bus;
     if (behind_a_cable) {

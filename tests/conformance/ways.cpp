@@ -9,6 +9,7 @@
 #include "gateway/axis/cia402.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "gateway/registers/words.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate::test {
@@ -242,24 +243,25 @@ public:
             int registers;
         };
         int at = 100;
+        json::array entries;
         for (const Row& r :
              {Row{AxisPoint::controlword, "u16", 1}, Row{AxisPoint::mode, "i16", 1}, Row{AxisPoint::target_position, "i32", 2},
               Row{AxisPoint::profile_velocity, "u32", 2}, Row{AxisPoint::profile_acceleration, "u32", 2},
               Row{AxisPoint::profile_deceleration, "u32", 2}, Row{AxisPoint::target_velocity, "i32", 2}}) {
-            site.mappings.push_back(json::value{{"unit", 20},
-                                                {"table", "holding_registers"},
-                                                {"address", at},
-                                                {"axis", "a1"},
-                                                {"point", name_of(r.point)},
-                                                {"type", r.type},
-                                                {"access", "read_write"}});
+            entries.push_back(json::value{{"unit", 20},
+                                          {"table", "holding_registers"},
+                                          {"address", at},
+                                          {"axis", "a1"},
+                                          {"point", name_of(r.point)},
+                                          {"type", r.type},
+                                          {"access", "read_write"}});
             at += r.registers;
         }
         std::vector<SiteFault> faults;
-        auto parsed = parse_mappings(site.mappings, site, families(), faults);
+        auto parsed = parse_mappings(entries, site, families(), faults);
         for (const auto& f : faults)
             ADD_FAILURE() << f.pointer << ": " << f.text;
-        if (parsed) site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(std::move(*parsed));
+        if (parsed) site.mappings = std::make_shared<const std::vector<Mapping>>(std::move(*parsed));
     }
 
 private:
@@ -653,7 +655,7 @@ public:
 
 private:
     struct Looking final : RecipeWorld {
-        [[nodiscard]] json::value point(std::string_view, std::string_view) const override { return nullptr; }
+        [[nodiscard]] Value point(std::string_view, const AxisPointRow&) const override { return {}; }
     };
     void turn(Bench& b) {
         if (!run_) return;

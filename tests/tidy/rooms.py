@@ -124,8 +124,13 @@ def may_include(path, included):
     return None
 
 
+# JSON is read and written at the edges: a request, the store, a document. What crosses rooms is a value.
+WITHOUT_JSON = re.compile(r"gateway/(doors/dds/|services/command_wish\.|services/ports/fleet\."
+                          r"|services/recipes/recipe(_claims|_point|_run|_steps|_words)?\.[ch]pp)")
+
 RULES = {
     "rooms": "who includes whom",
+    "json": "wishes and what is waited for are values, no JSON",
     "time": "a pure room takes time as an argument",
     "open": "nothing is left open or skipped",
     "head": "a file opens with what it is, what comes in, what goes out, what it never does",
@@ -147,6 +152,8 @@ def faults_of(path, text):
         why = m and may_include(path, m.group(1))
         if why:
             yield "rooms", f"{rel}:{n}: includes {m.group(1)}: {why}"
+        if WITHOUT_JSON.match(str(rel)) and re.search(r"<boost/json|\bjson::|/json_read\.hpp|/command_reader\.hpp", line):
+            yield "json", f"{rel}:{n}: {RULES['json']}"
         if pure and re.search(r"\b(system_clock|steady_clock|high_resolution_clock|sleep_for|this_thread)\b", line):
             yield "time", f"{rel}:{n}: {RULES['time']}"
         if re.search(r"\b(TODO|FIXME|XXX|HACK|GTEST_SKIP|DISABLED_)\b", line) or "DISABLED_" in line:
@@ -167,6 +174,7 @@ PROBES = (("rooms", "gateway/engine/engine.cpp", "// x\n#include <boost/asio.hpp
           ("rooms", "gateway/protocols/canopen/sdo.cpp", '// x\n#include "gateway/drive/polls.hpp"\n'), ("rooms", "gateway/protocols/canopen/sdo.cpp", "// x\n#include <thread>\n"),
           ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'), ("time", "gateway/engine/engine.cpp", "// x\nsteady_clock::now();\n"),
           ("open", "gateway/runtime/hot.cpp", "// x\n// TO" "DO\n"), ("head", "gateway/runtime/hot.cpp", "#include <vector>\n"),
+          ("json", "gateway/services/recipes/recipe_run.cpp", "// x\n#include <boost/json/value.hpp>\n"), ("json", "gateway/doors/dds/fleet.cpp", "// x\nboost::json::object body;\n"),
           ("once", "gateway/runtime/hot.hpp", "// x\n"), ("length", "gateway/runtime/hot.cpp", "// x\n" * 901))
 
 

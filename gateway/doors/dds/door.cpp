@@ -12,35 +12,41 @@
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/plain_text.hpp"
 #include "gateway/doors/dds/axis_sample.hpp"
-#include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
-namespace json = boost::json;
 namespace {
 constexpr std::size_t at_a_time = 64;  ///< samples of a topic, before others have their turn
 
-void put_number(json::object& o, const char* name, const double* value) {
-    if (value) o[name] = *value;
-}
-void put_number(json::object& o, const char* name, const std::int32_t* value) {
-    if (value) o[name] = *value;
+template <class T>
+WishedNumber wished(const T* value) {
+    return value ? WishedNumber(static_cast<double>(*value)) : WishedNumber();
 }
 
-/// The same members as over HTTP, so that one reader checks both.
-json::object body_of(const axisgate_AxisCommand& s) {
-    json::object o{{"command", s.command}};
-    put_number(o, "position", s.position);
-    put_number(o, "velocity", s.velocity);
-    put_number(o, "acceleration", s.acceleration);
-    put_number(o, "deceleration", s.deceleration);
-    put_number(o, "method", s.method);
-    put_number(o, "hold_ms", s.hold_ms);
-    if (s.prepare) o["prepare"] = true;
-    if (s.renew) o["renew"] = true;
-    return o;
+CommandWish wish_of(const axisgate_AxisCommand& s) {
+    CommandWish wish = CommandWish::named(s.command);
+    wish.position = wished(s.position);
+    wish.velocity = wished(s.velocity);
+    wish.acceleration = wished(s.acceleration);
+    wish.deceleration = wished(s.deceleration);
+    wish.method = wished(s.method);
+    wish.hold_ms = wished(s.hold_ms);
+    wish.prepare = s.prepare ? WishedFlag::yes : WishedFlag::no;
+    wish.renew = s.renew ? WishedFlag::yes : WishedFlag::no;
+    return wish;
 }
 
-/// Not a number and infinity are no JSON, and no reader of commands need know of them.
+SetPointWish wish_of(const axisgate_SetPoint& s) {
+    SetPointWish wish;
+    wish.mode = set_point_mode_of(s.mode);
+    wish.value = s.value;
+    wish.velocity = wished(s.velocity);
+    wish.acceleration = wished(s.acceleration);
+    wish.deceleration = wished(s.deceleration);
+    if (s.good_for_ms != 0) wish.good_for_ms = static_cast<double>(s.good_for_ms);
+    return wish;
+}
+
+/// Not a number and infinity are refused in words of their own.
 bool is_finite(const axisgate_AxisCommand& s) {
     return std::ranges::all_of(std::array{s.position, s.velocity, s.acceleration, s.deceleration},
                                [](const double* d) { return !d || std::isfinite(*d); });
@@ -412,13 +418,13 @@ void DdsDoor::on_command(const axisgate_AxisCommand& s, const Bus::Seen& seen) {
     const auto place = find_axis(ports_.get<SitePort>(), a.axis);
     if (!place) return refuse(a, Reason::unknown_point, fmt::format("{} has no axis {}", settings_.name, a.axis));
     if (!is_finite(s)) return refuse(a, Reason::out_of_range, fmt::format("{}: a value is infinite or not a number", s.command));
-    auto read = read_command(body_of(s), place->spec().increments_per_unit, place->spec().unit);
-    if (!read.body) {
-        const auto& f = read.faults.front();
+    auto made = make_command(wish_of(s), place->spec().increments_per_unit, place->spec().unit);
+    if (!made.body) {
+        const auto& f = made.faults.front();
         return refuse(a, Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy));
     }
     if (!a.source.empty()) note_commander(a, a.writer);
-    carry_out(a, *place, std::move(*read.body), s.until_done);
+    carry_out(a, *place, std::move(*made.body), s.until_done);
 }
 
 void DdsDoor::on_parameter_write(const axisgate_ParameterWrite& s, const Bus::Seen& seen) {
@@ -528,8 +534,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
 }
 
 void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then) {
-    const auto* word = order.body.if_contains("command");
-    const bool stops = word && word->is_string() && is_stop(word->get_string());
+    const bool stops = is_stop(order.wish.word);
     if (order.gateway != settings_.name) return fleet_.command(order, std::move(then), clock_());
     if (!stops) {
         Result fault;
@@ -556,16 +561,16 @@ void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then)
 void DdsDoor::command_here(FleetOrder order, std::function<void(const Result&)> then) {
     Result fault;
     const auto place = find_axis(ports_.get<SitePort>(), order.axis);
-    auto read = place ? read_command(order.body, place->spec().increments_per_unit, place->spec().unit) : ReadCommand{};
-    if (!read.body) {
+    auto made = place ? make_command(order.wish, place->spec().increments_per_unit, place->spec().unit) : ReadCommand{};
+    if (!made.body) {
         fault.outcome = Outcome::refused;
         fault.reason = place ? Reason::out_of_range : Reason::unknown_point;
-        fault.text = place ? read.faults.front().text : fmt::format("{} has no axis {}", settings_.name, order.axis);
+        fault.text = place ? made.faults.front().text : fmt::format("{} has no axis {}", settings_.name, order.axis);
         return then(fault);
     }
     Command c;
     c.axis = place->id();
-    c.body = std::move(*read.body);
+    c.body = std::move(*made.body);
     c.until_done = order.until_done;
     c.origin = std::move(order.origin);
     (void)ports_.get<AxisPort>().submit(std::move(c), std::move(then));
@@ -588,21 +593,16 @@ void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
         ++counters_.set_points_wrong;
         return;
     }
-    json::object body{{"axis", s.axis}, {"mode", s.mode}, {"value", s.value}};
-    put_number(body, "velocity", s.velocity);
-    put_number(body, "acceleration", s.acceleration);
-    put_number(body, "deceleration", s.deceleration);
-    if (s.good_for_ms != 0) body["good_for_ms"] = s.good_for_ms;
-    auto read = read_set_point(body, place->spec().increments_per_unit, place->spec().unit);
-    if (!read.set_point) {
+    auto made = make_set_point(wish_of(s), place->spec().increments_per_unit, place->spec().unit);
+    if (!made.set_point) {
         ++counters_.set_points_wrong;
         return;
     }
-    read.set_point->axis = place->id();
-    read.set_point->at = clock_();
-    read.set_point->origin = origin_of(s.source, {Topic::set_point, seen.writer});
+    made.set_point->axis = place->id();
+    made.set_point->at = clock_();
+    made.set_point->origin = origin_of(s.source, {Topic::set_point, seen.writer});
     if (set_points_.size() < set_point_clients_most || set_points_.contains(s.axis)) set_points_[s.axis] = s.source;
-    ports_.get<AxisPort>().set_point(std::move(*read.set_point));
+    ports_.get<AxisPort>().set_point(std::move(*made.set_point));
 }
 
 }  // namespace axisgate::dds

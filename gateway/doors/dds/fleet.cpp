@@ -9,10 +9,8 @@
 
 #include "gateway/axis/authority.hpp"
 #include "gateway/core/plain_text.hpp"
-#include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
-namespace json = boost::json;
 namespace {
 Result no_result(Outcome outcome, Reason reason, std::string text) {
     Result r;

@@ -105,9 +105,8 @@ private:
     };
     /// Why the order can not be given yet, though it may be soon; nothing: now, or never.
     [[nodiscard]] std::optional<std::string> not_heard_yet(const FleetOrder& order, Instant now) const;
-    void send(const FleetOrder& order, std::set<std::uint64_t> instances, std::string_view word, std::function<void(const Result&)> then,
-              Instant now);
-    void stop(const FleetOrder& order, std::string_view word, std::function<void(const Result&)> then, Instant now);
+    void send(const FleetOrder& order, std::set<std::uint64_t> instances, std::function<void(const Result&)> then, Instant now);
+    void stop(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
     void end_overtaken(const std::string& gateway, const std::string& axis, std::string_view by);
     void try_unheard(Instant now);
     /// A place for one more gateway. False: all that are known are alive and have axes.

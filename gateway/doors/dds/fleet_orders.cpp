@@ -7,7 +7,6 @@
 
 #include "gateway/axis/authority.hpp"
 #include "gateway/doors/dds/fleet.hpp"
-#include "gateway/services/command_reader.hpp"
 
 namespace axisgate::dds {
 namespace {
@@ -70,9 +69,7 @@ void Fleet::try_unheard(Instant now) {
 }
 
 void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then, Instant now) {
-    const auto* word = o.body.if_contains("command");
-    if (is_stop(word && word->is_string() ? std::string_view(word->get_string()) : std::string_view()))
-        return stop(o, word->get_string(), std::move(then), now);
+    if (is_stop(o.wish.word)) return stop(o, std::move(then), now);
     const auto busy = [] { return refusal(Reason::busy, "too many commands to other gateways wait for their results; try again later"); };
     if (auto why = not_heard_yet(o, now)) {
         if (waiting() >= waiting_most) return then(busy());
@@ -87,26 +84,26 @@ void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then
     const auto axis = axes.find(o.axis);
     if (axis == axes.end()) return then(refusal(Reason::unknown_point, fmt::format("{} has no axis {}", o.gateway, o.axis)));
     // By the same rules as there, so that all that is wrong is said before anything is sent.
-    const auto read = read_command(o.body, axis->second.increments_per_unit, axis->second.unit);
-    if (!read.body) {
-        const auto& f = read.faults.front();
+    const auto made = make_command(o.wish, axis->second.increments_per_unit, axis->second.unit);
+    if (!made.body) {
+        const auto& f = made.faults.front();
         return then(refusal(Reason::out_of_range, f.text + (f.remedy.empty() ? "" : "; " + f.remedy)));
     }
-    if (is_urgent(*read.body)) {
-        end_overtaken(o.gateway, o.axis, read.name);
+    if (is_urgent(*made.body)) {
+        end_overtaken(o.gateway, o.axis, o.wish.name);
     } else if (waiting() >= waiting_most) {
         return then(busy());
     }
-    send(o, {g->instance}, read.name, std::move(then), now);
+    send(o, {g->instance}, std::move(then), now);
 }
 
-void Fleet::stop(const FleetOrder& o, std::string_view word, std::function<void(const Result&)> then, Instant now) {
-    end_overtaken(o.gateway, o.axis, word);
+void Fleet::stop(const FleetOrder& o, std::function<void(const Result&)> then, Instant now) {
+    end_overtaken(o.gateway, o.axis, o.wish.name);
     std::set<std::uint64_t> instances;
     for (const auto& [instance, k] : known_) {
         if (instance != instance_ && k.gateway.alive && k.gateway.name == o.gateway) instances.insert(instance);
     }
-    send(o, std::move(instances), word, std::move(then), now);
+    send(o, std::move(instances), std::move(then), now);
 }
 
 void Fleet::end_overtaken(const std::string& gateway, const std::string& axis, std::string_view by) {
@@ -130,8 +127,32 @@ void Fleet::end_overtaken(const std::string& gateway, const std::string& axis, s
         u.then(refusal(Reason::interrupted, fmt::format("interrupted by {} before it was sent", by)));
 }
 
-void Fleet::send(const FleetOrder& o, std::set<std::uint64_t> instances, std::string_view word, std::function<void(const Result&)> then,
-                 Instant now) {
+namespace {
+/// The wish as a sample has it, whose optional members point to what `w` holds. A stop has no members; what else was given with it keeps
+/// it from nobody.
+template <class Waiting>
+void put_wish(Waiting& w, const CommandWish& wish) {
+    axisgate_AxisCommand& s = w.sample;
+    put_text(s.command, wish.name);
+    if (w.stops) return;
+    const auto number = [](const WishedNumber& wished, auto& place, auto*& member) {
+        const auto* d = std::get_if<double>(&wished);
+        if (!d) return;
+        place = static_cast<std::remove_reference_t<decltype(place)>>(*d);
+        member = &place;
+    };
+    number(wish.position, w.numbers[0], s.position);
+    number(wish.velocity, w.numbers[1], s.velocity);
+    number(wish.acceleration, w.numbers[2], s.acceleration);
+    number(wish.deceleration, w.numbers[3], s.deceleration);
+    number(wish.method, w.whole[0], s.method);
+    number(wish.hold_ms, w.whole[1], s.hold_ms);
+    s.prepare = wish.prepare == WishedFlag::yes;
+    s.renew = wish.renew == WishedFlag::yes;
+}
+}  // namespace
+
+void Fleet::send(const FleetOrder& o, std::set<std::uint64_t> instances, std::function<void(const Result&)> then, Instant now) {
     auto w = std::make_unique<Waiting>();
     const std::string id = fmt::format("{:x}-{}", instance_, next_++);
     axisgate_AxisCommand& s = w->sample;
@@ -139,32 +160,13 @@ void Fleet::send(const FleetOrder& o, std::set<std::uint64_t> instances, std::st
     put_text(s.axis, o.axis);
     put_text(s.source, fmt::format("{} {}", name_, AuthorityClient::of(o.origin).name));
     put_text(s.id, id);
-    w->stops = is_stop(word);
+    w->stops = is_stop(o.wish.word);
     w->unheard = instances.empty();
     s.instance = w->stops ? 0 : *instances.begin();
     w->awaited = std::move(instances);
     w->gateway = o.gateway;
-    put_text(s.command, word);
+    put_wish(*w, o.wish);
     s.until_done = o.until_done;
-    // A stop has no members; what else its body says keeps it from nobody.
-    const auto number = [&](const char* name, auto& place, auto*& member) {
-        const auto* v = o.body.if_contains(name);
-        if (!v || !v->is_number() || is_stop(word)) return;
-        place = v->to_number<std::remove_reference_t<decltype(place)>>();
-        member = &place;
-    };
-    number("position", w->numbers[0], s.position);
-    number("velocity", w->numbers[1], s.velocity);
-    number("acceleration", w->numbers[2], s.acceleration);
-    number("deceleration", w->numbers[3], s.deceleration);
-    number("method", w->whole[0], s.method);
-    number("hold_ms", w->whole[1], s.hold_ms);
-    const auto flag = [&](const char* name) {
-        const auto* v = o.body.if_contains(name);
-        return v && v->is_bool() && v->get_bool() && !is_stop(word);
-    };
-    s.prepare = flag("prepare");
-    s.renew = flag("renew");
     Duration wait = o.wait > Duration::zero() ? std::min(o.wait, waits_most) : waits_most;
     if (w->unheard) wait = std::min(wait, heard_within);
     w->sent = now;
@@ -174,7 +176,7 @@ void Fleet::send(const FleetOrder& o, std::set<std::uint64_t> instances, std::st
         send_(s);
         return w->then(refusal(Reason::busy, fmt::format("{} was sent to {}/{}; too many commands to other gateways wait for their results "
                                                          "to wait for this one's, too",
-                                                         word, o.gateway, o.axis)));
+                                                         o.wish.name, o.gateway, o.axis)));
     }
     const auto& kept = *waiting_.emplace(id, std::move(w)).first->second;
     send_(kept.sample);

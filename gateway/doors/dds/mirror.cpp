@@ -17,20 +17,20 @@ DemandSource demand_source_named(std::string_view name) {
     return DemandSource::none;
 }
 
-/// The members of POST /fleet/{gateway}/axes/{axis}/commands, in the axis' unit.
-boost::json::object body_of(const mirror::Order& o, double increments_per_unit) {
-    boost::json::object body{{"command", o.verb}};
-    const auto put = [&](const char* name, const std::optional<std::int64_t>& v) {
-        if (v) body[name] = static_cast<double>(*v) / increments_per_unit;
+/// As a client of the fleet would ask, in the axis' unit.
+CommandWish wish_of(const mirror::Order& o, double increments_per_unit) {
+    CommandWish wish = CommandWish::named(o.verb);
+    const auto put = [](WishedNumber& member, const std::optional<std::int64_t>& v, double scale) {
+        if (v) member = static_cast<double>(*v) / scale;
     };
-    put("position", o.position);
-    put("velocity", o.velocity);
-    put("acceleration", o.acceleration);
-    put("deceleration", o.deceleration);
-    if (o.method) body["method"] = *o.method;
-    if (o.hold_ms) body["hold_ms"] = *o.hold_ms;
-    if (o.renew) body["renew"] = true;
-    return body;
+    put(wish.position, o.position, increments_per_unit);
+    put(wish.velocity, o.velocity, increments_per_unit);
+    put(wish.acceleration, o.acceleration, increments_per_unit);
+    put(wish.deceleration, o.deceleration, increments_per_unit);
+    put(wish.method, o.method, 1);
+    put(wish.hold_ms, o.hold_ms, 1);
+    if (o.renew) wish.renew = WishedFlag::yes;
+    return wish;
 }
 }  // namespace
 
@@ -67,7 +67,7 @@ void Mirror::request(const Telegram& t, std::int64_t now_unix_ns, Instant now) {
     // A stop goes to whoever may still hear it, one that is not known or not alone, too; its gateway answers for its drive.
     const bool goes_all_the_same = is_stop(order->verb) ? !axis.circle : order->verb == "disable" && axis.known;
     if (!axis.axis && !goes_all_the_same) return answer(t, {Outcome::refused, Reason::line_down, 0, axis.why});
-    to.body = body_of(*order, axis.axis ? axis.axis->increments_per_unit : 1);
+    to.wish = wish_of(*order, axis.axis ? axis.axis->increments_per_unit : 1);
     to.wait = std::max(wait_least, Duration(std::chrono::milliseconds(order->wait_ms)));
     static const auto who = std::make_shared<const std::string>("mirror");
     to.origin = {Door::internal, who, who};

@@ -178,10 +178,8 @@ std::string content_of(const Site& site, const AssemblySpec& a) {
     for (const ProfileSpec& p : site.profiles) {
         if (p.unit == a.unit) add(to_json(p));
     }
-    if (site.parsed_mappings) {
-        for (const Mapping& m : *site.parsed_mappings) {
-            if (m.unit == a.unit && m.table == a.table && m.address < a.address + a.registers && m.end() > a.address) add(to_json(m));
-        }
+    for (const Mapping& m : site.map()) {
+        if (m.unit == a.unit && m.table == a.table && m.address < a.address + a.registers && m.end() > a.address) add(to_json(m));
     }
     return text;
 }

@@ -70,16 +70,15 @@ Handled command_fleet_axis(Call& c, FleetPort& fleet) {
     std::optional<Response> fault;
     const double wait_s = query_wait(c, fault);
     if (fault) return *fault;
-    const auto* word = c.body.get_object().if_contains("command");
-    const std::string name(word && word->is_string() ? std::string_view(word->get_string()) : std::string_view());
+    FleetOrder order;
+    order.wish = read_command_wish(c.body.get_object());
+    const std::string name = order.wish.name;
     // As for an axis of this gateway: whoever sees a machine may stop it.
-    if (!is_stop(name)) {
+    if (!is_stop(order.wish.word)) {
         if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
     }
-    FleetOrder order;
     order.gateway = c.names[0];
     order.axis = c.names[1];
-    order.body = c.body.get_object();
     order.until_done = wait_s > 0;
     order.origin = c.origin();
     const std::string axis = c.names[0] + "/" + c.names[1];

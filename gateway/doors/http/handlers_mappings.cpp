@@ -16,9 +16,9 @@ Planned entry_plan(Refusable<EditedMapping> edited, bool created) {
     if (auto* refusal = std::get_if<ServiceRefusal>(&edited)) return std::move(*refusal);
     auto& [site, entry] = std::get<EditedMapping>(edited);
     return Plan{std::move(site), [id = std::move(entry), created](const std::shared_ptr<const SiteState>& now) {
-                    const auto i = mapping_place(now->site.mappings, id);
-                    if (!i) return site_without(now);
-                    Response r = site_answer(*now, now->site.mappings[*i], created ? 201 : 200);
+                    const Mapping* m = mapping_named(now->site, id);
+                    if (!m) return site_without(now);
+                    Response r = site_answer(*now, to_json(*m), created ? 201 : 200);
                     if (created) r.headers.set("Location", "/api/v1/mappings/" + percent_encode(id));
                     return r;
                 }};
@@ -32,11 +32,8 @@ Handled list_mappings(Call& c, const SitePort& sites) {
     const auto axis = c.target.query.get("axis");
     const auto site = sites.site();
     json::array out;
-    for (const auto& m : site->site.mappings) {
-        const auto& o = m.get_object();
-        if (unit != 0 && o.at("unit") != unit) continue;
-        if (axis && o.at("axis").get_string() != *axis) continue;
-        out.push_back(m);
+    for (const Mapping& m : site->site.map()) {
+        if ((unit == 0 || m.unit == unit) && (!axis || m.axis == *axis)) out.push_back(to_json(m));
     }
     Response r = site_answer(*site, out);
     r.headers.set("Mapping-Revision", fmt::format("{:08x}", mapping_revision(site->site)));
@@ -45,9 +42,9 @@ Handled list_mappings(Call& c, const SitePort& sites) {
 
 Handled get_mapping(Call& c, const SitePort& sites) {
     const auto site = sites.site();
-    const auto i = mapping_place(site->site.mappings, c.names[0]);
-    if (!i) return nothing_named("mapping", c.names[0]);
-    return site_answer(*site, site->site.mappings[*i]);
+    const Mapping* m = mapping_named(site->site, c.names[0]);
+    if (!m) return nothing_named("mapping", c.names[0]);
+    return site_answer(*site, to_json(*m));
 }
 
 Handled add_mapping(Call& c, SitePort& sites, const StagePort& staging) {
@@ -97,14 +94,14 @@ Handled remove_mappings(Call& c, SitePort& sites, const StagePort& staging) {
             if (auto* refusal = std::get_if<ServiceRefusal>(&left)) return std::move(*refusal);
             auto& [site, ids_of_removed] = std::get<RemovedMappings>(left);
             return Plan{std::move(site), [report, removed = std::move(ids_of_removed)](const std::shared_ptr<const SiteState>& now) {
-                            return report(*now, false, removed, now->site.mappings.size());
+                            return report(*now, false, removed, now->site.map().size());
                         }};
         });
     }
     const auto now = sites.site();
     if (auto refusal = precondition(c, sites, *now, false)) return *std::move(refusal);
     return given(without_mappings(now->site, sites.families(), choice),
-                 [&](const RemovedMappings& left) { return report(*now, true, left.removed, left.site.mappings.size()); });
+                 [&](const RemovedMappings& left) { return report(*now, true, left.removed, left.site.map().size()); });
 }
 
 Handled list_mapping_units(Call& c, const SitePort& sites) {

@@ -3,13 +3,12 @@
 // Bounded: so many gateways and axes are kept, so many commands wait; what is more is left out, or answered "busy".
 #pragma once
 
-#include <boost/json/object.hpp>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "gateway/core/command.hpp"
+#include "gateway/services/command_wish.hpp"
 
 namespace axisgate {
 
@@ -44,11 +43,11 @@ struct FleetGateway {
     std::vector<FleetAxis> axes;  ///< by name
 };
 
-/// A command to an axis of the domain: the members of POST /axes/{name}/commands.
+/// A command to an axis of the domain, in the unit of that axis: it may not be known yet.
 struct FleetOrder {
     std::string gateway, axis;
     std::uint64_t instance = 0;  ///< 0: whichever is alive, if there is one alone
-    boost::json::object body;
+    CommandWish wish;
     bool until_done = false;
     Origin origin;
     Duration wait{};  ///< no longer is its result waited for, nor the command sent again; 0: as long as a gateway remembers commands

@@ -4,13 +4,11 @@
 
 #include <fmt/core.h>
 
-#include <boost/json/serialize.hpp>
 #include <cmath>
 
 #include "gateway/services/recipes/recipe_words.hpp"
 
 namespace axisgate {
-namespace json = boost::json;
 using Kind = RecipeStep::Kind;
 using Op = RecipeCondition::Op;
 
@@ -30,29 +28,35 @@ std::string_view name_of(Kind kind) noexcept {
 
 bool is_motion(const RecipeStep& s) noexcept {
     if (s.kind == Kind::home || s.kind == Kind::action || s.kind == Kind::write_register) return true;
-    if (s.kind != Kind::command) return false;
-    const auto* c = s.body.if_contains("command");
-    return c && c->is_string() && (c->get_string().starts_with("move_") || c->get_string() == "home");
+    switch (word_of(s)) {
+        case CommandWord::home:
+        case CommandWord::move_absolute:
+        case CommandWord::move_relative:
+        case CommandWord::move_velocity:
+            return true;
+        default:
+            return false;
+    }
+}
+
+CommandWord word_of(const RecipeStep& s) noexcept {
+    const auto* wish = std::get_if<CommandWish>(&s.wish);
+    return wish ? wish->word : CommandWord::missing;
 }
 
 std::string to_text(const RecipeCondition& c) {
-    return fmt::format("{} {}{} {} {}{}", c.axis, c.parameter ? "parameter " : "", c.point, name_of(c.op), plain_text(c.value),
+    return fmt::format("{} {}{} {} {}{}", c.axis, c.reads_drive() ? "parameter " : "", c.point, name_of(c.op), to_text(c.value),
                        c.tolerance > 0 ? fmt::format(" within {}", c.tolerance) : std::string());
 }
 
-std::optional<bool> holds(const RecipeCondition& c, const json::value& v) {
-    const auto as_number = [](const json::value& x) -> std::optional<double> {
-        if (x.is_number()) return x.to_number<double>();
-        if (x.is_bool()) return x.get_bool() ? 1.0 : 0.0;
-        return std::nullopt;
-    };
+std::optional<bool> holds(const RecipeCondition& c, const Value& v) {
     const auto a = as_number(v), b = as_number(c.value);
     if (c.op == Op::is || c.op == Op::is_not) {
         bool same = false;
         if (a && b) {
             same = *a == *b || std::fabs(*a - *b) <= c.tolerance;
-        } else if (v.is_string() && c.value.is_string()) {
-            same = v.get_string() == c.value.get_string();
+        } else if (std::holds_alternative<std::string>(v) && std::holds_alternative<std::string>(c.value)) {
+            same = v == c.value;
         } else {
             return std::nullopt;
         }

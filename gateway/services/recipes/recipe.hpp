@@ -1,19 +1,22 @@
-// Recipe: a named sequence of steps (set a parameter, move, wait for a state, check, if, repeat) as a checked value.
-// In: the JSON document (schema/recipe.schema.json) and the arguments of one run. Out: steps with the arguments put in, or all faults at
-// once, each with its place and a way to mend it. Never asks a drive: whether an axis or a parameter exists is for whoever runs it.
+// Recipe: a named sequence of steps (set a parameter, move, wait for a state, check, if, repeat) as a checked value: what each step wishes
+// is typed once, when the document is read with the arguments of a run. Never asks a drive: whether an axis or a parameter exists is for
+// whoever runs it.
 #pragma once
 
-#include <boost/json/object.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "gateway/core/instant.hpp"
-#include "gateway/site/site.hpp"
+#include "gateway/core/value.hpp"
+#include "gateway/services/command_wish.hpp"
 
 namespace axisgate {
+
+struct AxisPointRow;
 
 // Bounds. What lies beyond one is a fault of the document, never cut.
 inline constexpr std::size_t most_recipe_steps = 500;        ///< nested ones counted
@@ -29,17 +32,37 @@ inline constexpr double most_recipe_seconds = 86'400;         ///< of the run, a
 struct RecipeCondition {
     enum class Op : std::uint8_t { is, is_not, at_least, at_most, above, below };
     std::string axis;
-    std::string point;       ///< a member of the axis' document ("state", "position", "moving"), or a parameter's id
-    bool parameter = false;  ///< `point` is a parameter: it is read from the drive
+    std::string point;                  ///< name of a row of the table of points ("state", "position", "moving"), or a parameter's id
+    const AxisPointRow* row = nullptr;  ///< of that table; null: `point` is a parameter, which is read from the drive
     Op op = Op::is;
-    boost::json::value value;
+    Value value;
     double tolerance = 0;  ///< for `is` and `is_not` with numbers
+    [[nodiscard]] bool reads_drive() const noexcept { return row == nullptr; }
 };
 [[nodiscard]] std::string_view name_of(RecipeCondition::Op op) noexcept;
 /// "feeder state is operation_enabled"
 [[nodiscard]] std::string to_text(const RecipeCondition& condition);
 /// Nothing if the value is not known or cannot be compared with what the condition asks for.
-[[nodiscard]] std::optional<bool> holds(const RecipeCondition& condition, const boost::json::value& value);
+[[nodiscard]] std::optional<bool> holds(const RecipeCondition& condition, const Value& value);
+
+// What steps wish, with names as they are written and values as they came; unknown: what stands there is no value.
+struct ParameterWish {
+    std::string parameter;
+    Value value{};  ///< of `set_parameter`
+};
+struct ActionWish {
+    std::string name, argument;
+};
+struct RegisterWish {
+    int unit = 0, address = 0;
+    std::optional<std::string> type{};  ///< of the register, if it is said; empty: what stands there is no text
+    Value value{};
+};
+struct SimulateWish {
+    std::string input;
+    Value value;
+};
+using StepWish = std::variant<std::monostate, ParameterWish, CommandWish, ActionWish, RegisterWish, SimulateWish>;
 
 struct RecipeStep {
     enum class Kind : std::uint8_t {
@@ -63,10 +86,11 @@ struct RecipeStep {
     std::size_t row = 0;  ///< its place among all steps, in the order of the document
     std::string pointer;  ///< "/steps/2/if/then/0"
     std::string comment;
-    std::string axis;          ///< the axis it is about; of write_register: filled in by whoever knows the register map
-    boost::json::object body;  ///< the members under its word
-    bool until_done = false;   ///< the step ends when the drive is done, not when it has acknowledged
-    Duration limit{};          ///< longest time for it
+    std::string axis;         ///< the axis it is about; of write_register: filled in by whoever knows the register map
+    std::string what;         ///< what people read of it behind its number: "set_parameter AC of feeder = 20000"
+    StepWish wish;            ///< none of enable, disable, and of what is no command
+    bool until_done = false;  ///< the step ends when the drive is done, not when it has acknowledged
+    Duration limit{};         ///< longest time for it
     std::optional<RecipeCondition> condition;
     std::int64_t times = 1;
     std::string text;
@@ -78,6 +102,8 @@ struct RecipeStep {
 [[nodiscard]] std::string label_of(const RecipeStep& step, std::string_view pass);
 /// Whether it can set its axis in motion.
 [[nodiscard]] bool is_motion(const RecipeStep& step) noexcept;
+/// The command's word of `command` and `home`; `missing` for every other step.
+[[nodiscard]] CommandWord word_of(const RecipeStep& step) noexcept;
 
 struct Recipe {
     std::string description;
@@ -86,13 +112,6 @@ struct Recipe {
     std::vector<RecipeStep> steps;
     std::size_t count = 0;  ///< of all steps
 };
-
-/// Reads and checks a document. `arguments`: what stands for "${name}"; nullptr: every parameter's default, or a value of its type, to
-/// check the document by itself. Faults of arguments have pointers that begin with /arguments.
-[[nodiscard]] std::optional<Recipe> read_recipe(const boost::json::object& document, const boost::json::object* arguments,
-                                                std::vector<SiteFault>& faults);
-/// The arguments of a run with the defaults of those that were not given.
-[[nodiscard]] boost::json::object whole_arguments(const boost::json::object& document, const boost::json::object& arguments);
 
 /// Calls `f(step)` for every step, outer ones before inner ones.
 template <class Steps, class F>

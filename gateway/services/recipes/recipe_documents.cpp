@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gateway/core/text.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/recipes/recipe_steps.hpp"
 
 namespace axisgate {

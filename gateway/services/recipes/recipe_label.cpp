@@ -1,19 +1,19 @@
 // Recipe labels: what people call a step: "Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000".
-// In: a step with its arguments put in. Out: one line of bounded length. Never a value that has to be kept secret: a recipe holds none.
+// In: a step, and its members once, when it is read. Out: one line of bounded length. Never a value that has to be kept secret: a recipe
+// holds none.
+#include "gateway/services/recipes/recipe_label.hpp"
+
 #include <fmt/core.h>
 
 #include <boost/json/serialize.hpp>
-
-#include "gateway/services/recipes/recipe.hpp"
-#include "gateway/services/recipes/recipe_words.hpp"
 
 namespace axisgate {
 namespace {
 namespace json = boost::json;
 using Kind = RecipeStep::Kind;
 
-std::string member(const RecipeStep& s, std::string_view key) {
-    const auto* v = s.body.if_contains(key);
+std::string member(const json::object& body, std::string_view key) {
+    const auto* v = body.if_contains(key);
     return v ? plain_text(*v) : std::string();
 }
 
@@ -38,34 +38,34 @@ std::string number_of(std::string_view pointer) {
 }
 
 /// Members that stand in the body beside those that the line has named already.
-std::string others(const RecipeStep& s, std::string_view named) {
+std::string others(const json::object& body, std::string_view named) {
     std::string out;
-    for (const auto& [k, v] : s.body) {
+    for (const auto& [k, v] : body) {
         if (named.find(fmt::format(" {} ", std::string_view(k))) == std::string_view::npos)
             out += fmt::format(", {} = {}", std::string_view(k), plain_text(v));
     }
     return out;
 }
 
-std::string what_of(const RecipeStep& s) {
+std::string what_of(const RecipeStep& s, const json::object& body) {
     const std::string word(name_of(s.kind));
     switch (s.kind) {
         case Kind::set_parameter:
-            return fmt::format("{} {} of {} = {}", word, member(s, "parameter"), s.axis, member(s, "value"));
+            return fmt::format("{} {} of {} = {}", word, member(body, "parameter"), s.axis, member(body, "value"));
         case Kind::read_parameter:
-            return fmt::format("{} {} of {}", word, member(s, "parameter"), s.axis);
+            return fmt::format("{} {} of {}", word, member(body, "parameter"), s.axis);
         case Kind::command:
-            return fmt::format("{} {} of {}{}", word, member(s, "command"), s.axis, others(s, " axis command wait_s "));
+            return fmt::format("{} {} of {}{}", word, member(body, "command"), s.axis, others(body, " axis command wait_s "));
         case Kind::action:
-            return fmt::format("{} {} of {}{}", word, member(s, "name"), s.axis, others(s, " axis name wait_s "));
+            return fmt::format("{} {} of {}{}", word, member(body, "name"), s.axis, others(body, " axis name wait_s "));
         case Kind::write_register:
-            return fmt::format("{} {} of unit {} = {}", word, member(s, "address"), member(s, "unit"), member(s, "value"));
+            return fmt::format("{} {} of unit {} = {}", word, member(body, "address"), member(body, "unit"), member(body, "value"));
         case Kind::simulate:
-            return fmt::format("{} {} of {} = {}", word, member(s, "input"), s.axis, member(s, "value"));
+            return fmt::format("{} {} of {} = {}", word, member(body, "input"), s.axis, member(body, "value"));
         case Kind::enable:
         case Kind::disable:
         case Kind::home:
-            return fmt::format("{} {}{}", word, s.axis, others(s, " axis wait_s "));
+            return fmt::format("{} {}{}", word, s.axis, others(body, " axis wait_s "));
         case Kind::wait_for:
         case Kind::check:
         case Kind::branch:
@@ -87,9 +87,14 @@ std::string plain_text(const json::value& v) {
     return json::serialize(v);
 }
 
+std::string step_text(const RecipeStep& step, const json::object& body) {
+    std::string what = what_of(step, body);
+    if (what.size() > most_recipe_label_bytes) what.resize(most_recipe_label_bytes);  // the label, which is longer, is cut before that
+    return what;
+}
+
 std::string label_of(const RecipeStep& step, std::string_view pass) {
-    std::string out =
-        fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), what_of(step));
+    std::string out = fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), step.what);
     if (out.size() <= most_recipe_label_bytes) return out;
     std::size_t n = most_recipe_label_bytes - 3;  // not in the middle of a letter of several bytes
     while (n > 0 && (static_cast<unsigned char>(out[n]) & 0xC0u) == 0x80u)

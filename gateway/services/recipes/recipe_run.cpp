@@ -5,31 +5,29 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-
-#include "gateway/services/recipes/recipe_words.hpp"
+#include <cmath>
 
 namespace axisgate {
 namespace {
-namespace json = boost::json;
 using Kind = RecipeStep::Kind;
 
 double seconds_in(Duration d) { return std::chrono::duration<double>(d).count(); }
-std::string shown(const json::value& v) { return v.is_null() ? "not known" : plain_text(v); }
-bool is_stop(const RecipeStep& s) {
-    if (s.kind == Kind::disable) return true;
-    const auto* c = s.kind == Kind::command ? s.body.if_contains("command") : nullptr;
-    return c && (*c == "halt" || *c == "quick_stop" || *c == "disable");
+std::string shown(const Value& v) { return known(v) ? to_text(v) : "not known"; }
+/// As the report shows it: a whole number is one, whatever it was reckoned from; what is not finite is not known.
+Value settled(const Value& v) {
+    const auto* d = std::get_if<double>(&v);
+    if (!d) return v;
+    if (!std::isfinite(*d)) return {};
+    if (std::nearbyint(*d) == *d && std::fabs(*d) < 9007199254740992.0) return static_cast<std::int64_t>(*d);
+    return v;
 }
+bool is_stop(const RecipeStep& s) { return s.kind == Kind::disable || is_stop(word_of(s)) || word_of(s) == CommandWord::disable; }
 bool is_prepared(const RecipeStep& s) {
-    const auto* p = s.kind == Kind::command ? s.body.if_contains("prepare") : nullptr;
-    return p && p->is_bool() && p->get_bool();
+    const auto* wish = std::get_if<CommandWish>(&s.wish);
+    return wish && wish->prepare == WishedFlag::yes;
 }
 /// At a target: of an action or a register nobody knows.
-bool ends_itself(const RecipeStep& s) {
-    if (s.kind == Kind::home) return true;
-    const auto* c = s.kind == Kind::command ? s.body.if_contains("command") : nullptr;
-    return c && *c != "move_velocity";
-}
+bool ends_itself(const RecipeStep& s) { return word_of(s) != CommandWord::missing && word_of(s) != CommandWord::move_velocity; }
 }  // namespace
 
 std::string_view name_of(RecipeRun::State state) noexcept {
@@ -175,7 +173,7 @@ void RecipeRun::begin(const RecipeStep& s, Instant now, std::vector<RecipeReques
     row.started = now;
     row.ended = {};
     row.text.clear();
-    row.value = nullptr;
+    row.value = {};
     row.pass.clear();
     for (const auto& level : levels_) {
         if (level.owner && level.owner->kind == Kind::repeat)
@@ -226,11 +224,13 @@ void RecipeRun::ask(RecipeRequest::What what, const RecipeStep& s, Instant, std:
 }
 
 void RecipeRun::look(const RecipeWorld& world, Instant now, std::vector<RecipeRequest>& requests) {
-    if (current_->condition->parameter) return ask(RecipeRequest::What::read_parameter, *current_, now, requests);
-    judge(world.point(current_->condition->axis, current_->condition->point), now);
+    const RecipeCondition& c = *current_->condition;
+    if (c.reads_drive()) return ask(RecipeRequest::What::read_parameter, *current_, now, requests);
+    judge(world.point(c.axis, *c.row), now);
 }
 
-void RecipeRun::judge(const json::value& value, Instant now) {
+void RecipeRun::judge(const Value& seen, Instant now) {
+    const Value value = settled(seen);
     const RecipeStep& s = *current_;
     RecipeRow& row = rows_[s.row];
     const auto truth = holds(*s.condition, value);
@@ -245,7 +245,7 @@ void RecipeRun::judge(const json::value& value, Instant now) {
                         fmt::format("{} did not come true within {} s: it is {}", to_text(*s.condition), seconds_in(s.limit), shown(value)),
                         now);
         phase_ = Phase::pause;
-        due_ = std::min(now + (s.condition->parameter ? read_period : look_period), step_limit_);
+        due_ = std::min(now + (s.condition->reads_drive() ? read_period : look_period), step_limit_);
         return;
     }
     if (!truth) return stop(State::failed, fmt::format("{} cannot be told: it is {}", to_text(*s.condition), shown(value)), now);

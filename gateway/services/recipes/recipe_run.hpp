@@ -4,7 +4,6 @@
 // Never has a clock, a thread or a gateway, and never stops a motion that is not its own. The same calls give the same results.
 #pragma once
 
-#include <boost/json/value.hpp>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -17,8 +16,8 @@ namespace axisgate {
 
 /// What a run may look at without asking a drive.
 struct RecipeWorld {
-    /// A member of the axis' document; null: not known, or older than it may be.
-    [[nodiscard]] virtual boost::json::value point(std::string_view axis, std::string_view point) const = 0;
+    /// The one value of a row of the table of points; unknown: nobody has said it, or it is older than it may be.
+    [[nodiscard]] virtual Value point(std::string_view axis, const AxisPointRow& row) const = 0;
 
     /// Whose the motion of an axis is that this run has set in motion.
     struct Claim {
@@ -56,7 +55,7 @@ struct RecipeAnswer {
     };
     bool good = false;
     std::string text;
-    boost::json::value value{};  ///< null: none
+    Value value{};  ///< unknown: none
     Motion motion = Motion::by_result;
 };
 
@@ -68,7 +67,7 @@ struct RecipeRow {
     Instant started{}, ended{};
     std::string text;
     std::string pass;  ///< of the repeats around it, outer ones first: "2 of 5"; empty: none
-    boost::json::value value;
+    Value value;
 };
 
 class RecipeRun {
@@ -136,7 +135,7 @@ private:
     void begin(const RecipeStep& step, Instant now, std::vector<RecipeRequest>& requests);
     void ask(RecipeRequest::What what, const RecipeStep& step, Instant now, std::vector<RecipeRequest>& requests);
     void look(const RecipeWorld& world, Instant now, std::vector<RecipeRequest>& requests);
-    void judge(const boost::json::value& value, Instant now);
+    void judge(const Value& seen, Instant now);
     void take_answer(Instant now);
     void take_motion(const RecipeStep& step, bool good, RecipeAnswer::Motion motion, Instant now);
     void finish(const RecipeStep& step, Instant now);

@@ -10,6 +10,7 @@
 #include "gateway/core/text.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/services/recipes/recipe_point.hpp"
 #include "gateway/services/recipes/recipe_steps.hpp"
 
 namespace axisgate {
@@ -30,13 +31,13 @@ struct RecipeService::World final : RecipeWorld {
         if (!place) return {};
         return active.claims.claim(std::string(axis), service.axes_.picture(place->id()), active.origin, service.wall_);
     }
-    [[nodiscard]] json::value point(std::string_view axis, std::string_view point) const override {
-        const auto place = find_axis(service.sites_, axis);
-        if (!place) return nullptr;
-        const AxisPicture picture = service.axes_.picture(place->id());
-        return recipe_point({place->spec(), place->line, place->family, place->catalogue, picture, service.wall_.to_unix_ns(picture.at),
-                             service.wall_.now_unix_ns()},
-                            point);
+    [[nodiscard]] Value point(std::string_view axis, const AxisPointRow& row) const override {
+        const auto site = service.sites_.site();
+        const auto index = index_of_name(site->site.axes, axis);
+        if (!index) return {};
+        const AxisPicture picture = *index < site->axis_ids.size() ? service.axes_.picture(site->axis_ids[*index]) : AxisPicture{};
+        const std::int64_t age_ns = service.wall_.now_unix_ns() - service.wall_.to_unix_ns(picture.at);
+        return recipe_point(row, picture, site->site.axes[*index], std::max<std::int64_t>(0, age_ns / 1'000'000));
     }
 };
 
@@ -164,7 +165,7 @@ void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequ
     Command command;
     if (r.what == RecipeRequest::What::stop) {
         const auto place = find_axis(sites_, r.axis);
-        if (!place) return answer(a, r.number, {false, fmt::format("there is no axis {} any more", r.axis), nullptr});
+        if (!place) return answer(a, r.number, {false, fmt::format("there is no axis {} any more", r.axis)});
         command.axis = place->id();
         if (a->run->recipe().quick_stop) {
             command.body = QuickStop{};
@@ -175,13 +176,17 @@ void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequ
     }
     if (r.step->kind == RecipeStep::Kind::message) {
         note(*a, Severity::info, r.step->text);
-        return answer(a, r.number, {true, {}, nullptr});
+        return answer(a, r.number, {true, {}});
     }
     std::vector<SiteFault> faults;
-    RecipeStep copy = *r.step;
-    auto made = r.what == RecipeRequest::What::read_parameter ? read_of(copy, sites_, faults) : command_of(copy, sites_, faults);
+    std::optional<Command> made;
+    if (r.what == RecipeRequest::What::read_parameter) {
+        made = read_of(*r.step, sites_, faults);
+    } else if (auto step = command_of(*r.step, sites_, faults)) {
+        made = std::move(step->command);
+    }
     if (!made)  // the site has changed since the run began
-        return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text, nullptr});
+        return answer(a, r.number, {false, faults.empty() ? std::string("the step cannot be carried out") : faults.front().text});
     const bool mover = r.what == RecipeRequest::What::step && is_motion(*r.step) && !r.step->axis.empty();
     submit(a, r.number, mover ? r.step : nullptr, std::move(*made));
 }
@@ -197,7 +202,7 @@ void RecipeService::submit(const std::shared_ptr<Active>& a, std::uint32_t numbe
             const auto me = self.lock();
             const auto run = active.lock();
             if (!me || !run) return;
-            RecipeAnswer answer{good(r), r.text, to_json(r.value)};
+            RecipeAnswer answer{good(r), r.text, r.value};
             if (mover) answer.motion = run->claims.answered(*mover, body, r, me->axes_.picture(id));
             if (!answer.good)
                 answer.text = fmt::format("{} ({}{})", r.text.empty() ? std::string("it was refused") : r.text, name_of(r.reason),
@@ -251,7 +256,7 @@ json::object RecipeService::document(const Active& a) const {
                        {"started_at", time(row.started)},
                        {"ended_at", time(row.ended)},
                        {"text", row.text},
-                       {"value", row.value}};
+                       {"value", to_json(row.value)}};
         if (!row.step->comment.empty()) o["comment"] = row.step->comment;
         steps.push_back(std::move(o));
     }

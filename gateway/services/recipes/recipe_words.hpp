@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -39,8 +38,5 @@ inline constexpr std::array recipe_comparisons{std::pair{RecipeCondition::Op::is
                                                std::pair{RecipeCondition::Op::at_most, std::string_view("at_most")},
                                                std::pair{RecipeCondition::Op::above, std::string_view("above")},
                                                std::pair{RecipeCondition::Op::below, std::string_view("below")}};
-
-/// A value as people write it: texts without quotes, numbers as plain decimals (JSON's own writer has 2.5 as 2.5E0), null as null.
-[[nodiscard]] std::string plain_text(const boost::json::value& value);
 
 }  // namespace axisgate

@@ -31,51 +31,51 @@ void say_mappings(const json::array& list, const Site& before, const Families& f
 
 const SiteTable mapping_table{"mappings", "id", mappings_from_csv, say_mappings};
 
-std::string_view mapping_id_of(const json::value& mapping) {
-    const auto* id = mapping.get_object().if_contains("id");
-    return id && id->is_string() ? std::string_view(id->get_string()) : std::string_view();
-}
-std::optional<std::size_t> mapping_place(const json::array& mappings, std::string_view id) {
-    const auto it = std::ranges::find(mappings, id, mapping_id_of);
-    return it == mappings.end() ? std::nullopt : std::optional(static_cast<std::size_t>(it - mappings.begin()));
+const Mapping* mapping_named(const Site& site, std::string_view id) {
+    const auto it = std::ranges::find(site.map(), id, &Mapping::id);
+    return it == site.map().end() ? nullptr : &*it;
 }
 
 Refusable<EditedMapping> with_mapping(const Site& before, const Families& families, const json::object& entry) {
-    json::array list = before.mappings;
+    json::array list = to_json(before.map());
     const std::size_t place = list.size();
     list.push_back(entry);
     auto site = with_mapping_list(before, families, std::move(list), place);
     if (auto* refusal = std::get_if<ServiceRefusal>(&site)) return std::move(*refusal);
     EditedMapping edited{std::get<Site>(std::move(site)), {}};
-    if (place < edited.site.mappings.size()) edited.id = mapping_id_of(edited.site.mappings[place]);
+    if (place < edited.site.map().size()) edited.id = edited.site.map()[place].id;
     return edited;
 }
 
 Refusable<EditedMapping> with_mapping_replaced(const Site& before, const Families& families, const std::string& id,
                                                const json::object& entry) {
-    json::array list = before.mappings;
-    const auto place = mapping_place(list, id);
-    if (!place) return no_such("mapping", id);
-    list[*place] = entry;
-    auto& o = list[*place].get_object();
+    const Mapping* replaced = mapping_named(before, id);
+    if (!replaced) return no_such("mapping", id);
+    const auto place = static_cast<std::size_t>(replaced - before.map().data());
+    json::array list = to_json(before.map());
+    list[place] = entry;
+    auto& o = list[place].get_object();
     if (!o.contains("id")) o["id"] = id;
-    std::string now(mapping_id_of(list[*place]));
     auto site = with_mapping_list(before, families, std::move(list), place);
     if (auto* refusal = std::get_if<ServiceRefusal>(&site)) return std::move(*refusal);
-    return EditedMapping{std::get<Site>(std::move(site)), std::move(now)};
+    EditedMapping edited{std::get<Site>(std::move(site)), {}};
+    edited.id = edited.site.map()[place].id;
+    return edited;
 }
 
 Refusable<RemovedMappings> without_mappings(const Site& before, const Families& families, const MappingChoice& choice) {
     for (const auto& id : choice.ids.value_or(std::vector<std::string>{})) {
-        if (!mapping_place(before.mappings, id)) return no_such("mapping", id);
+        if (!mapping_named(before, id)) return no_such("mapping", id);
     }
     json::array kept, removed;
-    for (const auto& m : before.mappings) {
-        const auto& o = m.get_object();
-        const bool meant = (choice.unit == 0 || o.at("unit") == choice.unit) &&
-                           (!choice.axis || o.at("axis").get_string() == *choice.axis) &&
-                           (!choice.ids || std::ranges::find(*choice.ids, mapping_id_of(m)) != choice.ids->end());
-        (meant ? removed : kept).push_back(meant ? o.at("id") : m);
+    for (const Mapping& m : before.map()) {
+        const bool meant = (choice.unit == 0 || m.unit == choice.unit) && (!choice.axis || m.axis == *choice.axis) &&
+                           (!choice.ids || std::ranges::find(*choice.ids, m.id) != choice.ids->end());
+        if (meant) {
+            removed.emplace_back(m.id);
+        } else {
+            kept.push_back(to_json(m));
+        }
     }
     auto site = with_mapping_list(before, families, std::move(kept), std::nullopt);
     if (auto* refusal = std::get_if<ServiceRefusal>(&site)) return std::move(*refusal);
@@ -85,8 +85,7 @@ Refusable<RemovedMappings> without_mappings(const Site& before, const Families& 
 json::object unit_document(const Site& site, std::uint8_t unit, MapGaps of_host) {
     const auto it = site.gaps.find(unit);
     const bool own = it != site.gaps.end();
-    const auto used =
-        std::ranges::count_if(site.mappings, [&](const json::value& m) { return m.get_object().at("unit") == std::int64_t{unit}; });
+    const auto used = std::ranges::count(site.map(), unit, &Mapping::unit);
     return {{"unit", std::int64_t{unit}},
             {"gaps", own ? json::value(name_of(it->second)) : json::value()},
             {"shown", name_of(own ? it->second : of_host)},
@@ -163,13 +162,13 @@ json::array template_entries(const TemplateWish& wish, std::int64_t address, Map
 }
 
 Refusable<AddedMappings> with_mappings(const Site& before, const Families& families, const json::array& entries) {
-    json::array list = before.mappings;
-    const auto had = static_cast<std::ptrdiff_t>(list.size());
+    json::array list = to_json(before.map());
+    const std::size_t had = list.size();
     list.insert(list.end(), entries.begin(), entries.end());
     auto site = with_mapping_list(before, families, std::move(list), std::nullopt);
     if (auto* refusal = std::get_if<ServiceRefusal>(&site)) return std::move(*refusal);
     AddedMappings added{std::get<Site>(std::move(site)), {}};
-    added.added = json::array(added.site.mappings.begin() + had, added.site.mappings.end());
+    added.added = to_json(std::span(added.site.map()).subspan(had));
     return added;
 }
 

@@ -18,8 +18,8 @@
 namespace axisgate {
 
 // --- mappings ---
-[[nodiscard]] std::string_view mapping_id_of(const boost::json::value& mapping);
-[[nodiscard]] std::optional<std::size_t> mapping_place(const boost::json::array& mappings, std::string_view id);
+/// Null: there is none of that id.
+[[nodiscard]] const Mapping* mapping_named(const Site& site, std::string_view id);
 
 struct EditedMapping {
     Site site;

@@ -255,7 +255,7 @@ TEST_F(DdsDoorTest, AStopToOnesOwnNameIsCarriedOutHereAndSentToTheOther) {
     FleetOrder o;
     o.gateway = "hall";
     o.axis = "feeder";
-    o.body = {{"command", "halt"}};
+    o.wish = CommandWish::named("halt");
     o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
     door->command(o, [&came](const Result& r) { came.push_back(r); });
     ASSERT_EQ(gateway.submitted.size(), 1u) << "at once";
@@ -291,12 +291,18 @@ TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
     put_text(s.source, "streamer");
     put_text(s.mode, "velocity");
     s.value = 2;
+    double acceleration = 10;
+    s.acceleration = &acceleration;
+    s.good_for_ms = 300;
     ASSERT_TRUE(until([&] {
         (void)peer.write(s);
         return !gateway.set_points.empty();
     }));
     EXPECT_EQ(gateway.set_points[0].value, 6400);
     EXPECT_EQ(gateway.set_points[0].mode, SetPoint::Mode::velocity);
+    EXPECT_EQ(gateway.set_points[0].acceleration, 32000);
+    EXPECT_FALSE(gateway.set_points[0].deceleration);
+    EXPECT_EQ(gateway.set_points[0].good_for, std::chrono::milliseconds(300));
     EXPECT_EQ(gateway.set_points[0].origin.door, Door::dds);
     EXPECT_TRUE(gateway.lost.empty());
     peer.close();
@@ -383,11 +389,11 @@ protected:
         }
         return 0;
     }
-    static FleetOrder order(const char* gateway_name, boost::json::object body) {
+    static FleetOrder order(const char* gateway_name, CommandWish wish) {
         FleetOrder o;
         o.gateway = gateway_name;
         o.axis = "feeder";
-        o.body = std::move(body);
+        o.wish = std::move(wish);
         o.until_done = true;
         o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
         return o;
@@ -481,7 +487,10 @@ TEST_F(DdsDoorTest, AChangeIsToldAtOnceAndNotInTheNextTurnOnly) {
 }
 
 TEST_F(DdsFleetTest, ACommandToAnotherGatewayIsCarriedOutOnceHoweverOftenItIsSent) {
-    give(order("yard", {{"command", "move_absolute"}, {"position", 2}, {"velocity", 1.5}}));
+    auto move = CommandWish::named("move_absolute");
+    move.position = 2.0;
+    move.velocity = 1.5;
+    give(order("yard", std::move(move)));
     ASSERT_TRUE(until([this] { return yard->counters().repeated >= 2; })) << "sent again while nothing is answered";
     ASSERT_EQ(yard_gateway.submitted.size(), 1u);
     EXPECT_TRUE(gateway.submitted.empty());
@@ -505,7 +514,7 @@ TEST_F(DdsFleetTest, ACommandToAnotherGatewayIsCarriedOutOnceHoweverOftenItIsSen
 }
 
 TEST_F(DdsFleetTest, ACommandToThisGatewayStaysHere) {
-    give(order("hall", {{"command", "enable"}}));
+    give(order("hall", CommandWish::named("enable")));
     ASSERT_EQ(gateway.submitted.size(), 1u);
     EXPECT_EQ(gateway.submitted[0].origin.door, Door::http);
 }
@@ -513,9 +522,9 @@ TEST_F(DdsFleetTest, ACommandToThisGatewayStaysHere) {
 TEST_F(DdsFleetTest, WhatCannotBeSentIsRefusedBeforeIt) {
     const Instant settled = now + Fleet::heard_within;
     ASSERT_TRUE(until([&] { return now > settled; }));
-    give(order("nowhere", {{"command", "enable"}}));
-    give(order("yard", {{"command", "move_absolute"}}));
-    auto other = order("yard", {{"command", "enable"}});
+    give(order("nowhere", CommandWish::named("enable")));
+    give(order("yard", CommandWish::named("move_absolute")));
+    auto other = order("yard", CommandWish::named("enable"));
     other.axis = "crane";
     give(other);
     ASSERT_EQ(came.size(), 3u);
@@ -525,7 +534,7 @@ TEST_F(DdsFleetTest, WhatCannotBeSentIsRefusedBeforeIt) {
 }
 
 TEST_F(DdsFleetTest, AGatewayThatIsGoneEndsItsCommandsWithoutAWordOfSuccess) {
-    give(order("yard", {{"command", "enable"}}));
+    give(order("yard", CommandWish::named("enable")));
     ASSERT_TRUE(until([this] { return yard_gateway.submitted.size() == 1; }));
     yard->stop([] {});
     ASSERT_TRUE(until([this] { return !came.empty(); }));
@@ -533,7 +542,7 @@ TEST_F(DdsFleetTest, AGatewayThatIsGoneEndsItsCommandsWithoutAWordOfSuccess) {
     EXPECT_EQ(came[0].reason, Reason::no_answer);
     EXPECT_EQ(axes_of("yard"), 0u);
     EXPECT_EQ(gateway.noted.back().severity, Severity::warning);
-    give(order("yard", {{"command", "enable"}}));
+    give(order("yard", CommandWish::named("enable")));
     EXPECT_EQ(came.back().reason, Reason::line_down);
 }
 }  // namespace

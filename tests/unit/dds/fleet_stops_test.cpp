@@ -48,7 +48,7 @@ struct FleetStops : ::testing::Test {
         FleetOrder o;
         o.gateway = gateway_name;
         o.axis = axis_name;
-        o.body = {{"command", command}};
+        o.wish = CommandWish::named(command);
         o.wait = wait;
         o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
         fleet.command(
@@ -248,7 +248,7 @@ TEST_F(FleetStops, TheFirstMomentsOfThisGatewaySayThatNothingHasBeenHeardYet) {
     FleetOrder o;
     o.gateway = "hall-4";
     o.axis = "feeder";
-    o.body = {{"command", "enable"}};
+    o.wish = CommandWish::named("enable");
     o.wait = 10s;
     std::vector<Result> results;
     young.command(
@@ -257,6 +257,46 @@ TEST_F(FleetStops, TheFirstMomentsOfThisGatewaySayThatNothingHasBeenHeardYet) {
     (void)young.on_turn(now + std::chrono::milliseconds(lease_ms));
     ASSERT_EQ(results.size(), 1u);
     EXPECT_EQ(results[0].reason, Reason::unknown_point) << "who is there would have been heard by now";
+}
+
+TEST_F(FleetStops, AWishGoesOutWithAllItsMembersInTheUnitOfTheAxis) {
+    FleetOrder o;
+    o.gateway = "hall-2";
+    o.axis = "feeder";
+    o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+    o.wish = CommandWish::named("move_velocity");
+    o.wish.velocity = -2.5;
+    o.wish.acceleration = 10.0;
+    o.wish.hold_ms = 700.0;
+    o.wish.renew = WishedFlag::yes;
+    fleet.command(
+        o, [this](const Result& r) { came.push_back(r); }, now);
+    ASSERT_EQ(sent.size(), 1u);
+    EXPECT_STREQ(sent[0].command, "move_velocity");
+    ASSERT_TRUE(sent[0].velocity && sent[0].acceleration && sent[0].hold_ms);
+    EXPECT_EQ(*sent[0].velocity, -2.5);
+    EXPECT_EQ(*sent[0].acceleration, 10.0);
+    EXPECT_EQ(*sent[0].hold_ms, 700);
+    EXPECT_FALSE(sent[0].position || sent[0].deceleration || sent[0].method);
+    EXPECT_TRUE(sent[0].renew);
+    EXPECT_FALSE(sent[0].prepare);
+    // All that is wrong is said before anything is sent, in the unit of that axis.
+    o.wish.hold_ms = NoNumber{"\"700\""};
+    o.wish.velocity = NoNumber{"\"fast\""};
+    fleet.command(
+        o, [this](const Result& r) { came.push_back(r); }, now);
+    EXPECT_EQ(sent.size(), 1u);
+    ASSERT_EQ(came.size(), 1u);
+    EXPECT_EQ(came[0].reason, Reason::out_of_range);
+    EXPECT_EQ(came[0].text, "velocity must be a number, not \"fast\"; write it in mm/s");
+    // A stop takes no members, and goes all the same.
+    o.wish.word = CommandWord::halt;
+    o.wish.name = "halt";
+    fleet.command(
+        o, [this](const Result& r) { came.push_back(r); }, now);
+    ASSERT_EQ(sent.size(), 2u);
+    EXPECT_STREQ(sent[1].command, "halt");
+    EXPECT_FALSE(sent[1].velocity || sent[1].acceleration || sent[1].hold_ms || sent[1].renew);
 }
 
 TEST_F(FleetStops, InventedGatewaysDoNotHideOneThatLives) {

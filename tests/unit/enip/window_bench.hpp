@@ -101,7 +101,7 @@ struct WindowBench : HotDoor {
     }
     /// What the server does with a site.
     void put_site() {
-        state.site.parsed_mappings = std::make_shared<const std::vector<Mapping>>(maps);
+        state.site.mappings = std::make_shared<const std::vector<Mapping>>(maps);
         image.on_site(state);
         std::vector<LayoutAxis> axes{{1, one, "feeder", &*catalogue}, {2, two, "slide", &*catalogue}};
         values.use(Layout(std::move(axes), ++revision, {}, windows_of(state), objects_of(state, values.languages())));

@@ -54,6 +54,7 @@ TEST_F(FleetOverHttp, ACommandGoesToItsGatewayAndComesBackWithItsOneResult) {
     EXPECT_EQ(gateway.orders[0].gateway, "hall-2");
     EXPECT_EQ(gateway.orders[0].axis, "lift");
     EXPECT_TRUE(gateway.orders[0].until_done);
+    EXPECT_EQ(gateway.orders[0].wish.word, CommandWord::enable);
     EXPECT_EQ(gateway.orders[0].origin.door, Door::http);
     gateway.fleet_result.outcome = Outcome::refused;
     gateway.fleet_result.reason = Reason::wrong_state;

@@ -60,11 +60,11 @@ TEST_F(HttpTest, MappingsAsCsv) {
     EXPECT_EQ(call("PUT", "/api/v1/mappings.csv?dry_run=1", two, {{"Content-Type", "text/csv"}, {"If-Match", "\"1\""}}).status, 200u);
     EXPECT_TRUE(gateway.applied.empty());
     EXPECT_EQ(call("PUT", "/api/v1/mappings.csv", two, type).status, 200u);
-    EXPECT_EQ(gateway.site()->site.mappings.size(), 2u);
+    EXPECT_EQ(gateway.site()->site.map().size(), 2u);
     const auto more =
         call("POST", "/api/v1/mappings.csv", "id,unit,address,axis,point\nm1,2,100,feeder,position\n,2,4,slide,flags\n", type);
     EXPECT_EQ(more.status, 200u) << more.text;
-    ASSERT_EQ(gateway.site()->site.mappings.size(), 3u) << "m1 was replaced, one was added";
+    ASSERT_EQ(gateway.site()->site.map().size(), 3u) << "m1 was replaced, one was added";
     EXPECT_EQ(call("GET", "/api/v1/mappings/m1").at("address"), "100");
     const auto faulty = call("POST", "/api/v1/mappings.csv",
                              "unit,address,axis,point\n2,200,feeder,position\n2,200,nobody,position\n2,4,slide,flags\n", type);
@@ -81,7 +81,7 @@ TEST_F(HttpTest, MappingsAsCsv) {
     for (const auto& f : mixed.object().at("faults").get_array())
         lines.insert(std::string(f.at("pointer").as_string()));
     EXPECT_EQ(lines, (std::set<std::string>{"/2", "/3", "/4"})) << mixed.text;
-    EXPECT_EQ(gateway.site()->site.mappings.size(), 3u) << "all or nothing";
+    EXPECT_EQ(gateway.site()->site.map().size(), 3u) << "all or nothing";
     EXPECT_EQ(call("POST", "/api/v1/mappings.csv", "{}").status, 415u);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gateway/doors/http/stream_hub.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

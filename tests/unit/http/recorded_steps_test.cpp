@@ -2,7 +2,7 @@
 // them. In: records as the recorder keeps them. Out: the answer of GET /recorder/steps, which read_recipe takes. Never a drive.
 #include <gtest/gtest.h>
 
-#include "gateway/services/recipes/recipe.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

@@ -4,6 +4,7 @@
 
 #include <boost/json/parse.hpp>
 
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/services.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 

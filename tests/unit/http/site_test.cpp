@@ -107,7 +107,7 @@ TEST_F(HttpTest, Removing) {
     EXPECT_EQ(a.headers.get("Site-Revision"), "2");
     EXPECT_EQ(call("DELETE", "/api/v1/axes/feeder").status, 404u);
     EXPECT_EQ(call("DELETE", "/api/v1/axes/slide?cascade=1").status, 204u);
-    EXPECT_TRUE(gateway.site()->site.mappings.empty());
+    EXPECT_TRUE(gateway.site()->site.map().empty());
     EXPECT_EQ(call("DELETE", "/api/v1/lines/can0?cascade=x").status, 400u);
 }
 
@@ -118,7 +118,7 @@ TEST_F(HttpTest, RemovingWithAllThatHangsOnIt) {
     EXPECT_EQ(site.drives.size(), 1u);
     EXPECT_EQ(site.drives[0].name, "bare");
     EXPECT_TRUE(site.axes.empty());
-    EXPECT_TRUE(site.mappings.empty());
+    EXPECT_TRUE(site.map().empty());
 }
 
 TEST_F(HttpTest, RevisionsAndIfMatch) {

@@ -14,6 +14,7 @@
 #include "gateway/registers/user_map.hpp"
 #include "gateway/runtime/axis_metrics.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/services/recipes/recipe_point.hpp"
 #include "gateway/services/recorder/channels.hpp"
 #include "tests/unit/axis/points_bench.hpp"
 
@@ -219,6 +220,34 @@ TEST(PointsAtDoors, RegistersOfTheStandardMapHoldThePointsThatTheyAreNamedBy) {
     }
 }
 
+/// A condition reads one value; what it sees is what the document shows under that name.
+TEST(PointsAtDoors, ARecipeSeesOfEachPointWhatTheDocumentShows) {
+    const AxisSpec spec = feeder();
+    AxisPicture p = running();
+    p.ever_seen = true;
+    p.flags = static_cast<std::uint16_t>((p.flags | flag_online) & ~flag_stale);
+    const auto document = axis_document({spec, "can0", "uim342", nullptr, p, 1'000'000'000, 1'700'000'000});
+    std::size_t looked_at = 0;
+    for (const auto& row : axis_point_table) {
+        const Value seen = recipe_point(row, p, spec, 700);
+        if (row.recipe == PointInRecipe::no) {
+            EXPECT_EQ(seen, Value{}) << row.name;
+        } else if (row.document != PointInDocument::no) {
+            EXPECT_EQ(to_json(seen), document.at(row.name)) << row.name;
+            ++looked_at;
+        }
+    }
+    EXPECT_GT(looked_at, 30u);
+    EXPECT_EQ(recipe_point(*point_named("error_code"), p, spec, 0), Value{std::int64_t{7}});
+    EXPECT_EQ(recipe_point(*point_named("number"), AxisPicture{}, spec, 0), Value{std::int64_t{spec.number}}) << "as the site has it";
+    EXPECT_EQ(recipe_point(*point_named("online"), AxisPicture{}, spec, 0), Value{false});
+    for (const auto flags : {flag_stale | flag_online, 0}) {
+        p.flags = static_cast<std::uint16_t>(flags);
+        EXPECT_EQ(recipe_point(*point_named("position"), p, spec, 0), Value{}) << flags;
+        EXPECT_TRUE(known(recipe_point(*point_named("presence"), p, spec, 0))) << flags;
+    }
+}
+
 TEST(PointsAtDoors, TheSchemaOfRecipesNamesThePointsOfRecipes) {
     const auto schema = json::parse(file_text("schema/recipe.schema.json"));
     const auto points = recipe_points();
@@ -267,10 +296,11 @@ TEST(PointsAtDoors, OneMoreRowIsFoundAtEveryDoor) {
     EXPECT_FALSE(same_values<more_points>(running(), p));
 
     // recipes
-    EXPECT_EQ(recipe_point(view, "temperature"), json::value(nullptr)) << "no point of the program's own table";
-    EXPECT_EQ(recipe_point(view, "temperature", rows), json::value(41));
+    ASSERT_EQ(point_named("temperature"), nullptr) << "no point of the program's own table";
+    const AxisPointRow& looked_at = *point_named("temperature", rows);
+    EXPECT_EQ(recipe_point(looked_at, p, spec, 0), Value{std::int64_t{41}});
     p.flags |= flag_stale;
-    EXPECT_EQ(recipe_point(view, "temperature", rows), json::value(nullptr)) << "too old for a recipe";
+    EXPECT_EQ(recipe_point(looked_at, p, spec, 0), Value{}) << "too old for a recipe";
 
     // user maps
     const auto* row = row_of(temperature_point, rows);

@@ -8,6 +8,8 @@
 #include <map>
 #include <memory>
 
+#include "gateway/axis/points.hpp"
+#include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/recipes/recipe_run.hpp"
 
 namespace axisgate::recipe_test {
@@ -17,10 +19,12 @@ using std::chrono::milliseconds;
 inline json::object object(std::string_view text) { return json::parse(text).get_object(); }
 
 struct World final : RecipeWorld {
-    std::map<std::string, json::value, std::less<>> points;
-    [[nodiscard]] json::value point(std::string_view axis, std::string_view p) const override {
-        const auto it = points.find(std::string(axis) + "." + std::string(p));
-        return it == points.end() ? json::value(nullptr) : it->second;
+    std::map<std::string, Value, std::less<>> points;
+    mutable std::vector<const AxisPointRow*> looked_at;
+    [[nodiscard]] Value point(std::string_view axis, const AxisPointRow& row) const override {
+        looked_at.push_back(&row);
+        const auto it = points.find(std::string(axis) + "." + std::string(row.name));
+        return it == points.end() ? Value{} : it->second;
     }
     std::map<std::string, Claim, std::less<>> claims;
     [[nodiscard]] Claim claim(std::string_view axis) const override {
@@ -53,7 +57,7 @@ protected:
         now += d;
         turn();
     }
-    void answer(bool good = true, std::string text = {}, json::value value = nullptr, Published motion = Published::by_result) {
+    void answer(bool good = true, std::string text = {}, Value value = {}, Published motion = Published::by_result) {
         ASSERT_EQ(requests.size(), 1u);
         run->answer(requests[0].number, {good, std::move(text), std::move(value), motion});
         EXPECT_LE(run->deadline(), now);

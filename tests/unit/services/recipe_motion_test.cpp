@@ -33,7 +33,7 @@ TEST_F(Runs, ARefusedCommandLeavesAnEarlierMotionTheRunsOwn) {
 
 TEST_F(Runs, WhatMayHaveBegunIsStopped) {
     start(move_a);
-    answer(false, "no answer", nullptr, Published::unknown);
+    answer(false, "no answer", {}, Published::unknown);
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].what, RecipeRequest::What::stop);
     start(move_a);
@@ -53,7 +53,7 @@ TEST_F(Runs, AVelocityMoveThatIsAtItsSpeedGoesOn) {
 
 TEST_F(Runs, AnInterruptedMotionIsNotTakenForTheOneThatInterrupted) {
     start(move_a);
-    answer(false, "ended by move_absolute (interrupted)", nullptr, Published::interrupted);
+    answer(false, "ended by move_absolute (interrupted)", {}, Published::interrupted);
     EXPECT_EQ(run->state(), RecipeRun::State::stopping);
     EXPECT_TRUE(requests.empty()) << "the drive has not taken the other command yet";
     EXPECT_EQ(run->deadline(), now + RecipeRun::look_period);
@@ -69,7 +69,7 @@ TEST_F(Runs, AnInterruptedMotionIsNotTakenForTheOneThatInterrupted) {
 
 TEST_F(Runs, AnInterruptedMotionThatNobodyTakesOverIsStopped) {
     start(move_a);
-    answer(false, "ended by move_absolute (interrupted)", nullptr, Published::interrupted);
+    answer(false, "ended by move_absolute (interrupted)", {}, Published::interrupted);
     pass(RecipeRun::doubt_limit - milliseconds(1));
     EXPECT_TRUE(requests.empty());
     pass(milliseconds(1));
@@ -82,7 +82,7 @@ TEST_F(Runs, AnInterruptedMotionThatNobodyTakesOverIsStopped) {
 TEST_F(Runs, AnInterruptedMotionThatStandsIsOver) {
     world.claims["a"] = {Whose::resting, ""};
     start(move_a);
-    answer(false, "fault (interrupted)", nullptr, Published::interrupted);
+    answer(false, "fault (interrupted)", {}, Published::interrupted);
     EXPECT_EQ(run->state(), RecipeRun::State::failed);
     EXPECT_TRUE(requests.empty());
     EXPECT_TRUE(run->stops().empty());
@@ -138,7 +138,7 @@ TEST_F(Runs, APreparedMotionIsNoneUntilAnActionMayHaveStartedIt) {
 
 TEST_F(Runs, ACommandThatHasBegunNothingStopsNothing) {
     start(R"({"steps":[{"action":{"axis":"a","name":"program.list"}},{"wait_s":100}]})");
-    run->answer(requests[0].number, {true, "", nullptr, Published::nothing});
+    run->answer(requests[0].number, {true, "", {}, Published::nothing});
     EXPECT_TRUE(run->cancel("enough"));
     turn();
     EXPECT_TRUE(requests.empty());

@@ -1,4 +1,6 @@
 // Recipes without a gateway: the document's faults, arguments, and the run as a state machine in virtual time.
+#include <limits>
+
 #include "tests/unit/services/recipe_bench.hpp"
 
 namespace axisgate {
@@ -63,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"on_failure", R"({"on_failure":"pray","steps":[{"wait_s":1}]})", "/on_failure"},
         BadCase{"timeout", R"({"timeout_s":0,"steps":[{"wait_s":1}]})", "/timeout_s"},
         BadCase{"long_text", R"({"steps":[{"message":")" + std::string(4097, 'x') + R"("}]})", "/steps/0/message"},
-        BadCase{"register", R"({"steps":[{"write_register":{"unit":1,"address":65536,"value":1}}]})", "/steps/0/write_register/address"}),
+        BadCase{"register", R"({"steps":[{"write_register":{"unit":1,"address":65536,"value":1}}]})", "/steps/0/write_register/address"},
+        BadCase{"half_a_unit", R"({"steps":[{"write_register":{"unit":1.5,"address":32,"value":1}}]})", "/steps/0/write_register/unit"}),
     [](const auto& p) { return p.param.name; });
 
 TEST(Recipe, BoundsThemselvesAreAllowed) {
@@ -86,7 +89,7 @@ TEST(Recipe, ArgumentsStandInWithTheirOwnType) {
     const auto r = read_recipe(document, &args, faults);
     ASSERT_TRUE(r) << faults.front().text;
     EXPECT_EQ(r->steps[0].axis, "feeder");
-    EXPECT_EQ(r->steps[0].body.at("position"), json::value(2.5));
+    EXPECT_EQ(std::get<double>(std::get<CommandWish>(r->steps[0].wish).position), 2.5);
     EXPECT_EQ(r->steps[1].text, "feeder by 2.5!") << "as people write it";
     EXPECT_EQ(r->steps[2].limit, milliseconds(2500));
     const auto whole = whole_arguments(document, object(R"({"a":"x"})"));
@@ -100,18 +103,52 @@ TEST(Recipe, ArgumentsStandInWithTheirOwnType) {
     }
 }
 
+TEST(Recipe, AStepIsTypedOnceAndKeepsNoDocument) {
+    std::vector<SiteFault> faults;
+    const auto r = read_recipe(object(R"({"steps":[
+        {"set_parameter":{"axis":"a","parameter":"AC","value":2.5}},{"read_parameter":{"axis":"a","parameter":"QE"}},
+        {"home":{"axis":"a","method":17,"wait_s":3}},{"command":{"axis":"a","command":"halt"}},
+        {"action":{"axis":"a","name":"program.start","argument":"M1"}},{"simulate":{"axis":"a","input":"stall","value":true}},
+        {"write_register":{"unit":2.0,"address":10,"type":"u32","value":7}},{"write_register":{"unit":2,"address":10,"type":5,"value":[1]}},
+        {"wait_for":{"axis":"a","point":"position","at_least":18446744073709551615}},{"check":{"axis":"a","parameter":"QE","is":"x"}},
+        {"enable":{"axis":"a"}}]})"),
+                               nullptr, faults);
+    ASSERT_TRUE(r) << faults.front().pointer << " " << faults.front().text;
+    const auto& s = r->steps;
+    EXPECT_EQ(std::get<ParameterWish>(s[0].wish).parameter, "AC");
+    EXPECT_EQ(std::get<ParameterWish>(s[0].wish).value, Value{2.5});
+    EXPECT_EQ(std::get<ParameterWish>(s[1].wish).parameter, "QE");
+    EXPECT_EQ(word_of(s[2]), CommandWord::home);
+    EXPECT_EQ(std::get<double>(std::get<CommandWish>(s[2].wish).method), 17);
+    EXPECT_TRUE(std::get<CommandWish>(s[2].wish).unknown.empty()) << "the recipe's own members are none of the command's";
+    EXPECT_EQ(word_of(s[3]), CommandWord::halt);
+    EXPECT_EQ(std::get<ActionWish>(s[4].wish).argument, "M1");
+    EXPECT_EQ(std::get<SimulateWish>(s[5].wish).value, Value{true});
+    const auto& reg = std::get<RegisterWish>(s[6].wish);
+    EXPECT_EQ(reg.unit, 2);
+    EXPECT_EQ(reg.address, 10);
+    EXPECT_EQ(reg.type, "u32");
+    EXPECT_EQ(reg.value, Value{std::int64_t{7}});
+    EXPECT_EQ(std::get<RegisterWish>(s[7].wish).type, "") << "no type's name";
+    EXPECT_EQ(std::get<RegisterWish>(s[7].wish).value, Value{});
+    EXPECT_EQ(s[8].condition->row, point_named("position"));
+    EXPECT_EQ(s[8].condition->value, Value{18446744073709551615.0});
+    EXPECT_TRUE(s[9].condition->reads_drive());
+    EXPECT_EQ(word_of(s[10]), CommandWord::missing);
+}
+
 TEST(Recipe, ConditionsCompareWhatCanBeCompared) {
     RecipeCondition c;
-    c.value = 10;
+    c.value = std::int64_t{10};
     c.tolerance = 0.5;
     EXPECT_EQ(holds(c, 10.4), true);
     EXPECT_EQ(holds(c, 10.6), false);
-    EXPECT_EQ(holds(c, nullptr), std::nullopt);
+    EXPECT_EQ(holds(c, Value{}), std::nullopt);
     EXPECT_EQ(holds(c, "10"), std::nullopt);
     c.op = RecipeCondition::Op::above;
-    EXPECT_EQ(holds(c, 10), false);
+    EXPECT_EQ(holds(c, std::int64_t{10}), false);
     c.op = RecipeCondition::Op::at_least;
-    EXPECT_EQ(holds(c, 10), true);
+    EXPECT_EQ(holds(c, std::int64_t{10}), true);
     c.op = RecipeCondition::Op::is_not;
     c.value = "fault";
     EXPECT_EQ(holds(c, "ready"), true);
@@ -149,7 +186,7 @@ TEST_F(Runs, ACommandThatIsNotDoneInTimeFailsAndItsAxisIsStopped) {
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].what, RecipeRequest::What::stop);
     EXPECT_EQ(requests[0].axis, "a");
-    run->answer(late, {true, "", nullptr});  // nobody waits for it any more
+    run->answer(late, {true, ""});  // nobody waits for it any more
     answer(true, "stands");
     EXPECT_EQ(run->state(), RecipeRun::State::failed);
     ASSERT_TRUE(run->where());
@@ -254,10 +291,32 @@ TEST_F(Runs, WaitsForAPoint) {
     world.points["a.position"] = 4.9;
     pass(RecipeRun::look_period);
     EXPECT_EQ(run->state(), RecipeRun::State::running);
-    world.points["a.position"] = 5;
+    world.points["a.position"] = 5.0;
     pass(RecipeRun::look_period);
     EXPECT_EQ(run->state(), RecipeRun::State::done);
-    EXPECT_EQ(run->rows()[0].value, json::value(5));
+    EXPECT_EQ(run->rows()[0].value, Value{std::int64_t{5}}) << "a whole number, as the report shows it";
+}
+
+TEST_F(Runs, AWaitLooksAtItsOneValueAndShowsItAsTheReportDoes) {
+    start(R"({"steps":[{"wait_for":{"axis":"a","point":"position","at_least":5,"timeout_s":1}}]})");
+    const auto looks = world.looked_at.size();
+    const auto before = run->revision();
+    world.points["a.position"] = -0.0;
+    pass(RecipeRun::look_period);
+    world.points["a.position"] = std::int64_t{0};
+    pass(RecipeRun::look_period);
+    EXPECT_EQ(run->revision(), before + 1) << "it is the same 0";
+    world.points["a.position"] = std::numeric_limits<double>::quiet_NaN();
+    pass(RecipeRun::look_period);
+    EXPECT_EQ(run->rows()[0].value, Value{}) << "not known";
+    const auto unknown = run->revision();
+    pass(RecipeRun::look_period);
+    EXPECT_EQ(run->revision(), unknown) << "and nothing new";
+    ASSERT_EQ(world.looked_at.size(), looks + 4);
+    for (const auto* row : world.looked_at)
+        EXPECT_EQ(row, point_named("position"));
+    pass(seconds(1));
+    EXPECT_EQ(run->text(), "a position at_least 5 did not come true within 1 s: it is not known");
 }
 
 TEST_F(Runs, AWaitThatDoesNotComeTrueSaysWhatItIs) {
@@ -273,12 +332,12 @@ TEST_F(Runs, AWaitThatDoesNotComeTrueSaysWhatItIs) {
 TEST_F(Runs, AParameterIsReadForItsCondition) {
     start(R"({"steps":[{"wait_for":{"axis":"a","parameter":"QE","is":7,"timeout_s":1}}]})");
     EXPECT_EQ(requests[0].what, RecipeRequest::What::read_parameter);
-    answer(true, "", 6);
+    answer(true, "", std::int64_t{6});
     EXPECT_EQ(run->deadline(), now + RecipeRun::read_period);
     pass(RecipeRun::read_period);
     answer(false, "no answer");
     pass(RecipeRun::read_period);
-    answer(true, "", 7);
+    answer(true, "", 7.0);
     EXPECT_EQ(run->state(), RecipeRun::State::done);
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "gateway/core/catalogue.hpp"
+#include "gateway/core/text.hpp"
 
 namespace axisgate {
 namespace {
@@ -84,6 +85,33 @@ TEST(Mapping, AreParsedOnceWithTheirSiteAndSharedByItsCopies) {
     ASSERT_EQ(site->map().size(), 1u);
     const Site copy = *site;  // as the site in force, a stage, and every door's look at it
     EXPECT_EQ(&copy.map(), &site->map());
+}
+
+TEST(Mapping, ASiteHoldsThemOnceAndItsDocumentIsMadeOfThem) {
+    Plant p;
+    json::object document = to_json(p.site);
+    document["mappings"] = json::parse(R"([{"unit": 2, "address": 0, "axis": "x", "point": "position", "scale": 2.5},
+        {"id": "later", "unit": 2, "address": 9, "point": "x:ML", "length": 4, "on_overflow": "mark", "comment": "read by hand"}])");
+    const auto site = parse_site(document, p.families, p.faults);
+    ASSERT_TRUE(site) << p.faults.front().text;
+    const auto shown = to_json(*site);
+    EXPECT_EQ(json_text(shown.at("mappings")),
+              R"([{"id":"m1","unit":2,"table":"holding_registers","address":0,"axis":"x","point":"position","type":"i32",)"
+              R"("word_order":"high_first","scale":2.5,"offset":0,"access":"R"},)"
+              R"({"id":"later","unit":2,"table":"holding_registers","address":9,"axis":"x","point":"ML","type":"string",)"
+              R"("word_order":"high_first","scale":1,"offset":0,"access":"R","length":4,"comment":"read by hand"}])");
+    EXPECT_EQ(json_text(to_json(*parse_site(shown, p.families, p.faults))), json_text(shown)) << "what is stored opens as it was";
+    Site changed = *site;
+    auto list = site->map();
+    list[0].scale = 3;
+    list.pop_back();
+    changed.mappings = std::make_shared<const std::vector<Mapping>>(std::move(list));
+    EXPECT_EQ(to_json(changed).at("mappings").get_array().size(), 1u);
+    EXPECT_NE(mapping_revision(changed), mapping_revision(*site));
+    EXPECT_EQ(differences(*site, changed),
+              (std::vector<std::string>{"mapping later (unit 2 holding_registers 9, x.ML): removed",
+                                        "mapping m1 (unit 2 holding_registers 0, x.position): scale 2.5 -> 3"}));
+    EXPECT_TRUE(differences(*site, *parse_site(shown, p.families, p.faults)).empty()) << "the same entries of another reading";
 }
 
 TEST(Mapping, SaysWhatIsWrongAndWhatIsRight) {
@@ -362,9 +390,8 @@ TEST(OwnCatalogue, MappingsOfADriveAreReadByItsOwn) {
     ASSERT_TRUE(point);
     EXPECT_EQ(point->parameter, p.catalogue.parameters().size()) << "behind those of the page, whose points stay";
     EXPECT_EQ(own->find("AC"), p.catalogue.find("AC"));
-    const auto mappings = parse_mappings(site->mappings, *site, p.families, p.faults);
-    ASSERT_TRUE(mappings);
-    EXPECT_EQ((*mappings)[0].what, (std::variant<AxisPoint, Point>(*point)));
+    ASSERT_EQ(site->map().size(), 2u);
+    EXPECT_EQ(site->map()[0].what, (std::variant<AxisPoint, Point>(*point)));
     EXPECT_NE(mapping_revision(*site), mapping_revision(p.site));
 
     auto renamed = document;

@@ -1,0 +1,68 @@
+// Recipe wish: one case for each word that has members of its own.
+// In: JSON. Out: wishes.
+#include "gateway/services/recipes/recipe_wish.hpp"
+
+#include "gateway/services/command_reader.hpp"
+
+namespace axisgate {
+namespace {
+namespace json = boost::json;
+using Kind = RecipeStep::Kind;
+
+std::string text_in(const json::object& body, std::string_view key) {
+    const auto* v = body.if_contains(key);
+    return v && v->is_string() ? std::string(v->get_string()) : std::string();
+}
+/// One that is out of its range is a fault of the document already.
+int whole_in(const json::object& body, std::string_view key) {
+    const auto* v = body.if_contains(key);
+    const double d = v && v->is_number() ? v->to_number<double>() : 0;
+    return d >= 0 && d <= 65535 ? static_cast<int>(d) : 0;
+}
+Value value_in(const json::object& body) {
+    const auto* v = body.if_contains("value");
+    return v ? read_scalar(*v) : Value{};
+}
+
+/// The members of POST /axes/{name}/commands, without those that are the recipe's own.
+CommandWish command_in(Kind kind, const json::object& body) {
+    json::object o;
+    for (const auto& [k, v] : body) {
+        if (k != "axis" && k != "wait_s") o[k] = v;
+    }
+    if (kind == Kind::home) o["command"] = "home";
+    return read_command_wish(o);
+}
+}  // namespace
+
+Value read_scalar(const json::value& v) {
+    if (v.is_bool()) return v.get_bool();
+    if (v.is_int64()) return v.get_int64();
+    if (v.is_double()) return v.get_double();
+    if (v.is_string()) return std::string(v.get_string());
+    return {};
+}
+
+StepWish read_step_wish(Kind kind, const json::object& body) {
+    switch (kind) {
+        case Kind::set_parameter:
+        case Kind::read_parameter:
+            return ParameterWish{text_in(body, "parameter"), value_in(body)};
+        case Kind::home:
+        case Kind::command:
+            return command_in(kind, body);
+        case Kind::action:
+            return ActionWish{text_in(body, "name"), text_in(body, "argument")};
+        case Kind::write_register: {
+            RegisterWish wish{whole_in(body, "unit"), whole_in(body, "address"), std::nullopt, value_in(body)};
+            if (body.contains("type")) wish.type = text_in(body, "type");
+            return wish;
+        }
+        case Kind::simulate:
+            return SimulateWish{text_in(body, "input"), value_in(body)};
+        default:
+            return {};
+    }
+}
+
+}  // namespace axisgate

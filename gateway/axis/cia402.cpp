@@ -63,7 +63,7 @@ Cia402Axis::Decision Cia402Axis::in_fault(const State& s) const {
 }
 
 void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
-    forget(s, Cause::motion_ends);
+    s.forget(Cause::motion_ends);
     // The actual position is the first target: nothing moves because something was enabled. What this very client has written for the
     // set-point that it is about to give is kept; what was written or used before by anybody is not.
     const bool kept = own && own->enables == s.enables && own->target_pending;
@@ -80,7 +80,7 @@ void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
 
 /// Said even if the drive seems to be off, or is not heard.
 void Cia402Axis::order_off_blindly(State& s, Decision& d) {
-    forget(s, Cause::motion_ends);
+    s.forget(Cause::motion_ends);
     s.virtual_step = 0;
     s.quick_stopped = false;
     d.orders.emplace_back(Disable{});
@@ -88,7 +88,7 @@ void Cia402Axis::order_off_blindly(State& s, Decision& d) {
 
 void Cia402Axis::order_off(State& s, Decision& d) {
     const bool off = s.feedback.power == AxisFeedback::Power::off && s.power_pending != 1;
-    forget(s, Cause::motion_ends);
+    s.forget(Cause::motion_ends);
     s.quick_stopped = false;
     if (off) return;
     s.power_pending = 0;
@@ -140,10 +140,10 @@ bool Cia402Axis::change_unreceived(State& s, const Request& r, Decision& d) cons
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(r.word & cw_quick_stop)) {
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
     } else if (r.begins(cw_halt)) {
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         s.halted = true;
         d.orders.emplace_back(Halt{});
     } else {
@@ -160,12 +160,12 @@ void Cia402Axis::stop_in_any_state(State& s, const Request& r, Decision& d) cons
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(r.word & cw_quick_stop)) {
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
     } else if (r.stops_by(cw_switch_on) || r.stops_by(cw_enable_operation)) {
         order_off_blindly(s, d);
     } else if (r.begins(cw_halt)) {
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         s.halted = true;
         d.orders.emplace_back(Halt{});
     }
@@ -200,7 +200,7 @@ void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
             case Power::off:
                 return order_off(s, d);
             case Power::quick_stop:
-                forget(s, Cause::motion_ends);
+                s.forget(Cause::motion_ends);
                 [[fallthrough]];
             case Power::quick_stop_again:
                 d.orders.emplace_back(QuickStop{});
@@ -243,7 +243,7 @@ bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
         s.setpoint_acknowledged = true;
         ++s.setpoints_accepted;
     } else {
-        forget(s, Cause::set_point);
+        s.forget(Cause::set_point);
         d.orders.emplace_back(m);
     }
     return true;
@@ -265,7 +265,7 @@ bool Cia402Axis::change_without_power(State& s, const Request& r, Decision& d) c
 void Cia402Axis::change_halt(State& s, const Request& r, Decision& d) const {
     if (r.begins(cw_halt)) {
         s.halted = true;
-        forget(s, Cause::halt_bit);
+        s.forget(Cause::halt_bit);
         d.orders.emplace_back(Halt{});
     } else if (r.falling() & cw_halt) {
         s.halted = false;
@@ -343,12 +343,12 @@ void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
     own.mode = *mode;
     if (*mode == s.mode || (busy && repeated && !r.current)) return;
     if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
-        forget(s, Cause::mode_left);
+        s.forget(Cause::mode_left);
         d.orders.emplace_back(Halt{});
     }
     s.mode = *mode;
     if (s.following) s.mode_before = s.mode;
-    forget(s, Cause::new_mode);
+    s.forget(Cause::new_mode);
 }
 
 Cia402Axis::Decision Cia402Axis::on_process_data(const ProcessData& data, const Origin& by, const Look& look) {
@@ -418,32 +418,32 @@ Cia402Axis::Decision Cia402Axis::may_home(const State& s) const {
 /// A motion by command: what it is shown as, and what it makes forgotten. While another one runs, that waits until the drive has taken it:
 /// an order that is refused leaves the motion of another client, its mode and what waits behind it as they are.
 void Cia402Axis::ask_motion(State& s, const CommandBody& body) {
-    if (runs(s)) {
+    if (s.runs()) {
         ++s.asked_motions;
     } else {
-        take_motion(s, body);
+        s.take_motion(body);
     }
 }
 
-bool Cia402Axis::runs(const State& s) noexcept {
-    return s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0 || s.following || s.active || s.buffered;
+bool Cia402Axis::State::runs() const noexcept {
+    return feedback.moving || feedback.homing || recorded || ordered_velocity != 0 || following || active || buffered;
 }
 
-void Cia402Axis::take_motion(State& s, const CommandBody& body) {
+void Cia402Axis::State::take_motion(const CommandBody& body) {
     if (const auto* home = std::get_if<Home>(&body)) {
-        forget(s, Cause::homing_asked);
-        s.mode = mode_homing;
-        s.homing_method = home->method;
+        forget(Cause::homing_asked);
+        mode = mode_homing;
+        homing_method = home->method;
         return;
     }
-    forget(s, Cause::motion_asked);
+    forget(Cause::motion_asked);
     if (const auto* move = std::get_if<Move>(&body); move && move->kind == Move::Kind::velocity) {
-        s.mode = mode_profile_velocity;
-        s.target_velocity = static_cast<std::int32_t>(move->target);
+        mode = mode_profile_velocity;
+        target_velocity = static_cast<std::int32_t>(move->target);
     } else if (move) {
-        s.mode = mode_profile_position;
-        const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
-        s.target_position = static_cast<std::int32_t>(from + move->target);
+        mode = mode_profile_position;
+        const std::int64_t from = move->kind == Move::Kind::relative ? feedback.position : 0;
+        target_position = static_cast<std::int32_t>(from + move->target);
     }
 }
 
@@ -458,7 +458,7 @@ void Cia402Axis::enable(State& s, Words* own, Decision& d) {
         s.virtual_step = 3;
         order_on(s, own, d);
     } else if (s.halted) {
-        forget(s, Cause::motion_ends);  // a halt bit that its client has left behind ends here, and nothing goes on for that
+        s.forget(Cause::motion_ends);  // a halt bit that its client has left behind ends here, and nothing goes on for that
     }
 }
 
@@ -478,10 +478,10 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         order_off_blindly(s, d);
     } else if (std::holds_alternative<QuickStop>(body)) {
         s.controlword &= static_cast<std::uint16_t>(~cw_quick_stop);
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
     } else if (std::holds_alternative<Halt>(body)) {
-        forget(s, Cause::halt_command);
+        s.forget(Cause::halt_command);
         d.orders.emplace_back(Halt{});
     } else if (std::holds_alternative<ResetFault>(body)) {
         order_reset(s, d);
@@ -542,7 +542,7 @@ Cia402Axis::Decision Cia402Axis::may_follow() const {
 void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     State& s = s_;
     if (!s.following) {
-        forget(s, Cause::motion_ends);
+        s.forget(Cause::motion_ends);
         ++s.turn;
         s.stopped = false;
         s.following = true;
@@ -553,6 +553,6 @@ void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     s.target_velocity = p.mode == SetPoint::Mode::velocity ? static_cast<std::int32_t>(p.value) : 0;
 }
 
-void Cia402Axis::end_following() { leave_stream(s_); }
+void Cia402Axis::end_following() { s_.leave_stream(); }
 
 }  // namespace axisgate

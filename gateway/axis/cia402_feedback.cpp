@@ -62,11 +62,11 @@ void Cia402Axis::settle(State& s) const {
     const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
     if (s.feedback.fault) {
         const bool reported = own == PowerState::fault || own == PowerState::fault_reaction_active;
-        if (s.state != PowerState::fault && s.state != PowerState::fault_reaction_active) end_turn(s);
+        if (s.state != PowerState::fault && s.state != PowerState::fault_reaction_active) s.end_turn();
         s.state = reported ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
         s.virtual_step = 0;
         s.quick_stopped = false;
-        forget(s, Cause::fault);
+        s.forget(Cause::fault);
         return;
     }
     if (s.feedback.power == AxisFeedback::Power::on) {
@@ -75,8 +75,8 @@ void Cia402Axis::settle(State& s) const {
         const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
         const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
         if (stopped && s.state == PowerState::operation_enabled) {
-            forget(s, Cause::motion_ends);
-            if (!s.quick_stopped) end_turn(s);
+            s.forget(Cause::motion_ends);
+            if (!s.quick_stopped) s.end_turn();
         }
         s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
         return;
@@ -84,26 +84,26 @@ void Cia402Axis::settle(State& s) const {
     if (s.power_pending == 1) return;
     if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
         s.virtual_step = 0;
-        forget(s, Cause::motion_ends);
-        end_turn(s);
+        s.forget(Cause::motion_ends);
+        s.end_turn();
     }
     s.quick_stopped = false;
-    s.state = state_when_off(s);
+    s.state = s.state_when_off();
 }
 
 /// The drive has ended by itself what anybody was about: nobody's repeated words begin it again.
-void Cia402Axis::end_turn(State& s) noexcept {
-    ++s.turn;
-    s.stopped = true;
+void Cia402Axis::State::end_turn() noexcept {
+    ++turn;
+    stopped = true;
 }
 
 /// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
 /// than it is; a step that it does not know, and that a control word waits for, is shown above it.
-PowerState Cia402Axis::state_when_off(const State& s) noexcept {
-    const PowerState step = s.virtual_step == 1   ? PowerState::ready_to_switch_on
-                            : s.virtual_step == 2 ? PowerState::switched_on
-                                                  : PowerState::switch_on_disabled;
-    const auto own = s.feedback.statusword ? power_state_of(*s.feedback.statusword) : step;
+PowerState Cia402Axis::State::state_when_off() const noexcept {
+    const PowerState step = virtual_step == 1   ? PowerState::ready_to_switch_on
+                            : virtual_step == 2 ? PowerState::switched_on
+                                                : PowerState::switch_on_disabled;
+    const auto own = feedback.statusword ? power_state_of(*feedback.statusword) : step;
     return own <= PowerState::switched_on ? std::max(own, step) : step;
 }
 
@@ -111,7 +111,7 @@ PowerState Cia402Axis::state_when_off(const State& s) noexcept {
 bool Cia402Axis::asked_beside_another(State& s, const CommandBody& order, bool good) {
     if (s.asked_motions == 0) return false;
     --s.asked_motions;
-    if (good) take_motion(s, order);
+    if (good) s.take_motion(order);
     return true;
 }
 
@@ -126,7 +126,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         } else {
             s.virtual_step = 0;
             s.controlword &= static_cast<std::uint16_t>(~cw_enable_operation);
-            end_turn(s);
+            s.end_turn();
         }
         settle(s);
     } else if (std::holds_alternative<Disable>(order)) {
@@ -143,9 +143,9 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
     } else if (std::holds_alternative<Home>(order)) {
         const bool beside_another = asked_beside_another(s, order, good);
         if (!beside_another || good) s.homing_refused = !good;
-        if (good) forget(s, Cause::homing_taken);
+        if (good) s.forget(Cause::homing_taken);
     } else if (std::holds_alternative<SetPosition>(order)) {
-        if (good) forget(s, Cause::position_set);
+        if (good) s.forget(Cause::position_set);
     } else if (const auto* m = std::get_if<Move>(&order)) {
         if (m->kind == Move::Kind::velocity && s.asked_velocity == m->target) s.asked_velocity.reset();
         const bool again = s.repeated_moves > 0;
@@ -166,7 +166,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
         if (m->kind == Move::Kind::velocity) {
             s.ordered_velocity = m->target;
-            forget(s, Cause::velocity_taken);
+            s.forget(Cause::velocity_taken);
         } else {
             s.ordered_velocity = 0;
             s.active = *m;
@@ -202,11 +202,11 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
     if (f.target_reached && !f.moving) {
         if (s.buffered && !s.halted && s.asked_motions == 0) {
             Move next = *s.buffered;
-            forget(s, Cause::set_point);
+            s.forget(Cause::set_point);
             ++s.repeated_moves;  // counted when it was buffered
             return CommandBody{next};
         }
-        if (!s.halted) forget(s, Cause::arrival);
+        if (!s.halted) s.forget(Cause::arrival);
     }
     return std::nullopt;
 }
@@ -238,8 +238,8 @@ void Cia402Axis::on_presence(Presence presence) {
     ++s_.enables;  // written targets count no more
     s_.ordered_on = false;
     s_.asked_motions = 0;
-    forget(s_, Cause::motion_ends);
-    end_turn(s_);
+    s_.forget(Cause::motion_ends);
+    s_.end_turn();
     settle(s_);
 }
 
@@ -254,22 +254,20 @@ bool Cia402Axis::commanded() const noexcept {
 }
 
 /// What status word and flags show as arrived: by the mode, where the axis stands or has the speed that it should have.
-bool Cia402Axis::reached() const noexcept {
-    const AxisFeedback& f = s_.feedback;
-    if (s_.mode == mode_homing) return !f.moving && !f.homing;
-    if (s_.mode == mode_profile_velocity && !s_.halted)
-        return std::llabs(f.velocity - s_.ordered_velocity) * 100 <= std::llabs(s_.ordered_velocity);
-    return !f.moving && (f.target_reached || (s_.halted && !is_streamed(s_.mode)));
+bool Cia402Axis::State::reached() const noexcept {
+    if (mode == mode_homing) return !feedback.moving && !feedback.homing;
+    if (mode == mode_profile_velocity && !halted)
+        return std::llabs(feedback.velocity - ordered_velocity) * 100 <= std::llabs(ordered_velocity);
+    return !feedback.moving && (feedback.target_reached || (halted && !is_streamed(mode)));
 }
 
-/// Bits 12 and 13, which each mode has for itself.
-std::uint16_t Cia402Axis::mode_bits() const noexcept {
-    const AxisFeedback& f = s_.feedback;
-    if (s_.mode == mode_profile_velocity) return f.velocity == 0 ? sw_mode_12 : 0;
-    if (is_streamed(s_.mode)) return s_.following ? sw_mode_12 : 0;  // the drive follows the command value
-    if (s_.mode != mode_homing) return s_.setpoint_acknowledged || s_.buffered ? sw_mode_12 : 0;
-    std::uint16_t bits = f.homing_attained && !s_.homing_refused ? sw_mode_12 : 0;
-    if (f.homing_error || s_.homing_refused) bits |= sw_mode_13;
+/// Bits 12 and 13, which each mode has for itselfeedback.
+std::uint16_t Cia402Axis::State::mode_bits() const noexcept {
+    if (mode == mode_profile_velocity) return feedback.velocity == 0 ? sw_mode_12 : 0;
+    if (is_streamed(mode)) return following ? sw_mode_12 : 0;  // the drive follows the command value
+    if (mode != mode_homing) return setpoint_acknowledged || buffered ? sw_mode_12 : 0;
+    std::uint16_t bits = feedback.homing_attained && !homing_refused ? sw_mode_12 : 0;
+    if (feedback.homing_error || homing_refused) bits |= sw_mode_13;
     return bits;
 }
 
@@ -277,11 +275,11 @@ void Cia402Axis::fill(AxisPicture& p) const noexcept {
     const State& s = s_;
     const AxisFeedback& f = s.feedback;
     const bool present = s.presence != Presence::offline, known = present && s.seen, twin = s.presence == Presence::twin;
-    const bool arrived = known && reached();
+    const bool arrived = known && s.reached();
     const auto bit = [](bool set, std::uint16_t mask) { return set ? unsigned{mask} : 0u; };
     p.statusword = static_cast<std::uint16_t>(coding_of(s.state) | bit(known, sw_voltage | sw_remote) | bit(f.warning, sw_warning) |
                                               bit(twin, sw_simulated) | bit(f.internal_limit, sw_internal_limit) |
-                                              bit(f.referenced, sw_referenced) | bit(arrived, sw_target_reached) | mode_bits());
+                                              bit(f.referenced, sw_referenced) | bit(arrived, sw_target_reached) | s.mode_bits());
     p.mode_display = s.mode;
     p.position = f.position;
     p.demand_source = f.demand_source;

@@ -7,56 +7,59 @@
 
 namespace axisgate {
 
-void Cia402Axis::forget(State& s, Cause cause) {
-    enum Wish : unsigned {
-        active = 1u << 0,
-        buffered = 1u << 1,
-        ordered_velocity = 1u << 2,
-        asked_velocity = 1u << 3,
-        target_velocity = 1u << 4,
-        acknowledgement = 1u << 5,
-        halt = 1u << 6,
-        stream = 1u << 7
+void Cia402Axis::State::forget(Cause cause) {
+    struct Wish {
+        enum : unsigned {
+            active = 1u << 0,
+            buffered = 1u << 1,
+            ordered_velocity = 1u << 2,
+            asked_velocity = 1u << 3,
+            target_velocity = 1u << 4,
+            acknowledgement = 1u << 5,
+            halt = 1u << 6,
+            stream = 1u << 7
+        };
     };
     struct Row {
         Cause cause;
         unsigned wishes;
     };
     static constexpr Row rows[] = {
-        {Cause::motion_ends, active | buffered | ordered_velocity | asked_velocity | target_velocity | acknowledgement | halt | stream},
-        {Cause::fault, active | buffered},
-        {Cause::halt_command, active | buffered | ordered_velocity | target_velocity},
-        {Cause::halt_bit, ordered_velocity},
-        {Cause::mode_left, ordered_velocity},
-        {Cause::new_mode, buffered | target_velocity | acknowledgement},
-        {Cause::stream_ends, target_velocity},
-        {Cause::set_point, buffered},
-        {Cause::motion_asked, buffered},
-        {Cause::homing_asked, active | buffered},
-        {Cause::homing_taken, ordered_velocity},
-        {Cause::velocity_taken, active},
-        {Cause::position_set, active},
-        {Cause::arrival, active},
+        {Cause::motion_ends, Wish::active | Wish::buffered | Wish::ordered_velocity | Wish::asked_velocity | Wish::target_velocity |
+                                 Wish::acknowledgement | Wish::halt | Wish::stream},
+        {Cause::fault, Wish::active | Wish::buffered},
+        {Cause::halt_command, Wish::active | Wish::buffered | Wish::ordered_velocity | Wish::target_velocity},
+        {Cause::halt_bit, Wish::ordered_velocity},
+        {Cause::mode_left, Wish::ordered_velocity},
+        {Cause::new_mode, Wish::buffered | Wish::target_velocity | Wish::acknowledgement},
+        {Cause::stream_ends, Wish::target_velocity},
+        {Cause::set_point, Wish::buffered},
+        {Cause::motion_asked, Wish::buffered},
+        {Cause::homing_asked, Wish::active | Wish::buffered},
+        {Cause::homing_taken, Wish::ordered_velocity},
+        {Cause::velocity_taken, Wish::active},
+        {Cause::position_set, Wish::active},
+        {Cause::arrival, Wish::active},
     };
     const unsigned wishes = std::ranges::find(rows, cause, &Row::cause)->wishes;
-    if (wishes & active) s.active.reset();
-    if (wishes & buffered) s.buffered.reset();
-    if (wishes & ordered_velocity) s.ordered_velocity = 0;
-    if (wishes & asked_velocity) s.asked_velocity.reset();
-    if (wishes & target_velocity) {
-        s.target_velocity = 0;
-        ++s.forgotten;
+    if (wishes & Wish::active) active.reset();
+    if (wishes & Wish::buffered) buffered.reset();
+    if (wishes & Wish::ordered_velocity) ordered_velocity = 0;
+    if (wishes & Wish::asked_velocity) asked_velocity.reset();
+    if (wishes & Wish::target_velocity) {
+        target_velocity = 0;
+        ++forgotten;
     }
-    if (wishes & acknowledgement) s.setpoint_acknowledged = false;
-    if (wishes & halt) s.halted = false;
-    if (wishes & stream) leave_stream(s);
+    if (wishes & Wish::acknowledgement) setpoint_acknowledged = false;
+    if (wishes & Wish::halt) halted = false;
+    if (wishes & Wish::stream) leave_stream();
 }
 
 /// Back to the mode before it, unless somebody has chosen another one since.
-void Cia402Axis::leave_stream(State& s) {
-    if (!std::exchange(s.following, false) || !cia402::is_streamed(s.mode)) return;
-    s.mode = s.mode_before;
-    forget(s, Cause::stream_ends);
+void Cia402Axis::State::leave_stream() {
+    if (!std::exchange(following, false) || !cia402::is_streamed(mode)) return;
+    mode = mode_before;
+    forget(Cause::stream_ends);
 }
 
 }  // namespace axisgate

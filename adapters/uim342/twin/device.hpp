@@ -129,9 +129,7 @@ private:
 
     // --- the hand (hand.cpp) ---
     static const HandRow<Device> conditions[];
-    [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now, Out& out);
-    [[nodiscard]] std::string set_alarm_condition(bool& condition, Alarm alarm, const HandWish& wish);
-    [[nodiscard]] std::string inject(std::int64_t code, Instant now, Out& out);
+    void set_alarm_condition(bool& condition, Alarm alarm, bool on, Instant now, Out& out);
 
     Identity identity_;
     Duration boot_time_;

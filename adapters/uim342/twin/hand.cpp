@@ -74,10 +74,46 @@ const HandRow<Device> Device::conditions[] = {
      "an alarm: 10 emergency stop and lock, 25 overspeed, 26 lower limit, 27 upper limit, 29 stall, 30 encoder error, "
      "31 battery low; sent once, 0 ends the condition",
      [](const Device& d, Instant) -> Value { return static_cast<std::int64_t>(d.injected_); },
-     [](Device& d, const HandWish& w) {
+     // An alarm is sent once when it comes in; the ones that the drive acts upon act.
+     [](Device& d, const HandWish& w) -> std::string {
          const auto code = as_integer(w.value);
-         if (code && (*code == 0 || known_alarm(*code))) return d.inject(*code, w.now, *w.out);
-         return w.is_not("an alarm of this drive; 10, 25, 26, 27, 29, 30, 31 (hex 0A 19 1A 1B 1D 1E 1F), 0 ends it");
+         if (!code || (*code != 0 && !known_alarm(*code)))
+             return w.is_not("an alarm of this drive; 10, 25, 26, 27, 29, 30, 31 (hex 0A 19 1A 1B 1D 1E 1F), 0 ends it");
+         const auto alarm = static_cast<Alarm>(*code);
+         if (alarm == d.injected_) return {};
+         if (*code == 0) {
+             if (d.injected_ == Alarm::encoder_error) d.encoder_error_ = false;
+             if (d.injected_ == Alarm::battery_low) d.battery_low_ = false;
+             d.injected_ = Alarm::none;
+             return {};
+         }
+         if (!d.online_) return "inject_error: the drive has no power";
+         d.injected_ = alarm;
+         switch (alarm) {
+             case Alarm::emergency_lock:
+                 d.axis_.stop_fast(w.now, d.memory_.ram().sd);
+                 d.flags_.lock = true;
+                 d.raise(alarm, w.now, *w.out);
+                 break;
+             case Alarm::lower_limit:
+             case Alarm::upper_limit:
+                 d.axis_.stop_fast(w.now, d.memory_.ram().sd);  // "soft bumper limit is hit" [L1409]
+                 d.raise(alarm, w.now, *w.out);
+                 break;
+             case Alarm::stall:
+                 d.on_axis(Axis::Event::stalled, w.now, *w.out);
+                 break;
+             case Alarm::encoder_error:
+                 d.set_alarm_condition(d.encoder_error_, alarm, true, w.now, *w.out);
+                 break;
+             case Alarm::battery_low:
+                 d.set_alarm_condition(d.battery_low_, alarm, true, w.now, *w.out);
+                 break;
+             default:
+                 d.raise(alarm, w.now, *w.out);
+                 break;
+         }
+         return {};
      }},
     {"lost_pulses", true,
      "writing adds pulses that the motor did not follow, 0 forgets them; reading: lost since the last start (closed loop)",
@@ -93,10 +129,14 @@ const HandRow<Device> Device::conditions[] = {
      }},
     {"encoder_error", true, "the encoder is broken: alarm 1E, at power-on too",
      [](const Device& d, Instant) -> Value { return d.encoder_error_; },
-     [](Device& d, const HandWish& w) { return d.set_alarm_condition(d.encoder_error_, Alarm::encoder_error, w); }},
+     [](Device& d, const HandWish& w) {
+         return w.flag([&](bool on) { d.set_alarm_condition(d.encoder_error_, Alarm::encoder_error, on, w.now, *w.out); });
+     }},
     {"battery_low", true, "battery of the absolute encoder: alarm 1F, QE[3] = 0",
      [](const Device& d, Instant) -> Value { return d.battery_low_; },
-     [](Device& d, const HandWish& w) { return d.set_alarm_condition(d.battery_low_, Alarm::battery_low, w); }},
+     [](Device& d, const HandWish& w) {
+         return w.flag([&](bool on) { d.set_alarm_condition(d.battery_low_, Alarm::battery_low, on, w.now, *w.out); });
+     }},
     {"position", true, "shaft position, pulses; can be turned by hand while the driver is off",
      [](const Device& d, Instant at) -> Value {
          return at != Instant::min() ? std::int64_t{wrap_i32(d.axis_.shaft(at).position)} : std::int64_t{0};
@@ -129,13 +169,9 @@ std::vector<HandItem> Device::hand() const { return hand_items(conditions, *this
 std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
     now = std::max(now, last_);
     settle(now, out);
-    std::string fault = set_condition(name, value, now, out);
+    const auto answer = set_hand_row(conditions, *this, *this, {name, value, now, &out});
     settle(now, out);
-    return fault;
-}
-
-std::string Device::set_condition(const std::string& name, const Value& value, Instant now, Out& out) {
-    if (auto answer = set_hand_row(conditions, *this, *this, {name, value, now, &out})) return *std::move(answer);
+    if (answer) return *answer;
     std::string names;
     for (const auto& row : conditions) {
         if (row.writable && (!row.fitted || row.fitted(*this))) names += (names.empty() ? "" : ", ") + std::string(row.name);
@@ -143,48 +179,9 @@ std::string Device::set_condition(const std::string& name, const Value& value, I
     return "there is no '" + name + "' here; " + names;
 }
 
-std::string Device::set_alarm_condition(bool& condition, Alarm alarm, const HandWish& w) {
-    return w.flag([&](bool on) {
-        if (on && !condition && online_) raise(alarm, w.now, *w.out);
-        condition = on;
-    });
-}
-
-/// An alarm is sent once when it comes in; the ones that the drive acts upon act.
-std::string Device::inject(std::int64_t code, Instant now, Out& out) {
-    const auto alarm = static_cast<Alarm>(code);
-    if (alarm == injected_) return {};
-    if (code == 0) {
-        if (injected_ == Alarm::encoder_error) encoder_error_ = false;
-        if (injected_ == Alarm::battery_low) battery_low_ = false;
-        injected_ = Alarm::none;
-        return {};
-    }
-    if (!online_) return "inject_error: the drive has no power";
-    injected_ = alarm;
-    switch (alarm) {
-        case Alarm::emergency_lock:
-            axis_.stop_fast(now, memory_.ram().sd);
-            flags_.lock = true;
-            raise(alarm, now, out);
-            break;
-        case Alarm::lower_limit:
-        case Alarm::upper_limit:
-            axis_.stop_fast(now, memory_.ram().sd);  // "soft bumper limit is hit" [L1409]
-            raise(alarm, now, out);
-            break;
-        case Alarm::stall:
-            on_axis(Axis::Event::stalled, now, out);
-            break;
-        case Alarm::encoder_error:
-            return set_condition("encoder_error", true, now, out);
-        case Alarm::battery_low:
-            return set_condition("battery_low", true, now, out);
-        default:
-            raise(alarm, now, out);
-            break;
-    }
-    return {};
+void Device::set_alarm_condition(bool& condition, Alarm alarm, bool on, Instant now, Out& out) {
+    if (on && !condition && online_) raise(alarm, now, out);
+    condition = on;
 }
 
 }  // namespace axisgate::uim342::twin

@@ -58,103 +58,104 @@ void add_config(CLI::App& app, Common& c, bool site) {
         ->type_name("SECTION.KEY=VALUE")
         ->allow_extra_args(false);
 }
-}  // namespace
+/// The command line: its commands in the order in which help lists them, and what each of them takes.
+struct CommandLine {
+    explicit CommandLine(CLI::App& a) : app(a) {
+        app.set_version_flag("--version", "axisgate " AXISGATE_VERSION);
+        app.require_subcommand(1);
+        app.fallthrough(false);
+        serve = app.add_subcommand("serve", "run the gateway");
+        add_config(*serve, serve_common, true);
+        add_twin();
+        add_families();
+        check = app.add_subcommand("check", "find all faults of configuration and site");
+        add_config(*check, check_common, true);
+        add_backup();
+        health = app.add_subcommand("health", "ask the gateway that runs here whether it is well; the exit code says it");
+        add_config(*health, health_common, false);
+        add_pki();
+        version = app.add_subcommand("version", "print the version");
+        help = app.add_subcommand("help", "print this text");
+    }
 
-int main(int argc, char** argv) {
-    CLI::App app{"axisgate: a gateway between Modbus, HTTP and motor drives, with an embedded model of each drive"};
-    app.set_version_flag("--version", "axisgate " AXISGATE_VERSION);
-    app.require_subcommand(1);
-    app.fallthrough(false);
+    void add_twin() {
+        twin = app.add_subcommand("twin", "run embedded drives by themselves on a line that anything can open");
+        twin->add_option("family", twin_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
+        twin->add_option("--line", twin_options.line_uri,
+                         "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH, "
+                         "pty:PATH?baud=9600 at the pace of a serial port")
+            ->required()
+            ->type_name("URI");
+        twin->add_option("--address", twin_options.addresses, "address of a drive; may be repeated")
+            ->type_name("A")
+            ->allow_extra_args(false);
+        twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")
+            ->type_name("FILE");
+        twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")
+            ->type_name("HOST:PORT");
+        twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")
+            ->type_name("X");
+        twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")
+            ->type_name("NAME=VALUE")
+            ->allow_extra_args(false);
+    }
 
-    Common serve_common, check_common, backup_common, restore_common, bundle_common, health_common;
-    auto* serve = app.add_subcommand("serve", "run the gateway");
-    add_config(*serve, serve_common, true);
+    void add_families() {
+        families = app.add_subcommand("families", "list the drive families of this program");
+        families->add_option("--format", families_format, "table or json")->check(CLI::IsMember({"table", "json"}));
 
-    TwinOptions twin_options;
-    auto* twin = app.add_subcommand("twin", "run embedded drives by themselves on a line that anything can open");
-    twin->add_option("family", twin_options.family, "family, see `axisgate families`")->required()->type_name("FAMILY");
-    twin->add_option("--line", twin_options.line_uri,
-                     "can:can0, serial:/dev/ttyUSB0?baud=57600, tcp-listen:HOST:PORT, tcp:HOST:PORT, udp-listen:HOST:PORT or pty:PATH, "
-                     "pty:PATH?baud=9600 at the pace of a serial port")
-        ->required()
-        ->type_name("URI");
-    twin->add_option("--address", twin_options.addresses, "address of a drive; may be repeated")->type_name("A")->allow_extra_args(false);
-    twin->add_option("--state", twin_options.state_file, "file of the non-volatile memory: read at the start, written at each change")
-        ->type_name("FILE");
-    twin->add_option("--hand", twin_options.hand_bind, "serve the tester's hand (inputs, stall, power ...) over HTTP here")
-        ->type_name("HOST:PORT");
-    twin->add_option("--time-scale", twin_options.time_scale, "how many times as fast the drives' clock runs, 0.001 to 10000")
-        ->type_name("X");
-    twin->add_option("--option", twin_options.options, "an option of the family, such as crc=13; may be repeated")
-        ->type_name("NAME=VALUE")
-        ->allow_extra_args(false);
+        catalogue = app.add_subcommand("catalogue", "what a family has: parameters, commands, errors");
+        catalogue->add_option("family", catalogue_family)->required()->type_name("FAMILY");
+        catalogue->add_option("what", catalogue_what, "parameters, commands or errors")
+            ->check(CLI::IsMember({"parameters", "commands", "errors"}));
+        catalogue->add_option("--format", catalogue_format, "table, csv or json")->check(CLI::IsMember({"table", "csv", "json"}));
 
-    std::string families_format = "table";
-    auto* families = app.add_subcommand("families", "list the drive families of this program");
-    families->add_option("--format", families_format, "table or json")->check(CLI::IsMember({"table", "json"}));
+        decode = app.add_subcommand("decode", "one readable line per recorded frame");
+        decode->add_option("family", decode_family)->required()->type_name("FAMILY");
+        decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")
+            ->check(CLI::IsMember({"candump", "hex", "trace"}));
+        decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
 
-    std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
-    auto* catalogue = app.add_subcommand("catalogue", "what a family has: parameters, commands, errors");
-    catalogue->add_option("family", catalogue_family)->required()->type_name("FAMILY");
-    catalogue->add_option("what", catalogue_what, "parameters, commands or errors")
-        ->check(CLI::IsMember({"parameters", "commands", "errors"}));
-    catalogue->add_option("--format", catalogue_format, "table, csv or json")->check(CLI::IsMember({"table", "csv", "json"}));
+        replay = app.add_subcommand("replay", "play a recording again, and tell where this program does otherwise");
+        replay->add_option("file", replay_file)->required()->type_name("FILE.axr");
+    }
 
-    std::string decode_family, decode_format = "candump", decode_file = "-";
-    auto* decode = app.add_subcommand("decode", "one readable line per recorded frame");
-    decode->add_option("family", decode_family)->required()->type_name("FAMILY");
-    decode->add_option("--format", decode_format, "candump, hex (lines of bytes, > to the drive, < from it) or trace")
-        ->check(CLI::IsMember({"candump", "hex", "trace"}));
-    decode->add_option("file", decode_file, "recorded line; - or nothing: standard input")->type_name("FILE");
+    void add_backup() {
+        constexpr const char* passphrase_help =
+            "file with the passphrase that it is sealed with, at least 12 characters; -: standard input";
+        backup = app.add_subcommand("backup", "copy database, certificates and configuration into one file; the gateway may run");
+        backup->add_option("file", backup_file)->required()->type_name("FILE");
+        backup->add_option("--passphrase-file", backup_passphrase_file, passphrase_help)->type_name("FILE");
+        add_config(*backup, backup_common, false);
+        restore = app.add_subcommand("restore", "put a backup in place of the database and the certificates; the gateway must not run");
+        restore->add_option("file", restore_options.file)->required()->type_name("FILE");
+        restore->add_option("--passphrase-file", restore_options.passphrase_file, passphrase_help)->type_name("FILE");
+        restore->add_flag("--with-config", restore_options.with_config,
+                          "the configuration in the backup takes the place of the file of --config, and its paths hold");
+        restore->add_flag("--confirm-places", restore_options.confirm_places,
+                          "with --with-config: take the places that were shown, which lie outside the folder of the configuration");
+        add_config(*restore, restore_common, false);
 
-    std::string replay_file;
-    auto* replay = app.add_subcommand("replay", "play a recording again, and tell where this program does otherwise");
-    replay->add_option("file", replay_file)->required()->type_name("FILE.axr");
+        bundle =
+            app.add_subcommand("bundle", "gather what somebody needs who is to help, without secrets, in one tar; the gateway may run");
+        bundle->add_option("file", bundle_file)->required()->type_name("FILE.tar");
+        add_config(*bundle, bundle_common, false);
+    }
 
-    auto* check = app.add_subcommand("check", "find all faults of configuration and site");
-    add_config(*check, check_common, true);
+    void add_pki() {
+        pki = app.add_subcommand("pki", "make the certificates of a DDS domain: a folder for each member, for [dds] security");
+        pki->add_option("dir", pki_options.dir, "folder of the authority, which is made where there is none; keep it off the gateways")
+            ->required()
+            ->type_name("DIR");
+        pki->add_option("names", pki_options.names, "members, as [dds] name")->required()->type_name("NAME...");
+        pki->add_option("--role", pki_options.role, "gateway, commander (commands and sees) or viewer (sees)")
+            ->check(CLI::IsMember({"gateway", "commander", "viewer"}));
+        pki->add_option("--partition", pki_options.partition, "the plant, as [dds] partition (default plant)")->type_name("NAME");
+        pki->add_option("--days", pki_options.days, "for how long they hold (default 3650)")->check(CLI::Range(1, 36500))->type_name("N");
+    }
 
-    std::string backup_file, backup_passphrase_file, bundle_file;
-    RestoreOptions restore_options;
-    constexpr const char* passphrase_help = "file with the passphrase that it is sealed with, at least 12 characters; -: standard input";
-    auto* backup = app.add_subcommand("backup", "copy database, certificates and configuration into one file; the gateway may run");
-    backup->add_option("file", backup_file)->required()->type_name("FILE");
-    backup->add_option("--passphrase-file", backup_passphrase_file, passphrase_help)->type_name("FILE");
-    add_config(*backup, backup_common, false);
-    auto* restore = app.add_subcommand("restore", "put a backup in place of the database and the certificates; the gateway must not run");
-    restore->add_option("file", restore_options.file)->required()->type_name("FILE");
-    restore->add_option("--passphrase-file", restore_options.passphrase_file, passphrase_help)->type_name("FILE");
-    restore->add_flag("--with-config", restore_options.with_config,
-                      "the configuration in the backup takes the place of the file of --config, and its paths hold");
-    restore->add_flag("--confirm-places", restore_options.confirm_places,
-                      "with --with-config: take the places that were shown, which lie outside the folder of the configuration");
-    add_config(*restore, restore_common, false);
-
-    auto* bundle =
-        app.add_subcommand("bundle", "gather what somebody needs who is to help, without secrets, in one tar; the gateway may run");
-    bundle->add_option("file", bundle_file)->required()->type_name("FILE.tar");
-    add_config(*bundle, bundle_common, false);
-
-    auto* health = app.add_subcommand("health", "ask the gateway that runs here whether it is well; the exit code says it");
-    add_config(*health, health_common, false);
-
-    PkiOptions pki_options;
-    auto* pki = app.add_subcommand("pki", "make the certificates of a DDS domain: a folder for each member, for [dds] security");
-    pki->add_option("dir", pki_options.dir, "folder of the authority, which is made where there is none; keep it off the gateways")
-        ->required()
-        ->type_name("DIR");
-    pki->add_option("names", pki_options.names, "members, as [dds] name")->required()->type_name("NAME...");
-    pki->add_option("--role", pki_options.role, "gateway, commander (commands and sees) or viewer (sees)")
-        ->check(CLI::IsMember({"gateway", "commander", "viewer"}));
-    pki->add_option("--partition", pki_options.partition, "the plant, as [dds] partition (default plant)")->type_name("NAME");
-    pki->add_option("--days", pki_options.days, "for how long they hold (default 3650)")->check(CLI::Range(1, 36500))->type_name("N");
-
-    auto* version = app.add_subcommand("version", "print the version");
-    auto* help = app.add_subcommand("help", "print this text");
-
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
+    /// What is wrong with a command line that cannot be read.
+    [[nodiscard]] int refuse(const CLI::ParseError& e, int argc, char** argv) const {
         if (e.get_exit_code() == 0) return app.exit(e);
         std::string names;
         bool known = false;
@@ -170,47 +171,75 @@ int main(int argc, char** argv) {
         return exit_usage;
     }
 
-    if (*version) {
-        fmt::print("axisgate {}\n", AXISGATE_VERSION);
-        return exit_good;
+    [[nodiscard]] int run() {
+        if (*version) {
+            fmt::print("axisgate {}\n", AXISGATE_VERSION);
+            return exit_good;
+        }
+        if (*help) {
+            fmt::print("{}", app.get_formatter()->make_help(&app, "axisgate", CLI::AppFormatMode::All));
+            return exit_good;
+        }
+        if (*pki) return command_pki(pki_options);
+        if (*families) return command_families(families_format);
+        if (*catalogue) return command_catalogue(catalogue_family, catalogue_what, catalogue_format);
+        if (*decode) return command_decode(decode_family, decode_format, decode_file);
+        if (*replay) return command_replay(replay_file);
+        if (*twin) return command_twin(twin_options);
+        if (*check) {
+            bool good = true;
+            const auto sources = sources_of(check_common, good);
+            return command_check(sources, check_common.site_file, good);
+        }
+        if (*serve) {
+            ServeOptions o;
+            if (!config_of(serve_common, o.config)) return exit_usage;
+            o.site_file = serve_common.site_file;
+            o.config_file = serve_common.config_file;
+            return command_serve(o);
+        }
+        Config config;
+        if (*bundle) {
+            if (!config_of(bundle_common, config)) complain("the bundle is made all the same, with what could be read");
+            bool read = true;
+            return command_bundle(sources_of(bundle_common, read), config, bundle_file);
+        }
+        if (*health) return config_of(health_common, config) ? command_health(config) : exit_usage;
+        if (*backup) {
+            if (!config_of(backup_common, config)) return exit_usage;
+            return command_backup(config, backup_common.config_file, backup_file, backup_passphrase_file);
+        }
+        if (*restore) {
+            bool read = true;
+            if (!config_of(restore_common, config)) return exit_usage;
+            return command_restore(config, sources_of(restore_common, read), restore_options);
+        }
+        return exit_usage;
     }
-    if (*help) {
-        fmt::print("{}", app.get_formatter()->make_help(&app, "axisgate", CLI::AppFormatMode::All));
-        return exit_good;
+
+    CLI::App& app;
+    CLI::App *serve = nullptr, *twin = nullptr, *families = nullptr, *catalogue = nullptr, *decode = nullptr, *replay = nullptr,
+             *check = nullptr, *backup = nullptr, *restore = nullptr, *bundle = nullptr, *health = nullptr, *pki = nullptr,
+             *version = nullptr, *help = nullptr;
+    Common serve_common, check_common, backup_common, restore_common, bundle_common, health_common;
+    TwinOptions twin_options;
+    std::string families_format = "table";
+    std::string catalogue_family, catalogue_what = "parameters", catalogue_format = "table";
+    std::string decode_family, decode_format = "candump", decode_file = "-";
+    std::string replay_file;
+    std::string backup_file, backup_passphrase_file, bundle_file;
+    RestoreOptions restore_options;
+    PkiOptions pki_options;
+};
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"axisgate: a gateway between Modbus, HTTP and motor drives, with an embedded model of each drive"};
+    CommandLine line(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return line.refuse(e, argc, argv);
     }
-    if (*pki) return command_pki(pki_options);
-    if (*families) return command_families(families_format);
-    if (*catalogue) return command_catalogue(catalogue_family, catalogue_what, catalogue_format);
-    if (*decode) return command_decode(decode_family, decode_format, decode_file);
-    if (*replay) return command_replay(replay_file);
-    if (*twin) return command_twin(twin_options);
-    if (*check) {
-        bool good = true;
-        const auto sources = sources_of(check_common, good);
-        return command_check(sources, check_common.site_file, good);
-    }
-    if (*serve) {
-        ServeOptions o;
-        if (!config_of(serve_common, o.config)) return exit_usage;
-        o.site_file = serve_common.site_file;
-        o.config_file = serve_common.config_file;
-        return command_serve(o);
-    }
-    Config config;
-    if (*bundle) {
-        if (!config_of(bundle_common, config)) complain("the bundle is made all the same, with what could be read");
-        bool read = true;
-        return command_bundle(sources_of(bundle_common, read), config, bundle_file);
-    }
-    if (*health) return config_of(health_common, config) ? command_health(config) : exit_usage;
-    if (*backup) {
-        if (!config_of(backup_common, config)) return exit_usage;
-        return command_backup(config, backup_common.config_file, backup_file, backup_passphrase_file);
-    }
-    if (*restore) {
-        bool read = true;
-        if (!config_of(restore_common, config)) return exit_usage;
-        return command_restore(config, sources_of(restore_common, read), restore_options);
-    }
-    return exit_usage;
+    return line.run();
 }

@@ -46,59 +46,70 @@ Verdict ReplyReader::push(std::string_view bytes) {
 Verdict ReplyReader::give_up() { return look(true); }
 
 Verdict ReplyReader::look(bool over) {
-    const std::string_view all = raw_;
     switch (expect_.kind) {
         case Expect::Kind::block:
             if (expect_.ends) return look_for_end(over);
-            [[fallthrough]];
-        case Expect::Kind::nothing:
-            return over ? Verdict::answered : Verdict::waiting;
-        case Expect::Kind::command: {
-            if (expect_.checksum) {
-                const auto at = all.find_first_of("\x06\x15");
-                if (at == std::string_view::npos) return Verdict::waiting;
-                if (expect_.prompt && !over && (at + 1 >= all.size() || !is_prompt(all.back()))) return Verdict::waiting;
-                before_ = all.substr(0, at);
-                behind_ = all.substr(at + 1);
-                return all[at] == ack ? Verdict::acknowledged : Verdict::refused;
-            }
-            const auto at = all.find("\r\n");
-            if (at == std::string_view::npos) return Verdict::waiting;
-            if (expect_.prompt && !over && !is_prompt(all.back())) return Verdict::waiting;
-            before_ = all.substr(0, at);
-            behind_ = all.substr(at + 2);
-            return expect_.prompt && all.back() == '?' ? Verdict::refused : Verdict::acknowledged;
-        }
-        case Expect::Kind::query:
             break;
+        case Expect::Kind::nothing:
+            break;
+        case Expect::Kind::command:
+            return look_for_acknowledgement(over);
+        case Expect::Kind::query:
+            return look_for_data(over);
     }
-    // An echo of the request holds the mark too, but closed by its quote.
+    return over ? Verdict::answered : Verdict::waiting;
+}
+
+Verdict ReplyReader::look_for_acknowledgement(bool over) {
+    const std::string_view all = raw_;
+    const std::size_t width = expect_.checksum ? 1 : 2;
+    const auto at = expect_.checksum ? all.find_first_of("\x06\x15") : all.find("\r\n");
+    if (at == std::string_view::npos) return Verdict::waiting;
+    const bool prompted = is_prompt(all.back()) && (!expect_.checksum || at + 1 < all.size());
+    if (expect_.prompt && !over && !prompted) return Verdict::waiting;
+    before_ = all.substr(0, at);
+    behind_ = all.substr(at + width);
+    if (expect_.checksum) return all[at] == ack ? Verdict::acknowledged : Verdict::refused;
+    return expect_.prompt && all.back() == '?' ? Verdict::refused : Verdict::acknowledged;
+}
+
+/// Where the data begin: an echo of the request holds the mark too, but closed by its quote.
+std::size_t ReplyReader::find_mark() const {
+    const std::string_view all = raw_;
     std::size_t at = all.find(expect_.mark);
-    while (at != std::string_view::npos && at + expect_.mark.size() < all.size() && all[at + expect_.mark.size()] == '"') {
+    while (at != std::string_view::npos && at + expect_.mark.size() < all.size() && all[at + expect_.mark.size()] == '"')
         at = all.find(expect_.mark, at + 1);
+    return at != std::string_view::npos && at + expect_.mark.size() < all.size() ? at : std::string_view::npos;
+}
+
+/// Where the line end behind the data is.
+std::size_t ReplyReader::find_end(std::size_t mark) const {
+    const std::string_view all = raw_;
+    if (!expect_.end_mark) return all.find("\r\n", mark);
+    for (auto e = all.find(end_of_data, mark); e != std::string_view::npos; e = all.find(end_of_data, e + 1)) {
+        const auto line_end = all.find("\r\n", e);
+        if (line_end != std::string_view::npos && line_end - e <= 2) return line_end;
     }
-    if (at == std::string_view::npos || at + expect_.mark.size() >= all.size()) {
-        if (all.find(nak) != std::string_view::npos && expect_.checksum) {
-            maybe_refused_ = true;
-            return over ? Verdict::refused : Verdict::waiting;
-        }
-        const bool reported = all.find("\r\n") != std::string_view::npos;
-        if (reported && expect_.prompt && all.back() == '?') return Verdict::refused;
-        if (over && (all.find(nak) != std::string_view::npos || (reported && !expect_.checksum))) return Verdict::refused;
-        return Verdict::waiting;
+    return std::string_view::npos;
+}
+
+Verdict ReplyReader::look_without_mark(bool over) {
+    const std::string_view all = raw_;
+    const bool refused = all.find(nak) != std::string_view::npos;
+    if (refused && expect_.checksum) {
+        maybe_refused_ = true;
+        return over ? Verdict::refused : Verdict::waiting;
     }
-    std::size_t end = std::string_view::npos;
-    if (expect_.end_mark) {
-        for (auto e = all.find(end_of_data, at); e != std::string_view::npos; e = all.find(end_of_data, e + 1)) {
-            const auto line_end = all.find("\r\n", e);
-            if (line_end != std::string_view::npos && line_end - e <= 2) {
-                end = line_end;
-                break;
-            }
-        }
-    } else {
-        end = all.find("\r\n", at);
-    }
+    const bool reported = all.find("\r\n") != std::string_view::npos;
+    if (reported && expect_.prompt && all.back() == '?') return Verdict::refused;
+    return over && (refused || (reported && !expect_.checksum)) ? Verdict::refused : Verdict::waiting;
+}
+
+Verdict ReplyReader::look_for_data(bool over) {
+    const std::string_view all = raw_;
+    const std::size_t at = find_mark();
+    if (at == std::string_view::npos) return look_without_mark(over);
+    const std::size_t end = find_end(at);
     if (end == std::string_view::npos) return Verdict::waiting;
     if (expect_.prompt && !over && !is_prompt(all.back())) return Verdict::waiting;
     std::string_view part = all.substr(at, end - at);
@@ -110,10 +121,8 @@ Verdict ReplyReader::look(bool over) {
         if (part.empty() || part.back() != end_of_data) return Verdict::garbled;
         part.remove_suffix(1);
     }
-    if (std::ranges::any_of(part,
-                            [](char c) { return (c < 0x20 && c != cr && c != lf && c != '\t') || static_cast<std::uint8_t>(c) > 0x7E; })) {
-        return Verdict::garbled;
-    }
+    const auto unprintable = [](char c) { return (c < 0x20 && c != cr && c != lf && c != '\t') || static_cast<std::uint8_t>(c) > 0x7E; };
+    if (std::ranges::any_of(part, unprintable)) return Verdict::garbled;
     data_ = part;
     behind_ = all.substr(end + 2);
     before_ = all.substr(0, at);

@@ -3,6 +3,7 @@
 // Never takes foreign text for an answer: data count only behind the mark of the very question, and with their checksum where it is on.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -68,7 +69,12 @@ public:
 
 private:
     [[nodiscard]] Verdict look(bool over);
+    [[nodiscard]] Verdict look_for_acknowledgement(bool over);
+    [[nodiscard]] Verdict look_for_data(bool over);
+    [[nodiscard]] Verdict look_without_mark(bool over);
     [[nodiscard]] Verdict look_for_end(bool over);
+    [[nodiscard]] std::size_t find_mark() const;
+    [[nodiscard]] std::size_t find_end(std::size_t mark) const;
     Expect expect_;
     std::string raw_, data_, before_, behind_, block_;
     std::vector<std::string> asked_;  ///< closing questions, as sent without their terminator; bounded by the line's retries

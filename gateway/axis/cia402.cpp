@@ -11,6 +11,40 @@
 namespace axisgate {
 using namespace cia402;
 
+namespace {
+constexpr std::uint16_t so = cw_switch_on, ev = cw_enable_voltage, qs = cw_quick_stop, eo = cw_enable_operation,
+                        on_bits = so | ev | qs | eo;
+
+/// What a control word does to the power.
+enum class Power : std::uint8_t { stays, on, on_by_edge, off, quick_stop, quick_stop_again };
+constexpr std::uint16_t same = 0xFFFF;
+struct Transition {
+    PowerState from;
+    std::uint16_t set, clear;  // bits of the word that are 1, and one that is 0
+    std::uint16_t step;        // where virtual_step goes
+    Power power;
+};
+/// By the numbers of IEC 61800-7-201; the first that applies counts. A fault is left by the drive, or by the fault reset's edge.
+constexpr Transition transitions[] = {
+    {PowerState::switch_on_disabled, ev | qs, so, 1, Power::stays},         // 2
+    {PowerState::ready_to_switch_on, 0, ev, 0, Power::stays},               // 7
+    {PowerState::ready_to_switch_on, 0, qs, 0, Power::stays},               // 7
+    {PowerState::ready_to_switch_on, so | eo, 0, 3, Power::on},             // 3 and 4 together
+    {PowerState::ready_to_switch_on, so, eo, 2, Power::stays},              // 3
+    {PowerState::switched_on, 0, ev, 0, Power::stays},                      // 10
+    {PowerState::switched_on, 0, qs, 0, Power::stays},                      // 10
+    {PowerState::switched_on, 0, so, 1, Power::stays},                      // 6
+    {PowerState::switched_on, eo, 0, 3, Power::on},                         // 4
+    {PowerState::operation_enabled, 0, ev, 0, Power::off},                  // 9
+    {PowerState::operation_enabled, 0, qs, same, Power::quick_stop},        // 11
+    {PowerState::operation_enabled, 0, so, 1, Power::off},                  // 8
+    {PowerState::operation_enabled, 0, eo, 2, Power::off},                  // 5
+    {PowerState::quick_stop_active, 0, ev, 0, Power::off},                  // 12
+    {PowerState::quick_stop_active, 0, qs, same, Power::quick_stop_again},  // while it still moves
+    {PowerState::quick_stop_active, on_bits, 0, 3, Power::on_by_edge},      // 16
+};
+}  // namespace
+
 Cia402Axis::Decision Cia402Axis::refuse(Reason reason, std::string text) const {
     Decision d;
     d.refused = true;
@@ -19,31 +53,17 @@ Cia402Axis::Decision Cia402Axis::refuse(Reason reason, std::string text) const {
     return d;
 }
 
-void Cia402Axis::forget_motion(State& s) {
-    s.active.reset();
-    s.buffered.reset();
-    s.ordered_velocity = 0;
-    forget_velocity(s);
-    s.setpoint_acknowledged = false;
-    s.halted = false;
-    s.asked_velocity.reset();
-    leave_stream(s);
+Cia402Axis::Decision Cia402Axis::unreceived(const State& s) const {
+    return refuse(Reason::no_answer,
+                  s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
 }
 
-void Cia402Axis::forget_velocity(State& s) {
-    s.target_velocity = 0;
-    ++s.forgotten;
-}
-
-/// Back to the mode before it, unless somebody has chosen another one since.
-void Cia402Axis::leave_stream(State& s) {
-    if (!std::exchange(s.following, false) || !is_streamed(s.mode)) return;
-    s.mode = s.mode_before;
-    forget_velocity(s);
+Cia402Axis::Decision Cia402Axis::in_fault(const State& s) const {
+    return refuse(Reason::wrong_state, fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
 }
 
 void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
-    forget_motion(s);
+    s.forget(Cause::motion_ends);
     // The actual position is the first target: nothing moves because something was enabled. What this very client has written for the
     // set-point that it is about to give is kept; what was written or used before by anybody is not.
     const bool kept = own && own->enables == s.enables && own->target_pending;
@@ -60,7 +80,7 @@ void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
 
 /// Said even if the drive seems to be off, or is not heard.
 void Cia402Axis::order_off_blindly(State& s, Decision& d) {
-    forget_motion(s);
+    s.forget(Cause::motion_ends);
     s.virtual_step = 0;
     s.quick_stopped = false;
     d.orders.emplace_back(Disable{});
@@ -68,7 +88,7 @@ void Cia402Axis::order_off_blindly(State& s, Decision& d) {
 
 void Cia402Axis::order_off(State& s, Decision& d) {
     const bool off = s.feedback.power == AxisFeedback::Power::off && s.power_pending != 1;
-    forget_motion(s);
+    s.forget(Cause::motion_ends);
     s.quick_stopped = false;
     if (off) return;
     s.power_pending = 0;
@@ -85,7 +105,6 @@ void Cia402Axis::order_reset(State& s, Decision& d) {
 }
 
 bool Cia402Axis::Request::enables_anew() const noexcept {
-    constexpr std::uint16_t on_bits = cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation;
     return data.controlword && known && (word & on_bits) == on_bits && (before & on_bits) != on_bits;
 }
 
@@ -121,15 +140,14 @@ bool Cia402Axis::change_unreceived(State& s, const Request& r, Decision& d) cons
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(r.word & cw_quick_stop)) {
-        forget_motion(s);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
-    } else if ((r.word & cw_halt) && (!r.known || (r.rising() & cw_halt))) {
-        forget_motion(s);
+    } else if (r.begins(cw_halt)) {
+        s.forget(Cause::motion_ends);
         s.halted = true;
         d.orders.emplace_back(Halt{});
     } else {
-        d = refuse(Reason::no_answer,
-                   s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+        d = unreceived(s);
         return false;
     }
     return true;
@@ -142,91 +160,54 @@ void Cia402Axis::stop_in_any_state(State& s, const Request& r, Decision& d) cons
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(r.word & cw_quick_stop)) {
-        forget_motion(s);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
     } else if (r.stops_by(cw_switch_on) || r.stops_by(cw_enable_operation)) {
         order_off_blindly(s, d);
-    } else if ((r.word & cw_halt) && (!r.known || (r.rising() & cw_halt))) {
-        forget_motion(s);
+    } else if (r.begins(cw_halt)) {
+        s.forget(Cause::motion_ends);
         s.halted = true;
         d.orders.emplace_back(Halt{});
     }
 }
 
 void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
-    const std::uint16_t cw = r.word;
-    const bool so = cw & cw_switch_on, ev = cw & cw_enable_voltage, qs = cw & cw_quick_stop, eo = cw & cw_enable_operation;
-    const bool off_by_word = !ev || !qs || !so || !eo;
-    const bool may_rise = r.current || r.enables_anew();  // repeated words do not undo what somebody else has ended
-    if (s.power_pending == 1 && off_by_word && s.state != PowerState::operation_enabled && s.state != PowerState::quick_stop_active) {
+    const bool powered = s.state == PowerState::operation_enabled || s.state == PowerState::quick_stop_active;
+    if (s.power_pending == 1 && !powered && (r.word & on_bits) != on_bits) {
         // On its way to being switched on: that is taken back, not waited for.
-        s.virtual_step = !ev || !qs ? 0 : !so ? 1 : 2;
+        s.virtual_step = !(r.word & ev) || !(r.word & qs) ? 0 : !(r.word & so) ? 1 : 2;
         return order_off(s, d);
     }
-    const bool powered = s.state == PowerState::operation_enabled || s.state == PowerState::quick_stop_active;
     if (!powered && (s.feedback.moving || s.feedback.homing || s.recorded)) {
         const auto orders = d.orders.size();
         stop_in_any_state(s, r, d);
         if (d.orders.size() != orders) return;
     }
-    switch (s.state) {
-        case PowerState::not_ready_to_switch_on:
-        case PowerState::fault_reaction_active:
-        case PowerState::fault:
-            return;  // left by the drive, or by the fault reset's edge
-        case PowerState::switch_on_disabled:
-            if (ev && qs && !so) s.virtual_step = 1;  // transition 2: shutdown
-            return settle(s);
-        case PowerState::ready_to_switch_on:
-            if (!ev || !qs) {
-                s.virtual_step = 0;  // 7
-            } else if (so && eo && may_rise) {
-                s.virtual_step = 3;
-                order_on(s, &r.own, d);  // 3 and 4 together
+    const bool may_rise = r.current || r.enables_anew();  // repeated words do not undo what somebody else has ended
+    for (const Transition& t : transitions) {
+        if (t.from != s.state || (r.word & t.set) != t.set || (r.word & t.clear)) continue;
+        if (t.power == Power::on && !may_rise) continue;
+        // An edge: a controller that writes the same word again and again does not undo a stop, whoever made it.
+        if (t.power == Power::on_by_edge && !r.enables_anew()) continue;
+        if (t.power == Power::quick_stop_again && !s.feedback.moving && !s.recorded) continue;
+        if (t.step != same) s.virtual_step = t.step;
+        switch (t.power) {
+            case Power::stays:
+                return settle(s);
+            case Power::on:
+            case Power::on_by_edge:  // the drive is told again, so that a lock that the stop has set is gone or is reported
+                return order_on(s, &r.own, d);
+            case Power::off:
+                return order_off(s, d);
+            case Power::quick_stop:
+                s.forget(Cause::motion_ends);
+                [[fallthrough]];
+            case Power::quick_stop_again:
+                d.orders.emplace_back(QuickStop{});
                 return;
-            } else if (so && !eo) {
-                s.virtual_step = 2;  // 3
-            }
-            return settle(s);
-        case PowerState::switched_on:
-            if (!ev || !qs) {
-                s.virtual_step = 0;  // 10
-            } else if (!so) {
-                s.virtual_step = 1;  // 6
-            } else if (eo && may_rise) {
-                s.virtual_step = 3;
-                order_on(s, &r.own, d);  // 4
-                return;
-            }
-            return settle(s);
-        case PowerState::operation_enabled:
-            if (!ev) {
-                s.virtual_step = 0;  // 9
-                order_off(s, d);
-            } else if (!qs) {
-                forget_motion(s);
-                d.orders.emplace_back(QuickStop{});  // 11
-            } else if (!so) {
-                s.virtual_step = 1;  // 8
-                order_off(s, d);
-            } else if (!eo) {
-                s.virtual_step = 2;  // 5
-                order_off(s, d);
-            }
-            return;
-        case PowerState::quick_stop_active:
-            if (!ev) {
-                s.virtual_step = 0;  // 12
-                order_off(s, d);
-            } else if (!qs && (s.feedback.moving || s.recorded)) {
-                d.orders.emplace_back(QuickStop{});  // said again while it still moves
-            } else if (r.enables_anew()) {
-                // An edge: a controller that writes the same word again and again does not undo a stop, whoever made it.
-                s.virtual_step = 3;
-                order_on(s, &r.own, d);  // 16: the drive is told again, so that a lock that the stop has set is gone or is reported
-            }
-            return;
+        }
     }
+    if (s.state >= PowerState::switch_on_disabled && s.state <= PowerState::switched_on) settle(s);
 }
 
 /// A rising edge of bit 4 in profile position mode. False: refused, and `d` says why.
@@ -262,66 +243,79 @@ bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
         s.setpoint_acknowledged = true;
         ++s.setpoints_accepted;
     } else {
-        s.buffered.reset();
+        s.forget(Cause::set_point);
         d.orders.emplace_back(m);
     }
     return true;
 }
 
-/// Halt, new set-points, homing start. False: refused, and `d` says why.
-bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
-    const std::uint16_t rising = r.rising(), falling = r.falling();
-    const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
-    const bool halts = (r.word & cw_halt) && r.data.controlword && (!r.known || (rising & cw_halt));
+/// Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or resets is
+/// not refused for it: what ends a motion never depends on the bits that would begin one. False: refused, and `d` says why.
+bool Cia402Axis::change_without_power(State& s, const Request& r, Decision& d) const {
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
-    if (falling & cw_new_setpoint) s.setpoint_acknowledged = false;
-    if (!enabled || d.orders.size() > 0) {
-        // Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or
-        // resets is not refused for it: what ends a motion never depends on the bits that would begin one.
-        const bool asks = (r.word & cw_new_setpoint) && r.data.controlword && (!r.known || (rising & cw_new_setpoint));
-        if (asks && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
-            d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
-            return false;
-        }
-        if (r.data.controlword) s.halted = (r.word & cw_halt) || (s.halted && !(falling & cw_halt));
-        return true;
+    if (r.begins(cw_new_setpoint) && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
+        d = refuse(Reason::wrong_state, fmt::format("a new set-point needs operation enabled; the axis is {}", name_of(s_.state)));
+        return false;
     }
-    if (halts) {
+    if (r.data.controlword) s.halted = (r.word & cw_halt) || (s.halted && !(r.falling() & cw_halt));
+    return true;
+}
+
+/// Bit 8: set, it halts the motion; cleared, a motion to a target goes on.
+void Cia402Axis::change_halt(State& s, const Request& r, Decision& d) const {
+    if (r.begins(cw_halt)) {
         s.halted = true;
-        s.ordered_velocity = 0;
+        s.forget(Cause::halt_bit);
         d.orders.emplace_back(Halt{});
-    } else if (falling & cw_halt) {
+    } else if (r.falling() & cw_halt) {
         s.halted = false;
-        if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached && !(rising & cw_new_setpoint)) {
+        if (s.mode == mode_profile_position && s.active && !s.feedback.target_reached && !(r.rising() & cw_new_setpoint)) {
             d.orders.emplace_back(*s.active);
             ++s.repeated_moves;
         }
     }
-    if (s.mode == mode_profile_position && (rising & cw_new_setpoint) && !halts && !new_set_point(s, r, d)) return false;
-    if (s.mode == mode_homing) {
-        if ((rising & cw_new_setpoint) && !halts) {
-            if (Decision no = may_home(s); no.refused) {
-                d = std::move(no);
-                return false;
-            }
-            d.orders.emplace_back(Home{s.homing_method});
+}
+
+/// Bit 4 in homing mode: its rising edge starts homing, its falling one ends it. False: refused, and `d` says why.
+bool Cia402Axis::change_homing(State& s, const Request& r, bool starts, Decision& d) const {
+    if (starts) {
+        if (Decision no = may_home(s); no.refused) {
+            d = std::move(no);
+            return false;
         }
-        const bool under_way = s.feedback.homing || (s.feedback.moving && !s.feedback.homing_attained);
-        if ((falling & cw_new_setpoint) && under_way) d.orders.emplace_back(Halt{});
+        d.orders.emplace_back(Home{s.homing_method});
     }
-    if (s.mode == mode_profile_velocity && !s.halted && (r.current || r.fresh)) {
-        const bool released = (falling & cw_halt) && r.own.velocity_forgotten == s.forgotten;
-        // A speed whose order has no answer yet is not ordered once more because its client repeats it.
-        if ((r.data.target_velocity || released) && r.own.target_velocity != s.asked_velocity.value_or(s.ordered_velocity)) {
-            Move m;
-            m.kind = Move::Kind::velocity;
-            m.target = r.own.target_velocity;
-            if (r.own.acceleration) m.acceleration = r.own.acceleration;
-            if (r.own.deceleration) m.deceleration = r.own.deceleration;
-            d.orders.emplace_back(m);
-            s.asked_velocity = m.target;
-        }
-    }
+    const bool under_way = s.feedback.homing || (s.feedback.moving && !s.feedback.homing_attained);
+    if ((r.falling() & cw_new_setpoint) && under_way) d.orders.emplace_back(Halt{});
+    return true;
+}
+
+/// The target velocity in profile velocity mode: written, or released by the end of a halt.
+void Cia402Axis::change_velocity(State& s, const Request& r, Decision& d) const {
+    if (s.halted || (!r.current && !r.fresh)) return;
+    const bool released = (r.falling() & cw_halt) && r.own.velocity_forgotten == s.forgotten;
+    if (!r.data.target_velocity && !released) return;
+    // A speed whose order has no answer yet is not ordered once more because its client repeats it.
+    if (r.own.target_velocity == s.asked_velocity.value_or(s.ordered_velocity)) return;
+    Move m;
+    m.kind = Move::Kind::velocity;
+    m.target = r.own.target_velocity;
+    if (r.own.acceleration) m.acceleration = r.own.acceleration;
+    if (r.own.deceleration) m.deceleration = r.own.deceleration;
+    d.orders.emplace_back(m);
+    s.asked_velocity = m.target;
+}
+
+/// Halt, new set-points, homing start. False: refused, and `d` says why.
+bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
+    if (r.falling() & cw_new_setpoint) s.setpoint_acknowledged = false;
+    const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
+    if (!enabled || !d.orders.empty()) return change_without_power(s, r, d);
+    change_halt(s, r, d);
+    const bool starts = (r.rising() & cw_new_setpoint) && !r.begins(cw_halt);
+    if (s.mode == mode_profile_position && starts && !new_set_point(s, r, d)) return false;
+    if (s.mode == mode_homing && !change_homing(s, r, starts, d)) return false;
+    if (s.mode == mode_profile_velocity) change_velocity(s, r, d);
     return true;
 }
 
@@ -349,14 +343,12 @@ void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
     own.mode = *mode;
     if (*mode == s.mode || (busy && repeated && !r.current)) return;
     if (s.mode == mode_profile_velocity && s.ordered_velocity != 0) {
-        s.ordered_velocity = 0;
+        s.forget(Cause::mode_left);
         d.orders.emplace_back(Halt{});
     }
     s.mode = *mode;
     if (s.following) s.mode_before = s.mode;
-    s.setpoint_acknowledged = false;
-    s.buffered.reset();
-    forget_velocity(s);  // an old speed must not start the axis in its new mode
+    s.forget(Cause::new_mode);
 }
 
 Cia402Axis::Decision Cia402Axis::on_process_data(const ProcessData& data, const Origin& by, const Look& look) {
@@ -426,30 +418,47 @@ Cia402Axis::Decision Cia402Axis::may_home(const State& s) const {
 /// A motion by command: what it is shown as, and what it makes forgotten. While another one runs, that waits until the drive has taken it:
 /// an order that is refused leaves the motion of another client, its mode and what waits behind it as they are.
 void Cia402Axis::ask_motion(State& s, const CommandBody& body) {
-    if (runs(s)) {
+    if (s.runs()) {
         ++s.asked_motions;
     } else {
-        take_motion(s, body);
+        s.take_motion(body);
     }
 }
 
-bool Cia402Axis::runs(const State& s) noexcept {
-    return s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0 || s.following || s.active || s.buffered;
+bool Cia402Axis::State::runs() const noexcept {
+    return feedback.moving || feedback.homing || recorded || ordered_velocity != 0 || following || active || buffered;
 }
 
-void Cia402Axis::take_motion(State& s, const CommandBody& body) {
-    s.buffered.reset();
+void Cia402Axis::State::take_motion(const CommandBody& body) {
     if (const auto* home = std::get_if<Home>(&body)) {
-        s.active.reset();
-        s.mode = mode_homing;
-        s.homing_method = home->method;
-    } else if (const auto* move = std::get_if<Move>(&body); move && move->kind == Move::Kind::velocity) {
-        s.mode = mode_profile_velocity;
-        s.target_velocity = static_cast<std::int32_t>(move->target);
+        forget(Cause::homing_asked);
+        mode = mode_homing;
+        homing_method = home->method;
+        return;
+    }
+    forget(Cause::motion_asked);
+    if (const auto* move = std::get_if<Move>(&body); move && move->kind == Move::Kind::velocity) {
+        mode = mode_profile_velocity;
+        target_velocity = static_cast<std::int32_t>(move->target);
     } else if (move) {
-        s.mode = mode_profile_position;
-        const std::int64_t from = move->kind == Move::Kind::relative ? s.feedback.position : 0;
-        s.target_position = static_cast<std::int32_t>(from + move->target);
+        mode = mode_profile_position;
+        const std::int64_t from = move->kind == Move::Kind::relative ? feedback.position : 0;
+        target_position = static_cast<std::int32_t>(from + move->target);
+    }
+}
+
+/// By command.
+void Cia402Axis::enable(State& s, Words* own, Decision& d) {
+    s.ordered_on = true;
+    // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
+    const bool already = s.state == PowerState::operation_enabled && s.power_pending != 0;
+    const unsigned kept = already ? s.controlword & ~unsigned{cw_halt} : 0;
+    s.controlword = static_cast<std::uint16_t>(kept | cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation);
+    if (!already) {
+        s.virtual_step = 3;
+        order_on(s, own, d);
+    } else if (s.halted) {
+        s.forget(Cause::motion_ends);  // a halt bit that its client has left behind ends here, and nothing goes on for that
     }
 }
 
@@ -459,46 +468,27 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
     const AuthorityClient who = AuthorityClient::of(by);
     Words* const own = who.door == Door::internal || who.door == Door::none ? nullptr : &client(who).words;
     const bool present = s.presence != Presence::offline && s.seen;
-    const auto faulty = [&] {
-        return refuse(Reason::wrong_state,
-                      fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
-    };
-    if (!present && !is_urgent(body))
-        return refuse(Reason::no_answer,
-                      s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
+    if (!present && !is_urgent(body)) return unreceived(s);
     if (std::holds_alternative<Enable>(body)) {
-        if (s.feedback.fault) return faulty();
-        s.ordered_on = true;
-        // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
-        const bool already = s.state == PowerState::operation_enabled && s.power_pending != 0;
-        const unsigned kept = already ? s.controlword & ~unsigned{cw_halt} : 0;
-        s.controlword = static_cast<std::uint16_t>(kept | cw_switch_on | cw_enable_voltage | cw_quick_stop | cw_enable_operation);
-        if (!already) {
-            s.virtual_step = 3;
-            order_on(s, own, d);
-        } else if (s.halted) {
-            forget_motion(s);  // a halt bit that its client has left behind ends here, and nothing goes on for that
-        }
+        if (s.feedback.fault) return in_fault(s);
+        enable(s, own, d);
     } else if (std::holds_alternative<Disable>(body)) {
         s.controlword = 0;
         s.power_pending = 0;
         order_off_blindly(s, d);
     } else if (std::holds_alternative<QuickStop>(body)) {
         s.controlword &= static_cast<std::uint16_t>(~cw_quick_stop);
-        forget_motion(s);
+        s.forget(Cause::motion_ends);
         d.orders.emplace_back(QuickStop{});
     } else if (std::holds_alternative<Halt>(body)) {
-        s.active.reset();
-        s.buffered.reset();
-        s.ordered_velocity = 0;
-        forget_velocity(s);
+        s.forget(Cause::halt_command);
         d.orders.emplace_back(Halt{});
     } else if (std::holds_alternative<ResetFault>(body)) {
         order_reset(s, d);
     } else if (const auto* home = std::get_if<Home>(&body)) {
         if (s.feedback.fault) {
             s_.homing_refused = true;
-            return faulty();
+            return in_fault(s);
         }
         if (Decision no = may_home(s); no.refused) return no;
         ask_motion(s, body);
@@ -510,7 +500,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
         if (s.feedback.moving || s.feedback.homing) return refuse(Reason::wrong_state, "the axis moves: set its position when it stands");
         d.orders.emplace_back(*set);
     } else if (const auto* move = std::get_if<Move>(&body)) {
-        if (s.feedback.fault) return faulty();
+        if (s.feedback.fault) return in_fault(s);
         if (s.state != PowerState::operation_enabled || s.power_pending == 0) {
             return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
         }
@@ -538,12 +528,8 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
 
 Cia402Axis::Decision Cia402Axis::may_follow() const {
     const State& s = s_;
-    if (s.presence == Presence::offline || !s.seen)
-        return refuse(Reason::no_answer,
-                      s.presence == Presence::offline ? "the drive does not answer" : "the drive has not said yet where it is");
-    if (s.feedback.fault)
-        return refuse(Reason::wrong_state,
-                      fmt::format("the axis is in fault (drive's code {}): reset the fault first", s.feedback.error_code));
+    if (s.presence == Presence::offline || !s.seen) return unreceived(s);
+    if (s.feedback.fault) return in_fault(s);
     if (s.state != PowerState::operation_enabled || s.power_pending == 0)
         return refuse(Reason::wrong_state, fmt::format("the axis is {}: enable it first", name_of(s.state)));
     if (!s.ordered_on)
@@ -556,7 +542,7 @@ Cia402Axis::Decision Cia402Axis::may_follow() const {
 void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     State& s = s_;
     if (!s.following) {
-        forget_motion(s);
+        s.forget(Cause::motion_ends);
         ++s.turn;
         s.stopped = false;
         s.following = true;
@@ -567,6 +553,6 @@ void Cia402Axis::follow(const SetPoint& p, std::int16_t mode) {
     s.target_velocity = p.mode == SetPoint::Mode::velocity ? static_cast<std::int32_t>(p.value) : 0;
 }
 
-void Cia402Axis::end_following() { leave_stream(s_); }
+void Cia402Axis::end_following() { s_.leave_stream(); }
 
 }  // namespace axisgate

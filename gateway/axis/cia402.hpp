@@ -136,7 +136,33 @@ private:
         std::uint64_t used = 0;
     };
     static constexpr std::size_t most_clients = 32;  // the one that wrote longest ago makes room; it counts as not known then
+    /// Why something that was asked for is forgotten.
+    enum class Cause : std::uint8_t {
+        motion_ends,     ///< power goes on or off, a stop, another drive serves, a stream begins
+        fault,           ///< the drive has one
+        halt_command,    ///< Halt by command
+        halt_bit,        ///< bit 8 of the word
+        mode_left,       ///< while the axis turned at a speed
+        new_mode,        ///< an old speed must not start the axis in it
+        stream_ends,     ///< and the mode before it is back
+        set_point,       ///< one that takes place at once
+        motion_asked,    ///< by command
+        homing_asked,    ///< by command
+        homing_taken,    ///< it does not turn at that speed any more: the same speed is an order again
+        velocity_taken,  ///< it has no target
+        position_set,    ///< the target was a place by the old count
+        arrival          ///< the motion is over
+    };
     struct State {
+        void forget(Cause cause);
+        void leave_stream();
+        void take_motion(const CommandBody& body);
+        void end_turn() noexcept;
+        [[nodiscard]] bool runs() const noexcept;
+        [[nodiscard]] bool reached() const noexcept;
+        [[nodiscard]] PowerState state_when_off() const noexcept;
+        [[nodiscard]] std::uint16_t mode_bits() const noexcept;
+
         PowerState state = PowerState::not_ready_to_switch_on;
         Presence presence = Presence::offline;
         AxisFeedback feedback;
@@ -177,8 +203,9 @@ private:
         std::optional<Move> buffered;  // one set-point that waits for the running one
     };
 
-    [[nodiscard]] static PowerState state_when_off(const State& s) noexcept;
     [[nodiscard]] Decision refuse(Reason reason, std::string text) const;
+    [[nodiscard]] Decision unreceived(const State& s) const;
+    [[nodiscard]] Decision in_fault(const State& s) const;
     /// One block of registers while it is looked at: the word, this client's word before it, and what it asks for.
     struct Request {
         const ProcessData& data;
@@ -192,6 +219,10 @@ private:
         [[nodiscard]] std::uint16_t falling() const noexcept { return before & static_cast<std::uint16_t>(~word); }
         /// A bit that stops by being 0 counts as falling where the word before is not known: a stop is never missed for that.
         [[nodiscard]] bool stops_by(std::uint16_t bit) const noexcept { return !(word & bit) && (!known || (before & bit)); }
+        /// A bit that acts by being 1: its edge, or where the word before is not known its level.
+        [[nodiscard]] bool begins(std::uint16_t bit) const noexcept {
+            return data.controlword && (word & bit) && (!known || (rising() & bit));
+        }
         [[nodiscard]] bool enables_anew() const noexcept;
         [[nodiscard]] bool is_fresh() const noexcept;
     };
@@ -201,21 +232,20 @@ private:
     void change_power(State& s, const Request& r, Decision& d) const;
     void stop_in_any_state(State& s, const Request& r, Decision& d) const;
     [[nodiscard]] bool change_motion(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] bool change_without_power(State& s, const Request& r, Decision& d) const;
+    void change_halt(State& s, const Request& r, Decision& d) const;
+    [[nodiscard]] bool change_homing(State& s, const Request& r, bool starts, Decision& d) const;
+    void change_velocity(State& s, const Request& r, Decision& d) const;
     [[nodiscard]] bool new_set_point(State& s, const Request& r, Decision& d) const;
     [[nodiscard]] Decision may_home(const State& s) const;
     void settle(State& s) const;
+    static void enable(State& s, Words* own, Decision& d);
     static void order_on(State& s, Words* own, Decision& d);
     static void order_off(State& s, Decision& d);
     static void order_off_blindly(State& s, Decision& d);
     static void order_reset(State& s, Decision& d);
-    static void forget_motion(State& s);
-    static void forget_velocity(State& s);
     static void ask_motion(State& s, const CommandBody& body);
-    static void take_motion(State& s, const CommandBody& body);
-    [[nodiscard]] static bool runs(const State& s) noexcept;
     [[nodiscard]] static bool asked_beside_another(State& s, const CommandBody& order, bool good);
-    static void end_turn(State& s) noexcept;
-    static void leave_stream(State& s);
     State s_;
     std::vector<Client> clients_;
     std::uint64_t uses_ = 0;

@@ -48,6 +48,11 @@ PowerState power_state_of(std::uint16_t sw) noexcept {
     return PowerState::fault;
 }
 
+static std::uint16_t coding_of(PowerState state) noexcept {
+    constexpr std::array<std::uint16_t, 8> codings{0, sw_switch_on_disabled, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
+    return codings[static_cast<std::size_t>(state)];
+}
+
 /// Sets the power state from what the drive says and what this class keeps for it.
 void Cia402Axis::settle(State& s) const {
     if (s.presence == Presence::offline || !s.seen) {
@@ -57,12 +62,11 @@ void Cia402Axis::settle(State& s) const {
     const auto own = s.feedback.statusword ? std::optional(power_state_of(*s.feedback.statusword)) : std::nullopt;
     if (s.feedback.fault) {
         const bool reported = own == PowerState::fault || own == PowerState::fault_reaction_active;
-        if (s.state != PowerState::fault && s.state != PowerState::fault_reaction_active) end_turn(s);
+        if (s.state != PowerState::fault && s.state != PowerState::fault_reaction_active) s.end_turn();
         s.state = reported ? *own : s.feedback.moving ? PowerState::fault_reaction_active : PowerState::fault;
         s.virtual_step = 0;
         s.quick_stopped = false;
-        s.active.reset();
-        s.buffered.reset();
+        s.forget(Cause::fault);
         return;
     }
     if (s.feedback.power == AxisFeedback::Power::on) {
@@ -71,8 +75,8 @@ void Cia402Axis::settle(State& s) const {
         const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
         const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
         if (stopped && s.state == PowerState::operation_enabled) {
-            forget_motion(s);
-            if (!s.quick_stopped) end_turn(s);
+            s.forget(Cause::motion_ends);
+            if (!s.quick_stopped) s.end_turn();
         }
         s.state = stopped ? PowerState::quick_stop_active : PowerState::operation_enabled;
         return;
@@ -80,26 +84,26 @@ void Cia402Axis::settle(State& s) const {
     if (s.power_pending == 1) return;
     if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
         s.virtual_step = 0;
-        forget_motion(s);
-        end_turn(s);
+        s.forget(Cause::motion_ends);
+        s.end_turn();
     }
     s.quick_stopped = false;
-    s.state = state_when_off(s);
+    s.state = s.state_when_off();
 }
 
 /// The drive has ended by itself what anybody was about: nobody's repeated words begin it again.
-void Cia402Axis::end_turn(State& s) noexcept {
-    ++s.turn;
-    s.stopped = true;
+void Cia402Axis::State::end_turn() noexcept {
+    ++turn;
+    stopped = true;
 }
 
 /// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
 /// than it is; a step that it does not know, and that a control word waits for, is shown above it.
-PowerState Cia402Axis::state_when_off(const State& s) noexcept {
-    const PowerState step = s.virtual_step == 1   ? PowerState::ready_to_switch_on
-                            : s.virtual_step == 2 ? PowerState::switched_on
-                                                  : PowerState::switch_on_disabled;
-    const auto own = s.feedback.statusword ? power_state_of(*s.feedback.statusword) : step;
+PowerState Cia402Axis::State::state_when_off() const noexcept {
+    const PowerState step = virtual_step == 1   ? PowerState::ready_to_switch_on
+                            : virtual_step == 2 ? PowerState::switched_on
+                                                : PowerState::switch_on_disabled;
+    const auto own = feedback.statusword ? power_state_of(*feedback.statusword) : step;
     return own <= PowerState::switched_on ? std::max(own, step) : step;
 }
 
@@ -107,7 +111,7 @@ PowerState Cia402Axis::state_when_off(const State& s) noexcept {
 bool Cia402Axis::asked_beside_another(State& s, const CommandBody& order, bool good) {
     if (s.asked_motions == 0) return false;
     --s.asked_motions;
-    if (good) take_motion(s, order);
+    if (good) s.take_motion(order);
     return true;
 }
 
@@ -122,7 +126,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         } else {
             s.virtual_step = 0;
             s.controlword &= static_cast<std::uint16_t>(~cw_enable_operation);
-            end_turn(s);
+            s.end_turn();
         }
         settle(s);
     } else if (std::holds_alternative<Disable>(order)) {
@@ -139,9 +143,9 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
     } else if (std::holds_alternative<Home>(order)) {
         const bool beside_another = asked_beside_another(s, order, good);
         if (!beside_another || good) s.homing_refused = !good;
-        if (good) s.ordered_velocity = 0;  // it does not turn at that speed any more: the same speed is an order again
+        if (good) s.forget(Cause::homing_taken);
     } else if (std::holds_alternative<SetPosition>(order)) {
-        if (good) s.active.reset();  // its target was a place by the old count
+        if (good) s.forget(Cause::position_set);
     } else if (const auto* m = std::get_if<Move>(&order)) {
         if (m->kind == Move::Kind::velocity && s.asked_velocity == m->target) s.asked_velocity.reset();
         const bool again = s.repeated_moves > 0;
@@ -162,7 +166,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
         if (m->kind == Move::Kind::velocity) {
             s.ordered_velocity = m->target;
-            s.active.reset();
+            s.forget(Cause::velocity_taken);
         } else {
             s.ordered_velocity = 0;
             s.active = *m;
@@ -198,11 +202,11 @@ std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback,
     if (f.target_reached && !f.moving) {
         if (s.buffered && !s.halted && s.asked_motions == 0) {
             Move next = *s.buffered;
-            s.buffered.reset();
+            s.forget(Cause::set_point);
             ++s.repeated_moves;  // counted when it was buffered
             return CommandBody{next};
         }
-        if (!s.halted) s.active.reset();
+        if (!s.halted) s.forget(Cause::arrival);
     }
     return std::nullopt;
 }
@@ -234,8 +238,8 @@ void Cia402Axis::on_presence(Presence presence) {
     ++s_.enables;  // written targets count no more
     s_.ordered_on = false;
     s_.asked_motions = 0;
-    forget_motion(s_);
-    end_turn(s_);
+    s_.forget(Cause::motion_ends);
+    s_.end_turn();
     settle(s_);
 }
 
@@ -249,67 +253,33 @@ bool Cia402Axis::commanded() const noexcept {
            s_.feedback.moving;
 }
 
+/// What status word and flags show as arrived: by the mode, where the axis stands or has the speed that it should have.
+bool Cia402Axis::State::reached() const noexcept {
+    if (mode == mode_homing) return !feedback.moving && !feedback.homing;
+    if (mode == mode_profile_velocity && !halted)
+        return std::llabs(feedback.velocity - ordered_velocity) * 100 <= std::llabs(ordered_velocity);
+    return !feedback.moving && (feedback.target_reached || (halted && !is_streamed(mode)));
+}
+
+/// Bits 12 and 13, which each mode has for itselfeedback.
+std::uint16_t Cia402Axis::State::mode_bits() const noexcept {
+    if (mode == mode_profile_velocity) return feedback.velocity == 0 ? sw_mode_12 : 0;
+    if (is_streamed(mode)) return following ? sw_mode_12 : 0;  // the drive follows the command value
+    if (mode != mode_homing) return setpoint_acknowledged || buffered ? sw_mode_12 : 0;
+    std::uint16_t bits = feedback.homing_attained && !homing_refused ? sw_mode_12 : 0;
+    if (feedback.homing_error || homing_refused) bits |= sw_mode_13;
+    return bits;
+}
+
 void Cia402Axis::fill(AxisPicture& p) const noexcept {
     const State& s = s_;
     const AxisFeedback& f = s.feedback;
-    std::uint16_t sw = 0;
-    switch (s.state) {
-        case PowerState::not_ready_to_switch_on:
-            sw = 0;
-            break;
-        case PowerState::switch_on_disabled:
-            sw = sw_switch_on_disabled;
-            break;
-        case PowerState::ready_to_switch_on:
-            sw = 0x21;
-            break;
-        case PowerState::switched_on:
-            sw = 0x23;
-            break;
-        case PowerState::operation_enabled:
-            sw = 0x27;
-            break;
-        case PowerState::quick_stop_active:
-            sw = 0x07;
-            break;
-        case PowerState::fault_reaction_active:
-            sw = 0x0F;
-            break;
-        case PowerState::fault:
-            sw = 0x08;
-            break;
-    }
-    const bool present = s.presence != Presence::offline;
-    if (present && s.seen) sw |= sw_voltage | sw_remote;
-    if (f.warning) sw |= sw_warning;
-    if (s.presence == Presence::twin) sw |= sw_simulated;
-    if (f.internal_limit) sw |= sw_internal_limit;
-    if (f.referenced) sw |= sw_referenced;
-    bool reached = f.target_reached && !f.moving;
-    switch (s.mode) {
-        case mode_profile_velocity:
-            reached = s.halted ? !f.moving : std::llabs(f.velocity - s.ordered_velocity) * 100 <= std::llabs(s.ordered_velocity);
-            if (f.velocity == 0) sw |= sw_mode_12;
-            break;
-        case mode_homing:
-            reached = !f.moving && !f.homing;
-            if (f.homing_attained && !s.homing_refused) sw |= sw_mode_12;
-            if (f.homing_error || s.homing_refused) sw |= sw_mode_13;
-            break;
-        case mode_profile_torque:
-        case mode_interpolated_position:
-        case mode_cyclic_position:
-        case mode_cyclic_velocity:
-        case mode_cyclic_torque:
-            if (s.following) sw |= sw_mode_12;  // the drive follows the command value
-            break;
-        default:
-            if (s.halted) reached = !f.moving;
-            if (s.setpoint_acknowledged || s.buffered) sw |= sw_mode_12;
-            break;
-    }
-    if (present && s.seen && reached) sw |= sw_target_reached;
-    p.statusword = sw;
+    const bool present = s.presence != Presence::offline, known = present && s.seen, twin = s.presence == Presence::twin;
+    const bool arrived = known && s.reached();
+    const auto bit = [](bool set, std::uint16_t mask) { return set ? unsigned{mask} : 0u; };
+    p.statusword = static_cast<std::uint16_t>(coding_of(s.state) | bit(known, sw_voltage | sw_remote) | bit(f.warning, sw_warning) |
+                                              bit(twin, sw_simulated) | bit(f.internal_limit, sw_internal_limit) |
+                                              bit(f.referenced, sw_referenced) | bit(arrived, sw_target_reached) | s.mode_bits());
     p.mode_display = s.mode;
     p.position = f.position;
     p.demand_source = f.demand_source;
@@ -330,15 +300,9 @@ void Cia402Axis::fill(AxisPicture& p) const noexcept {
     p.ever_seen = s.received != Presence::offline;
     p.current = s.seen;
     p.at = f.at;
-    std::uint16_t flags = 0;
-    if (present) flags |= flag_online;
-    if (s.presence == Presence::twin) flags |= flag_simulated;
-    if (f.referenced) flags |= flag_referenced;
-    if (f.moving) flags |= flag_moving;
-    if (present && s.seen && reached) flags |= flag_target_reached;
-    if (f.fault) flags |= flag_fault;
-    if (f.warning) flags |= flag_warning;
-    p.flags = flags;
+    p.flags = static_cast<std::uint16_t>(bit(present, flag_online) | bit(twin, flag_simulated) | bit(f.referenced, flag_referenced) |
+                                         bit(f.moving, flag_moving) | bit(arrived, flag_target_reached) | bit(f.fault, flag_fault) |
+                                         bit(f.warning, flag_warning));
 }
 
 }  // namespace axisgate

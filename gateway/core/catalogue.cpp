@@ -124,6 +124,56 @@ struct Reader {
         }
     }
 };
+
+CatalogueCommand command_of(const json::object& o, std::vector<std::string>& faults) {
+    CatalogueCommand command{
+        text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
+    Reader{faults}.arguments(o, "commands: " + command.id, command.arguments);
+    if (const auto* ask = o.if_contains("confirm"); ask && !(ask->is_string() && ask->get_string().ends_with('.')))
+        faults.push_back(fmt::format("commands: {}: confirm: sentences that say what is lost, or leave it out", command.id));
+    if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
+        const auto found = std::ranges::find(completion_names, word);
+        if (found == completion_names.end())
+            faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));
+        else
+            command.completes = static_cast<Completion>(found - completion_names.begin());
+    }
+    return command;
+}
+
+std::optional<ErrorCode> error_of(const json::object& o, std::size_t i, std::vector<std::string>& faults) {
+    const auto* code = o.if_contains("code");
+    if (!code || !code->is_int64()) {
+        faults.push_back(fmt::format("errors[{}].code: a whole number is missing", i));
+        return std::nullopt;
+    }
+    const auto* through = o.if_contains("through");
+    if (through && !through->is_null() && !(through->is_int64() && through->get_int64() > code->get_int64())) {
+        faults.push_back(fmt::format("errors[{}].through: a whole number above code is missing", i));
+        return std::nullopt;
+    }
+    const bool range = through && through->is_int64();
+    return ErrorCode{static_cast<std::int32_t>(code->get_int64()),
+                     text_or_empty(o, "kind"),
+                     text_or_empty(o, "name"),
+                     text_or_empty(o, "text"),
+                     text_or_empty(o, "cause"),
+                     text_or_empty(o, "remedy"),
+                     range ? static_cast<std::int32_t>(through->get_int64()) : 0};
+}
+
+std::vector<std::int16_t> modes_of(const json::value& list, std::vector<std::string>& faults) {
+    std::vector<std::int16_t> modes;
+    for (const auto& v : list.is_array() ? list.get_array() : json::array()) {
+        const auto* n = v.if_int64();
+        if (n && *n >= -128 && *n <= 127 && *n != 0 && std::ranges::find(modes, *n) == modes.end())
+            modes.push_back(static_cast<std::int16_t>(*n));
+        else
+            faults.push_back("catalogue.modes: modes of operation are whole numbers from -128 to 127 without 0, each once");
+    }
+    if (modes.empty()) faults.push_back("catalogue.modes: a list of the modes of operation (CiA 402) that the drives offer is missing");
+    return modes;
+}
 }  // namespace
 
 std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std::string>& faults) {
@@ -154,56 +204,16 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
     }
     if (const auto* list = array("commands")) {
         for (const auto& v : *list) {
-            if (v.is_object()) {
-                const auto& o = v.get_object();
-                CatalogueCommand command{
-                    text_or_empty(o, "id"), text_or_empty(o, "name"), text_or_empty(o, "description"), Completion::acknowledged, {}};
-                Reader{faults}.arguments(o, "commands: " + command.id, command.arguments);
-                if (const auto* ask = o.if_contains("confirm"); ask && !(ask->is_string() && ask->get_string().ends_with('.')))
-                    faults.push_back(fmt::format("commands: {}: confirm: sentences that say what is lost, or leave it out", command.id));
-                if (const std::string word = text_or_empty(o, "completes"); !word.empty()) {
-                    const auto found = std::ranges::find(completion_names, word);
-                    if (found == completion_names.end())
-                        faults.push_back(fmt::format("commands: {}: completes: {} is not known", command.id, word));
-                    else
-                        command.completes = static_cast<Completion>(found - completion_names.begin());
-                }
-                c.commands_.push_back(std::move(command));
-            }
+            if (v.is_object()) c.commands_.push_back(command_of(v.get_object(), faults));
         }
     }
     if (const auto* list = array("errors")) {
         for (std::size_t i = 0; i < list->size(); ++i) {
-            if (!(*list)[i].is_object()) continue;
-            const auto& o = (*list)[i].get_object();
-            const auto* code = o.if_contains("code");
-            if (!code || !code->is_int64()) {
-                faults.push_back(fmt::format("errors[{}].code: a whole number is missing", i));
-                continue;
-            }
-            const auto* through = o.if_contains("through");
-            if (through && !through->is_null() && !(through->is_int64() && through->get_int64() > code->get_int64())) {
-                faults.push_back(fmt::format("errors[{}].through: a whole number above code is missing", i));
-                continue;
-            }
-            const bool range = through && through->is_int64();
-            c.errors_.push_back({static_cast<std::int32_t>(code->get_int64()), text_or_empty(o, "kind"), text_or_empty(o, "name"),
-                                 text_or_empty(o, "text"), text_or_empty(o, "cause"), text_or_empty(o, "remedy"),
-                                 range ? static_cast<std::int32_t>(through->get_int64()) : 0});
+            const auto* o = (*list)[i].if_object();
+            if (auto error = o ? error_of(*o, i, faults) : std::nullopt) c.errors_.push_back(std::move(*error));
         }
     }
-    if (const auto* list = c.document_.if_contains("modes")) {
-        c.modes_.clear();
-        for (const auto& v : list->is_array() ? list->get_array() : json::array()) {
-            const auto* n = v.if_int64();
-            if (n && *n >= -128 && *n <= 127 && *n != 0 && !c.offers_mode(static_cast<std::int16_t>(*n)))
-                c.modes_.push_back(static_cast<std::int16_t>(*n));
-            else
-                faults.push_back("catalogue.modes: modes of operation are whole numbers from -128 to 127 without 0, each once");
-        }
-        if (c.modes_.empty())
-            faults.push_back("catalogue.modes: a list of the modes of operation (CiA 402) that the drives offer is missing");
-    }
+    if (const auto* list = c.document_.if_contains("modes")) c.modes_ = modes_of(*list, faults);
     check_forms(c, faults);
     if (faults.size() != before) return std::nullopt;
     return c;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "gateway/engine/clients.hpp"
 #include "gateway/engine/publisher.hpp"
@@ -15,7 +16,155 @@ namespace {
 constexpr Duration rest_before_interrupted = std::chrono::milliseconds(250);
 constexpr Duration reset_limit = std::chrono::seconds(3);
 
-enum class Progress : std::uint8_t { done, going_on, failed };
+/// What is seen of a command whose end is watched; of one that has failed, why.
+struct Progress {
+    enum class Kind : std::uint8_t { done, going_on, failed } kind = Kind::going_on;
+    Reason reason = Reason::none;
+    std::string text;
+};
+const Progress done{Progress::Kind::done, Reason::none, {}}, going_on;
+
+template <class... Args>
+Progress failed(Reason reason, fmt::format_string<Args...> text, Args&&... args) {
+    return {Progress::Kind::failed, reason, fmt::format(text, std::forward<Args>(args)...)};
+}
+
+Progress in_fault(const Axis& a) {
+    return failed(Reason::interrupted, "axis {}: fault, drive's code {}", a.spec.name, a.profile.feedback().error_code);
+}
+
+Progress not_enabled(const Axis& a) { return failed(Reason::interrupted, "axis {} is {} now", a.spec.name, name_of(a.profile.state())); }
+
+bool rests_since(const AxisFeedback& f, Instant accepted_at) { return !f.moving && f.at - accepted_at > rest_before_interrupted; }
+
+Progress of_motion(const Axis& a, Instant accepted_at) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (f.fault) return in_fault(a);
+    if (f.target_reached && !f.moving) return done;
+    if (a.profile.state() != PowerState::operation_enabled) return not_enabled(a);
+    if (rests_since(f, accepted_at))
+        return failed(Reason::interrupted, "axis {} has stopped before its target (at {} increments)", a.spec.name, f.position);
+    return going_on;
+}
+
+Progress of_velocity(const Axis& a, const Move& move, Instant accepted_at) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (f.fault) return in_fault(a);
+    if (a.profile.state() != PowerState::operation_enabled) return not_enabled(a);
+    const bool reached = f.at > accepted_at && std::llabs(f.velocity - move.target) * 100 <= std::llabs(move.target);
+    return reached ? done : going_on;
+}
+
+Progress of_homing(const Axis& a, Instant accepted_at) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (f.homing_error && a.homing_why.empty())
+        return failed(Reason::interrupted, "axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code);
+    if (f.homing_error) return failed(Reason::interrupted, "axis {}: {}", a.spec.name, a.homing_why);
+    if (f.homing_attained && !f.moving && !f.homing) return done;
+    if (f.fault) return failed(Reason::interrupted, "axis {}: fault during homing, drive's code {}", a.spec.name, f.error_code);
+    if (!f.homing && rests_since(f, accepted_at))
+        return failed(Reason::interrupted, "axis {}: homing has stopped before its end", a.spec.name);
+    return going_on;
+}
+
+Progress of_enabling(const Axis& a) {
+    if (a.profile.state() == PowerState::operation_enabled) return done;
+    return a.profile.feedback().fault ? in_fault(a) : going_on;
+}
+
+Progress of_reset(const Axis& a, Duration waited) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (!f.fault) return done;
+    if (waited <= reset_limit) return going_on;
+    return failed(Reason::wrong_state, "axis {}: the fault (drive's code {}) is still there; remove its cause first", a.spec.name,
+                  f.error_code);
+}
+
+Progress of_standstill(const Axis& a, Instant accepted_at) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (f.fault) return in_fault(a);
+    return !f.homing && rests_since(f, accepted_at) ? done : going_on;
+}
+
+/// A command of the drive's catalogue whose end the axis shows.
+Progress of_action(const Axis& a, const Client& c, Completion completes) {
+    const AxisFeedback& f = a.profile.feedback();
+    if (completes == Completion::powered) return of_enabling(a);
+    if (completes == Completion::standstill) return of_standstill(a, c.accepted_at);
+    // Before it has begun, the axis shows the end of the motion before.
+    const bool begun = c.was_moving || f.fault || f.at - c.accepted_at > rest_before_interrupted;
+    return begun ? of_motion(a, c.accepted_at) : going_on;
+}
+
+bool is_online(const Axis& a) { return a.drive->serving == Presence::twin ? a.drive->twin_online : a.drive->device_online; }
+
+template <class... Bodies>
+bool is_any_of(const CommandBody& body) {
+    return (std::holds_alternative<Bodies>(body) || ...);
+}
+
+/// Done when all axes have arrived, failed with the first that fails.
+Progress of_start_together(const Machine& machine, const StartTogether& together, Instant accepted_at) {
+    bool all = true;
+    for (const AxisId id : together.axes) {
+        const Axis* x = machine.axis(id);
+        if (!x) continue;
+        Progress one = of_motion(*x, accepted_at);
+        if (one.kind == Progress::Kind::failed) return one;
+        all = all && one.kind == Progress::Kind::done;
+    }
+    return all ? done : going_on;
+}
+
+/// What the axis shows of a command whose client waits for its end.
+Progress progress_of(const Machine& machine, const Axis& a, const Client& c, Completion completes, Instant now) {
+    const AxisFeedback& f = a.profile.feedback();
+    const bool online = is_online(a), fresh = f.at > c.accepted_at;
+    if (completes == Completion::online_again) return c.was_silent && online && fresh ? done : going_on;
+    if (!online && !std::holds_alternative<ProcessData>(c.body))
+        return failed(Reason::no_answer, "axis {}: the drive went silent; whether it has finished is not known", a.spec.name);
+    if (std::holds_alternative<Action>(c.body)) return of_action(a, c, completes);
+    if (std::holds_alternative<Enable>(c.body)) return of_enabling(a);
+    if (std::holds_alternative<Disable>(c.body)) return f.power == AxisFeedback::Power::off ? done : going_on;
+    if (is_any_of<Halt, QuickStop>(c.body)) return fresh && !f.moving ? done : going_on;
+    if (std::holds_alternative<ResetFault>(c.body)) return of_reset(a, now - c.accepted_at);
+    if (std::holds_alternative<Home>(c.body)) return of_homing(a, c.accepted_at);
+    if (const auto* together = std::get_if<StartTogether>(&c.body)) return of_start_together(machine, *together, c.accepted_at);
+    const auto* move = std::get_if<Move>(&c.body);
+    // Parameters, native exchanges, set-points written as process data and prepared moves are done when the drive has taken them.
+    if (!move || move->prepare_only) return done;
+    return move->kind == Move::Kind::velocity ? of_velocity(a, *move, c.accepted_at) : of_motion(a, c.accepted_at);
+}
+
+/// The command's result, once it has one: what the drive answered, turned into what the axis shows.
+std::optional<Result> result_of(const Machine& machine, const Axis& a, Client& c, Instant now) {
+    const AxisFeedback& f = a.profile.feedback();
+    const auto* action = std::get_if<Action>(&c.body);
+    const CatalogueCommand* listed = action ? a.drive->catalogue->command(action->name) : nullptr;
+    const Completion completes = listed ? listed->completes : Completion::acknowledged;
+    if (completes == Completion::online_again && !is_online(a)) c.was_silent = true;
+    c.was_moving = c.was_moving || (f.at > c.accepted_at && f.moving);
+    const bool by_axis = completes != Completion::acknowledged && completes != Completion::reported;
+    // What the axis shows is not the adapter's to tell: its `done` is the drive's acknowledgement then.
+    if (by_axis) c.result.outcome = Outcome::accepted;
+    if (action && (!by_axis || !c.until_done)) {
+        if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
+        return c.result;
+    }
+    Progress progress = c.until_done ? progress_of(machine, a, c, completes, now) : done;
+    if (progress.kind == Progress::Kind::going_on) return std::nullopt;
+    Result r = c.result;
+    if (progress.kind == Progress::Kind::failed) {
+        r.outcome = Outcome::failed;
+        r.reason = progress.reason;
+        r.code = f.error_code;
+        r.text = std::move(progress.text);
+    } else {
+        // Whatever its adapter calls it: what was merely taken is not done.
+        r.outcome = c.until_done || !is_any_of<Move, Home, Halt, QuickStop, StartTogether>(c.body) ? Outcome::done : Outcome::accepted;
+    }
+    return r;
+}
 }  // namespace
 
 /// Other motions of the axis that somebody still watches end here: a new one takes their place.
@@ -24,9 +173,7 @@ void Clients::supersede(Axis& a, std::uint64_t by, std::string_view what) {
     for (const auto number : a.clients) {
         if (number == by) continue;
         const Client& c = *pending_.clients.at(number);
-        const bool motion =
-            std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) || std::holds_alternative<StartTogether>(c.body);
-        if (c.accepted && motion) ended.push_back(number);
+        if (c.accepted && is_any_of<Move, Home, StartTogether>(c.body)) ended.push_back(number);
     }
     for (const auto number : ended) {
         Result r;
@@ -39,136 +186,11 @@ void Clients::supersede(Axis& a, std::uint64_t by, std::string_view what) {
 
 /// Looks at every command of the axis that was accepted and asked to be answered when done (or needs no drive to be done).
 void Clients::track(Axis& a, Instant now) {
-    if (a.clients.empty()) return;
-    const AxisFeedback& f = a.profile.feedback();
-    const bool online = a.drive->serving == Presence::twin ? a.drive->twin_online : a.drive->device_online;
     const auto watched = a.clients;  // finish() changes the list
     for (const auto number : watched) {
         const auto it = pending_.clients.find(number);
         if (it == pending_.clients.end() || !it->second->accepted) continue;
-        Client& c = *it->second;
-        const bool fresh = f.at > c.accepted_at;
-        Progress progress = Progress::going_on;
-        Reason reason = Reason::interrupted;
-        std::string text;
-        const auto fail = [&](Reason why, std::string t) {
-            progress = Progress::failed;
-            reason = why;
-            text = std::move(t);
-        };
-        const auto watch_motion = [&](const Axis& x) {
-            const AxisFeedback& g = x.profile.feedback();
-            if (g.fault) {
-                fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", x.spec.name, g.error_code));
-            } else if (g.target_reached && !g.moving) {
-                progress = Progress::done;
-            } else if (x.profile.state() != PowerState::operation_enabled) {
-                fail(Reason::interrupted, fmt::format("axis {} is {} now", x.spec.name, name_of(x.profile.state())));
-            } else if (!g.moving && g.at - c.accepted_at > rest_before_interrupted) {
-                fail(Reason::interrupted, fmt::format("axis {} has stopped before its target (at {} increments)", x.spec.name, g.position));
-            }
-        };
-        const auto* action = std::get_if<Action>(&c.body);
-        const CatalogueCommand* listed = action ? a.drive->catalogue->command(action->name) : nullptr;
-        const Completion completes = listed ? listed->completes : Completion::acknowledged;
-        if (completes == Completion::online_again && !online) c.was_silent = true;
-        c.was_moving = c.was_moving || (fresh && f.moving);
-        const bool by_axis = completes != Completion::acknowledged && completes != Completion::reported;
-        // What the axis shows is not the adapter's to tell: its `done` is the drive's acknowledgement then.
-        if (by_axis) c.result.outcome = Outcome::accepted;
-        if (action && (!by_axis || !c.until_done)) {
-            if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
-            Result r = c.result;
-            finish(number, std::move(r));
-            continue;
-        }
-        if (!c.until_done) {
-            progress = Progress::done;
-        } else if (completes == Completion::online_again) {
-            if (c.was_silent && online && fresh) progress = Progress::done;
-        } else if (!online && !std::holds_alternative<ProcessData>(c.body)) {
-            fail(Reason::no_answer, fmt::format("axis {}: the drive went silent; whether it has finished is not known", a.spec.name));
-        } else if (completes == Completion::target_reached) {
-            // Before it has begun, the axis shows the end of the motion before.
-            if (c.was_moving || f.fault || f.at - c.accepted_at > rest_before_interrupted) watch_motion(a);
-        } else if (completes == Completion::standstill) {
-            if (f.fault) {
-                fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", a.spec.name, f.error_code));
-            } else if (!f.moving && !f.homing && f.at - c.accepted_at > rest_before_interrupted) {
-                progress = Progress::done;
-            }
-        } else if (std::holds_alternative<Enable>(c.body) || completes == Completion::powered) {
-            if (a.profile.state() == PowerState::operation_enabled) {
-                progress = Progress::done;
-            } else if (f.fault) {
-                fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", a.spec.name, f.error_code));
-            }
-        } else if (std::holds_alternative<Disable>(c.body)) {
-            if (f.power == AxisFeedback::Power::off) progress = Progress::done;
-        } else if (std::holds_alternative<Halt>(c.body) || std::holds_alternative<QuickStop>(c.body)) {
-            if (fresh && !f.moving) progress = Progress::done;
-        } else if (std::holds_alternative<ResetFault>(c.body)) {
-            if (!f.fault) {
-                progress = Progress::done;
-            } else if (now - c.accepted_at > reset_limit) {
-                fail(Reason::wrong_state,
-                     fmt::format("axis {}: the fault (drive's code {}) is still there; remove its cause first", a.spec.name, f.error_code));
-            }
-        } else if (std::holds_alternative<Home>(c.body)) {
-            if (f.homing_error) {
-                fail(Reason::interrupted,
-                     a.homing_why.empty() ? fmt::format("axis {}: homing ended with an error, drive's code {}", a.spec.name, f.error_code)
-                                          : fmt::format("axis {}: {}", a.spec.name, a.homing_why));
-            } else if (f.homing_attained && !f.moving && !f.homing) {
-                progress = Progress::done;
-            } else if (f.fault) {
-                fail(Reason::interrupted, fmt::format("axis {}: fault during homing, drive's code {}", a.spec.name, f.error_code));
-            } else if (!f.moving && !f.homing && f.at - c.accepted_at > rest_before_interrupted) {
-                fail(Reason::interrupted, fmt::format("axis {}: homing has stopped before its end", a.spec.name));
-            }
-        } else if (const auto* move = std::get_if<Move>(&c.body)) {
-            if (move->prepare_only) {
-                progress = Progress::done;
-            } else if (move->kind == Move::Kind::velocity) {
-                if (f.fault) {
-                    fail(Reason::interrupted, fmt::format("axis {}: fault, drive's code {}", a.spec.name, f.error_code));
-                } else if (a.profile.state() != PowerState::operation_enabled) {
-                    fail(Reason::interrupted, fmt::format("axis {} is {} now", a.spec.name, name_of(a.profile.state())));
-                } else if (fresh && std::llabs(f.velocity - move->target) * 100 <= std::llabs(move->target)) {
-                    progress = Progress::done;
-                }
-            } else {
-                watch_motion(a);
-            }
-        } else if (const auto* together = std::get_if<StartTogether>(&c.body)) {
-            bool all = true;
-            for (const AxisId id : together->axes) {
-                const Axis* x = machine_.axis(id);
-                if (!x) continue;
-                progress = Progress::going_on;
-                watch_motion(*x);
-                if (progress == Progress::failed) break;
-                all = all && progress == Progress::done;
-            }
-            if (progress != Progress::failed) progress = all ? Progress::done : Progress::going_on;
-        } else {
-            progress = Progress::done;  // parameters, native exchanges, set-points written as process data: done when taken
-        }
-        if (progress == Progress::going_on) continue;
-        Result r = c.result;
-        if (progress == Progress::failed) {
-            r.outcome = Outcome::failed;
-            r.reason = reason;
-            r.code = f.error_code;
-            r.text = std::move(text);
-        } else {
-            const bool is_motion = std::holds_alternative<Move>(c.body) || std::holds_alternative<Home>(c.body) ||
-                                   std::holds_alternative<Halt>(c.body) || std::holds_alternative<QuickStop>(c.body) ||
-                                   std::holds_alternative<StartTogether>(c.body);
-            // Whatever its adapter calls it: what was merely taken is not done.
-            r.outcome = c.until_done || !is_motion ? Outcome::done : Outcome::accepted;
-        }
-        finish(number, std::move(r));
+        if (auto result = result_of(machine_, a, *it->second, now)) finish(number, *std::move(result));
     }
     // More watchers than the bound cannot gather: the oldest one is told so.
     while (a.clients.size() > max_clients_per_axis) {

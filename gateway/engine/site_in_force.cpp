@@ -13,9 +13,17 @@
 #include "gateway/engine/speakers.hpp"
 #include "gateway/engine/twins.hpp"
 #include "gateway/site/options.hpp"
-#include "gateway/site/site_stage.hpp"
 
 namespace axisgate::engine {
+namespace {
+/// The place of a name: its own if it is known, else a new one at the end.
+template <class Id, class Slot>
+Id place_of(const std::map<std::string, Id>& known, const std::string& name, std::vector<Slot>& slots) {
+    if (const auto it = known.find(name); it != known.end()) return it->second;
+    slots.emplace_back();
+    return Id{static_cast<std::uint16_t>(slots.size() - 1)};
+}
+}  // namespace
 
 void SiteInForce::drop_axis(Axis& a, std::string_view why) {
     const auto waiting = a.clients;
@@ -31,36 +39,31 @@ void SiteInForce::drop_axis(Axis& a, std::string_view why) {
     machine_.image.publish(a.id);
 }
 
-std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
-    machine_.now = machine_.last_stir = std::max(machine_.now, now);
-    for (const auto& unit : machine_.lines) {
-        if (unit) scans_.end(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
-    }
-    const Site& old = machine_.site->site;
-    const KeptParts kept{old, site};
+SiteInForce::Ids SiteInForce::ids_in_force() const {
+    const SiteState& now = *machine_.site;
+    Ids ids;
+    for (std::size_t i = 0; i < now.site.lines.size(); ++i)
+        ids.lines[now.site.lines[i].name] = now.line_ids[i];
+    for (std::size_t i = 0; i < now.site.drives.size(); ++i)
+        ids.drives[now.site.drives[i].name] = now.drive_ids[i];
+    for (std::size_t i = 0; i < now.site.axes.size(); ++i)
+        ids.axes[now.site.axes[i].name] = now.axis_ids[i];
+    return ids;
+}
 
-    // 1. what goes: axes, then drives, then lines. Their ids stay theirs if the name comes back.
-    std::map<std::string, LineId> line_ids;
-    std::map<std::string, DriveId> drive_ids;
-    std::map<std::string, AxisId> axis_ids;
-    for (std::size_t i = 0; i < old.lines.size(); ++i)
-        line_ids[old.lines[i].name] = machine_.site->line_ids[i];
-    for (std::size_t i = 0; i < old.drives.size(); ++i)
-        drive_ids[old.drives[i].name] = machine_.site->drive_ids[i];
-    for (std::size_t i = 0; i < old.axes.size(); ++i)
-        axis_ids[old.axes[i].name] = machine_.site->axis_ids[i];
-
+/// What goes: axes, then drives, then lines. Their ids stay theirs if the name comes back. The axes live on until the new site works.
+std::vector<std::unique_ptr<Axis>> SiteInForce::take_away(const Site& old, const KeptParts& kept, const Ids& ids) {
     std::vector<std::unique_ptr<Axis>> gone_axes;
     for (const auto& a : old.axes) {
         if (kept.axis(a)) continue;
-        auto& slot = machine_.axes[index_of(axis_ids[a.name])];
+        auto& slot = machine_.axes[index_of(ids.axes.at(a.name))];
         drop_axis(*slot, "it was removed or changed in the site");
         std::erase(slot->drive->axes, slot->id);
         gone_axes.push_back(std::move(slot));
     }
     for (const auto& d : old.drives) {
         if (kept.drive(d)) continue;
-        auto& slot = machine_.drives[index_of(drive_ids[d.name])];
+        auto& slot = machine_.drives[index_of(ids.drives.at(d.name))];
         LineUnit& unit = *slot->line;
         if (slot->serving == Presence::twin && unit.twins) unit.twins->bus->remove(slot->id);
         std::erase(unit.drives, slot->id);
@@ -68,7 +71,7 @@ std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, 
     }
     for (const auto& l : old.lines) {
         if (kept.line(l)) continue;
-        auto& slot = machine_.lines[index_of(line_ids[l.name])];
+        auto& slot = machine_.lines[index_of(ids.lines.at(l.name))];
         for (Side* s : {slot->real.get(), slot->twins.get()}) {
             if (!s) continue;
             s->line->close();
@@ -76,88 +79,89 @@ std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, 
         }
         slot.reset();
     }
+    return gone_axes;
+}
 
-    // 2. what comes or changes.
-    auto state = std::make_shared<SiteState>();
-    state->revision = revision;
-    std::vector<LineUnit*> fresh_lines;
+std::vector<LineUnit*> SiteInForce::add_lines(const Site& site, const Ids& ids, SiteState& state) {
+    std::vector<LineUnit*> fresh;
     for (const auto& l : site.lines) {
-        const auto known = line_ids.find(l.name);
-        const LineId id = known != line_ids.end() ? known->second : LineId{static_cast<std::uint16_t>(machine_.lines.size())};
-        if (known == line_ids.end()) machine_.lines.emplace_back();
+        const LineId id = place_of(ids.lines, l.name, machine_.lines);
         auto& slot = machine_.lines[index_of(id)];
         if (!slot) {
             slot = std::make_unique<LineUnit>();
             slot->id = id;
             slot->spec = l;
             slot->family = machine_.families.find(l.family);
-            fresh_lines.push_back(slot.get());
+            fresh.push_back(slot.get());
         }
         slot->families.clear();
         for (const auto& name : site.families_on(l))
             slot->families.push_back(machine_.families.find(name));
-        state->line_ids.push_back(id);
+        state.line_ids.push_back(id);
     }
-    std::vector<Drive*> fresh_drives;
+    return fresh;
+}
+
+std::vector<Drive*> SiteInForce::add_drives(const Site& site, const Ids& ids, const SiteMemory& memory, SiteState& state, Instant now) {
+    std::vector<Drive*> fresh;
     for (const auto& d : site.drives) {
-        const auto known = drive_ids.find(d.name);
-        const DriveId id = known != drive_ids.end() ? known->second : DriveId{static_cast<std::uint16_t>(machine_.drives.size())};
-        if (known == drive_ids.end()) machine_.drives.emplace_back();
+        const DriveId id = place_of(ids.drives, d.name, machine_.drives);
         auto& slot = machine_.drives[index_of(id)];
-        if (!slot) {
-            slot = std::make_unique<Drive>();
-            slot->id = id;
-            slot->spec = d;
-            slot->waiting_since = now;
-            slot->device_link.drive = id;
-            for (const auto& unit : machine_.lines) {
-                if (unit && unit->spec.name == d.line) slot->line = unit.get();
-            }
-            slot->line->drives.push_back(id);
-            slot->family = machine_.families.find(site.family_of(d));
-            slot->catalogue = catalogue_of(site, d, machine_.families);
-            if (const auto m = memory.twins.find(d.name); m != memory.twins.end()) slot->memory = m->second;
-            fresh_drives.push_back(slot.get());
+        state.drive_ids.push_back(id);
+        if (slot) continue;
+        slot = std::make_unique<Drive>();
+        slot->id = id;
+        slot->spec = d;
+        slot->waiting_since = now;
+        slot->device_link.drive = id;
+        for (const auto& unit : machine_.lines) {
+            if (unit && unit->spec.name == d.line) slot->line = unit.get();
         }
-        state->drive_ids.push_back(id);
+        slot->line->drives.push_back(id);
+        slot->family = machine_.families.find(site.family_of(d));
+        slot->catalogue = catalogue_of(site, d, machine_.families);
+        if (const auto m = memory.twins.find(d.name); m != memory.twins.end()) slot->memory = m->second;
+        fresh.push_back(slot.get());
     }
+    return fresh;
+}
+
+std::unique_ptr<Axis> SiteInForce::new_axis(AxisId id, const AxisSpec& a, const SiteMemory& memory) {
+    auto axis = std::make_unique<Axis>();
+    axis->id = id;
+    for (const auto& d : machine_.drives) {
+        if (d && d->spec.name == a.drive) axis->drive = d.get();
+    }
+    axis->drive->axes.push_back(id);
+    publisher_.new_source(*axis);
+    if (axis->drive->serving != Presence::offline) axis->profile.on_presence(axis->drive->serving);
+    if (const auto m = memory.stored.find(a.name); m != memory.stored.end()) {
+        for (const auto& [parameter, value] : m->second) {
+            if (const auto point = axis->drive->catalogue->find(parameter)) axis->stored[*point] = value;
+        }
+    }
+    return axis;
+}
+
+void SiteInForce::add_axes(const Site& site, const Ids& ids, const SiteMemory& memory, SiteState& state) {
     std::vector<AxisId> by_number;
-    std::vector<LineUnit*> changed_lines;
     for (const auto& a : site.axes) {
-        const auto known = axis_ids.find(a.name);
-        const AxisId id = known != axis_ids.end() ? known->second : AxisId{static_cast<std::uint16_t>(machine_.axes.size())};
-        if (known == axis_ids.end()) machine_.axes.emplace_back();
+        const AxisId id = place_of(ids.axes, a.name, machine_.axes);
         (void)machine_.image.grow(machine_.axes.size());
         auto& slot = machine_.axes[index_of(id)];
-        if (!slot) {
-            slot = std::make_unique<Axis>();
-            slot->id = id;
-            for (const auto& d : machine_.drives) {
-                if (d && d->spec.name == a.drive) slot->drive = d.get();
-            }
-            slot->drive->axes.push_back(id);
-            publisher_.new_source(*slot);
-            changed_lines.push_back(slot->drive->line);
-            if (slot->drive->serving != Presence::offline) slot->profile.on_presence(slot->drive->serving);
-            if (const auto m = memory.stored.find(a.name); m != memory.stored.end()) {
-                for (const auto& [parameter, value] : m->second) {
-                    if (const auto point = slot->drive->catalogue->find(parameter)) slot->stored[*point] = value;
-                }
-            }
-        }
+        if (!slot) slot = new_axis(id, a, memory);
         slot->leaving_until = {};
         slot->spec = a;  // number, unit, scale and limits change without disturbing anything
         slot->limits = AxisLimits::of(a);
-        state->axis_ids.push_back(id);
+        state.axis_ids.push_back(id);
         if (static_cast<std::size_t>(a.number) >= by_number.size()) by_number.resize(static_cast<std::size_t>(a.number) + 1, no_axis);
         by_number[static_cast<std::size_t>(a.number)] = id;
     }
     machine_.image.set_numbers(std::move(by_number));
-    machine_.image.mapping_revision = mapping_revision(site);
-    state->site = std::move(site);
-    machine_.site = state;
+}
 
-    // 3. put it to work. Adapters of lines that stay are told the new set of drives; fresh lines are opened.
+/// Adapters of lines that stay are told the new set of drives; fresh lines are opened.
+void SiteInForce::put_to_work(std::span<LineUnit* const> fresh_lines, std::span<Drive* const> fresh_drives, Instant now) {
     for (const auto& d : machine_.drives) {
         if (d) twins_.refit(*d, now);
     }
@@ -174,6 +178,25 @@ std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, 
     for (const auto& a : machine_.axes) {
         if (a) publisher_.publish(*a, now);
     }
+}
+
+std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, std::uint64_t revision, Instant now) {
+    machine_.now = machine_.last_stir = std::max(machine_.now, now);
+    for (const auto& unit : machine_.lines) {
+        if (unit) scans_.end(*unit, ScanReport::State::cancelled, "the site has changed: scan again", now);
+    }
+    const Site& old = machine_.site->site;
+    const Ids ids = ids_in_force();
+    const auto gone_axes = take_away(old, KeptParts{old, site}, ids);
+    auto state = std::make_shared<SiteState>();
+    state->revision = revision;
+    const auto fresh_lines = add_lines(site, ids, *state);
+    const auto fresh_drives = add_drives(site, ids, memory, *state, now);
+    add_axes(site, ids, memory, *state);
+    machine_.image.mapping_revision = mapping_revision(site);
+    state->site = std::move(site);
+    machine_.site = state;
+    put_to_work(fresh_lines, fresh_drives, now);
     return machine_.site;
 }
 

@@ -228,6 +228,56 @@ bool configuration_of(const RestoreOptions& options, const ConfigSources& source
         complain(f);
     return faults.empty();
 }
+
+/// Whoever made the backup says with its configuration where files go, and this may run as root: places outside the folder of the
+/// configuration are shown, and taken only when they are confirmed.
+bool may_take_places(const RestoreOptions& options, const ConfigSources& sources, const BackupContents& contents, const Config& config,
+                     const std::string& own_data) {
+    std::error_code ec;
+    const auto folder = fs::absolute(sources.file_name, ec).parent_path();
+    std::vector<std::string> outside;
+    const auto look = [&](std::string_view what, const std::string& place) {
+        if (!lies_below(place, folder) && !lies_below(place, own_data) && !fs::equivalent(place, own_data, ec))
+            outside.push_back(fmt::format("{} -> {}", what, place));
+    };
+    look("database", config.data_dir);
+    const BackupPlan there = backup_plan(config, sources.file_name);
+    for (const auto& member : contents.members) {
+        const auto place = member == database_member || member == configuration_member ? std::nullopt : place_of(member, there);
+        if (place && !place->starts_with(config.data_dir + "/")) look(member, *place);
+    }
+    for (const auto& place : outside)
+        fmt::print("outside the folder of the configuration: {}\n", place);
+    if (outside.empty() || options.confirm_places) return true;
+    complain(
+        fmt::format("{} not restored, nothing was replaced: its configuration names places outside {}; if they are right, restore "
+                    "again with --confirm-places",
+                    options.file, folder.string()));
+    return false;
+}
+
+/// Everything but the database, beside its place; empty, or what is wrong.
+std::string prepare_files(const BackupContents& contents, const std::string& folder, const BackupPlan& plan, const Config& config,
+                          Places& places, std::vector<std::string>& not_taken) {
+    for (const auto& member : contents.members) {
+        if (member == database_member) continue;
+        const auto place = place_of(member, plan);
+        if (!place) {
+            not_taken.push_back(member);
+            continue;
+        }
+        const std::string from = fmt::format("{}/{}", folder, member);
+        std::string fault;
+        if (const auto bytes = read_file(from, fault, 1U << 20)) {
+            if (const std::string why = wrong_form(member, *bytes); !why.empty())
+                fault = fmt::format("{}: {}", member, why);
+            else
+                fault = places.prepare(from, *place, config.data_dir);
+        }
+        if (!fault.empty()) return fault;
+    }
+    return {};
+}
 }  // namespace
 
 int command_backup(const Config& config, const std::string& config_file, const std::string& file, const std::string& passphrase_file) {
@@ -270,31 +320,7 @@ int command_restore(Config config, const ConfigSources& sources, const RestoreOp
     if (!in_it) return failed(in_it.error(), file + " not restored, nothing was replaced");
     const std::string own_data = config.data_dir;
     if (!configuration_of(options, sources, spread.folder(), config)) return exit_failed;
-    // Whoever made the backup says with its configuration where files go, and this may run as root.
-    std::vector<std::string> outside;
-    const auto look = [&](std::string_view what, const std::string& place) {
-        const auto folder = fs::absolute(sources.file_name, ec).parent_path();
-        if (options.with_config && !lies_below(place, folder) && !lies_below(place, own_data) && !fs::equivalent(place, own_data, ec))
-            outside.push_back(fmt::format("{} -> {}", what, place));
-    };
-    look("database", config.data_dir);
-    if (const BackupPlan there = backup_plan(config, options.with_config ? sources.file_name : ""); options.with_config) {
-        for (const auto& member : in_it->members) {
-            const auto place = member == database_member || member == configuration_member ? std::nullopt : place_of(member, there);
-            if (place && !place->starts_with(config.data_dir + "/")) look(member, *place);
-        }
-    }
-    if (!outside.empty()) {
-        for (const auto& place : outside)
-            fmt::print("outside the folder of the configuration: {}\n", place);
-        if (!options.confirm_places) {
-            complain(
-                fmt::format("{} not restored, nothing was replaced: its configuration names places outside {}; if they are right, restore "
-                            "again with --confirm-places",
-                            file, fs::absolute(sources.file_name, ec).parent_path().string()));
-            return exit_failed;
-        }
-    }
+    if (options.with_config && !may_take_places(options, sources, *in_it, config, own_data)) return exit_failed;
     if (const auto made = files::make_directory(config.data_dir); !made) {  // which may be another one now
         complain(made.error().text);
         return exit_failed;
@@ -302,22 +328,7 @@ int command_restore(Config config, const ConfigSources& sources, const RestoreOp
     const BackupPlan plan = backup_plan(config, options.with_config ? sources.file_name : "");
     Places places;
     std::vector<std::string> not_taken;
-    for (const auto& member : in_it->members) {
-        if (member == database_member) continue;
-        const auto place = place_of(member, plan);
-        if (!place) {
-            not_taken.push_back(member);
-            continue;
-        }
-        const std::string from = fmt::format("{}/{}", spread.folder(), member);
-        std::string fault;
-        if (const auto bytes = read_file(from, fault, 1U << 20)) {
-            if (const std::string why = wrong_form(member, *bytes); !why.empty())
-                fault = fmt::format("{}: {}", member, why);
-            else
-                fault = places.prepare(from, *place, config.data_dir);
-        }
-        if (fault.empty()) continue;
+    if (const std::string fault = prepare_files(*in_it, spread.folder(), plan, config, places, not_taken); !fault.empty()) {
         complain(fmt::format("{} not restored, nothing was replaced: {}", file, fault));
         return exit_failed;
     }

@@ -29,7 +29,7 @@ enum class Written : std::uint8_t { as_text, as_number, as_switch, as_list };
 
 struct Key {
     std::string_view section, name;
-    std::function<Fault(Config&, const std::string&)> set;
+    Fault (*set)(Config&, const std::string&);
     Written written = Written::as_text;
 };
 
@@ -107,8 +107,7 @@ std::string bare_list(const std::string& text) {
     return out;
 }
 
-const std::vector<Key>& keys() {
-    static const std::vector<Key> list{
+const Key keys[] = {
         {"data", "dir",
          [](Config& c, const std::string& s) -> Fault { return s.empty() ? Fault("name a directory") : set_text(c.data_dir, s); }},
         {"http", "bind", [](Config& c, const std::string& s) { return set_bind(c.http_bind, s); }},
@@ -250,13 +249,11 @@ const std::vector<Key>& keys() {
         {"recorder", "captures_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_captures_mb, s, 1, 100'000); },
          Written::as_number},
         {"recorder", "freeze_on", [](Config& c, const std::string& s) { return set_text(c.recorder_freeze_on, s); }},
-    };
-    return list;
-}
+};
 
 std::string known_names(std::string_view section) {
     std::string s;
-    for (const auto& k : keys()) {
+    for (const auto& k : keys) {
         if (section.empty()) {
             const std::string name = fmt::format("[{}]", k.section);
             if (s.find(name) == std::string::npos) s += (s.empty() ? "" : " ") + name;
@@ -268,7 +265,7 @@ std::string known_names(std::string_view section) {
 }
 
 const Key* find_key(std::string_view section, std::string_view name) {
-    for (const auto& k : keys()) {
+    for (const auto& k : keys) {
         if (k.section == section && k.name == name) return &k;
     }
     return nullptr;
@@ -440,7 +437,7 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         std::ranges::transform(name, name.begin(), [](unsigned char x) { return static_cast<char>(std::tolower(x)); });
         // The longest section that fits: "modbus_rtu_port" is [modbus_rtu] port, not [modbus] rtu_port.
         const Key* best = nullptr;
-        for (const auto& k : keys()) {
+        for (const auto& k : keys) {
             if (name == fmt::format("{}_{}", k.section, k.name)) best = &k;
         }
         if (!best) continue;  // other programs of the house may use the prefix too

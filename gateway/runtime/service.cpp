@@ -95,12 +95,17 @@ struct Service {
 
     explicit Service(const ServeOptions& o) : options(o) {}
 
+    void make_hot();
     int open_store();
     int load_site(Site& site, std::uint64_t& revision);
     int open_access();
     void show_code();
     void begin_services();
     void arm_services();
+    [[nodiscard]] bool open_modbus();
+    [[nodiscard]] bool open_enip();
+    [[nodiscard]] bool add_http();
+    void add_dds();
     int open_doors();
     using Open = std::function<std::string()>;
     [[nodiscard]] bool opened_or_waits(std::string name, std::function<bool()> is_late, const Open& open, bool on_hot,
@@ -111,6 +116,25 @@ struct Service {
     void report_ready();
     void take_down();
 };
+
+void Service::make_hot() {
+    HotSettings hs;
+    hs.spin_us = options.config.spin_us;
+    hs.cpu = static_cast<int>(options.config.hot_cpu);
+    hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
+    hs.ptys = {options.config.lines_pty_dir, options.config.data_dir};
+    if (options.config.dds_enabled) {
+        hs.fleet = [this](int fd) {
+            boost::asio::post(warm, [this, fd] {
+                if (dds) return dds->take_mirror(fd);
+                ::close(fd);
+            });
+        };
+    }
+    hot = std::make_unique<Hot>(families, hs);
+    hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
+    hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
+}
 
 int Service::open_store() {
     StoreOptions so;
@@ -149,22 +173,7 @@ int Service::open_store() {
         complain(unread);
         return exit_failed;
     }
-    HotSettings hs;
-    hs.spin_us = options.config.spin_us;
-    hs.cpu = static_cast<int>(options.config.hot_cpu);
-    hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
-    hs.ptys = {options.config.lines_pty_dir, options.config.data_dir};
-    if (options.config.dds_enabled) {
-        hs.fleet = [this](int fd) {
-            boost::asio::post(warm, [this, fd] {
-                if (dds) return dds->take_mirror(fd);
-                ::close(fd);
-            });
-        };
-    }
-    hot = std::make_unique<Hot>(families, hs);
-    hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
-    hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
+    make_hot();
     Cold::Answers answers;
     answers.stored = [this](std::vector<Stored> list) {
         for (auto& s : list) {
@@ -358,7 +367,7 @@ void Service::tell_doors() {
     ports->status.set_doors(std::move(open));
 }
 
-int Service::open_doors() {
+bool Service::open_modbus() {
     registers::RegisterImage::Settings rs;
     rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
     rs.gaps = options.config.modbus_gaps;
@@ -373,74 +382,87 @@ int Service::open_doors() {
             "Modbus",
             [this] { return address_is_late(options.config.modbus_bind) || address_is_taken(options.config.modbus_bind, SOCK_STREAM); },
             [this] { return modbus->open(); }, true, {}))
-        return exit_failed;
+        return false;
     if (modbus->any()) ports->modbus.use({[this] { return modbus->report(); }, [this](bool on) { modbus->set_read_only(on); }});
-    if (!options.config.enip_bind.empty()) {
-        enip::ServerSettings es;
-        es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);
-        es.another_io_port = !options.config.enip_io_port_named;
-        es.lease_s = options.config.authority_lease_s;
-        es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
-        enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
-        const auto opened = [this, wanted = es.io_port] {
-            enip_open = true;
-            if (enip->facts().io_port != wanted)
-                spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told",
-                             wanted, enip->facts().io_port);
-        };
-        const auto is_late = [this] {
-            const std::string& bind = options.config.enip_bind;
-            return address_is_late(bind) || address_is_taken(bind, SOCK_STREAM) || address_is_taken(bind, SOCK_DGRAM);
-        };
-        const auto open = [this] { return enip->open(options.config.enip_bind); };
-        if (options.config.enip_bind_named) {
-            if (!opened_or_waits("EtherNet/IP", is_late, open, true, opened)) return exit_failed;
-        } else if (const std::string fault = open(); !fault.empty()) {
-            enip.reset();
-            // Another gateway on this host has the usual ports: nobody has asked for them here.
-            spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
-        } else {
-            opened();
-        }
+    return true;
+}
+
+bool Service::open_enip() {
+    enip::ServerSettings es;
+    es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);
+    es.another_io_port = !options.config.enip_io_port_named;
+    es.lease_s = options.config.authority_lease_s;
+    es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
+    enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
+    const auto opened = [this, wanted = es.io_port] {
+        enip_open = true;
+        if (enip->facts().io_port != wanted)
+            spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told", wanted,
+                         enip->facts().io_port);
+    };
+    const auto is_late = [this] {
+        const std::string& bind = options.config.enip_bind;
+        return address_is_late(bind) || address_is_taken(bind, SOCK_STREAM) || address_is_taken(bind, SOCK_DGRAM);
+    };
+    const auto open = [this] { return enip->open(options.config.enip_bind); };
+    if (options.config.enip_bind_named) return opened_or_waits("EtherNet/IP", is_late, open, true, opened);
+    if (const std::string fault = open(); !fault.empty()) {
+        enip.reset();
+        // Another gateway on this host has the usual ports: nobody has asked for them here.
+        spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
+    } else {
+        opened();
     }
-    if (!options.config.http_bind.empty()) {
-        http::Settings hs;
-        hs.version = AXISGATE_VERSION;
-        hs.bind = options.config.http_bind;
-        hs.map_gaps = options.config.modbus_gaps;
-        hs.languages = languages;
-        hs.low_word_first = options.config.modbus_low_word_first;
-        hs.allowed_hosts = options.config.http_allowed_hosts;
-        hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
-        auto http = std::make_unique<http::Server>(warm, ports->all(), *services, hs, [](std::string_view path) { return asset(path); });
-        std::vector<ConfigFault> faults;
-        const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
-        for (const auto& f : faults)
-            complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
-        if (!faults.empty()) return exit_usage;  // never plain text where somebody asked for TLS
-        http->use_tls(identity);
-        doors.push_back(std::move(http));
-    }
-    if (options.config.dds_enabled) {
-        dds::DoorSettings ds;
-        ds.bus.domain = static_cast<std::uint32_t>(options.config.dds_domain);
-        ds.bus.partition = options.config.dds_partition;
-        ds.bus.interface_name = options.config.dds_interface;
-        ds.bus.security = options.config.dds_security;
-        ds.name = options.config.dds_name.empty() ? host_name() : options.config.dds_name;
-        ds.version = AXISGATE_VERSION;
-        ds.page = [this] {
-            const auto door = std::ranges::find_if(doors, [](const auto& d) { return d->name().starts_with("http"); });
-            return door == doors.end() || (*door)->address().empty() ? std::string()
-                                                                     : fmt::format("{}://{}/", (*door)->name(), (*door)->address());
-        };
-        ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
-        ds.want_change = [this] { hot->want_change(); };
-        auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
-        dds = door.get();
-        ports->fleet.use(*door);
-        doors.push_back(std::move(door));
-    }
+    return true;
+}
+
+/// False: its TLS cannot be used, which has been said.
+bool Service::add_http() {
+    http::Settings hs;
+    hs.version = AXISGATE_VERSION;
+    hs.bind = options.config.http_bind;
+    hs.map_gaps = options.config.modbus_gaps;
+    hs.languages = languages;
+    hs.low_word_first = options.config.modbus_low_word_first;
+    hs.allowed_hosts = options.config.http_allowed_hosts;
+    hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
+    auto http = std::make_unique<http::Server>(warm, ports->all(), *services, hs, [](std::string_view path) { return asset(path); });
+    std::vector<ConfigFault> faults;
+    const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
+    for (const auto& f : faults)
+        complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
+    if (!faults.empty()) return false;  // never plain text where somebody asked for TLS
+    http->use_tls(identity);
+    doors.push_back(std::move(http));
+    return true;
+}
+
+void Service::add_dds() {
+    dds::DoorSettings ds;
+    ds.bus.domain = static_cast<std::uint32_t>(options.config.dds_domain);
+    ds.bus.partition = options.config.dds_partition;
+    ds.bus.interface_name = options.config.dds_interface;
+    ds.bus.security = options.config.dds_security;
+    ds.name = options.config.dds_name.empty() ? host_name() : options.config.dds_name;
+    ds.version = AXISGATE_VERSION;
+    ds.page = [this] {
+        const auto door = std::ranges::find_if(doors, [](const auto& d) { return d->name().starts_with("http"); });
+        return door == doors.end() || (*door)->address().empty() ? std::string()
+                                                                 : fmt::format("{}://{}/", (*door)->name(), (*door)->address());
+    };
+    ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
+    ds.want_change = [this] { hot->want_change(); };
+    auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
+    dds = door.get();
+    ports->fleet.use(*door);
+    doors.push_back(std::move(door));
+}
+
+int Service::open_doors() {
+    if (!open_modbus()) return exit_failed;
+    if (!options.config.enip_bind.empty() && !open_enip()) return exit_failed;
+    if (!options.config.http_bind.empty() && !add_http()) return exit_usage;
+    if (options.config.dds_enabled) add_dds();
     for (const auto& door : doors) {
         const bool of_dds = door.get() == dds;
         const auto is_late = [this, of_dds] {

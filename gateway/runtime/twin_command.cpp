@@ -181,6 +181,90 @@ private:
     Instant armed_ = never;
     std::string state_file_;
 };
+
+/// What the command line asks for, once it makes sense.
+struct TwinPlan {
+    LineUri uri;
+    std::vector<std::string> addresses;
+    std::map<std::string, std::string> options;
+    std::map<std::string, NonVolatile> memories;
+};
+
+/// Nothing: something makes no sense, and all of that has been said.
+std::optional<TwinPlan> plan_of(const TwinOptions& o, const FamilyEntry& entry) {
+    const Family& family = *entry.family;
+    TwinPlan plan;
+    auto uri = parse_line_uri(o.line_uri, family.default_bit_rate, family.default_format);
+    bool usable = true;
+    const auto refuse = [&usable](const std::string& text) {
+        complain(text);
+        usable = false;
+    };
+    if (!uri.good()) refuse("--line: " + uri.fault);
+    if (uri.good() && (uri.uri.kind == LineUri::Kind::twin || uri.uri.kind == LineUri::Kind::dds))
+        refuse("--line: twin and dds are lines of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
+    if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
+    plan.uri = uri.uri;
+    plan.addresses = o.addresses;
+    if (plan.addresses.empty()) plan.addresses.emplace_back(family.factory_address);
+    for (const auto& a : plan.addresses) {
+        if (const std::string wrong = family.check_address(a); !wrong.empty()) refuse("--address: " + wrong);
+        if (std::ranges::count(plan.addresses, a) > 1) refuse(fmt::format("--address: {} is there twice", a));
+    }
+    for (const auto& x : o.options) {
+        const auto equals = x.find('=');
+        if (equals == std::string::npos || equals == 0) {
+            refuse("--option: write NAME=VALUE");
+        } else {
+            const std::string name = x.substr(0, equals), value = x.substr(equals + 1);
+            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty())
+                refuse("--option: " + wrong);
+            plan.options[name] = value;
+        }
+    }
+    if (usable && !o.state_file.empty()) {
+        std::string fault;
+        if (const auto text = read_file(o.state_file, fault)) {
+            const std::string wrong = memories_from_json(*text, plan.memories);
+            if (!wrong.empty()) refuse(fmt::format("--state {}: {}", o.state_file, wrong));
+        } else if (const std::string made = write_file(o.state_file, memories_to_json({})); !made.empty()) {
+            refuse("--state: " + made);
+        }
+    }
+    return usable ? std::optional(std::move(plan)) : std::nullopt;
+}
+
+void connect_drives(TwinHost& host, boost::asio::io_context& io, const TwinOptions& o, const FamilyEntry& entry, const TwinPlan& plan) {
+    const Family& family = *entry.family;
+    const LineKind kind = plan.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
+    for (const auto& a : plan.addresses) {
+        TwinSetup t;
+        t.address = a;
+        t.kind = kind;
+        const bool rated = plan.uri.kind == LineUri::Kind::serial || plan.uri.kind == LineUri::Kind::pty;
+        t.bit_rate = rated ? plan.uri.serial.baud : 0;
+        t.options = plan.options;
+        t.axes = 16;  // as many channels as the family has; it takes fewer if it has fewer
+        host.drives.push_back({a, family.make_twin(*entry.catalogue, t), 0});
+    }
+    LineSetup setup;
+    setup.name = o.line_uri;
+    setup.kind = kind;
+    setup.bit_rate = kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
+    host.line = make_real_line(o.line_uri, setup, io, family.default_format, {}, Duration::zero());
+    host.line->open(host, monotonic_now());
+    host.power_on(plan.memories);
+}
+
+std::unique_ptr<http::HandServer> hand_server(TwinHost& host, boost::asio::io_context& io, const std::string& bind) {
+    if (bind.empty()) return nullptr;
+    std::vector<http::HandServer::Drive> list;
+    for (std::size_t i = 0; i < host.drives.size(); ++i) {
+        list.push_back({host.drives[i].address, [&host, i] { return host.hand(i); },
+                        [&host, i](const std::vector<std::pair<std::string, Value>>& items) { return host.set_hand(i, items); }});
+    }
+    return std::make_unique<http::HandServer>(io, bind, std::move(list));
+}
 }  // namespace
 
 int command_twin(const TwinOptions& o) {
@@ -194,81 +278,17 @@ int command_twin(const TwinOptions& o) {
         complain(fmt::format("there is no family {}; families: {}", o.family, families.names()));
         return exit_usage;
     }
-    const Family& family = *entry.family;
-    const auto uri = parse_line_uri(o.line_uri, family.default_bit_rate, family.default_format);
-    bool usable = true;
-    const auto refuse = [&usable](const std::string& text) {
-        complain(text);
-        usable = false;
-    };
-    if (!uri.good()) refuse("--line: " + uri.fault);
-    if (uri.good() && (uri.uri.kind == LineUri::Kind::twin || uri.uri.kind == LineUri::Kind::dds))
-        refuse("--line: twin and dds are lines of `serve` alone; use tcp-listen:HOST:PORT, pty:PATH, serial: or can:");
-    if (!(o.time_scale >= 0.001 && o.time_scale <= 10000)) refuse("--time-scale: write a number from 0.001 to 10000");
-    auto addresses = o.addresses;
-    if (addresses.empty()) addresses.emplace_back(family.factory_address);
-    for (const auto& a : addresses) {
-        if (const std::string wrong = family.check_address(a); !wrong.empty()) refuse("--address: " + wrong);
-        if (std::ranges::count(addresses, a) > 1) refuse(fmt::format("--address: {} is there twice", a));
-    }
-    std::map<std::string, std::string> options;
-    for (const auto& x : o.options) {
-        const auto equals = x.find('=');
-        if (equals == std::string::npos || equals == 0) {
-            refuse("--option: write NAME=VALUE");
-        } else {
-            const std::string name = x.substr(0, equals), value = x.substr(equals + 1);
-            if (const std::string wrong = check_option(*entry.catalogue, {OptionOf::twin}, name, value); !wrong.empty())
-                refuse("--option: " + wrong);
-            options[name] = value;
-        }
-    }
-    std::map<std::string, NonVolatile> memories;
-    if (usable && !o.state_file.empty()) {
-        std::string fault;
-        if (const auto text = read_file(o.state_file, fault)) {
-            const std::string wrong = memories_from_json(*text, memories);
-            if (!wrong.empty()) refuse(fmt::format("--state {}: {}", o.state_file, wrong));
-        } else if (const std::string made = write_file(o.state_file, memories_to_json({})); !made.empty()) {
-            refuse("--state: " + made);
-        }
-    }
-    if (!usable) return exit_usage;
+    const auto plan = plan_of(o, entry);
+    if (!plan) return exit_usage;
 
     (void)std::signal(SIGPIPE, SIG_IGN);
     boost::asio::io_context io{1};
     TwinHost host(io, o.time_scale, o.state_file);
-    const LineKind kind = uri.uri.kind == LineUri::Kind::can ? LineKind::can : LineKind::bytes;
-    for (const auto& a : addresses) {
-        TwinSetup t;
-        t.address = a;
-        t.kind = kind;
-        const bool rated = uri.uri.kind == LineUri::Kind::serial || uri.uri.kind == LineUri::Kind::pty;
-        t.bit_rate = rated ? uri.uri.serial.baud : 0;
-        t.options = options;
-        t.axes = 16;  // as many channels as the family has; it takes fewer if it has fewer
-        host.drives.push_back({a, family.make_twin(*entry.catalogue, t), 0});
-    }
-    LineSetup setup;
-    setup.name = o.line_uri;
-    setup.kind = kind;
-    setup.bit_rate = kind == LineKind::can ? family.default_can_bit_rate : family.default_bit_rate;
-    host.line = make_real_line(o.line_uri, setup, io, family.default_format, {}, Duration::zero());
-    host.line->open(host, monotonic_now());
-    host.power_on(memories);
-
-    std::unique_ptr<http::HandServer> hand;
-    if (!o.hand_bind.empty()) {
-        std::vector<http::HandServer::Drive> list;
-        for (std::size_t i = 0; i < host.drives.size(); ++i) {
-            list.push_back({host.drives[i].address, [&host, i] { return host.hand(i); },
-                            [&host, i](const std::vector<std::pair<std::string, Value>>& items) { return host.set_hand(i, items); }});
-        }
-        hand = std::make_unique<http::HandServer>(io, o.hand_bind, std::move(list));
-        if (const std::string fault = hand->open(); !fault.empty()) {
-            complain(fault);
-            return exit_failed;
-        }
+    connect_drives(host, io, o, entry, *plan);
+    const auto hand = hand_server(host, io, o.hand_bind);
+    if (const std::string fault = hand ? hand->open() : ""; !fault.empty()) {
+        complain(fault);
+        return exit_failed;
     }
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&io](const boost::system::error_code& ec, int) {
@@ -279,7 +299,7 @@ int command_twin(const TwinOptions& o) {
     std::function<void()> look = [&] {
         if (host.up) {
             std::string list;
-            for (const auto& a : addresses)
+            for (const auto& a : plan->addresses)
                 list += (list.empty() ? "" : ",") + a;
             fmt::print("ready {} addresses={} line={}{}\n", o.family, list, host.line->status(monotonic_now()).text,
                        hand ? " hand=" + hand->address() : "");

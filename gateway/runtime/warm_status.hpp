@@ -32,6 +32,9 @@ public:
     [[nodiscard]] std::string eds() const override { return door_eds ? door_eds() : std::string(); }
 
 private:
+    [[nodiscard]] std::string hot_metrics() const;
+    [[nodiscard]] std::string queue_metrics() const;
+
     const WarmThreads& threads_;
     const WarmEvents& events_;
     const WarmSite& site_;

@@ -51,6 +51,7 @@ constexpr std::array type_names{
     std::pair{std::string_view("i32"), MapType::i32},      std::pair{std::string_view("f32"), MapType::f32},
     std::pair{std::string_view("u64"), MapType::u64},      std::pair{std::string_view("i64"), MapType::i64},
     std::pair{std::string_view("f64"), MapType::f64},      std::pair{std::string_view("string"), MapType::string}};
+constexpr std::array type_long_names{std::pair{std::string_view("boolean"), MapType::boolean}};
 constexpr std::array access_names{std::pair{std::string_view("R"), MapAccess::read}, std::pair{std::string_view("W"), MapAccess::write},
                                   std::pair{std::string_view("RW"), MapAccess::read_write}};
 constexpr std::array access_long_names{
@@ -69,7 +70,9 @@ constexpr bool is_bits(MapTable t) noexcept { return t == MapTable::coils || t =
 class Entry {
 public:
     Entry(const json::object& o, std::size_t index, std::vector<SiteFault>& faults)
-        : o_(o), base_(fmt::format("/mappings/{}", index)), faults_(faults) {}
+        : o_(o), base_(fmt::format("/mappings/{}", index)), faults_(faults), faults_before_(faults.size()) {}
+
+    [[nodiscard]] bool good() const noexcept { return faults_.size() == faults_before_; }
 
     void fault(std::string_view key, std::string text, std::string remedy) {
         faults_.push_back({key.empty() ? base_ : fmt::format("{}/{}", base_, key), std::move(text), std::move(remedy)});
@@ -129,19 +132,70 @@ public:
         }
         return n;
     }
+    /// One of a few words, `names` or what people write for them as well; nothing where it is left out, or is none of them.
+    template <class E, std::size_t N, std::size_t M = 0>
+    std::optional<E> word(std::string_view key, const std::array<std::pair<std::string_view, E>, N>& names,
+                          const std::array<std::pair<std::string_view, E>, M>& others = {}) {
+        const std::string t = text(key, 32, false);
+        auto found = named(names, t);
+        if (!found) found = named(others, t);
+        if (!found && !t.empty())
+            fault(key, fmt::format("there is no {} {}", key == "word_order" ? "word order" : key, t),
+                  key == "access" ? "use R, W or RW" : "use one of " + list(names));
+        return found;
+    }
+    void no_unknown_members() {
+        constexpr std::array known{"id",         "unit",  "table",  "address", "axis",   "point",       "type",
+                                   "word_order", "scale", "offset", "access",  "length", "on_overflow", "comment"};
+        for (const auto& [key, value] : o_) {
+            if (std::ranges::find(known, std::string_view(key)) == known.end())
+                fault(key, fmt::format("{} is not known here", std::string_view(key)),
+                      "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, "
+                      "on_overflow, comment");
+        }
+    }
 
 private:
     const json::object& o_;
     std::string base_;
     std::vector<SiteFault>& faults_;
+    std::size_t faults_before_;
 };
 
-std::string unique_id(const std::set<std::string>& taken, std::size_t& next) {
-    for (;; ++next) {
-        std::string id = fmt::format("m{}", next);
-        if (!taken.contains(id)) return id;
+/// The ids of a list: those that are written in it, and new ones for entries without.
+class Ids {
+public:
+    explicit Ids(const json::array& entries) {
+        for (const auto& e : entries) {
+            const auto* o = e.if_object();
+            if (const auto* id = o ? o->if_contains("id") : nullptr; id && id->is_string()) taken_.insert(std::string(id->get_string()));
+        }
     }
-}
+    std::string read(Entry& f) {
+        std::string id = f.text("id", 64, false);
+        if (id.empty()) {
+            id = unique();
+        } else if (!std::ranges::all_of(id, [](char c) {
+                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ||
+                              c == '.';
+                   })) {
+            f.fault("id", fmt::format("\"{}\" is no id", id), "use 1 to 64 letters, digits, - _ and .");
+        }
+        if (!used_.insert(id).second) f.conflict("id", fmt::format("the id {} is there twice", id), "give each mapping its own, or none");
+        return id;
+    }
+
+private:
+    std::string unique() {
+        for (;; ++next_) {
+            std::string id = fmt::format("m{}", next_);
+            if (taken_.insert(id).second) return id;
+        }
+    }
+
+    std::set<std::string> taken_, used_;
+    std::size_t next_ = 1;
+};
 
 /// "feeder.position", "feeder/position", "feeder:AC": an axis in front of its point, if no axis is named apart.
 void split_axis(std::string& axis, std::string& point, const Site& site) {
@@ -164,6 +218,93 @@ std::shared_ptr<const Catalogue> catalogue_of_axis(const Site& site, const Famil
     const AxisSpec* a = site.axis(axis);
     const DriveSpec* d = a ? site.drive(a->drive) : nullptr;
     return d ? catalogue_of(site, *d, families) : nullptr;
+}
+
+/// What a mapping's point allows: of a point that is not there, what an entry is checked against as far as it can be.
+struct PointTraits {
+    bool writable = false, readable = true, is_text = false, is_bit = false;
+};
+
+PointTraits read_point(Entry& f, Mapping& m, const Site& site, const Families& families) {
+    m.axis = f.text("axis", 64, false);
+    m.point = f.text("point", 128, true);
+    split_axis(m.axis, m.point, site);
+    if (m.axis.empty()) {
+        f.fault("axis", "axis is missing", "write \"axis\": \"NAME\" of an axis of the site");
+        return {};
+    }
+    if (!site.axis(m.axis)) {
+        f.fault("axis", fmt::format("there is no axis {}", m.axis), "use the name of an axis of the site");
+        return {};
+    }
+    if (m.point.empty()) return {};
+    if (const auto p = axis_point_named(m.point)) {
+        m.what = *p;
+        return {.writable = writable(*p), .is_bit = info_of(*p).type == ValueType::boolean};
+    }
+    const auto catalogue = catalogue_of_axis(site, families, m.axis);
+    if (const auto found = catalogue ? catalogue->find(m.point) : std::nullopt) {
+        m.what = *found;
+        const Parameter& parameter = *catalogue->parameter(*found);
+        return {.writable = parameter.writable(),
+                .readable = parameter.readable(),
+                .is_text = parameter.type == ValueType::text || parameter.type == ValueType::bytes,
+                .is_bit = parameter.type == ValueType::boolean};
+    }
+    f.fault("point", fmt::format("axis {} has no point {}", m.axis, m.point),
+            "use a name of the register map such as position, or the id of a parameter of its drive");
+    return {};
+}
+
+void read_type(Entry& f, Mapping& m, const PointTraits& point) {
+    const MapType usual = is_bits(m.table) || point.is_bit ? MapType::boolean : point.is_text ? MapType::string : MapType::i32;
+    m.type = f.word("type", type_names, type_long_names).value_or(usual);
+    if (is_bits(m.table) && m.type != MapType::boolean)
+        f.fault("type", fmt::format("{} hold type bool alone, not {}", name_of(m.table), name_of(m.type)),
+                "use bool, or a table of registers");
+    if (point.is_text != (m.type == MapType::string) && !m.point.empty() && f.good())
+        f.fault("type", fmt::format("{} is {}", m.point, point.is_text ? "a text: its type is string" : "no text: its type is not string"),
+                "choose the type that fits");
+    m.length = static_cast<std::uint16_t>(f.whole("length", 1, 64, 16).value_or(16));
+}
+
+void read_access(Entry& f, Mapping& m, const PointTraits& point) {
+    const bool may_write = m.table == MapTable::coils || m.table == MapTable::holding_registers;
+    const auto access = f.word("access", access_names, access_long_names);
+    if (!access) {
+        m.access = !point.readable ? MapAccess::write : point.writable && may_write ? MapAccess::read_write : MapAccess::read;
+        return;
+    }
+    m.access = *access;
+    if (m.access != MapAccess::read && !may_write) {
+        f.fault("access", fmt::format("{} can only be read", name_of(m.table)), "use R, or coils or holding_registers");
+    } else if (m.access != MapAccess::read && !point.writable && f.good()) {
+        f.fault("access", fmt::format("{} of axis {} can only be read", m.point, m.axis), "use R");
+    } else if (m.access != MapAccess::write && !point.readable && f.good()) {
+        f.fault("access", fmt::format("{} of axis {} can only be written", m.point, m.axis), "use W");
+    }
+}
+
+Mapping read_entry(Entry& f, Ids& ids, const Site& site, const Families& families) {
+    f.no_unknown_members();
+    Mapping m;
+    m.id = ids.read(f);
+    m.unit = static_cast<std::uint8_t>(f.whole("unit", 2, 254, std::nullopt).value_or(2));
+    m.address = static_cast<std::uint16_t>(f.whole("address", 0, 65535, std::nullopt).value_or(0));
+    m.table = f.word("table", table_names, table_short_names).value_or(MapTable::holding_registers);
+    m.word_order = f.word("word_order", order_names).value_or(MapWordOrder::high_first);
+    m.scale = f.number("scale", 1);
+    if (m.scale == 0) f.fault("scale", "scale must not be 0", "leave it out for 1");
+    m.offset = f.number("offset", 0);
+    m.comment = f.text("comment", 256, false);
+    m.on_overflow = f.word("on_overflow", overflow_names).value_or(MapOverflow::mark);
+    const PointTraits point = read_point(f, m, site, families);
+    read_type(f, m, point);
+    read_access(f, m, point);
+    if (m.end() > 65536)
+        f.fault("address", fmt::format("{} registers from {} go beyond 65535", m.size(), m.address),
+                fmt::format("use an address up to {}", 65536 - m.size()));
+    return m;
 }
 
 using Called = std::function<std::string(std::size_t index)>;
@@ -237,16 +378,9 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
         faults.push_back({"/mappings", fmt::format("{} mappings are too many", entries.size()), fmt::format("at most {}", most_mappings)});
         return std::nullopt;
     }
-    std::set<std::string> ids;
-    for (const auto& e : entries) {
-        if (const auto* o = e.if_object()) {
-            if (const auto* id = o->if_contains("id"); id && id->is_string()) ids.insert(std::string(id->get_string()));
-        }
-    }
+    Ids ids(entries);
     std::vector<Mapping> out;
     std::vector<std::size_t> index_of;  // place in `entries` of each good one
-    std::set<std::string> used;
-    std::size_t next_id = 1;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto* o = entries[i].if_object();
         if (!o) {
@@ -254,113 +388,11 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
                               "write {\"unit\": 2, \"address\": 0, \"axis\": ..., \"point\": ...}"});
             continue;
         }
-        const std::size_t good_before = faults.size();
         Entry f(*o, i, faults);
-        for (const auto& [key, value] : *o) {
-            constexpr std::array known{"id",         "unit",  "table",  "address", "axis",   "point",       "type",
-                                       "word_order", "scale", "offset", "access",  "length", "on_overflow", "comment"};
-            if (std::ranges::find(known, std::string_view(key)) == known.end())
-                f.fault(key, fmt::format("{} is not known here", std::string_view(key)),
-                        "a mapping has id, unit, table, address, axis, point, type, word_order, scale, offset, access, length, "
-                        "on_overflow, comment");
-        }
-        Mapping m;
-        m.id = f.text("id", 64, false);
-        if (m.id.empty()) {
-            m.id = unique_id(ids, next_id);
-            ids.insert(m.id);
-        } else if (!std::ranges::all_of(m.id, [](char c) {
-                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_' ||
-                              c == '.';
-                   })) {
-            f.fault("id", fmt::format("\"{}\" is no id", m.id), "use 1 to 64 letters, digits, - _ and .");
-        }
-        if (!used.insert(m.id).second)
-            f.conflict("id", fmt::format("the id {} is there twice", m.id), "give each mapping its own, or none");
-        m.unit = static_cast<std::uint8_t>(f.whole("unit", 2, 254, std::nullopt).value_or(2));
-        m.address = static_cast<std::uint16_t>(f.whole("address", 0, 65535, std::nullopt).value_or(0));
-        if (const std::string t = f.text("table", 32, false); !t.empty()) {
-            const auto table = named(table_names, t) ? named(table_names, t) : named(table_short_names, t);
-            if (!table) f.fault("table", fmt::format("there is no table {}", t), "use one of " + list(table_names));
-            m.table = table.value_or(MapTable::holding_registers);
-        }
-        if (const std::string t = f.text("word_order", 32, false); !t.empty()) {
-            const auto order = named(order_names, t);
-            if (!order) f.fault("word_order", fmt::format("there is no word order {}", t), "use one of " + list(order_names));
-            m.word_order = order.value_or(MapWordOrder::high_first);
-        }
-        m.scale = f.number("scale", 1);
-        if (m.scale == 0) f.fault("scale", "scale must not be 0", "leave it out for 1");
-        m.offset = f.number("offset", 0);
-        m.comment = f.text("comment", 256, false);
-        if (const std::string t = f.text("on_overflow", 32, false); !t.empty()) {
-            const auto overflow = named(overflow_names, t);
-            if (!overflow) f.fault("on_overflow", fmt::format("there is no on_overflow {}", t), "use one of " + list(overflow_names));
-            m.on_overflow = overflow.value_or(MapOverflow::mark);
-        }
-        m.axis = f.text("axis", 64, false);
-        m.point = f.text("point", 128, true);
-        split_axis(m.axis, m.point, site);
-
-        bool point_writable = false, point_readable = true, point_is_text = false, point_is_bit = false;
-        if (m.axis.empty()) {
-            f.fault("axis", "axis is missing", "write \"axis\": \"NAME\" of an axis of the site");
-        } else if (!site.axis(m.axis)) {
-            f.fault("axis", fmt::format("there is no axis {}", m.axis), "use the name of an axis of the site");
-        } else if (!m.point.empty()) {
-            const auto catalogue = catalogue_of_axis(site, families, m.axis);
-            if (const auto p = axis_point_named(m.point)) {
-                m.what = *p;
-                point_writable = writable(*p);
-                point_is_bit = info_of(*p).type == ValueType::boolean;
-            } else if (const auto found = catalogue ? catalogue->find(m.point) : std::nullopt) {
-                m.what = *found;
-                const Parameter& parameter = *catalogue->parameter(*found);
-                point_writable = parameter.writable();
-                point_readable = parameter.readable();
-                point_is_text = parameter.type == ValueType::text || parameter.type == ValueType::bytes;
-                point_is_bit = parameter.type == ValueType::boolean;
-            } else {
-                f.fault("point", fmt::format("axis {} has no point {}", m.axis, m.point),
-                        "use a name of the register map such as position, or the id of a parameter of its drive");
-            }
-        }
-        m.type = is_bits(m.table) || point_is_bit ? MapType::boolean : point_is_text ? MapType::string : MapType::i32;
-        if (const std::string t = f.text("type", 32, false); !t.empty()) {
-            const auto type = t == "boolean" ? std::optional(MapType::boolean) : named(type_names, t);
-            if (!type) f.fault("type", fmt::format("there is no type {}", t), "use one of " + list(type_names));
-            m.type = type.value_or(m.type);
-        }
-        if (is_bits(m.table) && m.type != MapType::boolean)
-            f.fault("type", fmt::format("{} hold type bool alone, not {}", name_of(m.table), name_of(m.type)),
-                    "use bool, or a table of registers");
-        if (point_is_text != (m.type == MapType::string) && !m.point.empty() && faults.size() == good_before)
-            f.fault("type",
-                    fmt::format("{} is {}", m.point, point_is_text ? "a text: its type is string" : "no text: its type is not string"),
-                    "choose the type that fits");
-        m.length = static_cast<std::uint16_t>(f.whole("length", 1, 64, 16).value_or(16));
-        const bool may_write = m.table == MapTable::coils || m.table == MapTable::holding_registers;
-        m.access = !point_readable ? MapAccess::write : point_writable && may_write ? MapAccess::read_write : MapAccess::read;
-        if (const std::string t = f.text("access", 32, false); !t.empty()) {
-            const auto access = named(access_names, t) ? named(access_names, t) : named(access_long_names, t);
-            if (!access) {
-                f.fault("access", fmt::format("there is no access {}", t), "use R, W or RW");
-            } else if (*access != MapAccess::read && !may_write) {
-                f.fault("access", fmt::format("{} can only be read", name_of(m.table)), "use R, or coils or holding_registers");
-            } else if (*access != MapAccess::read && !point_writable && faults.size() == good_before) {
-                f.fault("access", fmt::format("{} of axis {} can only be read", m.point, m.axis), "use R");
-            } else if (*access != MapAccess::write && !point_readable && faults.size() == good_before) {
-                f.fault("access", fmt::format("{} of axis {} can only be written", m.point, m.axis), "use W");
-            }
-            m.access = access.value_or(m.access);
-        }
-        if (m.end() > 65536)
-            f.fault("address", fmt::format("{} registers from {} go beyond 65535", m.size(), m.address),
-                    fmt::format("use an address up to {}", 65536 - m.size()));
-        if (faults.size() == good_before) {
-            out.push_back(std::move(m));
-            index_of.push_back(i);
-        }
+        Mapping m = read_entry(f, ids, site, families);
+        if (!f.good()) continue;
+        out.push_back(std::move(m));
+        index_of.push_back(i);
     }
     if (!out.empty()) check_conflicts(out, index_of, called, faults);
     if (faults.size() != before) return std::nullopt;

@@ -7,13 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
-#include <tuple>
 
-#include "gateway/core/line_uri.hpp"
 #include "gateway/site/document_fields.hpp"
 #include "gateway/site/mapping.hpp"
+#include "gateway/site/site_check.hpp"
 
 namespace axisgate {
 namespace {
@@ -131,185 +129,6 @@ void read_list(const json::object& document, std::string_view key, std::vector<T
     }
 }
 
-template <class T>
-std::string names_of(const std::vector<T>& list) {
-    std::string s;
-    for (const auto& x : list)
-        s += (s.empty() ? "" : ", ") + x.name;
-    return s.empty() ? "none" : s;
-}
-
-/// A byte line carries one family, which it names; a CAN line several, if each says by which identifiers its frames are known.
-void check_families(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
-    for (std::size_t i = 0; i < site.lines.size(); ++i) {
-        const auto& l = site.lines[i];
-        if (l.family.empty() && kind_of(l, families) == LineKind::bytes && parse_line_uri(l.uri).good()) {
-            faults.push_back({fmt::format("/lines/{}/family", i),
-                              fmt::format("line {}: family is missing: a line of bytes carries one, by which it is set up", l.name),
-                              "use one of: " + families.names()});
-        }
-    }
-    struct Known {
-        const DriveSpec* drive;
-        FamilyEntry entry;
-        std::vector<CanIdentifiers> identifiers;  // none: every frame
-    };
-    std::map<std::string, std::vector<Known>> on;
-    for (std::size_t i = 0; i < site.drives.size(); ++i) {
-        const auto& d = site.drives[i];
-        const LineSpec* line = site.line(d.line);
-        const auto fault = [&](std::string text, std::string remedy) {
-            faults.push_back({fmt::format("/drives/{}/family", i), std::move(text), std::move(remedy)});
-        };
-        if (!line) continue;
-        const LineKind kind = kind_of(*line, families);
-        if (d.family.empty() && line->family.empty() && kind == LineKind::can) {
-            fault(fmt::format("drive {}: family is missing, and its line {} names none", d.name, line->name),
-                  "name it here, or at the line for each of its drives that names none; use one of: " + families.names());
-        }
-        const FamilyEntry entry = families.find(site.family_of(d));
-        if (!d.family.empty()) {
-            if (!entry.family) {
-                fault(fmt::format("drive {}: there is no family {}", d.name, d.family), "use one of: " + families.names());
-            } else if (kind == LineKind::bytes) {
-                fault(fmt::format("drive {}: line {} carries bytes, and those of {} alone", d.name, line->name, line->family),
-                      "leave family out, or put the drive on a line of its own family");
-            } else if (!entry.family->uses_can) {
-                fault(fmt::format("drive {}: {} does not speak on CAN", d.name, d.family), "put it on a line of bytes whose family it is");
-            }
-        }
-        if (!entry.family || kind != LineKind::can || !entry.family->uses_can || d.address.empty() ||
-            !entry.family->check_address(d.address).empty())
-            continue;
-        Known mine{&d, entry, {}};
-        if (entry.family->can_identifiers) mine.identifiers = entry.family->can_identifiers({&d.address, 1});
-        auto& others = on[line->name];
-        for (const auto& o : others) {
-            if (o.entry.family == entry.family) continue;
-            const auto anything = [](const Known& k) { return !k.entry.family->can_identifiers; };
-            if (anything(mine) || anything(o)) {
-                fault(fmt::format("drive {}: {} cannot share a CAN line with other families", d.name,
-                                  (anything(mine) ? entry : o.entry).family->name),
-                      "put the drives on lines of their own");
-                break;
-            }
-            if (std::ranges::any_of(mine.identifiers, [&](const CanIdentifiers& x) {
-                    return std::ranges::any_of(o.identifiers, [&](const CanIdentifiers& y) { return x.meets(y); });
-                })) {
-                faults.push_back({fmt::format("/drives/{}/address", i),
-                                  fmt::format("drive {} ({}) and drive {} ({}) use the same CAN identifiers", d.name, entry.family->name,
-                                              o.drive->name, o.entry.family->name),
-                                  "give one of them another address, or another line"});
-                break;
-            }
-        }
-        others.push_back(std::move(mine));
-    }
-    for (std::size_t i = 0; i < site.lines.size(); ++i) {
-        if (site.families_on(site.lines[i]).size() > most_families_on_a_line)
-            faults.push_back({fmt::format("/lines/{}", i),
-                              fmt::format("line {} has drives of more than {} families", site.lines[i].name, most_families_on_a_line),
-                              "put some of them on another line"});
-    }
-}
-
-void check_relations(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
-    const auto at = [](std::string_view list, std::size_t i, std::string_view key) { return fmt::format("/{}/{}/{}", list, i, key); };
-    std::set<std::string> uris;
-    for (std::size_t i = 0; i < site.lines.size(); ++i) {
-        const auto& l = site.lines[i];
-        const auto family = families.find(l.family);
-        if (!l.family.empty() && !family.family) {
-            faults.push_back({at("lines", i, "family"), fmt::format("there is no family {}", l.family), "use one of: " + families.names()});
-        }
-        if (l.uri.empty()) continue;
-        const auto uri = parse_line_uri(l.uri);
-        if (!uri.good()) {
-            faults.push_back({at("lines", i, "uri"), uri.fault,
-                              "see the line URIs in the manual page: can:can0, serial:/dev/ttyUSB0?baud=9600, tcp:HOST:PORT, twin"});
-            continue;
-        }
-        if (family.family) {
-            const bool is_can = uri.uri.kind == LineUri::Kind::can;
-            const bool is_twin = uri.uri.kind == LineUri::Kind::twin;
-            const bool is_dds = uri.uri.kind == LineUri::Kind::dds;
-            if (!is_twin && is_dds != family.family->uses_dds) {
-                faults.push_back(
-                    is_dds ? SiteFault{at("lines", i, "uri"),
-                                       fmt::format("{} does not speak on dds: axes of other gateways alone are there", l.family),
-                                       "use the family remote, or another line"}
-                           : SiteFault{at("lines", i, "uri"),
-                                       fmt::format("{} speaks on dds alone: its drives are axes of other gateways", l.family), "use dds"});
-            } else if ((is_can && !family.family->uses_can) || (!is_can && !is_twin && !family.family->uses_bytes)) {
-                faults.push_back({at("lines", i, "uri"), fmt::format("{} does not speak on {}", l.family, is_can ? "CAN" : "a byte line"),
-                                  is_can ? "use serial:, tcp: or twin" : "use can: or twin"});
-            }
-        }
-        if (uri.uri.kind != LineUri::Kind::twin && !uris.insert(l.uri).second) {
-            faults.push_back({at("lines", i, "uri"), fmt::format("{} is used by two lines", l.uri), "put their drives on one line"});
-        }
-    }
-    check_families(site, families, faults);
-    std::set<std::tuple<std::string, std::string_view, std::string>> addresses;
-    for (std::size_t i = 0; i < site.drives.size(); ++i) {
-        const auto& d = site.drives[i];
-        const LineSpec* line = site.line(d.line);
-        if (!d.line.empty() && !line) {
-            faults.push_back(
-                {at("drives", i, "line"), fmt::format("drive {}: there is no line {}", d.name, d.line), "lines: " + names_of(site.lines)});
-        }
-        if (!line) continue;
-        if (const auto family = families.find(site.family_of(d)); family.family && !d.address.empty()) {
-            if (std::string wrong = family.family->check_address(d.address); !wrong.empty()) {
-                faults.push_back({at("drives", i, "address"), fmt::format("drive {}: {}", d.name, wrong),
-                                  "the factory address is " + std::string(family.family->factory_address)});
-            }
-        }
-        if (!addresses.emplace(d.line, site.family_of(d), d.address).second) {
-            faults.push_back({at("drives", i, "address"), fmt::format("two drives on {} have the address {}", d.line, d.address),
-                              "give each drive an address of its own"});
-        }
-        if (line->uri == "dds" && d.presence != PresenceRule::device) {
-            faults.push_back({at("drives", i, "presence"),
-                              fmt::format("drive {}: what stands for an axis of another gateway is that axis, or nothing", d.name),
-                              "use presence device: its own gateway simulates the drive, and that is shown here"});
-        }
-        if (line->uri == "twin" && d.presence == PresenceRule::device) {
-            faults.push_back({at("drives", i, "presence"), fmt::format("drive {}: a twin line has no real drives", d.name),
-                              "use presence twin or auto, or a real line"});
-        }
-    }
-    std::set<int> numbers;
-    std::set<std::pair<std::string, int>> channels;
-    for (std::size_t i = 0; i < site.axes.size(); ++i) {
-        const auto& a = site.axes[i];
-        const DriveSpec* drive = site.drive(a.drive);
-        if (!a.drive.empty() && !drive) {
-            faults.push_back({at("axes", i, "drive"), fmt::format("axis {}: there is no drive {}", a.name, a.drive),
-                              "drives: " + names_of(site.drives)});
-        }
-        if (a.number > 0 && !numbers.insert(a.number).second) {
-            faults.push_back({at("axes", i, "number"), fmt::format("axis {}: the number {} is taken", a.name, a.number),
-                              "give each axis a number of its own: it is its place in the register map"});
-        }
-        if (!channels.emplace(a.drive, a.channel).second) {
-            faults.push_back({at("axes", i, "channel"), fmt::format("axis {}: channel {} of {} is taken", a.name, a.channel, a.drive),
-                              "one axis per channel"});
-        }
-        if (drive) {
-            if (const auto catalogue = catalogue_of(site, *drive, families)) {
-                const int highest = catalogue->most_channels();
-                if (a.channel > highest) {
-                    faults.push_back(
-                        {at("axes", i, "channel"),
-                         fmt::format("axis {}: a {} has {} channel{}", a.name, catalogue->family(), highest, highest == 1 ? "" : "s"),
-                         fmt::format("use 1 to {}", highest)});
-                }
-            }
-        }
-    }
-}
-
 void read_units(const json::value* list, Site& site, std::vector<SiteFault>& faults) {
     if (!list || list->is_null()) return;
     if (!list->is_array()) {
@@ -347,6 +166,136 @@ std::shared_ptr<const Description> read_description(DocumentFields& f, DriveSpec
                             families.descriptions ? families.descriptions->names() : "none"));
     return found;
 }
+
+LineSpec read_line(DocumentFields& f, const Families& families, const std::string& pointer, std::vector<SiteFault>& faults) {
+    LineSpec l;
+    l.name = read_name(f, "can0");
+    l.uri = f.text("uri", true, "twin");
+    l.family = read_family(f, families.entries.empty() ? "uim342" : families.entries.front().family->name);
+    l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
+    l.options = f.options("options");
+    l.timing = read_line_timing(f, pointer, faults);
+    return l;
+}
+
+std::string read_address(DocumentFields& f, const Family* family) {
+    const auto* a = f.get("address");
+    if (!a) return family ? std::string(family->factory_address) : std::string();
+    if (a->is_int64() || a->is_uint64()) return json::serialize(*a);
+    if (!a->is_string()) {
+        f.fault("address", "an address is a number or a text", "write \"address\": 5");
+        return {};
+    }
+    if (a->get_string().empty()) f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
+    return std::string(a->get_string());
+}
+
+PresenceRule read_presence(DocumentFields& f) {
+    const std::string presence = f.get("presence") ? f.text("presence", false, "auto") : "auto";
+    if (presence == "device") return PresenceRule::device;
+    if (presence == "twin") return PresenceRule::twin;
+    if (presence != "auto") f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
+    return PresenceRule::automatic;
+}
+
+/// The catalogue of a drive whose family makes one for each drive, from its description or its options.
+std::shared_ptr<const Catalogue> read_own_catalogue(DocumentFields& f, const DriveSpec& d, const FamilyEntry& family,
+                                                    const std::shared_ptr<const Description>& description, const Families& families) {
+    OwnCatalogue own;
+    if (description) own.catalogue = families.descriptions->made(family.catalogue, description.get(), d.options);
+    if (!own.catalogue) {
+        own = family.family->own_catalogue({*family.catalogue, d.options, description.get()});
+        if (description && own.catalogue) families.descriptions->keep(family.catalogue, description, d.options, own.catalogue);
+    }
+    if (!own.fault.empty())
+        f.fault(description ? "description" : "options", fmt::format("drive {}: {}", d.name, own.fault), "mend it, or leave it out");
+    return own.catalogue;
+}
+
+DriveSpec read_drive(DocumentFields& f, Site& site, const Families& families) {
+    DriveSpec d;
+    d.name = read_name(f, "feeder");
+    d.line = f.text("line", true, "can0");
+    const LineSpec* line = site.line(d.line);
+    d.family = read_family(f, line && !line->family.empty() ? line->family : "uim342");
+    if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
+    const FamilyEntry family = families.find(site.family_of(d));
+    d.address = read_address(f, family.family);
+    d.presence = read_presence(f);
+    d.options = f.options("options");
+    const auto description = read_description(f, d, family.family, families);
+    if (family.family && family.family->own_catalogue) {
+        if (auto own = read_own_catalogue(f, d, family, description, families)) site.own_catalogues[d.name] = std::move(own);
+    }
+    return d;
+}
+
+void read_limits(DocumentFields& f, AxisSpec& a) {
+    if (const auto x = f.number("increments_per_unit", "3200")) {
+        a.increments_per_unit = *x;
+        if (!(*x >= 1e-9 && *x <= 1e12))
+            f.fault("increments_per_unit", "increments_per_unit must be above 0, from 1e-9 to 1e12",
+                    "write how many increments of the drive make one unit; turn the direction round in the drive");
+    }
+    a.position_min = f.number("position_min", "-100");
+    a.position_max = f.number("position_max", "100");
+    a.velocity_max = f.number("velocity_max", "50");
+    a.acceleration_max = f.number("acceleration_max", "500");
+    a.deceleration_min = f.number("deceleration_min", "20");
+}
+
+void check_limits(DocumentFields& f, const AxisSpec& a) {
+    if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
+        f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
+    }
+    for (const auto& [key, x] : {std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max},
+                                 std::pair{"deceleration_min", a.deceleration_min}}) {
+        if (x && !(*x > 0)) f.fault(key, fmt::format("axis {}: {} must be above 0", a.name, key), "leave it out for no limit");
+    }
+}
+
+/// What an axis lets happen: statements that cannot be read, who may command it, and what becomes of stored parameters.
+void read_rules(DocumentFields& f, AxisSpec& a) {
+    if (const auto* word = f.get("unread_statements")) {
+        const bool refuse = word->is_string() && word->get_string() == "refuse";
+        if (!refuse && !(word->is_string() && word->get_string() == "allow"))
+            f.fault("unread_statements", fmt::format("axis {}: this is no rule for statements that cannot be read", a.name),
+                    "use allow or refuse");
+        a.unread_statements = !refuse;
+    }
+    if (const auto* mode = f.get("authority_mode")) {
+        if (mode->is_string() && mode->get_string() == "lease") {
+            a.authority_mode = AuthorityMode::lease;
+        } else if (!mode->is_string() || mode->get_string() != "free") {
+            f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
+        }
+    }
+    if (const auto* word = f.get("stored_parameters")) {
+        const auto rule = word->is_string() ? stored_parameters_named(std::string_view(word->get_string())) : std::nullopt;
+        if (!rule)
+            f.fault("stored_parameters", fmt::format("axis {}: this is no rule for stored parameters", a.name),
+                    "use ignore, compare or write");
+        a.stored_parameters = rule.value_or(StoredParameters::ignore);
+    }
+}
+
+AxisSpec read_axis(DocumentFields& f, const std::string& pointer, std::vector<SiteFault>& faults) {
+    AxisSpec a;
+    a.name = read_name(f, "feeder");
+    a.drive = f.text("drive", true, "feeder");
+    a.channel = static_cast<int>(f.integer("channel", 1, 256).value_or(1));
+    if (!f.get("number"))
+        f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
+    a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
+    a.group = read_group(f);
+    a.trend_on_disk = f.flag("trend_on_disk");
+    a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
+    read_limits(f, a);
+    read_rules(f, a);
+    a.fail_safe = read_fail_safe(f.get("fail_safe"), pointer + "/fail_safe", faults);
+    check_limits(f, a);
+    return a;
+}
 }  // namespace
 
 std::optional<Site> parse_site(const json::value& document, const Families& families, std::vector<SiteFault>& faults) {
@@ -364,116 +313,10 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
         }
     }
     Site site;
-    read_list(o, "lines", site.lines, faults, [&](DocumentFields& f, const std::string& pointer) {
-        LineSpec l;
-        l.name = read_name(f, "can0");
-        l.uri = f.text("uri", true, "twin");
-        l.family = read_family(f, families.entries.empty() ? "uim342" : families.entries.front().family->name);
-        l.bitrate = static_cast<std::uint32_t>(f.integer("bitrate", 0, 100'000'000).value_or(0));
-        l.options = f.options("options");
-        l.timing = read_line_timing(f, pointer, faults);
-        return l;
-    });
-    read_list(o, "drives", site.drives, faults, [&](DocumentFields& f, const std::string&) {
-        DriveSpec d;
-        d.name = read_name(f, "feeder");
-        d.line = f.text("line", true, "can0");
-        const LineSpec* line = site.line(d.line);
-        d.family = read_family(f, line && !line->family.empty() ? line->family : "uim342");
-        if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
-        const FamilyEntry family = families.find(site.family_of(d));
-        if (const auto* a = f.get("address")) {
-            if (a->is_string()) {
-                d.address = std::string(a->get_string());
-                if (d.address.empty())
-                    f.fault("address", "the address is empty", "write the drive's address, or leave it out for the factory's");
-            } else if (a->is_int64() || a->is_uint64()) {
-                d.address = json::serialize(*a);
-            } else {
-                f.fault("address", "an address is a number or a text", "write \"address\": 5");
-            }
-        } else if (family.family) {
-            d.address = std::string(family.family->factory_address);
-        }
-        const std::string presence = f.get("presence") ? f.text("presence", false, "auto") : "auto";
-        if (presence == "device") {
-            d.presence = PresenceRule::device;
-        } else if (presence == "twin") {
-            d.presence = PresenceRule::twin;
-        } else if (presence == "auto") {
-            d.presence = PresenceRule::automatic;
-        } else {
-            f.fault("presence", fmt::format("\"{}\" is not a presence", presence), "use device, twin or auto");
-        }
-        d.options = f.options("options");
-        const auto description = read_description(f, d, family.family, families);
-        if (family.family && family.family->own_catalogue) {
-            OwnCatalogue own;
-            if (description) own.catalogue = families.descriptions->made(family.catalogue, description.get(), d.options);
-            if (!own.catalogue) {
-                own = family.family->own_catalogue({*family.catalogue, d.options, description.get()});
-                if (description && own.catalogue) families.descriptions->keep(family.catalogue, description, d.options, own.catalogue);
-            }
-            if (!own.fault.empty())
-                f.fault(description ? "description" : "options", fmt::format("drive {}: {}", d.name, own.fault),
-                        "mend it, or leave it out");
-            if (own.catalogue) site.own_catalogues[d.name] = std::move(own.catalogue);
-        }
-        return d;
-    });
-    read_list(o, "axes", site.axes, faults, [&](DocumentFields& f, const std::string& pointer) {
-        AxisSpec a;
-        a.name = read_name(f, "feeder");
-        a.drive = f.text("drive", true, "feeder");
-        a.channel = static_cast<int>(f.integer("channel", 1, 256).value_or(1));
-        if (!f.get("number"))
-            f.fault("number", fmt::format("axis {}: number is missing", a.name), "write \"number\": 1, its place in the register map");
-        a.number = static_cast<int>(f.integer("number", 1, max_axes).value_or(0));
-        a.group = read_group(f);
-        a.trend_on_disk = f.flag("trend_on_disk");
-        a.unit = f.get("unit") ? f.text("unit", false, "mm") : "";
-        if (const auto x = f.number("increments_per_unit", "3200")) {
-            a.increments_per_unit = *x;
-            if (!(*x >= 1e-9 && *x <= 1e12))
-                f.fault("increments_per_unit", "increments_per_unit must be above 0, from 1e-9 to 1e12",
-                        "write how many increments of the drive make one unit; turn the direction round in the drive");
-        }
-        a.position_min = f.number("position_min", "-100");
-        a.position_max = f.number("position_max", "100");
-        a.velocity_max = f.number("velocity_max", "50");
-        a.acceleration_max = f.number("acceleration_max", "500");
-        a.deceleration_min = f.number("deceleration_min", "20");
-        if (const auto* word = f.get("unread_statements")) {
-            const bool refuse = word->is_string() && word->get_string() == "refuse";
-            if (!refuse && !(word->is_string() && word->get_string() == "allow"))
-                f.fault("unread_statements", fmt::format("axis {}: this is no rule for statements that cannot be read", a.name),
-                        "use allow or refuse");
-            a.unread_statements = !refuse;
-        }
-        if (const auto* mode = f.get("authority_mode")) {
-            if (mode->is_string() && mode->get_string() == "lease") {
-                a.authority_mode = AuthorityMode::lease;
-            } else if (!mode->is_string() || mode->get_string() != "free") {
-                f.fault("authority_mode", fmt::format("axis {}: this is not an authority mode", a.name), "use free or lease");
-            }
-        }
-        if (const auto* word = f.get("stored_parameters")) {
-            const auto rule = word->is_string() ? stored_parameters_named(std::string_view(word->get_string())) : std::nullopt;
-            if (!rule)
-                f.fault("stored_parameters", fmt::format("axis {}: this is no rule for stored parameters", a.name),
-                        "use ignore, compare or write");
-            a.stored_parameters = rule.value_or(StoredParameters::ignore);
-        }
-        a.fail_safe = read_fail_safe(f.get("fail_safe"), pointer + "/fail_safe", faults);
-        if (a.position_min && a.position_max && *a.position_min >= *a.position_max) {
-            f.fault("position_max", fmt::format("axis {}: position_max must be above position_min", a.name), "exchange them");
-        }
-        for (const auto& [key, x] : {std::pair{"velocity_max", a.velocity_max}, std::pair{"acceleration_max", a.acceleration_max},
-                                     std::pair{"deceleration_min", a.deceleration_min}}) {
-            if (x && !(*x > 0)) f.fault(key, fmt::format("axis {}: {} must be above 0", a.name, key), "leave it out for no limit");
-        }
-        return a;
-    });
+    read_list(o, "lines", site.lines, faults,
+              [&](DocumentFields& f, const std::string& pointer) { return read_line(f, families, pointer, faults); });
+    read_list(o, "drives", site.drives, faults, [&](DocumentFields& f, const std::string&) { return read_drive(f, site, families); });
+    read_list(o, "axes", site.axes, faults, [&](DocumentFields& f, const std::string& pointer) { return read_axis(f, pointer, faults); });
     const json::array none;
     const json::array* entries = &none;
     if (const auto* m = o.if_contains("mappings"); m && !m->is_null()) {

@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 import classes
+import functions
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # arpa/inet.h is none: it makes addresses of texts, and opens nothing.
@@ -137,6 +138,7 @@ RULES = {
     "once": "a header has #pragma once",
     "length": "a file is one thing",
     "classes": f"a class has at most {classes.LIMIT} functions",
+    "functions": f"a function has at most {functions.LINES} lines and {functions.BRANCHES} branches",
     "families": "a family is a folder and a page of data",
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
@@ -216,6 +218,15 @@ def main():
     faults += [("classes", what) for what in classes.faults_of(counted)]
     if not classes.holds():
         faults.append(("classes", "the rule no longer finds what it is for"))
+    bodies = [p for p in sources if p.relative_to(TOP).parts[0] in ("gateway", "adapters")]
+    measured = []
+    for p in bodies:
+        text = p.read_text(encoding="utf-8")
+        measured += [(str(p.relative_to(TOP)), *f) for f in functions.functions_of(text)]
+        faults += [("functions", f"{p.relative_to(TOP)}:{n}: tests/tidy/functions.py finds no function here") for n in functions.unread(text)]
+    faults += [("functions", what) for what in functions.faults_of(measured)]
+    if not functions.holds() or len(measured) < 5 * len(bodies):
+        faults.append(("functions", "the rule no longer finds what it is for"))
     faults += [("format", what) for what in misformatted(sources)]
     with tempfile.NamedTemporaryFile("w", suffix=".cpp", dir=TOP / "tests/tidy") as probe:
         probe.write("int  x ;\n")

@@ -40,7 +40,7 @@ std::optional<std::int64_t> whole(std::string_view text) {
 class Line {
 public:
     Line(Macs& macs, Instant now) : m_(macs), now_(now) {}
-    DirectAnswer run(const std::vector<std::string>& words);
+    DirectAnswer run(std::vector<std::string> words);
 
 private:
     using Values = std::span<const std::int64_t>;
@@ -48,6 +48,11 @@ private:
     DirectAnswer system_variable(const std::vector<std::string>& words);
     DirectAnswer motion(const std::string& word, Values values);
     DirectAnswer synchronise(const std::string& word);
+    DirectAnswer take_axis(std::vector<std::string>& words);
+    DirectAnswer motor(const std::string& what);
+    DirectAnswer output(Values values);
+    DirectAnswer virtual_master(const std::string& word, Values values);
+    DirectAnswer define_origin(const std::string& word);
     DirectAnswer ask(const std::string& word);
     DirectAnswer write(Address address, std::int64_t v);
     void control(std::int64_t cw);
@@ -183,17 +188,61 @@ DirectAnswer Line::ask(const std::string& word) {
     return {{}, flags.empty() ? "none" : flags};
 }
 
-DirectAnswer Line::run(const std::vector<std::string>& all) {
-    std::vector<std::string> words;
-    for (const std::string& w : all) {
-        if (!w.starts_with("x(")) {
-            words.push_back(w);
-            continue;
-        }
+/// `x(2)` says which axis is meant, and is no word of the statement.
+DirectAnswer Line::take_axis(std::vector<std::string>& words) {
+    for (const std::string& w : words) {
+        if (!w.starts_with("x(")) continue;
         const auto n = w.ends_with(")") ? whole(std::string_view(w).substr(2, w.size() - 3)) : std::nullopt;
         if (!n || *n < 1 || *n > axes) return {"there is no axis " + w + ": x(1) to x(" + std::to_string(axes) + ")", {}};
         axis_ = static_cast<int>(*n) - 1;
     }
+    std::erase_if(words, [](const std::string& w) { return w.starts_with("x("); });
+    return {};
+}
+
+DirectAnswer Line::motor(const std::string& what) {
+    if (what == "ON") {
+        for (const int cw : {0x06, 0x07, 0x0F})
+            control(cw);
+        return done();
+    }
+    if (what == "OFF") return control(0x00), DirectAnswer{};
+    if (what == "STOP") return control(0x10F), done();
+    return {"write MOTOR ON, OFF or STOP", {}};
+}
+
+DirectAnswer Line::output(Values values) {
+    if (values.size() != 2) return {"write OUT n v", {}};
+    if (values[0] < 1 || values[0] > 8) return {"outputs are 1 to 8", {}};
+    return m_.terminals().set(values[0], values[1] != 0), DirectAnswer{};
+}
+
+DirectAnswer Line::virtual_master(const std::string& word, Values values) {
+    if (values.size() != 1) return {"write " + word + " v", {}};
+    auto& master = m_.coupling().virtual_master();
+    if (word == "PULSACC" && values[0] < 0) return {"PULSACC -1 (input by DDS) is not supported", {}};
+    if (word == "PULSACC") {
+        master.accelerate(values[0]);
+    } else {
+        master.run(values[0], virtual_master_of(axis().value("VMENCTYP")).value_or(VirtualMasterCode{}));
+    }
+    return m_.begin_ticks(now_), DirectAnswer{};
+}
+
+DirectAnswer Line::define_origin(const std::string& word) {
+    const bool of_master = word == "DEFMORIGIN";
+    const auto code = encoder_of(axis().value(of_master ? "MENCODERTYPE" : "ENCODERTYPE"), of_master).value_or(EncoderCode{});
+    if (code.absolute()) return {word + " is not for absolute encoders", {}};
+    if (of_master) {
+        m_.coupling().define_master_origin(axis_, now_);
+    } else {
+        m_.coupling().define_origin(axis_, now_);
+    }
+    return {};
+}
+
+DirectAnswer Line::run(std::vector<std::string> words) {
+    if (DirectAnswer no = take_axis(words); !no.fault.empty()) return no;
     if (words.empty()) return {"write a statement", {}};
     const std::string& word = words[0];
     if (word == "SET") return set(words);
@@ -203,17 +252,7 @@ DirectAnswer Line::run(const std::vector<std::string>& all) {
         const Row* row = words.size() == 2 ? m_.objects().named(words[1], axis_) : nullptr;
         return row ? DirectAnswer{{}, std::to_string(axis().value(words[1]))} : DirectAnswer{"write GET NAME [x(n)] of a parameter", {}};
     }
-    if (word == "MOTOR") {
-        const std::string what = words.size() == 2 ? words[1] : "";
-        if (what == "ON") {
-            for (const int cw : {0x06, 0x07, 0x0F})
-                control(cw);
-            return done();
-        }
-        if (what == "OFF") return control(0x00), DirectAnswer{};
-        if (what == "STOP") return control(0x10F), done();
-        return {"write MOTOR ON, OFF or STOP", {}};
-    }
+    if (word == "MOTOR") return motor(words.size() == 2 ? words[1] : "");
     std::vector<std::int64_t> values;
     for (std::size_t i = 1; i < words.size(); ++i) {
         const auto v = whole(words[i]);
@@ -229,21 +268,8 @@ DirectAnswer Line::run(const std::vector<std::string>& all) {
     }
     if (word == "CANDEL" && values.size() == 1 && values[0] == -1) return m_.bus().candel_all(), DirectAnswer{};
     if (word == "CANINI" && values.empty()) return m_.bus().canini(), DirectAnswer{};
-    if (word == "OUT" || among({"PULSACC", "PULSVEL"})) {
-        if (values.size() != (word == "OUT" ? 2u : 1u)) return {word == "OUT" ? "write OUT n v" : "write " + word + " v", {}};
-        if (word == "OUT") {
-            if (values[0] < 1 || values[0] > 8) return {"outputs are 1 to 8", {}};
-            return m_.terminals().set(values[0], values[1] != 0), DirectAnswer{};
-        }
-        auto& master = m_.coupling().virtual_master();
-        if (word == "PULSACC" && values[0] < 0) return {"PULSACC -1 (input by DDS) is not supported", {}};
-        if (word == "PULSACC") {
-            master.accelerate(values[0]);
-        } else {
-            master.run(values[0], virtual_master_of(axis().value("VMENCTYP")).value_or(VirtualMasterCode{}));
-        }
-        return m_.begin_ticks(now_), DirectAnswer{};
-    }
+    if (word == "OUT") return output(values);
+    if (among({"PULSACC", "PULSVEL"})) return virtual_master(word, values);
     if (!values.empty()) return {"'" + word + "' with a value is not supported", {}};
     if (among({"SYNCV", "SYNCP", "SYNCM"})) return synchronise(word);
     if (among({"APOS", "CPOS", "MAPOS", "SYNCERR", "SYNCSTAT"})) return ask(word);
@@ -253,14 +279,7 @@ DirectAnswer Line::run(const std::vector<std::string>& all) {
             if (m_.axis(k).servo().state() == cia402_drive::twin::State::fault) m_.axis(k).clear_error(now_);
         return {};
     }
-    const bool origin = word == "DEFORIGIN", master_origin = word == "DEFMORIGIN";
-    if (origin || master_origin) {
-        const auto code = encoder_of(axis().value(origin ? "ENCODERTYPE" : "MENCODERTYPE"), master_origin).value_or(EncoderCode{});
-        if (code.absolute()) return {word + " is not for absolute encoders", {}};
-        if (origin) m_.coupling().define_origin(axis_, now_);
-        if (master_origin) m_.coupling().define_master_origin(axis_, now_);
-        return {};
-    }
+    if (among({"DEFORIGIN", "DEFMORIGIN"})) return define_origin(word);
     return {"'" + word + "' is not supported in direct mode here", {}};
 }
 }  // namespace

@@ -65,7 +65,10 @@ void table_cases(EffectCases& all) {
             });
         }};
     }
-    // What is compared, as it stands in the situation; waits and branches "greater" and "less" than it.
+}
+
+/// Waits and branches: "greater" and "less" than what is compared, as it stands in the situation.
+void compare_cases(EffectCases& all) {
     struct Seen {
         char sub;  ///< of the wait "greater"; 0: there is none
         char less;
@@ -170,6 +173,7 @@ void variable_cases(EffectCases& all) {
 
 void add_table_effects(EffectCases& all) {
     table_cases(all);
+    compare_cases(all);
     variable_cases(all);
 }
 

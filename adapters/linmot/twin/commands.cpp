@@ -9,6 +9,12 @@
 
 namespace axisgate::linmot::twin {
 namespace {
+double velocity32(const Bytes& b, std::size_t at) { return at32(b, at) * Interpolator::velocity_count; }
+double acceleration32(const Bytes& b, std::size_t at) { return at32(b, at) * Interpolator::acceleration_count; }
+// 16-bit factors are neutral (choice O-19).
+double velocity16(const Bytes& b, std::size_t at) { return at16(b, at) * Interpolator::velocity_count; }
+double acceleration16(const Bytes& b, std::size_t at) { return at16(b, at) * Interpolator::acceleration_count; }
+
 /// Sub IDs of each master ID, a bit each [L548-901].
 constexpr std::uint16_t subs_of(std::uint8_t master) {
     switch (master) {
@@ -110,6 +116,18 @@ void Interpreter::execute(std::uint16_t header, const Bytes& b, bool from_table,
     if (const Fault fault = carry_out(header, b, from_table, now)) states_.raise(fault, now);
 }
 
+namespace {
+/// Whether a command is a motion that begins with it: none that waits, branches, arms a trigger, defines something or queues.
+bool moves_at_once(std::uint8_t master, std::uint8_t sub) {
+    const bool waits_or_branches = master >= 0x20 && master <= 0x26;
+    const bool arms = (master == 1 || master == 2 || master == 9 || master == 0x0A || master == 0x0B || master == 0x0C)
+                          ? sub >= 0x0A && !((master == 2 || master == 0x0C) && sub >= 0x0E)
+                          : (master == 4 && sub >= 6) || (master == 6 && sub >= 9);
+    const bool defines = (master >= 0x10 && master <= 0x12 && (master != 0x10 || sub == 4)) || (master == 0x30 && sub >= 4);
+    return master != 0 && !waits_or_branches && !arms && !defines && sub != 8 && master != 5;
+}
+}  // namespace
+
 Fault Interpreter::carry_out(std::uint16_t header, const Bytes& b, bool from_table, Instant now) {
     const auto master = static_cast<std::uint8_t>(header >> 8);
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
@@ -123,12 +141,7 @@ Fault Interpreter::carry_out(std::uint16_t header, const Bytes& b, bool from_tab
     }
     ++commands_done_;
     // An immediate motion command empties the queue of one, and ends a running sequence unless it belongs to it (choices O-08, O-16).
-    const bool waits_or_branches = master >= 0x20 && master <= 0x26;
-    const bool arms = (master == 1 || master == 2 || master == 9 || master == 0x0A || master == 0x0B || master == 0x0C)
-                          ? sub >= 0x0A && !((master == 2 || master == 0x0C) && sub >= 0x0E)
-                          : (master == 4 && sub >= 6) || (master == 6 && sub >= 9);
-    const bool defines = (master >= 0x10 && master <= 0x12 && (master != 0x10 || sub == 4)) || (master == 0x30 && sub >= 4);
-    if (master != 0 && !waits_or_branches && !arms && !defines && sub != 8 && master != 5) {
+    if (moves_at_once(master, sub)) {
         body_.demand.vai().forget_queued();
         if (!from_table) body_.table.end();
     }
@@ -204,16 +217,37 @@ void Interpreter::rename(const Bytes& b, Instant now) {
     body_.demand.vai().stand(here + follower.offset(), now);
 }
 
+/// Master 0Dh: a target that the drive knows itself: the captured position, a trigger's, or one of its parameters.
+Order Interpreter::order_of_position(std::uint8_t sub, const Bytes& b) const {
+    if (sub == 0) return {0, body_.follower.captured() + signed32(b, 2), {velocity32(b, 6), acceleration32(b, 10), acceleration32(b, 14)}};
+    if (sub == 1) return {0, signed16(b, 2), {velocity16(b, 4), acceleration16(b, 6), acceleration16(b, 6)}};
+    if (sub >= 0x0E) return {0, sub == 0x0E ? body_.setup.trig_rise : body_.setup.trig_fall, body_.demand.vai().predefined()};
+    return {static_cast<std::uint8_t>(sub >= 6 ? 3 : 0),
+            body_.memory.number((sub & 1) == 0 ? 0x1E72 : 0x1E73),
+            {velocity32(b, 2), acceleration32(b, 6), acceleration32(b, 10)}};
+}
+
+/// The order waits for an edge of the trigger input.
+void Interpreter::arm_order(const Order& o) {
+    const bool transition = o.sub >= 0x0E;
+    body_.armed = {};
+    body_.armed.kind = transition      ? (o.sub == 0x0E ? Armed::Kind::upwards : Armed::Kind::downwards)
+                       : o.sub <= 0x0B ? Armed::Kind::rising
+                                       : Armed::Kind::falling;
+    body_.armed.what = transition ? Armed::What::change : Armed::What::vai;
+    body_.armed.position = o.value;
+    body_.armed.order = o;
+    body_.armed.order.sub = o.sub == 0x0B || o.sub == 0x0D ? 2 : 0;
+}
+
 Fault Interpreter::interpolator(std::uint16_t header, const Bytes& b, Instant now) {
     Demand& demand = body_.demand;
     const auto master = static_cast<std::uint8_t>(header >> 8);
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
-    const auto v32 = [&](std::size_t at) { return at32(b, at) * Interpolator::velocity_count; };
-    const auto a32 = [&](std::size_t at) { return at32(b, at) * Interpolator::acceleration_count; };
-    const auto v16 = [&](std::size_t at) {
-        return at16(b, at) * Interpolator::velocity_count;
-    };  // 16-bit factors are neutral (choice O-19)
-    const auto a16 = [&](std::size_t at) { return at16(b, at) * Interpolator::acceleration_count; };
+    const auto v32 = [&](std::size_t at) { return velocity32(b, at); };
+    const auto a32 = [&](std::size_t at) { return acceleration32(b, at); };
+    const auto v16 = [&](std::size_t at) { return velocity16(b, at); };
+    const auto a16 = [&](std::size_t at) { return acceleration16(b, at); };
     Order o;
     o.sub = sub;
     o.ramps = demand.vai().predefined();
@@ -263,16 +297,7 @@ Fault Interpreter::interpolator(std::uint16_t header, const Bytes& b, Instant no
             }
             break;
         case 0x0D:
-            if (sub == 0)
-                o = {0, body_.follower.captured() + signed32(b, 2), {v32(6), a32(10), a32(14)}};
-            else if (sub == 1)
-                o = {0, signed16(b, 2), {v16(4), a16(6), a16(6)}};
-            else if (sub >= 0x0E)
-                o = {0, sub == 0x0E ? body_.setup.trig_rise : body_.setup.trig_fall, demand.vai().predefined()};
-            else
-                o = {static_cast<std::uint8_t>(sub >= 6 ? 3 : 0),
-                     body_.memory.number((sub & 1) == 0 ? 0x1E72 : 0x1E73),
-                     {v32(2), a32(6), a32(10)}};
+            o = order_of_position(sub, b);
             break;
         case 0x07:
             o.value = signed32(b, 2);
@@ -284,17 +309,11 @@ Fault Interpreter::interpolator(std::uint16_t header, const Bytes& b, Instant no
         default:
             return 0;
     }
-    const bool arms = !endless && o.sub >= 0x0A;
-    if (!arms) return begin(o, endless, now), Fault{0};
-    const bool transition = o.sub >= 0x0E;
-    body_.armed = {};
-    body_.armed.kind = transition      ? (o.sub == 0x0E ? Armed::Kind::upwards : Armed::Kind::downwards)
-                       : o.sub <= 0x0B ? Armed::Kind::rising
-                                       : Armed::Kind::falling;
-    body_.armed.what = transition ? Armed::What::change : Armed::What::vai;
-    body_.armed.position = o.value;
-    body_.armed.order = o;
-    body_.armed.order.sub = o.sub == 0x0B || o.sub == 0x0D ? 2 : 0;
+    if (endless || o.sub < 0x0A) {
+        begin(o, endless, now);
+    } else {
+        arm_order(o);
+    }
     return 0;
 }
 

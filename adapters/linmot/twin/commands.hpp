@@ -41,6 +41,8 @@ private:
     void general(std::uint8_t sub, const Bytes& b, Instant now);
     void rename(const Bytes& b, Instant now);
     [[nodiscard]] Fault interpolator(std::uint16_t header, const Bytes& b, Instant now);
+    [[nodiscard]] Order order_of_position(std::uint8_t sub, const Bytes& b) const;
+    void arm_order(const Order& order);
     void begin(Order order, bool endless, Instant now);
     void arm(Armed::Kind kind, Armed::What what, std::uint8_t sub, const Bytes& b);
     void start(const Order& order, Instant now);

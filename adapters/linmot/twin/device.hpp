@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "adapters/linmot/twin/drive.hpp"
+#include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::linmot::twin {
@@ -58,6 +59,15 @@ private:
     [[nodiscard]] std::uint16_t sum(std::span<const std::uint8_t> bytes) const;
     void start(Instant now);
     void set_error_count();
+    // hand.cpp
+    static const HandRow<Device> conditions[];
+    void switch_power(bool on, Instant now);
+    template <class Change>
+    std::string change_outside(Instant now, Change&& change);
+    std::string set_outside(bool Outside::*member, const HandWish& wish);
+    std::string set_outside(std::uint16_t Outside::*member, const HandWish& wish);
+    std::string set_outside(std::int64_t Outside::*member, double factor, const HandWish& wish);
+    bool set_x4(std::uint16_t bit, const HandWish& wish);
 
     DeviceSetup setup_;
     mutable Drive drive_;  ///< mechanics() advances it, which is not seen from outside

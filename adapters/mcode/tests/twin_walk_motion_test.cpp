@@ -58,8 +58,11 @@ TEST(McodeManual, MotionVariables) {
                {"PR AJ", "32"},   {"PR DJ", "0"},  // L2437
                {"DJ=127", ""},    {"DJ=128", "!21"}, {"DJ 32", ""},  // L2442
                {"PR DJ", "32"},  // L2443
-           }},
-          {"VI and VM",
+           }}});
+}
+
+TEST(McodeManual, SpeedsAndResolution) {
+    play({{"VI and VM",
            {
                {"PR VI", "1000"},  // L6119
                {"PR VM", "768000"},  // L673 E-17
@@ -165,8 +168,11 @@ TEST(McodeManual, Moves) {
            {
                {"EE=1", ""}, {"SL 200001", "!21"},  // L5406
                {"SL -200000", ""}, {"$1B", "*"}, {"SL 14000", ""}, {"~2000", "*"}, {"PR V", "14000"},  // L7315
-           }},
-          {"flags of a move",
+           }}});
+}
+
+TEST(McodeManual, WhatMovesShowAndRefuse) {
+    play({{"flags of a move",
            {
                {"MA 5120000", ""}, {"PR MP", "1"}, {"PR MV", "1"}, {"PR VC", "1"},  // L4220, L6056
                {"~2000", "*"}, {"PR VC", "0"}, {"PR MP", "1"},  // L6069

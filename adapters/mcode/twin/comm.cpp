@@ -35,20 +35,21 @@ std::size_t Comm::pass_over(std::span<const std::uint8_t> bytes) {
     return n;
 }
 
-LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
+/// Escape characters and CTRL+C act at once, wherever they stand [L861, L2741-2744].
+LinkEvent Comm::interrupt(std::uint8_t byte) {
     const bool alone = line_.size() == 1 && addressed(line_[0]);
-    // Escape characters act at once, wherever they stand [L861, L2741-2744].
-    if (byte == esc || byte == ctrl_e) {
-        const bool wanted = (flags.es == 0 && byte == ctrl_e) || (flags.es == 1 && byte == esc) ||
-                            (flags.es == 2 && byte == ctrl_e && alone) || (flags.es == 3 && byte == esc && alone);
-        clear();
-        return {wanted ? LinkEvent::Kind::stop : LinkEvent::Kind::none};
-    }
+    clear();
     if (byte == ctrl_c) {
         const bool wanted = flags.ce == 1 || (flags.ce == 2 && (!flags.py || alone));
-        clear();
         return {wanted ? LinkEvent::Kind::reset : LinkEvent::Kind::none};
     }
+    const bool wanted = (flags.es == 0 && byte == ctrl_e) || (flags.es == 1 && byte == esc) || (flags.es == 2 && byte == ctrl_e && alone) ||
+                        (flags.es == 3 && byte == esc && alone);
+    return {wanted ? LinkEvent::Kind::stop : LinkEvent::Kind::none};
+}
+
+LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
+    if (byte == esc || byte == ctrl_e || byte == ctrl_c) return interrupt(byte);
     if (stepping_ && line_.empty() && (byte == ' ' || byte == cr)) return {byte == ' ' ? LinkEvent::Kind::step : LinkEvent::Kind::run_on};
     const bool second_half = std::exchange(after_cr_, byte == cr);
     if (byte == (flags.py ? lf : cr) || (network && byte == lf && !second_half)) return finish();
@@ -63,9 +64,12 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
         if (!flags.py && flags.em == 0) echo += static_cast<char>(byte);
         return {};
     }
-    if (byte < 0x20 && byte != '\t') return {};
-    if (discarding_) return {};
-    const char c = static_cast<char>(byte);
+    if ((byte < 0x20 && byte != '\t') || discarding_) return {};
+    return append(static_cast<char>(byte), echo);
+}
+
+/// A character of a line.
+LinkEvent Comm::append(char c, std::string& echo) {
     if (flags.py && line_.empty() && (c == '>' || c == '?')) return {};  // a neighbour's prompt
     line_ += c;
     const bool mine = !flags.py || (armed_ && addressed(line_[0]));
@@ -73,14 +77,12 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
     const bool name = flags.py && line_.size() == 1;
     if (mine && !name && flags.em == 0 && !quiet) echo += c;
     const std::size_t limit = line_limit + (flags.py ? 1 : 0) + (flags.ck > 0 ? 1 : 0);
-    if (line_.size() > limit) {
-        clear();
-        discarding_ = true;
-        if (!mine || quiet) return {};
-        echo += flags.em == 0 ? "\r\n?" : "\r\n";  // the prompt says that there is an error [L2696]
-        return {LinkEvent::Kind::overrun};
-    }
-    return {};
+    if (line_.size() <= limit) return {};
+    clear();
+    discarding_ = true;
+    if (!mine || quiet) return {};
+    echo += flags.em == 0 ? "\r\n?" : "\r\n";  // the prompt says that there is an error [L2696]
+    return {LinkEvent::Kind::overrun};
 }
 
 LinkEvent Comm::finish() {

@@ -81,6 +81,8 @@ public:
 private:
     void clear() noexcept;
     [[nodiscard]] bool addressed(char first) const noexcept;
+    LinkEvent interrupt(std::uint8_t byte);
+    LinkEvent append(char c, std::string& echo);
     LinkEvent finish();
 
     std::string line_;    // bounded by the limit below

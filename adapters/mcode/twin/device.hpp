@@ -13,6 +13,7 @@
 #include "adapters/mcode/twin/tracer.hpp"
 #include "adapters/mcode/twin/transmitter.hpp"
 #include "adapters/mcode/twin/trip_table.hpp"
+#include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::mcode::twin {
@@ -83,7 +84,16 @@ private:
     void run_slice(Instant at);
     void say(std::string_view text);
     [[nodiscard]] bool deaf() const noexcept;
+    // hand.cpp
+    static const HandRow<Device> conditions[];
     // exec.cpp, program_device.cpp, print.cpp: words and instructions
+    using Fields = std::span<const Number>;
+    /// An instruction that is one step, and how it is carried out: 0, or its error.
+    struct Instruction {
+        Word word;
+        int (*carry_out)(Device&, const Statement&, Fields);
+    };
+    static const Instruction instructions[];
     void raise(int code);
     int typed(std::string_view text);
     int print(const Statement& s);

@@ -15,6 +15,28 @@ bool is_joined_pg(std::string_view s) noexcept {
     return s.size() > 2 && (s[0] == 'P' || s[0] == 'p') && (s[1] == 'G' || s[1] == 'g') && is_digit(s[2]);
 }
 
+/// PF: field width, decimals, scientific, left.
+int take_print_format(std::span<const Number> fields, PrintFormat& format) {
+    PrintFormat f = format;
+    const std::array<std::int64_t, 4> top{16, 16, 1, 1};
+    if (fields.size() > top.size()) return err::bad_value;
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+        const std::int64_t n = fields[k].as_integer();
+        if (n < 0 || n > top[k]) return err::bad_value;
+        if (k == 0) f.width = static_cast<int>(n);
+        if (k == 1) f.decimals = static_cast<int>(n);
+        if (k == 2) f.scientific = n == 1;
+        if (k == 3) f.left = n == 1;
+    }
+    format = f;
+    return 0;
+}
+
+/// What a drive may be called.
+bool is_party_name(std::string_view s) {
+    return s.size() == 1 && (is_digit(s[0]) || (s[0] >= 'a' && s[0] <= 'z') || (s[0] >= 'A' && s[0] <= 'Z'));
+}
+
 }  // namespace
 
 int DeviceSetup::available(Word word) const noexcept {
@@ -175,21 +197,8 @@ int Device::write(Word word, std::span<const Number> fields) {
         case Word::NE:
             ne_ = v != 0;
             return 0;
-        case Word::PF: {
-            PrintFormat f = format_;
-            const std::array<std::int64_t, 4> top{16, 16, 1, 1};
-            if (fields.size() > top.size()) return err::bad_value;
-            for (std::size_t k = 0; k < fields.size(); ++k) {
-                const std::int64_t n = fields[k].as_integer();
-                if (n < 0 || n > top[k]) return err::bad_value;
-                if (k == 0) f.width = static_cast<int>(n);
-                if (k == 1) f.decimals = static_cast<int>(n);
-                if (k == 2) f.scientific = n == 1;
-                if (k == 3) f.left = n == 1;
-            }
-            format_ = f;
-            return 0;
-        }
+        case Word::PF:
+            return take_print_format(fields, format_);
         case Word::PW:
             if (fields.size() > pw_.size()) return err::bad_value;
             for (std::size_t k = 0; k < fields.size(); ++k)
@@ -212,6 +221,87 @@ int Device::write(Word word, std::span<const Number> fields) {
     }
 }
 
+const Device::Instruction Device::instructions[] = {
+    {Word::PR, [](Device& d, const Statement& s, Fields) { return d.print(s); }},
+    {Word::VA, [](Device& d, const Statement& s, Fields fields) { return d.declare(s, fields); }},
+    {Word::EX, [](Device& d, const Statement& s, Fields fields) { return d.execute_label(s, fields); }},
+    {Word::E,
+     // In a program its end; typed: the program ends when the motion is over [L2523-2531].
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.run_.idle()) return err::not_running;
+         if (d.data_ == nullptr) {
+             d.stop_program();
+         } else {
+             d.ending_ = true;
+         }
+         return 0;
+     }},
+    {Word::PS,
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.run_.idle() || d.paused_) return err::not_running;
+         d.paused_ = true;
+         d.motor_->pause(d.now_);
+         return 0;
+     }},
+    {Word::RS,
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.run_.idle() || !d.paused_) return err::not_running;
+         d.paused_ = false;
+         d.motor_->resume(d.now_);
+         d.slice_due_ = d.now_;
+         return 0;
+     }},
+    {Word::OE,
+     [](Device& d, const Statement& s, Fields fields) -> int {
+         const bool none = fields.empty() && s.target && s.target->given && s.target->label == no_symbol && !s.target->missing_name &&
+                           s.target->address == 0;
+         int error = 0;
+         if (!none && (!s.target || d.program_.find(*s.target, error) < 0)) return err::unknown_name;
+         d.on_error_ = none ? std::nullopt : s.target;
+         return 0;
+     }},
+    {Word::IV, [](Device& d, const Statement& s, Fields) { return d.awaited_.ask(s); }},
+    {Word::BP,
+     [](Device& d, const Statement& s, Fields fields) -> int {
+         if (s.target && s.target->given) return d.tracer_.set_break(*s.target, fields);
+         if (d.run_.idle()) return err::not_running;
+         d.tracer_.run_as(Tracer::Mode::step);
+         return 0;
+     }},
+    {Word::PG, [](Device& d, const Statement&, Fields fields) { return d.enter_program_mode(fields); }},
+    {Word::L, [](Device& d, const Statement& s, Fields) { return d.list(s); }},
+    {Word::CP, [](Device& d, const Statement& s, Fields fields) { return d.clear_program(s, fields); }},
+    {Word::S,
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.motor_->busy(false, d.now_)) return err::saving_in_motion;
+         d.lk_saved_ = d.lk_;
+         d.keep();
+         return 0;
+     }},
+    {Word::IP,
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.motor_->busy(true, d.now_)) return err::restoring_in_motion;
+         d.restore(d.nvm_, false);
+         return 0;
+     }},
+    {Word::FD,
+     [](Device& d, const Statement&, Fields) -> int {
+         if (d.motor_->busy(true, d.now_)) return err::saving_in_motion;
+         d.stop_program();
+         d.factory_state(false);
+         d.keep();
+         return 0;
+     }},
+    {Word::UG,
+     [](Device& d, const Statement&, Fields fields) -> int {
+         const std::int64_t code = fields.empty() ? 0 : fields[0].as_integer();
+         if (code != 2656102 && code != 2956102) return err::bad_value;
+         d.stop_everything();
+         d.upgrading_ = true;  // at 19200 and deaf for MCode until power comes back
+         return 0;
+     }},
+};
+
 int Device::perform(const Statement& s, std::span<const Number> fields) {
     if (s.kind == Statement::Kind::bare_number) {
         if (!ne_) return 60;
@@ -225,9 +315,7 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
     if (const int code = setup_.available(s.word); code != 0) return code;
     if (s.kind == Statement::Kind::assign) {
         if (s.word != Word::DN) return err::unknown_set;
-        if (s.name.size() != 1 ||
-            !(is_digit(s.name[0]) || (s.name[0] >= 'a' && s.name[0] <= 'z') || (s.name[0] >= 'A' && s.name[0] <= 'Z')))
-            return err::bad_value;
+        if (!is_party_name(s.name)) return err::bad_value;
         comm_.flags.dn = s.name[0];
         return 0;
     }
@@ -239,84 +327,8 @@ int Device::perform(const Statement& s, std::span<const Number> fields) {
             announce_ = (s.word == Word::MA || s.word == Word::MR) && fields.size() >= 2 && fields[1].truth();
         return code;
     }
-    switch (s.word) {
-        case Word::PR:
-            return print(s);
-        case Word::VA:
-            return declare(s, fields);
-        case Word::EX:
-            return execute_label(s, fields);
-        case Word::E:
-            // In a program its end; typed: the program ends when the motion is over [L2523-2531].
-            if (run_.idle()) return err::not_running;
-            if (data_ == nullptr) {
-                stop_program();
-            } else {
-                ending_ = true;
-            }
-            return 0;
-        case Word::PS:
-            if (run_.idle() || paused_) return err::not_running;
-            paused_ = true;
-            motor_->pause(now_);
-            return 0;
-        case Word::RS:
-            if (run_.idle() || !paused_) return err::not_running;
-            paused_ = false;
-            motor_->resume(now_);
-            slice_due_ = now_;
-            return 0;
-        case Word::OE:
-            if (fields.empty() && s.target && s.target->given && s.target->label == no_symbol && !s.target->missing_name &&
-                s.target->address == 0) {
-                on_error_.reset();
-                return 0;
-            }
-            {
-                int error = 0;
-                if (!s.target) return err::unknown_name;
-                if (program_.find(*s.target, error) < 0) return err::unknown_name;
-                on_error_ = s.target;
-            }
-            return 0;
-        case Word::IV:
-            return awaited_.ask(s);
-        case Word::BP:
-            if (s.target && s.target->given) return tracer_.set_break(*s.target, fields);
-            if (run_.idle()) return err::not_running;
-            tracer_.run_as(Tracer::Mode::step);
-            return 0;
-        case Word::PG:
-            return enter_program_mode(fields);
-        case Word::L:
-            return list(s);
-        case Word::CP:
-            return clear_program(s, fields);
-        case Word::S:
-            if (motor_->busy(false, now_)) return err::saving_in_motion;
-            lk_saved_ = lk_;
-            keep();
-            return 0;
-        case Word::IP:
-            if (motor_->busy(true, now_)) return err::restoring_in_motion;
-            restore(nvm_, false);
-            return 0;
-        case Word::FD:
-            if (motor_->busy(true, now_)) return err::saving_in_motion;
-            stop_program();
-            factory_state(false);
-            keep();
-            return 0;
-        case Word::UG: {
-            const std::int64_t code = fields.empty() ? 0 : fields[0].as_integer();
-            if (code != 2656102 && code != 2956102) return err::bad_value;
-            stop_everything();
-            upgrading_ = true;  // at 19200 and deaf for MCode until power comes back
-            return 0;
-        }
-        default:
-            return err::not_program;
-    }
+    const auto* instruction = std::ranges::find(instructions, s.word, &Instruction::word);
+    return instruction == std::end(instructions) ? err::not_program : instruction->carry_out(*this, s, fields);
 }
 
 }  // namespace axisgate::mcode::twin

@@ -7,13 +7,54 @@
 
 namespace axisgate::mcode::twin {
 
+const HandRow<Device> Device::conditions[] = {
+    {"power", true, "supply; off loses everything that S has not saved", [](const Device& d, Instant) -> Value { return d.powered_; },
+     [](Device& d, const HandWish& w) {
+         return w.flag([&](bool on) {
+             if (on == d.powered_) return;
+             if (on) {
+                 d.powered_ = true;
+                 d.boot();
+             } else {
+                 d.stop_everything();
+                 d.waiting_.clear();
+                 d.command_due_ = never;
+                 d.powered_ = false;
+             }
+             d.settle(*w.out);
+         });
+     }},
+    {"silent", true, "the drive hears and acts, but nothing that it sends reaches the line",
+     [](const Device& d, Instant) -> Value { return d.tx_.silent; },
+     [](Device& d, const HandWish& w) { return w.flag([&](bool on) { d.tx_.silent = on; }); }},
+    {"inject_error", true, "ER and EF as if that error had come; 0 clears it",
+     [](const Device& d, Instant) -> Value { return std::int64_t{d.error_.code}; },
+     [](Device& d, const HandWish& w) {
+         return w.whole(0, 111, "an MCode error, 1..111, or 0 to clear it", [&](std::int64_t n) -> std::string {
+             const auto code = static_cast<int>(n);
+             if (code != 0 && !d.setup_.codes.empty() && std::ranges::find(d.setup_.codes, code) == d.setup_.codes.end())
+                 return "inject_error: MCode has no error " + std::to_string(code) + "; the catalogue lists those that it has";
+             if (!d.powered_) return "inject_error: the drive has no power";
+             d.raise(code);
+             d.settle(*w.out);
+             return {};
+         });
+     }},
+    {"address_input", true, "a hardware address input is active: PY is 1; the name stays that of DN",
+     [](const Device& d, Instant) -> Value { return d.address_input_; },
+     [](Device& d, const HandWish& w) {
+         return w.flag([&](bool on) {
+             d.address_input_ = on;
+             if (!on || d.comm_.flags.py) return;
+             d.comm_.disarm();
+             d.comm_.flags.py = true;
+         });
+     },
+     [](const Device& d) { return (d.setup_.product & lmm) != 0; }},
+};
+
 std::vector<HandItem> Device::hand() const {
-    std::vector<HandItem> items;
-    items.push_back({"power", powered_, true, "supply; off loses everything that S has not saved"});
-    items.push_back({"silent", tx_.silent, true, "the drive hears and acts, but nothing that it sends reaches the line"});
-    items.push_back({"inject_error", std::int64_t{error_.code}, true, "ER and EF as if that error had come; 0 clears it"});
-    if ((setup_.product & lmm) != 0)
-        items.push_back({"address_input", address_input_, true, "a hardware address input is active: PY is 1; the name stays that of DN"});
+    std::vector<HandItem> items = hand_items(conditions, *this, now_);
     for (HandItem& i : motor_->hand(now_))
         items.push_back(std::move(i));
     return items;
@@ -21,47 +62,7 @@ std::vector<HandItem> Device::hand() const {
 
 std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
     pass_until(now, out);
-    const auto flag = as_flag(value);
-    if (name == "power") {
-        if (!flag) return name + ": " + axisgate::to_text(value) + " is not true or false";
-        if (*flag == powered_) return {};
-        if (*flag) {
-            powered_ = true;
-            boot();
-        } else {
-            stop_everything();
-            waiting_.clear();
-            command_due_ = never;
-            powered_ = false;
-        }
-        settle(out);
-        return {};
-    }
-    if (name == "silent") {
-        if (!flag) return name + ": " + axisgate::to_text(value) + " is not true or false";
-        tx_.silent = *flag;
-        return {};
-    }
-    if (name == "address_input" && (setup_.product & lmm) != 0) {
-        if (!flag) return name + ": " + axisgate::to_text(value) + " is not true or false";
-        address_input_ = *flag;
-        if (*flag && !comm_.flags.py) {
-            comm_.disarm();
-            comm_.flags.py = true;
-        }
-        return {};
-    }
-    if (name == "inject_error") {
-        const auto code = as_integer(value);
-        if (!code || *code < 0 || *code > 111)
-            return "inject_error: " + axisgate::to_text(value) + " is not an MCode error, 1..111, or 0 to clear it";
-        if (*code != 0 && !setup_.codes.empty() && std::ranges::find(setup_.codes, static_cast<int>(*code)) == setup_.codes.end())
-            return "inject_error: MCode has no error " + std::to_string(*code) + "; the catalogue lists those that it has";
-        if (!powered_) return "inject_error: the drive has no power";
-        raise(static_cast<int>(*code));
-        settle(out);
-        return {};
-    }
+    if (auto answer = set_hand_row(conditions, *this, *this, {name, value, now_, &out})) return *std::move(answer);
     if (auto fault = motor_->set_hand(name, value, now_)) {
         settle(out);
         return *fault;

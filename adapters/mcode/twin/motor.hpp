@@ -6,6 +6,7 @@
 #pragma once
 
 #include "adapters/mcode/twin/numbering.hpp"
+#include "gateway/core/hand_table.hpp"
 
 namespace axisgate::mcode::twin {
 
@@ -46,6 +47,8 @@ private:
         Instant soft = never, index = never, stall = never, lag = never, cam = never, wrap = never;
     };
 
+    static const HandRow<Motor> conditions[];
+    std::string set_supply(double& into, const HandWish& wish);
     void replan(Instant now);
     void handle(Instant t);
     void edge(const InputEdge& e, Instant now);

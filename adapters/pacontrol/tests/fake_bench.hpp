@@ -175,27 +175,8 @@ struct FakeControl {
         x.error = static_cast<std::uint16_t>(error);
         return x;
     }
-    Reply take(const Request& q, Instant now) {
-        advance(now);
-        (void)polled(now);  // ends what has come to its end
-        const CommandInfo* c = command_info(q.code);
-        if (!c) return quit(19);
-        const double v = real_of(q.data).value_or(0);
-        const bool passes = q.code == 0x0600 || q.code == 0x0A81 || q.code == 0x0A93;
-        if (pending >= 0 && !passes) return quit(20);
-        if ((c->online_only && mode != 31) || (c->home_only && mode != 1 && mode != 9)) {
-            if (!(q.code == 0x0A81 && is_online(mode))) return quit(20);
-        }
-        FakeAxis* a = nullptr;
-        if (c->parameter == Takes::axis) {
-            if (q.parameter < 1 || q.parameter > axes.size()) return quit(32);
-            a = &axes[q.parameter - 1];
-        }
-        const auto store = [&](auto& where, bool real) {
-            if (q.parameter < 1 || q.parameter > 1024) return quit(38);
-            if (c->data != Carries::nothing) where[q.parameter] = v;
-            return reply(where[q.parameter], real);
-        };
+    /// What changes the mode of the control, or its error.
+    std::optional<Reply> take_mode(const Request& q, Instant now) {
         switch (q.code) {
             case 0x0600:
                 for (auto& x : axes)
@@ -230,6 +211,18 @@ struct FakeControl {
                 error = 0;
                 if (mode == 9) mode = 1;
                 return reply();
+            default:
+                return std::nullopt;
+        }
+    }
+    /// Inputs, outputs, flags, registers and parameters.
+    std::optional<Reply> take_register(const Request& q, const CommandInfo& c, double v) {
+        const auto store = [&](auto& where, bool real) {
+            if (q.parameter < 1 || q.parameter > 1024) return quit(38);
+            if (c.data != Carries::nothing) where[q.parameter] = v;
+            return reply(where[q.parameter], real);
+        };
+        switch (q.code) {
             case 0x1900:
                 if (q.parameter < 1 || q.parameter > 1024) return quit(35);
                 return reply(inputs[q.parameter]);
@@ -250,8 +243,15 @@ struct FakeControl {
                 return store(system, false);
             case 0x0800:
             case 0x1800:
-                if (c->data != Carries::nothing) axis_parameters[q.parameter] = v;
+                if (c.data != Carries::nothing) axis_parameters[q.parameter] = v;
                 return reply(axis_parameters[q.parameter], true);
+            default:
+                return std::nullopt;
+        }
+    }
+    /// What is shown of the control and of an axis.
+    std::optional<Reply> take_question(const Request& q, const FakeAxis* a) const {
+        switch (q.code) {
             case 0x190B:
                 return reply(mode);
             case 0x190C:
@@ -277,6 +277,26 @@ struct FakeControl {
             case 0x1934:
                 if (q.parameter >= 51 && q.parameter - 51 < axes.size()) return reply(axes[q.parameter - 51].referenced ? 1 : 0);
                 return quit(37);
+            default:
+                return std::nullopt;
+        }
+    }
+    Reply take_move(const Request& q, FakeAxis& a, double v, Instant now) {
+        const bool relative = q.code == 0x0A89 || q.code == 0x0A91 || q.code == 0x0A95;
+        const double to = relative ? a.position + v : v;
+        if (to < a.min || to > a.max) return quit(65);
+        if (a.running) return quit(42);
+        if (!a.referenced) return quit(43);
+        if (!a.on) return quit(55);
+        const double from = a.position;
+        a.go(to, now);
+        if (q.code == 0x0A90 || q.code == 0x0A91) a.renewed = now;
+        const bool waits = q.code == 0x0A87 || q.code == 0x0A89;
+        if (waits) pending = static_cast<int>(q.parameter) - 1;
+        return reply(from, true, !waits);
+    }
+    std::optional<Reply> take_order(const Request& q, FakeAxis* a, double v, Instant now) {
+        switch (q.code) {
             case 0x0A83:
                 a->referenced = true;
                 return reply();
@@ -306,20 +326,8 @@ struct FakeControl {
             case 0x0A90:
             case 0x0A91:
             case 0x0A94:
-            case 0x0A95: {
-                const bool relative = q.code == 0x0A89 || q.code == 0x0A91 || q.code == 0x0A95;
-                const double to = relative ? a->position + v : v;
-                if (to < a->min || to > a->max) return quit(65);
-                if (a->running) return quit(42);
-                if (!a->referenced) return quit(43);
-                if (!a->on) return quit(55);
-                const double from = a->position;
-                a->go(to, now);
-                if (q.code == 0x0A90 || q.code == 0x0A91) a->renewed = now;
-                const bool waits = q.code == 0x0A87 || q.code == 0x0A89;
-                if (waits) pending = static_cast<int>(q.parameter) - 1;
-                return reply(from, true, !waits);
-            }
+            case 0x0A95:
+                return take_move(q, *a, v, now);
             case 0x0A92:
                 if (a->running && a->renewed != never) a->renewed = now;
                 return reply(a->position, true);
@@ -345,8 +353,29 @@ struct FakeControl {
                 if (a->rest == 8) a->rest = 0;
                 return reply();
             default:
-                return reply();
+                return std::nullopt;
         }
+    }
+    Reply take(const Request& q, Instant now) {
+        advance(now);
+        (void)polled(now);  // ends what has come to its end
+        const CommandInfo* c = command_info(q.code);
+        if (!c) return quit(19);
+        const double v = real_of(q.data).value_or(0);
+        const bool passes = q.code == 0x0600 || q.code == 0x0A81 || q.code == 0x0A93;
+        if (pending >= 0 && !passes) return quit(20);
+        if ((c->online_only && mode != 31) || (c->home_only && mode != 1 && mode != 9)) {
+            if (!(q.code == 0x0A81 && is_online(mode))) return quit(20);
+        }
+        FakeAxis* a = nullptr;
+        if (c->parameter == Takes::axis) {
+            if (q.parameter < 1 || q.parameter > axes.size()) return quit(32);
+            a = &axes[q.parameter - 1];
+        }
+        if (auto answer = take_mode(q, now)) return *answer;
+        if (auto answer = take_register(q, *c, v)) return *answer;
+        if (auto answer = take_question(q, a)) return *answer;
+        return take_order(q, a, v, now).value_or(reply());
     }
 };
 

@@ -9,6 +9,7 @@
 
 #include "adapters/pacontrol/twin/control.hpp"
 #include "adapters/pacontrol/twin/frame.hpp"
+#include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::pacontrol::twin {
@@ -54,6 +55,16 @@ private:
     void answer(const CommandReply& reply, Instant now, Out& out);
     void send(const CommandReply& reply, Instant now, Out& out) const;
     void pass(Instant now, Out& out);
+    /// What a condition of an axis is set at.
+    struct AxisHand {
+        Device& device;
+        Axis& axis;
+        int n;
+        template <class Then>
+        std::string powered(Then&& then, const HandWish& wish);
+    };
+    static const HandRow<Device> conditions[];
+    static const HandRow<Axis, AxisHand> axis_conditions[];
     [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now);
     [[nodiscard]] std::string set_axis_condition(int n, const std::string& name, const Value& value, Instant now);
 

@@ -155,6 +155,54 @@ struct FakeNode {
     }
     std::uint32_t number(std::uint16_t key) const { return get_u32(values.at(key).data()); }
 
+    void set_driver(bool to) {
+        on = to;
+        if (on) return;
+        stop = true;
+        lock = false;
+        speed = 0;
+    }
+    /// BG.
+    Message take_begin(const Message& m) {
+        const std::uint8_t f = m.function();
+        if (!on) return error_report(0x3E, m);
+        if (lock) return error_report(0x3F, m);
+        paif = false;
+        stop = false;
+        if (mode == 0) {
+            speed = static_cast<std::int32_t>(number(0x2E02));
+            stop = speed == 0;
+        } else if (instant_motion) {
+            finish();
+        }
+        return say(f, {0, 0, 0, 0});
+    }
+    /// JV, SP, PR and PA.
+    Message take_wanted(const Message& m) {
+        const std::uint8_t f = m.function();
+        const std::vector<std::uint8_t> data(m.d.begin(), m.d.begin() + m.dl);
+        const std::uint8_t selected = std::exchange(mf, std::uint8_t{0});
+        const std::uint8_t g = f == 0x1D ? std::uint8_t{0} : selected;  // JV has one value, and uses the selection up
+        if (m.dl == 0) {
+            if (g != 0) return say(f, group[static_cast<std::uint16_t>(g << 8 | f)]);
+            const std::int32_t v = f == 0x1F ? relative : f == 0x20 ? position : speed;
+            return say(f, le(static_cast<std::uint32_t>(v), 4));
+        }
+        const std::uint8_t index = f == 0x1F ? 3 : f == 0x20 ? 4 : 2;
+        if (g != 0) {
+            group[static_cast<std::uint16_t>(g << 8 | f)] = data;
+        } else {
+            if (f == 0x1E && mode == 0) return error_report(0x32, m);
+            if (f != 0x1E) mode = f == 0x1D ? 0 : 1;
+            if (f != 0x1E) values[0x2E00] = le(mode, 4);
+            if (f == 0x1F) relative_set = true;
+            if (f == 0x20) relative_set = false;
+            values[static_cast<std::uint16_t>(0x2E00 | index)] = data;
+        }
+        std::vector<std::uint8_t> d{index};
+        d.insert(d.end(), data.begin(), data.end());
+        return say(0x2E, d);
+    }
     /// Executes and answers one instruction.
     std::optional<Message> take(const Message& m) {
         const std::uint8_t f = m.function();
@@ -172,27 +220,10 @@ struct FakeNode {
                 if (m.dl == 2) paif = tlif = err = false;
                 return say(f, m.d[0] == 0 ? status() : speed_and_position());
             case 0x15:
-                if (m.dl == 1) {
-                    on = m.d[0] != 0;
-                    if (!on) {
-                        stop = true;
-                        lock = false;
-                        speed = 0;
-                    }
-                }
+                if (m.dl == 1) set_driver(m.d[0] != 0);
                 return say(f, {std::uint8_t{on}});
             case 0x16:
-                if (!on) return error_report(0x3E, m);
-                if (lock) return error_report(0x3F, m);
-                paif = false;
-                stop = false;
-                if (mode == 0) {
-                    speed = static_cast<std::int32_t>(number(0x2E02));
-                    stop = speed == 0;
-                } else if (instant_motion) {
-                    finish();
-                }
-                return say(f, {0, 0, 0, 0});
+                return take_begin(m);
             case 0x17:
                 stop = true;
                 speed = 0;
@@ -203,29 +234,8 @@ struct FakeNode {
             case 0x1D:
             case 0x1E:
             case 0x1F:
-            case 0x20: {
-                const std::uint8_t selected = std::exchange(mf, std::uint8_t{0});
-                const std::uint8_t g = f == 0x1D ? std::uint8_t{0} : selected;  // JV has one value, and uses the selection up
-                if (m.dl == 0) {
-                    if (g != 0) return say(f, group[static_cast<std::uint16_t>(g << 8 | f)]);
-                    const std::int32_t v = f == 0x1F ? relative : f == 0x20 ? position : speed;
-                    return say(f, le(static_cast<std::uint32_t>(v), 4));
-                }
-                const std::uint8_t index = f == 0x1F ? 3 : f == 0x20 ? 4 : 2;
-                if (g != 0) {
-                    group[static_cast<std::uint16_t>(g << 8 | f)] = data;
-                } else {
-                    if (f == 0x1E && mode == 0) return error_report(0x32, m);
-                    if (f != 0x1E) mode = f == 0x1D ? 0 : 1;
-                    if (f != 0x1E) values[0x2E00] = le(mode, 4);
-                    if (f == 0x1F) relative_set = true;
-                    if (f == 0x20) relative_set = false;
-                    values[static_cast<std::uint16_t>(0x2E00 | index)] = data;
-                }
-                std::vector<std::uint8_t> d{index};
-                d.insert(d.end(), data.begin(), data.end());
-                return say(0x2E, d);
-            }
+            case 0x20:
+                return take_wanted(m);
             case 0x19:
             case 0x1A:
             case 0x1B:

@@ -510,6 +510,77 @@ TEST(Uim342Native, DescribesWhatItDoesNotKnow) {
 
 // --- under any weather -----------------------------------------------------------------------------------------------------------
 
+/// Any command, with values by `roll`, which gives numbers below its argument.
+CommandBody any_command(const std::function<unsigned(unsigned)>& roll) {
+    const auto all_points = static_cast<std::uint16_t>(catalogue().parameters().size());
+    Move m;
+    m.kind = static_cast<Move::Kind>(roll(3));
+    m.target = static_cast<std::int64_t>(roll(20000)) - 10000;
+    m.velocity = 100 + roll(1000);
+    if (roll(3) == 0) m.acceleration = 1 + roll(1000);
+    m.prepare_only = roll(6) == 0;
+    Native n;
+    const std::string text = std::array{"MO", "MF=3;AC=5", "SY[1]", "ER[0]", "BG", "XX"}[roll(6)];
+    n.send.assign(text.begin(), text.end());
+    switch (roll(16)) {
+        case 0:
+            return Disable{};
+        case 1:
+            return QuickStop{};
+        case 2:
+            return Halt{};
+        case 3:
+            return ResetFault{};
+        case 4:
+            return Home{static_cast<std::int16_t>(std::array{0, 20, 19, 3}[roll(4)])};
+        case 5:
+        case 6:
+        case 7:
+            return m;
+        case 8:
+            return StartTogether{{AxisId{0}, AxisId{static_cast<std::uint16_t>(roll(3))}, AxisId{2}}};
+        case 9:
+            return ReadParameter{{static_cast<std::uint16_t>(roll(all_points + 1u)), 0}};
+        case 10:
+            return WriteParameter{{static_cast<std::uint16_t>(roll(all_points)), 0}, Value{std::int64_t{roll(50)}}};
+        case 11:
+            return n;
+        case 12:
+            return Action{std::array{"global_stop", "start_group", "reboot", "clear_status"}[roll(4)], "10"};
+        case 13:
+            return SetPosition{0};
+        default:
+            return Enable{};
+    }
+}
+
+/// Now and then a node falls silent or reports something, the line breaks, a drive is taken away.
+void disturb(Bench& b, const std::function<unsigned(unsigned)>& roll) {
+    if (roll(60) == 0) {
+        FakeNode& f = b.fake(std::array<std::uint8_t, 3>{5, 6, 37}[roll(3)]);
+        f.silent = !f.silent;
+    }
+    if (roll(20) == 0) {
+        FakeNode& f = b.fake(std::array<std::uint8_t, 3>{5, 6, 37}[roll(3)]);
+        roll(2) ? f.finish() : static_cast<void>(f.stop = true);
+        b.say(
+            message(f.id, cw::RT, std::array<std::uint8_t, 5>{static_cast<std::uint8_t>(roll(8)), static_cast<std::uint8_t>(roll(0x20))}));
+    }
+    if (roll(150) == 0) {
+        b.line(false);
+        b.run(10ms);
+        b.line(true);
+    }
+    if (roll(200) == 0) {
+        auto keep = b.setup.drives;
+        b.setup.drives.erase(b.setup.drives.begin() + roll(3));
+        b.configure();
+        b.run(20ms);
+        b.setup.drives = keep;
+        b.configure();
+    }
+}
+
 /// Whatever is lost, late, refused, removed: every ticket has exactly one result, one instruction at a time per node, and the
 /// adapter comes to rest.
 TEST(Uim342Weather, EveryTicketHasExactlyOneResult) {
@@ -533,86 +604,12 @@ TEST(Uim342Weather, EveryTicketHasExactlyOneResult) {
         b.configure();
         b.line(true);
         std::vector<Ticket> tickets;
-        const auto all_points = static_cast<std::uint16_t>(catalogue().parameters().size());
         for (int i = 0; i < 1500; ++i) {
             b.run(Duration(100us) * roll(200));
             const auto axis = static_cast<std::uint16_t>(roll(4));  // 3 is nobody
-            CommandBody body = Enable{};
-            Move m;
-            m.kind = static_cast<Move::Kind>(roll(3));
-            m.target = static_cast<std::int64_t>(roll(20000)) - 10000;
-            m.velocity = 100 + roll(1000);
-            if (roll(3) == 0) m.acceleration = 1 + roll(1000);
-            m.prepare_only = roll(6) == 0;
-            Native n;
-            const std::string text = std::array{"MO", "MF=3;AC=5", "SY[1]", "ER[0]", "BG", "XX"}[roll(6)];
-            n.send.assign(text.begin(), text.end());
-            switch (roll(16)) {
-                case 0:
-                    body = Disable{};
-                    break;
-                case 1:
-                    body = QuickStop{};
-                    break;
-                case 2:
-                    body = Halt{};
-                    break;
-                case 3:
-                    body = ResetFault{};
-                    break;
-                case 4:
-                    body = Home{static_cast<std::int16_t>(std::array{0, 20, 19, 3}[roll(4)])};
-                    break;
-                case 5:
-                case 6:
-                case 7:
-                    body = m;
-                    break;
-                case 8:
-                    body = StartTogether{{AxisId{0}, AxisId{static_cast<std::uint16_t>(roll(3))}, AxisId{2}}};
-                    break;
-                case 9:
-                    body = ReadParameter{{static_cast<std::uint16_t>(roll(all_points + 1u)), 0}};
-                    break;
-                case 10:
-                    body = WriteParameter{{static_cast<std::uint16_t>(roll(all_points)), 0}, Value{std::int64_t{roll(50)}}};
-                    break;
-                case 11:
-                    body = n;
-                    break;
-                case 12:
-                    body = Action{std::array{"global_stop", "start_group", "reboot", "clear_status"}[roll(4)], "10"};
-                    break;
-                case 13:
-                    body = SetPosition{0};
-                    break;
-                default:
-                    break;
-            }
+            const CommandBody body = any_command(roll);
             tickets.push_back(b.command(body, roll(3) == 0, axis));
-            if (roll(60) == 0) {
-                FakeNode& f = b.fake(std::array<std::uint8_t, 3>{5, 6, 37}[roll(3)]);
-                f.silent = !f.silent;
-            }
-            if (roll(20) == 0) {
-                FakeNode& f = b.fake(std::array<std::uint8_t, 3>{5, 6, 37}[roll(3)]);
-                roll(2) ? f.finish() : static_cast<void>(f.stop = true);
-                b.say(message(f.id, cw::RT,
-                              std::array<std::uint8_t, 5>{static_cast<std::uint8_t>(roll(8)), static_cast<std::uint8_t>(roll(0x20))}));
-            }
-            if (roll(150) == 0) {
-                b.line(false);
-                b.run(10ms);
-                b.line(true);
-            }
-            if (roll(200) == 0) {
-                auto keep = b.setup.drives;
-                b.setup.drives.erase(b.setup.drives.begin() + roll(3));
-                b.configure();
-                b.run(20ms);
-                b.setup.drives = keep;
-                b.configure();
-            }
+            disturb(b, roll);
         }
         // Fair weather, and everything stops.
         b.lose = nullptr;

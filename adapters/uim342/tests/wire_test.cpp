@@ -37,6 +37,47 @@ Message message_of(const std::vector<std::uint8_t>& b) {
     return message(b[0], b[1], std::span(b).subspan(3));
 }
 
+void check_can(std::istringstream& in, const Message& current, bool to_drive, bool has_free) {
+    std::string id;
+    in >> id;
+    const auto want = static_cast<std::uint32_t>(std::stoul(id, nullptr, 16));
+    const auto data = bytes_of(in);
+    const Frame f = to_drive ? to_can(current) : Frame::can_extended(can_id(current.id, host_id, current.cw), current.data());
+    EXPECT_EQ(f.id, want);
+    EXPECT_EQ(f.size, data.size());
+    if (!has_free) {
+        EXPECT_TRUE(std::ranges::equal(f.data(), data));
+    }
+    const auto back = from_can(Frame::can_extended(want, data));
+    ASSERT_TRUE(back);
+    EXPECT_EQ(to_drive ? back->consumer : back->producer, current.id);
+    EXPECT_EQ(to_drive ? back->producer : back->consumer, host_id);
+    EXPECT_EQ(back->message.cw, current.cw);
+    EXPECT_EQ(back->message.dl, current.dl);
+}
+
+void check_table(std::istringstream& in) {
+    const auto b = bytes_of(in);
+    ASSERT_EQ(b.size(), 17u);
+    // Entry i of the table named "low" is the high half of the CRC of one byte, started at 0 (it feeds crcH).
+    for (std::size_t k = 0; k < 16; ++k) {
+        unsigned c = (b[0] + k) & 0xFF;
+        for (int bit = 0; bit < 8; ++bit)
+            c = c & 1u ? c >> 1 ^ 0xA001u : c >> 1;
+        EXPECT_EQ(c >> 8, b[k + 1]) << "entry " << b[0] + k;
+    }
+}
+
+void check_stream(std::istringstream& in) {
+    const auto b = bytes_of(in);
+    UiFramer framer;
+    int good = 0, junk = 0;
+    framer.push(
+        b, [&](const UiCheck&, const UiBytes&) { ++good; }, [&](std::uint8_t) { ++junk; });
+    EXPECT_GT(good, 0);
+    EXPECT_EQ(static_cast<std::size_t>(good) * uimessage_size + static_cast<std::size_t>(junk) + framer.pending().size(), b.size());
+}
+
 TEST(Uim342Vectors, EveryMessageInEveryForm) {
     std::ifstream file(AXISGATE_SOURCE_DIR "/adapters/uim342/vectors.txt");
     ASSERT_TRUE(file) << "adapters/uim342/vectors.txt is missing";
@@ -82,22 +123,7 @@ TEST(Uim342Vectors, EveryMessageInEveryForm) {
                 EXPECT_NE(instruction(current.cw), nullptr);
             }
         } else if (word == "can>" || word == "can<") {
-            std::string id;
-            in >> id;
-            const auto want = static_cast<std::uint32_t>(std::stoul(id, nullptr, 16));
-            const auto data = bytes_of(in);
-            const Frame f = word == "can>" ? to_can(current) : Frame::can_extended(can_id(current.id, host_id, current.cw), current.data());
-            EXPECT_EQ(f.id, want);
-            EXPECT_EQ(f.size, data.size());
-            if (!has_free) {
-                EXPECT_TRUE(std::ranges::equal(f.data(), data));
-            }
-            const auto back = from_can(Frame::can_extended(want, data));
-            ASSERT_TRUE(back);
-            EXPECT_EQ(word == "can>" ? back->consumer : back->producer, current.id);
-            EXPECT_EQ(word == "can>" ? back->producer : back->consumer, host_id);
-            EXPECT_EQ(back->message.cw, current.cw);
-            EXPECT_EQ(back->message.dl, current.dl);
+            check_can(in, current, word == "can>", has_free);
             ++cans;
         } else if (word == "uim>" || word == "uim<") {
             check_uim(in, CrcMode::twelve);
@@ -112,24 +138,10 @@ TEST(Uim342Vectors, EveryMessageInEveryForm) {
             EXPECT_EQ(crc16(b), std::stoul(value, nullptr, 16)) << value;
             ++crcs;
         } else if (word == "crclow") {
-            const auto b = bytes_of(in);
-            ASSERT_EQ(b.size(), 17u);
-            // Entry i of the table named "low" is the high half of the CRC of one byte, started at 0 (it feeds crcH).
-            for (std::size_t k = 0; k < 16; ++k) {
-                unsigned c = (b[0] + k) & 0xFF;
-                for (int bit = 0; bit < 8; ++bit)
-                    c = c & 1u ? c >> 1 ^ 0xA001u : c >> 1;
-                EXPECT_EQ(c >> 8, b[k + 1]) << "entry " << b[0] + k;
-            }
+            check_table(in);
             ++rows;
         } else if (word == "stream>") {
-            const auto b = bytes_of(in);
-            UiFramer framer;
-            int good = 0, junk = 0;
-            framer.push(
-                b, [&](const UiCheck&, const UiBytes&) { ++good; }, [&](std::uint8_t) { ++junk; });
-            EXPECT_GT(good, 0);
-            EXPECT_EQ(static_cast<std::size_t>(good) * uimessage_size + static_cast<std::size_t>(junk) + framer.pending().size(), b.size());
+            check_stream(in);
             ++streams;
         } else {
             EXPECT_TRUE(word == "wire" || word == "node" || word == "state" || word == "hand" || word == "wait" || word == "note") << word;

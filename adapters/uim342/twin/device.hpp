@@ -16,6 +16,7 @@
 #include "adapters/uim342/twin/link.hpp"
 #include "adapters/uim342/twin/memory.hpp"
 #include "adapters/uim342/twin/wire.hpp"
+#include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::uim342::twin {
@@ -118,6 +119,7 @@ private:
     [[nodiscard]] Fault get_indexed(const Telegram& t, Instant now, Telegram& reply) const;
     [[nodiscard]] Fault set(const Telegram& t, Instant now, Telegram& reply, Out& out);
     [[nodiscard]] Fault set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& out);
+    [[nodiscard]] Fault command_system(std::uint8_t i, Instant now, Out& out);
     [[nodiscard]] Fault set_motion_value(const Telegram& t, Telegram& reply);
     [[nodiscard]] Fault begin_motion(Instant now);
     [[nodiscard]] Fault set_driver(std::uint8_t value, Instant now);
@@ -126,8 +128,8 @@ private:
     void fill_status(Telegram& reply, Instant now) const noexcept;
 
     // --- the hand (hand.cpp) ---
-    [[nodiscard]] std::string set_condition(const std::string& name, const Value& value, Instant now, Out& out);
-    [[nodiscard]] std::string inject(std::int64_t code, Instant now, Out& out);
+    static const HandRow<Device> conditions[];
+    void set_alarm_condition(bool& condition, Alarm alarm, bool on, Instant now, Out& out);
 
     Identity identity_;
     Duration boot_time_;

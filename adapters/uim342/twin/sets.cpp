@@ -136,6 +136,22 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
     }
 }
 
+/// SY: 1 starts the drive anew, 2 restores the factory's settings.
+Fault Device::command_system(std::uint8_t i, Instant now, Out& out) {
+    if (i != 1 && i != 2) return Fault::sub_index;
+    if (i == 1) {
+        axis_.set_driver(false, now);
+        boot(now, axis_.position(now));
+        settle(now, out);
+        return Fault::none;
+    }
+    if (axis_.moving()) return Fault::running;
+    memory_.restore_factory();
+    inputs_.set_modes(memory_.ram().tg, now);
+    configure_axis(now);
+    return Fault::none;
+}
+
 Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& out) {
     const bool keep = !axis_.driver_on();
     const bool moving = axis_.moving();
@@ -199,18 +215,7 @@ Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& 
             fill_status(reply, now);
             return Fault::none;
         case SY:
-            if (i != 1 && i != 2) return Fault::sub_index;
-            if (i == 1) {
-                axis_.set_driver(false, now);
-                boot(now, axis_.position(now));
-                settle(now, out);
-                return Fault::none;
-            }
-            if (moving) return Fault::running;
-            memory_.restore_factory();
-            inputs_.set_modes(memory_.ram().tg, now);
-            configure_axis(now);
-            return Fault::none;
+            return command_system(i, now, out);
         default:
             return Fault::syntax;
     }

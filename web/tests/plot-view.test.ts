@@ -3,7 +3,6 @@ import { describe, expect, it } from 'vitest';
 import { AxisHistory } from '../src/state/history';
 import { PlotView } from '../src/state/plot-view';
 import { extend, ScopeView } from '../src/state/scope-view';
-import { captureParts } from '../src/state/recorder';
 import { curvesOf, secondsBefore } from '../src/text/scope';
 import { levelsOf, traceCurves, trendCurves } from '../src/text/trace-curves';
 
@@ -91,6 +90,5 @@ describe('curves of points', () => {
     expect(levelsOf([capture], ['position'])).toEqual([{ scale: 'position mm', value: 1.5, text: '↓ 1.500 mm' }]);
     expect(levelsOf([capture], ['velocity'])).toEqual([]);
     expect(levelsOf([{ axes: [], trigger: { kind: 'command', axis: 'a' } } as never], ['position'])).toEqual([]);
-    expect(captureParts({ columns: [] } as never, ['position'])).toEqual([]);
   });
 });

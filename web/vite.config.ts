@@ -9,8 +9,22 @@ const nothingToPreload = {
   load: (id: string) => (id === '\0vite/preload-helper.js' ? 'export const __vitePreload = (load) => load();' : undefined),
 };
 
+/** Of the library that draws plots only what this page uses: its bars and splines, and joining of tables, are parts that nothing here asks for. */
+const unusedOfPlots = ['(paths.bars    = bars);', '(paths.spline  = monotoneCubic);', 'uPlot.join = join;'];
+const plotsAsUsed = {
+  name: 'plots-as-used',
+  enforce: 'pre' as const,
+  transform(code: string, id: string) {
+    if (!/uPlot\.esm\.js$/.test(id)) return undefined;
+    return unusedOfPlots.reduce((text, part) => {
+      if (!text.includes(part)) throw new Error(`uPlot has no ${part} any more: look what this page needs of it`);
+      return text.replace(part, '');
+    }, code);
+  },
+};
+
 export default defineConfig({
-  plugins: [nothingToPreload],
+  plugins: [nothingToPreload, plotsAsUsed],
   oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
   build: {
     target: 'es2023',

@@ -65,9 +65,10 @@ async function day(program, language) {
   // The registers of a panel, by mouse.
   await part('/mappings');
   await page.locator('[data-point=position_units]').waitFor();
-  await drag(page, '[data-point=position_units]', '[data-place="0"]');
-  await drag(page, '[data-point=statusword]', '[data-place="2"]');
-  await drag(page, '[data-point=target_position]', '[data-place="10"]');
+  for (const [i, [point, place]] of [['position_units', 0], ['statusword', 2], ['target_position', 10]].entries()) {
+    await drag(page, `[data-point=${point}]`, `[data-place="${place}"]`);
+    await becomes(`${point} has its place`, () => page.locator('[data-mapping]').count(), i + 1); // the grid has moved by then
+  }
   await becomes('three places are taken', async () => (await program.call('GET', '/mappings')).body.map((m) => `${m.address} ${m.point}`).sort(), ['0 position_units', '10 target_position', '2 statusword']);
   await becomes('they are live', () => page.locator('[data-mapping] [data-field=value][data-live=true]').count(), 3);
   await picture('registers');

@@ -14,7 +14,8 @@ export const exempt = {
   'gateway.ts': [/^no gateway around/],
   // Names: of the product, of files, of a door and its client.
   'app.tsx': [/axisgate$/],
-  'components/frame.tsx': [/^axisgate$/, /^counted/],
+  'components/frame.tsx': [/^axisgate$/],
+  'components/strip.tsx': [/^counted/],
   'components/authority.tsx': [/^modbus 192/],
   'components/language.tsx': [/^\{…\} · Language$/],
   'components/icon.tsx': [/^false$/],
@@ -34,7 +35,8 @@ export const exempt = {
   'text/errors.ts': [/^(axis|line|drive|offline) \{…\}( \{…\})?$/],
   'components/parameter-compare.tsx': [/^snapshot:\{…\}$/],
   // Measures of the style sheet, and names within a drawing.
-  'components/mapping-map.tsx': [/^\{…\}px$/, /^\{…\} \/ span \{…\}$/],
+  'components/mapping-map.tsx': [/^\{…\}px$/],
+  'components/mapping-row.tsx': [/^\{…\}px$/, /^\{…\} \/ span \{…\}$/],
   'components/state-machine.tsx': [/^url\(#arrow\)$/, /^auto-start-reverse$/],
   // Forms of files, and the line of a program, as a shell takes it.
   'components/trace.tsx': [/^(pcapng|candump)$/],

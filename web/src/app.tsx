@@ -1,6 +1,8 @@
 // App: the frame around whatever page the address names. In: the route. Out: the whole page.
 import { useEffect, useRef } from 'preact/hooks';
-import { Head, Spoken, Strip } from './components/frame';
+import { Head } from './components/frame';
+import { Spoken } from './components/spoken';
+import { Strip } from './components/strip';
 import { route } from './router';
 import { AxisPage, headingOf } from './pages/axis';
 import { EventsPage } from './pages/events';
@@ -9,7 +11,8 @@ import { GatewayPage } from './pages/gateway';
 import { LinePage, LinesPage } from './pages/lines';
 import { MappingsPage } from './pages/mappings';
 import { RecorderPage } from './pages/recorder';
-import { RecipePage, RecipesPage } from './pages/recipes';
+import { RecipePage } from './pages/recipe';
+import { RecipesPage } from './pages/recipes';
 import { Overview } from './pages/overview';
 import { ParametersPage } from './pages/parameters';
 import { ReportPage } from './pages/report';

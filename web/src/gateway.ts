@@ -2,7 +2,7 @@
 // Out: one object that components reach through useGateway(). Asks for the lists after each connection and each change of the site.
 import { effect } from '@preact/signals';
 import { createContext } from 'preact';
-import { useContext } from 'preact/hooks';
+import { useContext, useMemo } from 'preact/hooks';
 import { Client } from './api/client';
 import { Stream, type StreamMessage } from './api/stream';
 import type { Axis } from './api/types';
@@ -208,4 +208,10 @@ export function useGateway(): Gateway {
   const g = useContext(Context);
   if (!g) throw new Error('no gateway around this component');
   return g;
+}
+
+/** One door of the gateway's HTTP, kept as long as who uses it. */
+export function useDoor<D>(Door: new (client: Client) => D): D {
+  const { client } = useGateway();
+  return useMemo(() => new Door(client), [client]);
 }

@@ -1,6 +1,7 @@
 // Mappings in words and numbers: places, conflicts, gaps, checks, live values, raw words. All pure.
 import { describe, expect, it } from 'vitest';
-import { freeBlock, cellsOf, checkTexts, conflictsOf, decodeText, differenceText, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
+import { freeBlock, cellsOf, conflictsOf, decodeText, differenceText, neighbourText, nextFree, oneBased, pointUnit, pointValue, registerValue, signWarning, textsOf, widthOf, type Known, type Mapping, type Texts } from '../src/text/mapping';
+import { checkTexts } from '../src/text/mapping-check';
 import { bitName, notMapped } from '../src/text/register-map';
 import { catalogueMissing, csvOfSpecs, readTable } from '../src/text/mapping-table';
 import { csvOf, mostRows, rowsOf } from '../src/text/table-text';

@@ -2,7 +2,7 @@
 // In: a door, perhaps furnished. Out: the page as a person has it: what it says, its buttons and fields, and the way to be somebody else beside it.
 // Nothing waits for time here: the world stands still until a test lets it go on.
 import { render } from 'preact';
-import { vi } from 'vitest';
+import { afterAll, vi } from 'vitest';
 import { MockDoor } from '../dev/mock/door.mjs';
 import { MockStream } from '../dev/mock/stream.mjs';
 import { Client } from '../src/api/client';
@@ -20,6 +20,8 @@ export interface How {
 // A slow machine has its time: what is waited for ends a wait at once, and what never comes is told all the same.
 const limit_ms = 20_000;
 vi.setConfig({ testTimeout: 60_000 });
+/** A picture is drawn up to 250 ms after its cause; none may be asked for when the window of the file is gone. */
+afterAll(() => new Promise((resolve) => setTimeout(resolve, 300)));
 /** Until it holds; fails with why it does not. */
 export const soon = <T,>(holds: () => T | Promise<T>): Promise<T> => vi.waitFor(holds, { timeout: limit_ms, interval: 5 });
 

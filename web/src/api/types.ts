@@ -41,6 +41,7 @@ export type RecipeEntry = Schemas['RecipeEntry'];
 export type RecipeReportHead = Schemas['RecipeReportHead'];
 export type RecipeReport = Schemas['RecipeReport'];
 export type RecipeCheck = Schemas['RecipeCheck'];
+export type Fault = Schemas['Fault'];
 export type ScanReport = Schemas['ScanReport'];
 export type Role = Schemas['Role'];
 export type SessionInfo = Schemas['SessionInfo'];

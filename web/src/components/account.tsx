@@ -4,7 +4,8 @@ import { asProblem } from '../api/problem';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { passwordFault, signInText } from '../state/session';
-import { quiet, Tell, TextField, type Reported } from './form';
+import { quiet, type Reported } from '../state/reported';
+import { Tell, TextField } from './form';
 
 export function Account({ user }: { user: string }) {
   const { client, session } = useGateway();

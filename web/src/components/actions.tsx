@@ -7,13 +7,13 @@ import { useSignal } from '@preact/signals';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
+import { quiet, refusal, type Reported } from '../state/reported';
 import { plain } from '../text/plain';
 import { bodyOf, nameOf, questionOf, faultsOf, found, hintOf, isFlag, labelOf, recipeText, type CatalogueCommand } from '../text/action';
 import { Ask } from './ask';
-import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, notOffered, Tell, TextField } from './form';
 import { Gate } from './gate';
 import { useLoaded } from './loaded';
-import { refusal } from './reported';
 
 export function Actions({ axis, family }: { axis: string; family: string }) {
   const { client } = useGateway();

@@ -2,25 +2,25 @@
 // The list is the gateway's; nothing is taken off it here before the gateway has said so.
 import { gatewayText, t } from '../language';
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { RecorderDoor } from '../api/recorder';
 import type { Alarm, Recording } from '../api/types';
-import { useGateway } from '../gateway';
+import { useDoor, useGateway } from '../gateway';
 import { framesPath, linePath, recorderPath } from '../router';
 import { windowOf } from '../state/narrow';
 import { emptied } from '../state/persisted';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { alarmWord, canAcknowledge, recordingOf, shelfTimes, subjectOf, withoutSubject } from '../text/alarm';
 import { plain } from '../text/plain';
 import { clockTime } from '../text/time';
 import { ErrorHelp } from './error-help';
-import { Choice, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, Tell, TextField } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { AxisName, DriveName } from './name';
 import { Pill } from './pill';
 import { Section } from './section';
-import { tellOf } from './reported';
 
 export function AlarmSection() {
   const { store, client } = useGateway();
@@ -31,7 +31,7 @@ export function AlarmSection() {
   const list = store.alarms.value;
   // A fault makes a recording two seconds later: its event says so.
   const recordings = useSignal<readonly Recording[]>([]);
-  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const door = useDoor(RecorderDoor);
   const times = useSignal(0);
   useEffect(() => store.onEvent((e) => e.kind === 'recording' && (times.value += 1)), [store]);
   useLoaded(async () => void (recordings.value = (await door.recordings()).recordings), [door, times.value]);

@@ -2,23 +2,22 @@
 // taking away, and a table of all of them. In: the HTTP door, the revision of the site. Out: a section. Asks before one is taken away: its connections are closed.
 import { useSignal } from '@preact/signals';
 import { marked } from './marked';
-import { useMemo } from 'preact/hooks';
 import { AssemblyDoor, type Assemblies as Listed, type Assembly } from '../api/assemblies';
-import { useGateway } from '../gateway';
+import { useDoor } from '../gateway';
 import { t } from '../language';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { assemblyText, bytesText, draftOf, emptyAssembly, readAssembly, type AssemblyDraft, type AssemblyFaults } from '../text/assembly';
 import { Ask } from './ask';
 import { AssemblyTable } from './assembly-table';
-import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, notOffered, Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
-import { tellOf } from './reported';
+import { TableHead } from './table-head';
 
 export function Assemblies({ revision }: { revision: unknown }) {
-  const { client } = useGateway();
-  const door = useMemo(() => new AssemblyDoor(client), [client]);
+  const door = useDoor(AssemblyDoor);
   const listed = useSignal<Listed | null>(null);
   const draft = useSignal<AssemblyDraft>(emptyAssembly);
   const editing = useSignal<number | null>(null);
@@ -170,14 +169,7 @@ function ByteList({ assembly }: { assembly: Assembly }) {
   return (
     <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Bytes of instance {n}', { n: assembly.instance })}>
       <table class="table profile-registers">
-        <thead>
-          <tr>
-            <th scope="col">{t('Bytes')}</th>
-            <th scope="col">{t('What')}</th>
-            <th scope="col">{t('Axis')}</th>
-            <th scope="col">{t('Type')}</th>
-          </tr>
-        </thead>
+        <TableHead of={[t('Bytes'), t('What'), t('Axis'), t('Type')]} />
         <tbody>
           {assembly.values.map((v) => (
             <tr key={v.offset}>

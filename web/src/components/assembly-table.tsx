@@ -6,7 +6,8 @@ import { assembliesAddress, type AssemblyDoor } from '../api/assemblies';
 import { asProblem, type Problem } from '../api/problem';
 import { gatewayText, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
-import { quiet, Tell, type Reported } from './form';
+import { quiet, type Reported } from '../state/reported';
+import { Tell } from './form';
 import { useBarred } from './gate';
 
 const text = persisted('assemblies.table');

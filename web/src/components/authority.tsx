@@ -9,8 +9,9 @@ import { t } from '../language';
 import { tick } from '../state/clock';
 import { barred } from '../state/session';
 import type { AxisEntry } from '../state/store';
+import { quiet, type Reported } from '../state/reported';
 import { handOverChoices, heldBy, heldText, holderName } from '../text/authority';
-import { quiet, Tell, TextField, type Reported } from './form';
+import { Tell, TextField } from './form';
 
 const ttl_s = 30;
 const renew_ms = 10_000;

@@ -1,15 +1,14 @@
 // Axis controls: what a person can tell an axis: power, motion, jog, stops. In: the axis' name and unit. Out: commands; the answer in
 // words underneath. Whether the axis may do it is for the gateway to say: nothing is greyed by guesswork, a refusal tells its reason.
-import { signal, useSignal, type Signal } from '@preact/signals';
+import { useSignal } from '@preact/signals';
 import { marked } from './marked';
 import { useId, useMemo } from 'preact/hooks';
-import type { Axis, Command } from '../api/types';
+import type { Axis } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import type { Commander } from '../state/commander';
-import { persisted } from '../state/persisted';
-import { setPositionText, unitOf } from '../text/axis';
-import { parseQuantity, typedNumber } from '../text/number';
+import { AxisOrders } from '../state/axis-orders';
+import { setPositionText } from '../text/axis';
 import { Ask } from './ask';
 import { Field } from './field';
 import { Icon } from './icon';
@@ -17,64 +16,9 @@ import { useBarred, Why } from './gate';
 import { HelpButton } from './help-button';
 import { JogButton } from './jog-button';
 
-type Which = 'target' | 'distance' | 'speed' | 'acceleration' | 'deceleration' | 'zero';
-
-/** A slow speed to begin with: a tenth of the limit, or 10 units (1000 increments) a second. */
-const gentle = (axis: Axis): string => typedNumber(axis.velocity_max ? axis.velocity_max / 10 : axis.unit ? 10 : 1000);
-
-export function useControls(axis: Axis) {
+function useOrders(axis: Axis): AxisOrders {
   const { commander } = useGateway();
-  const name = axis.name;
-  const fields = useMemo(() => {
-    const f = (w: Which, first = '') => persisted(`typed.${name}.${w}`, first);
-    return { target: f('target'), distance: f('distance'), speed: f('speed', gentle(axis)), acceleration: f('acceleration'), deceleration: f('deceleration'), zero: f('zero') };
-  }, [name]);
-  const error: Signal<Which | ''> = useMemo(() => signal(''), [name]);
-  const unit = unitOf(axis);
-
-  /** Until the field has another text. */
-  const tellWrong = (which: Which, text: string) => {
-    commander.tell(name, 'refused', text);
-    const reported = commander.note(name).peek();
-    const typed = fields[which].peek();
-    const end = fields[which].subscribe((now) => {
-      if (now === typed) return;
-      queueMicrotask(() => end());
-      if (error.peek() === which) error.value = '';
-      commander.forget(name, reported);
-    });
-  };
-  const read = (which: Which, text: string, need: 'any' | 'positive'): number | null => {
-    const parsed = parseQuantity(fields[which].value);
-    let why = parsed.good ? '' : parsed.why;
-    if (parsed.good && need === 'positive' && parsed.value <= 0) why = t('It must be greater than 0; the buttons give the direction.');
-    error.value = why ? which : '';
-    if (why) tellWrong(which, `${text}: ${why}`);
-    return why || !parsed.good ? null : parsed.value;
-  };
-  /** An empty field: as the drive has it. undefined: wrong, and it has been said. */
-  const optional = (which: Which, text: string): number | null | undefined =>
-    fields[which].value.trim() === '' ? null : (read(which, text, 'positive') ?? undefined);
-
-  const move = (kind: 'move_absolute' | 'move_relative', sign = 1) => {
-    const which = kind === 'move_absolute' ? 'target' : 'distance';
-    const position = read(which, kind === 'move_absolute' ? t('Target') : t('Distance'), 'any');
-    if (position === null) return;
-    const command: Extract<Command, { command: 'move_absolute' | 'move_relative' }> = { command: kind, position: position * sign };
-    for (const [key, label, which] of [['velocity', t('Speed'), 'speed'], ['acceleration', t('Acceleration'), 'acceleration'], ['deceleration', t('Deceleration'), 'deceleration']] as const) {
-      const v = optional(which, label);
-      if (v === undefined) return;
-      if (v !== null) command[key] = v;
-    }
-    void commander.send(name, command, kind === 'move_absolute' ? t('Move to {position} {unit}', { position: command.position, unit }) : t('Move by {position} {unit}', { position: command.position, unit }));
-  };
-  const jogSpeed = () => read('speed', t('Speed'), 'positive');
-  const simple = (command: 'enable' | 'disable' | 'halt' | 'reset_fault' | 'home' | 'quick_stop', text: string) => () =>
-    void commander.send(name, { command } as Command, text);
-  /** What the present position shall be called, as it is typed; null: it is no number, and that has been said. */
-  const newPosition = () => read('zero', t('Position'), 'any');
-  const setPosition = (position: number) => void commander.send(name, { command: 'set_position', position }, t('Call this place {position} {unit}', { position, unit }));
-  return { fields, error, unit, move, jogSpeed, simple, newPosition, setPosition };
+  return useMemo(() => new AxisOrders(commander, axis), [commander, axis.name, axis.unit]);
 }
 
 export const resultId = (axis: string): string => `result-${axis}`;
@@ -93,7 +37,7 @@ export function ResultLine({ axis, id, by }: { axis: string; id: string; by?: Co
 
 /** The compact form, for a tile. `bare`: power and stops alone. */
 export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
-  const c = useControls(axis);
+  const c = useOrders(axis);
   const no = useBarred('operator');
   const name = axis.name;
   const error = c.error.value;
@@ -115,18 +59,18 @@ export function TileControls({ axis, bare }: { axis: Axis; bare: boolean }) {
       )}
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" aria-label={t('Enable {name}', { name })} {...no} onClick={c.simple('enable', t('Enable'))}>{t('Enable')}</button>
-          <button type="button" class="button" aria-label={t('Disable {name}', { name })} title={t('Takes the power off at once; the shaft is free')} {...no} onClick={c.simple('disable', t('Disable'))}>{t('Disable')}</button>
+          <button type="button" class="button" aria-label={t('Enable {name}', { name })} {...no} onClick={() => c.simple('enable', t('Enable'))}>{t('Enable')}</button>
+          <button type="button" class="button" aria-label={t('Disable {name}', { name })} title={t('Takes the power off at once; the shaft is free')} {...no} onClick={() => c.simple('disable', t('Disable'))}>{t('Disable')}</button>
         </span>
-        <button type="button" class="button" aria-label={t('Reset fault of {name}', { name })} {...no} onClick={c.simple('reset_fault', t('Reset fault'))}>{t('Reset')}</button>
-        <button type="button" class="button" aria-label={t('Halt {name}', { name })} title={t('Stop on the profile ramp, stay enabled')} onClick={c.simple('halt', t('Halt'))}>{t('Halt')}</button>
+        <button type="button" class="button" aria-label={t('Reset fault of {name}', { name })} {...no} onClick={() => c.simple('reset_fault', t('Reset fault'))}>{t('Reset')}</button>
+        <button type="button" class="button" aria-label={t('Halt {name}', { name })} title={t('Stop on the profile ramp, stay enabled')} onClick={() => c.simple('halt', t('Halt'))}>{t('Halt')}</button>
       </div>
     </div>
   );
 }
 
 /** The present position gets another name, after a question: what counts from the zero moves with it. */
-function SetPosition({ name, c, describedBy }: { name: string; c: ReturnType<typeof useControls>; describedBy: string }) {
+function SetPosition({ name, c, describedBy }: { name: string; c: AxisOrders; describedBy: string }) {
   const { store } = useGateway();
   const no = useBarred('operator');
   const asked = useSignal<number | null>(null);
@@ -157,7 +101,7 @@ function SetPosition({ name, c, describedBy }: { name: string; c: ReturnType<typ
 
 /** The whole form, for the page of an axis. */
 export function FullControls({ axis }: { axis: Axis }) {
-  const c = useControls(axis);
+  const c = useOrders(axis);
   const no = useBarred('operator');
   const result = useId();
   const name = axis.name;
@@ -168,13 +112,13 @@ export function FullControls({ axis }: { axis: Axis }) {
       <Why need="operator" what={t('Every command but a stop')} />
       <div class="control-power">
         <span class="group">
-          <button type="button" class="button" {...no} onClick={c.simple('enable', t('Enable'))}>{t('Enable')}</button>
-          <button type="button" class="button" title={t('Takes the power off at once; the shaft is free')} {...no} onClick={c.simple('disable', t('Disable'))}>{t('Disable')}</button>
+          <button type="button" class="button" {...no} onClick={() => c.simple('enable', t('Enable'))}>{t('Enable')}</button>
+          <button type="button" class="button" title={t('Takes the power off at once; the shaft is free')} {...no} onClick={() => c.simple('disable', t('Disable'))}>{t('Disable')}</button>
         </span>
-        <button type="button" class="button" {...no} onClick={c.simple('reset_fault', t('Reset fault'))}>{t('Reset fault')}</button>
-        <button type="button" class="button" title={t('Stop on the profile ramp, stay enabled')} onClick={c.simple('halt', t('Halt'))}>{t('Halt')}</button>
-        <button type="button" class="button" title={t('Stop on the quick-stop ramp; enable to go on')} onClick={c.simple('quick_stop', t('Quick stop'))}>{t('Quick stop')}</button>
-        <button type="button" class="button" title={t('Homing, by the drive\'s own method')} {...no} onClick={c.simple('home', t('Home'))}>{t('Home')}</button>
+        <button type="button" class="button" {...no} onClick={() => c.simple('reset_fault', t('Reset fault'))}>{t('Reset fault')}</button>
+        <button type="button" class="button" title={t('Stop on the profile ramp, stay enabled')} onClick={() => c.simple('halt', t('Halt'))}>{t('Halt')}</button>
+        <button type="button" class="button" title={t('Stop on the quick-stop ramp; enable to go on')} onClick={() => c.simple('quick_stop', t('Quick stop'))}>{t('Quick stop')}</button>
+        <button type="button" class="button" title={t('Homing, by the drive\'s own method')} {...no} onClick={() => c.simple('home', t('Home'))}>{t('Home')}</button>
       </div>
       <p class="where stops-told">
         {t('Halt slows down on the profile ramp and stays enabled. Quick stop, STOP and Esc slow down on the quick-stop ramp; enable to go on. Disable takes the power off at once.')}{' '}

@@ -3,16 +3,17 @@
 import { midSentence, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
 import { FailSafeDoor, type Cell, type Choice as Wish, type FailSafeRow, type Matrix, type Rehearsal, type Step } from '../api/fail-safe';
-import { useGateway } from '../gateway';
+import { useDoor, useGateway } from '../gateway';
+import { useRepeated } from '../state/repeated';
+import { quiet, refusal, tellOf, type Reported } from '../state/reported';
 import { actionChoices, causeHint, causeText, cellHeads, cellRow, changed, failSafeHint, limitsText, namedText, readWatchdog, steps, watchdogText } from '../text/fail-safe';
 import { dateTime } from '../text/time';
-import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, notOffered, Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { Section } from './section';
-import { refusal, tellOf } from './reported';
+import { TableHead } from './table-head';
 
 const look_ms = 1_000;
 
@@ -25,8 +26,7 @@ function printReport() {
 }
 
 export function FailSafe({ revision }: { revision: unknown }) {
-  const { client } = useGateway();
-  const door = useMemo(() => new FailSafeDoor(client), [client]);
+  const door = useDoor(FailSafeDoor);
   const matrix = useSignal<Matrix | null>(null);
   const reported = useSignal<Reported>(quiet);
   const no = useBarred('engineer');
@@ -112,11 +112,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
   const no = useBarred('engineer');
   useLoaded(async () => void (now.value = await door.rehearsal()), [door], () => '');
   const running = now.value?.state === 'running';
-  useEffect(() => {
-    if (!running) return;
-    const timer = setInterval(() => void door.rehearsal().then((r) => (now.value = r), () => undefined), look_ms);
-    return () => clearInterval(timer);
-  }, [door, running]);
+  useRepeated(() => door.rehearsal().then((r) => void (now.value = r), () => undefined), look_ms, running, [door]);
   const start = async () => {
     reported.value = quiet;
     try {
@@ -161,13 +157,7 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
           </p>
           <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Report of the rehearsal')}>
             <table class="table">
-              <thead>
-                <tr>
-                  {cellHeads().map((head, i) => (
-                    <th key={head} scope="col" class={isFigure(i)}>{head}</th>
-                  ))}
-                </tr>
-              </thead>
+              <TableHead of={cellHeads()} figures={figures} />
               <tbody>
                 {report.cells.map((c) => (
                   <CellOf key={`${c.axis} ${c.cause}`} cell={c} unit={unit(c.axis)} />
@@ -181,7 +171,8 @@ function RehearsalPart({ door }: { door: FailSafeDoor }) {
   );
 }
 
-const isFigure = (column: number) => (column > 2 && column < 7 ? 'num' : undefined);
+/** Columns of the report that have figures. */
+const figures = [3, 4, 5, 6];
 
 /** One cell of the rehearsal as a row, on the page and in the commissioning report. */
 export function CellOf({ cell, unit }: { cell: Cell; unit: string }) {
@@ -190,7 +181,7 @@ export function CellOf({ cell, unit }: { cell: Cell; unit: string }) {
     <tr title={cell.text}>
       <th scope="row">{r.axis}</th>
       {[r.cause, r.action, r.acted, r.slower, r.stood, r.way, r.ended].map((text, i) => (
-        <td key={i} class={isFigure(i + 1)}>{text}</td>
+        <td key={i} class={figures.includes(i + 1) ? 'num' : undefined}>{text}</td>
       ))}
     </tr>
   );

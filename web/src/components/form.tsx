@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { marked } from './marked';
 import { useId } from 'preact/hooks';
 import { t } from '../language';
-import type { Outcome } from '../state/mappings';
+import type { Reported } from '../state/reported';
 
 interface Common {
   label: string;
@@ -130,14 +130,6 @@ function FieldNote({ id, fault, hint }: { id: string; fault: string | undefined;
     </p>
   );
 }
-
-export interface Reported {
-  tone: 'none' | 'busy' | 'good' | 'refused';
-  text: string;
-}
-export const quiet: Reported = { tone: 'none', text: '' };
-export const reportedOf = (o: Outcome): Reported => ({ tone: o.good ? 'good' : 'refused', text: capital(o.text) });
-const capital = (s: string) => s.charAt(0).toUpperCase() + s.slice(1);
 
 /** How it went, spoken when it changes. Keeps its place. */
 export function Tell({ reported, field }: { reported: Reported; field?: string }) {

@@ -4,16 +4,17 @@
 import { gatewayText, t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { useEffect, useId } from 'preact/hooks';
+import { useId } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { HandItem, Value } from '../api/types';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
+import { useRepeated } from '../state/repeated';
+import { refusal } from '../state/reported';
 import { handGroups, handLabel, positionInUnit, type HandAxis, type HandGroup } from '../text/hand';
 import { editText } from '../text/parameter';
 import { parseNumber } from '../text/number';
 import { Empty } from './lines';
-import { refusal } from './reported';
 
 const period_ms = 2_000;
 
@@ -25,24 +26,14 @@ export function Hand({ drive, axis }: { drive: string; axis?: string }) {
   const simulated = store.drive(drive)?.value.data.status.simulated ?? false;
   const connected = store.connected.value;
 
-  useEffect(() => {
-    if (!simulated || !connected) return;
-    const end = new AbortController();
-    let timer: ReturnType<typeof setTimeout>;
-    const look = async () => {
-      try {
-        if (!document.hidden) items.value = await client.hand(drive, end.signal);
-      } catch (error) {
-        if (!end.signal.aborted && items.peek() === null) note.value = refusal(error);
-      }
-      if (!end.signal.aborted) timer = setTimeout(() => void look(), period_ms);
-    };
-    void look();
-    return () => {
-      end.abort();
-      clearTimeout(timer);
-    };
-  }, [drive, simulated, connected]);
+  const look = async (end: AbortSignal) => {
+    try {
+      items.value = await client.hand(drive, end);
+    } catch (error) {
+      if (!end.aborted && items.peek() === null) note.value = refusal(error);
+    }
+  };
+  useRepeated(look, period_ms, simulated && connected, [drive]);
 
   const axes = (store.drive(drive)?.value.data.axes ?? []).flatMap((n): HandAxis[] => {
     const a = store.axis(n)?.peek().data; // name, channel and unit change only with the site

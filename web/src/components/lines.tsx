@@ -1,11 +1,11 @@
 // Lines and drives, as rows of cards: state in words, load, what the protocol counted; who serves each drive, and why.
 // In: the store. Out: two lists that become stacked cards on a narrow screen. Old values are greyed like those of an axis.
-import { gatewayText, midSentence, t, theirs } from '../language';
+import { gatewayText, t, theirs } from '../language';
 import { marked } from './marked';
 import { useGateway } from '../gateway';
 import { linePath } from '../router';
 import type { Drive, Line } from '../api/types';
-import type { Word } from '../text/axis';
+import { wordOf, type Word } from '../text/axis';
 import { formatExact, localFigures } from '../text/number';
 import { presenceText } from '../text/presence';
 import { Icon } from './icon';
@@ -63,7 +63,7 @@ export function LineCard({ name }: { name: string }) {
         <h3>
           <a href={linePath(name)}>{name}</a>
         </h3>
-        <Pill label={t('State')} word={live ? lineWord(s.state) : { ...lineWord(s.state), tone: 'muted', text: t('Was {state}', { state: midSentence(lineWord(s.state).text) }) }} />
+        <Pill label={t('State')} word={wordOf(lineWord(s.state), live)} />
         <Load share={s.load} />
       </div>
       <p class="where">
@@ -96,12 +96,11 @@ function DriveCard({ name }: { name: string }) {
   const drive = known.data;
   const s = drive.status;
   const live = store.connected.value && known.epoch === store.connection.value.epoch;
-  const word = presenceWord(drive);
   return (
     <li class={`row${live ? '' : ' is-old'}`} data-drive={name}>
       <div class="row-head">
         <h3>{name}</h3>
-        <Pill label={t('Presence')} word={live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) }} />
+        <Pill label={t('Presence')} word={wordOf(presenceWord(drive), live)} />
       </div>
       <p class="where">
         {t('{family} · {line} · address', { family: drive.family, line: drive.line })}{' '}<span class="mono">{String(drive.address)}</span> · {presenceText(drive.presence)}

@@ -8,9 +8,11 @@ import { useGateway } from '../gateway';
 import { gatewayText, midSentence, t, theirs } from '../language';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
+import { quiet, reportedOf, type Reported } from '../state/reported';
 import { catalogueMissing, csvOfSpecs, readTable } from '../text/mapping-table';
 import { placeText, tableOf, type Known } from '../text/mapping';
-import { quiet, Tell, reportedOf, type Reported } from './form';
+import { Tell } from './form';
+import { TableHead } from './table-head';
 
 const text = persisted('mappings.paste');
 const mostShown = 200;
@@ -111,14 +113,7 @@ export function MappingPaste({ book, known }: { book: MappingBook; known: Known 
         {read.rows.length > 0 && (
           <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Rows of the table')}>
             <table class="table paste-table">
-              <thead>
-                <tr>
-                  <th scope="col">{t('Row')}</th>
-                  <th scope="col">{t('Register place')}</th>
-                  <th scope="col">{t('Point')}</th>
-                  <th scope="col">{t('Verdict')}</th>
-                </tr>
-              </thead>
+              <TableHead of={[t('Row'), t('Register place'), t('Point'), t('Verdict')]} />
               <tbody>
                 {read.rows.slice(0, mostShown).map((r) => {
                   const gateway = report.value?.for === text.value ? report.value.lines.get(r.line) : undefined;

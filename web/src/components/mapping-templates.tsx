@@ -8,10 +8,11 @@ import { t } from '../language';
 import { addressBase, addressField } from '../state/address-base';
 import { emptied, persisted } from '../state/persisted';
 import type { MappingBook } from '../state/mappings';
+import { quiet, reportedOf, type Reported } from '../state/reported';
 import { addressText, readAddress, spanText } from '../text/address';
 import { freeBlock, placeText, type Mapping } from '../text/mapping';
 import { parseNumber } from '../text/number';
-import { Choice, notOffered, quiet, Tell, TextField, reportedOf, type Reported } from './form';
+import { Choice, notOffered, Tell, TextField } from './form';
 import { accessText } from './mapping-cell';
 import { useNamed } from './name';
 

@@ -4,10 +4,10 @@ import { useSignal } from '@preact/signals';
 import { useCallback } from 'preact/hooks';
 import type { MappingDoor, ModbusUnit } from '../api/mappings';
 import { t } from '../language';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
-import { quiet, Tell, type Reported } from './form';
-import { tellOf } from './reported';
+import { Tell } from './form';
 
 const text: Record<NonNullable<ModbusUnit['gaps']>, string> = { zero: t('read 0'), refuse: t('are refused') };
 

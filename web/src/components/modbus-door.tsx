@@ -4,13 +4,13 @@ import { useSignal } from '@preact/signals';
 import type { ModbusDoor as Door } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { allowedText, functionText } from '../text/register-map';
-import { quiet, Tell, type Reported } from './form';
+import { Tell } from './form';
 import { useBarred, Why } from './gate';
 import { Empty } from './lines';
 import { useLoaded } from './loaded';
 import { Section } from './section';
-import { tellOf } from './reported';
 
 export function ModbusDoor() {
   const { client } = useGateway();

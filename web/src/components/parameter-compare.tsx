@@ -9,14 +9,15 @@ import { SnapshotDoor, type Snapshot } from '../api/snapshots';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { readMissing } from '../state/read-missing';
+import { quiet, refusal, type Reported } from '../state/reported';
 import { steppedText, unitText, valueText } from '../text/parameter';
 import { axisChoice, differentFamilies, snapshotChoice } from '../text/snapshot';
 import { comparedText, compareWith, type Compared } from '../text/transfer';
-import { Choice, quiet, Tell, type Reported } from './form';
+import { Choice, Tell } from './form';
 import { Empty } from './lines';
 import { SimulatedMark, useNamed } from './name';
 import { Section } from './section';
-import { refusal } from './reported';
+import { TableHead } from './table-head';
 
 const plain = { allowed: null };
 
@@ -124,14 +125,7 @@ export function ParameterCompare({ axis, family, snapshots }: { axis: string; fa
         {result.value && rows.length > 0 && (
           <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Comparison')}>
             <table class="table compare-table">
-              <thead>
-                <tr>
-                  <th scope="col">{t('Parameter')}</th>
-                  <th scope="col" class="num">{fromSnapshot ? t('Snapshot') : t('Now')}</th>
-                  <th scope="col" class="num">{capital(result.value.title)}</th>
-                  <th scope="col">{t('Verdict')}</th>
-                </tr>
-              </thead>
+              <TableHead of={[t('Parameter'), fromSnapshot ? t('Snapshot') : t('Now'), capital(result.value.title), t('Verdict')]} figures={[1, 2]} />
               <tbody>
                 {rows.slice(0, 500).map((r) => (
                   <tr key={r.id} data-compared={r.id}>

@@ -6,13 +6,13 @@ import { useEffect, useMemo } from 'preact/hooks';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { tick } from '../state/clock';
+import { receivedAt } from '../state/parameter-table';
 import { isLive } from '../state/reread';
 import { valueText } from '../text/parameter';
 import { clockTime, duration } from '../text/time';
 
 /** What was read before this is old: a command, or a lost connection, has come since. The gateway's clock. */
 export type Since = ReadonlySignal<number>;
-export const receivedAt = (p: AxisParameter): number | null => (p.at === null ? null : Date.parse(p.at));
 
 /** Grey where it is not live: read before the connection was lost, before the last command, or long ago. */
 export function LiveValue({ p, since, differs }: { p: AxisParameter; since: Since; differs: boolean }) {

@@ -8,12 +8,12 @@ import { asProblem } from '../api/problem';
 import type { AxisParameter } from '../api/types';
 import { useGateway } from '../gateway';
 import { emptied, persisted } from '../state/persisted';
+import { quiet, refusal, type Reported } from '../state/reported';
 import { editText, steppedText, unitText, valueText } from '../text/parameter';
 import { csvOfParameters, jsonOfParameters, parametersText, readTransfer } from '../text/transfer';
-import { quiet, Tell, type Reported } from './form';
+import { Tell } from './form';
 import { saveText } from './save';
 import { Section } from './section';
-import { refusal } from './reported';
 
 const largest = 2_000_000;
 

@@ -4,18 +4,19 @@ import { useSignal, type Signal } from '@preact/signals';
 import { marked } from './marked';
 import { useMemo } from 'preact/hooks';
 import { ProfileDoor, type Profile, type Profiles as Listed } from '../api/profiles';
-import { useGateway } from '../gateway';
+import { useDoor, useGateway } from '../gateway';
 import { gatewayText, t, theirs } from '../language';
 import { addressBase } from '../state/address-base';
 import { persisted } from '../state/persisted';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { instanceText, profileText, readProfile, registerRows, type ProfileFaults } from '../text/profile';
 import { Ask } from './ask';
-import { Choice, notOffered, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, notOffered, Tell, TextField } from './form';
 import { useBarred } from './gate';
 import { useLoaded } from './loaded';
 import { useNamed } from './name';
 import { Section } from './section';
-import { tellOf } from './reported';
+import { TableHead } from './table-head';
 
 const unit = persisted('profile.unit');
 const language = persisted('profile.language', 'lexium');
@@ -27,8 +28,8 @@ const output = persisted('profile.output');
 const object = persisted('profile.object');
 
 export function Profiles({ listed, mapped, revision }: { listed: Signal<Listed | null>; mapped: ReadonlySet<number>; revision: unknown }) {
-  const { client, store } = useGateway();
-  const door = useMemo(() => new ProfileDoor(client), [client]);
+  const { store } = useGateway();
+  const door = useDoor(ProfileDoor);
   const axes = useSignal<readonly string[]>(['']);
   const reported = useSignal<Reported>(quiet);
   const faults = useSignal<ProfileFaults>({});
@@ -146,16 +147,7 @@ function RegisterList({ profile, listed }: { profile: Profile; listed: Listed })
   return (
     <div class="table-scroll" tabIndex={0} role="region" aria-label={t('Registers of unit {unit}', { unit: profile.unit })}>
       <table class="table profile-registers">
-        <thead>
-          <tr>
-            <th scope="col">{t('Register')}</th>
-            <th scope="col">{t('Name')}</th>
-            <th scope="col">{t('Type')}</th>
-            <th scope="col">{t('Access')}</th>
-            <th scope="col">{t('What it is')}</th>
-            {profile.object_instance != null && <th scope="col">{t('EtherNet/IP')}</th>}
-          </tr>
-        </thead>
+        <TableHead of={[t('Register'), t('Name'), t('Type'), t('Access'), t('What it is'), ...(profile.object_instance != null ? [t('EtherNet/IP')] : [])]} />
         <tbody>
           {rows.map((r) => (
             <tr key={r.key}>

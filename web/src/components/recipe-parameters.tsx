@@ -2,15 +2,15 @@
 // Out: a changed copy. A new name is taken over in every step that uses the old one. Never checks by itself: the gateway does.
 import { gatewayText, t } from '../language';
 import { useSignal } from '@preact/signals';
+import type { Fault } from '../api/types';
 import { defaultOf, parameterFault, parameterTypeName, parameterTypes, renamedParameter, typedOf, valueOf, withParameter, withoutParameter, type Json, type RecipeDocument, type RecipeParameter } from '../text/recipe';
 import { Icon } from './icon';
-import type { Fault } from './recipe-steps';
 import { Typed } from './typed';
 
 export interface RecipeParametersProps {
   document: RecipeDocument;
   change: (next: RecipeDocument) => void;
-  faults: Fault[];
+  faults: readonly Fault[];
 }
 
 export function RecipeParameters({ document, change, faults }: RecipeParametersProps) {

@@ -4,17 +4,19 @@
 import { t } from '../language';
 import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import { RecorderDoor } from '../api/recorder';
 import type { RecordedSteps } from '../api/types';
-import { useGateway } from '../gateway';
+import { useDoor, useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
+import { toggled } from '../state/toggled';
+import { useRepeated } from '../state/repeated';
 import { kindOf, stepLabel, stepSummary, type Step } from '../text/recipe';
 import { clockTime } from '../text/time';
 import { Icon } from './icon';
 import { useNamed } from './name';
+import { PressGroup } from './press-group';
 
 const look_ms = 1_000;
 const mostAxes = 64;
@@ -35,8 +37,8 @@ function onNow(): On | null {
 
 /** `saved`: nothing is lost when the page is left. */
 export function RecordPart({ recipe, persisted: saved, add }: { recipe: string; persisted: boolean; add: (steps: Step[]) => void }) {
-  const { client, store } = useGateway();
-  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const { store } = useGateway();
+  const door = useDoor(RecorderDoor);
   const named = useNamed();
   const chosen = useSignal<readonly string[] | null>(null);
   const now = useSignal<RecordedSteps | null>(null);
@@ -48,21 +50,18 @@ export function RecordPart({ recipe, persisted: saved, add }: { recipe: string; 
   const picked = (chosen.value ?? axes).filter((a) => axes.includes(a));
   const reported = (error: unknown) => (fault.value = capital(asProblem(error).text));
 
-  useEffect(() => {
-    if (!mine || !on) return;
-    let here = true;
-    const look = () =>
-      void door.steps(on.axes, on.from_ms).then((s) => {
-        if (here) now.value = s;
-        if (here) fault.value = '';
-      }, (e: unknown) => here && reported(e));
-    look();
-    const timer = setInterval(look, look_ms);
-    return () => {
-      here = false;
-      clearInterval(timer);
-    };
-  }, [door, mine, on?.from_ms]);
+  const look = async (end: AbortSignal) => {
+    if (!on) return;
+    try {
+      const told = await door.steps(on.axes, on.from_ms);
+      if (end.aborted) return;
+      now.value = told;
+      fault.value = '';
+    } catch (error) {
+      if (!end.aborted) reported(error);
+    }
+  };
+  useRepeated(look, look_ms, mine, [door, on?.from_ms]);
 
   const begin = async () => {
     done.value = fault.value = '';
@@ -96,13 +95,7 @@ export function RecordPart({ recipe, persisted: saved, add }: { recipe: string; 
         <details>
           <summary>{t('Record what is done by hand')}</summary>
           <p class="where">{t('Commands, actions, parameter writes and simulated faults of the chosen axes become steps, given on any page or over any door.')}</p>
-          <div class="group recorder-axes" role="group" aria-label={t('Axes that are recorded')}>
-            {axes.map((a) => (
-              <button key={a} type="button" class="button small" aria-pressed={picked.includes(a)} onClick={() => (chosen.value = picked.includes(a) ? picked.filter((x) => x !== a) : [...picked, a])}>
-                {named(a)}
-              </button>
-            ))}
-          </div>
+          <PressGroup label={t('Axes that are recorded')} class="recorder-axes" of={axes.map((a) => ({ value: a, text: named(a), on: picked.includes(a) }))} press={(a) => (chosen.value = toggled(picked, a))} />
           <div class="recipe-buttons">
             <button type="button" class="button" disabled={!saved || picked.length === 0} onClick={() => void begin()}>
               <Icon name="play" /> {t('Record')}

@@ -1,29 +1,23 @@
 // Recordings: what is being recorded, a button that freezes it, the files that there are, and one of them played back.
 // In: GET /recorder/recordings, with each connection and after each change. Out: requests, downloads.
-import { t, theirs } from '../language';
-import { marked } from './marked';
 import { useSignal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
 import { RecorderDoor, recordingFile } from '../api/recorder';
 import type { Recording, RecordingList } from '../api/types';
-import { useGateway } from '../gateway';
-import { capital } from '../state/commander';
+import { useDoor } from '../gateway';
+import { t, theirs } from '../language';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { bytesText, freeName, nameFault, recordingWord } from '../text/recorder';
 import { dateTime } from '../text/time';
-import { DeleteButton } from './ask';
-import { quiet, Tell, TextField, type Reported } from './form';
-import { Gate, useBarred } from './gate';
-import { Empty } from './lines';
+import { Tell, TextField } from './form';
+import { Gate } from './gate';
 import { useLoaded } from './loaded';
-import { Pill } from './pill';
+import { marked } from './marked';
 import { PlaybackPart } from './playback';
-import { RenameForm } from './rename-form';
+import { KeptSection, RecorderRow } from './recorder-row';
 import { Section } from './section';
-import { tellOf } from './reported';
 
 export function RecordingsPart({ first, at_ms }: { first?: string | undefined; at_ms?: number | undefined }) {
-  const { client } = useGateway();
-  const door = useMemo(() => new RecorderDoor(client), [client]);
+  const door = useDoor(RecorderDoor);
   const list = useSignal<RecordingList | null>(null);
   const reported = useSignal<Reported>(quiet);
   const open = useSignal(first ?? '');
@@ -65,54 +59,45 @@ export function RecordingsPart({ first, at_ms }: { first?: string | undefined; a
         <Tell reported={reported.value} field="recording-told" />
       </Section>
       {open.value && <PlaybackPart key={open.value} name={open.value} at_ms={open.value === first ? at_ms : undefined} close={() => (open.value = '')} />}
-      <Section title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} beside={now && <span class="where">{t('{disk_bytes} of {disk_most_bytes}', { disk_bytes: bytesText(now.disk_bytes), disk_most_bytes: bytesText(now.disk_most_bytes) })}</span>}>
-        {now?.disk_fault && <p class="notice tone-fault">{marked(theirs(capital(now.disk_fault)))}</p>}
-        {recordings.length === 0 ? (
-          <Empty text={waiting || t('No recording yet. An alarm makes one by itself.')} />
-        ) : (
-          <ul class="card rows" aria-label={t('Recordings')}>
-            {recordings.map((r) => (
-              <RecordingRow key={r.name} recording={r} open={open.value === r.name} play={() => (open.value = open.peek() === r.name ? '' : r.name)} door={door} act={act} />
-            ))}
-          </ul>
-        )}
-      </Section>
+      <KeptSection title={recordings.length > 0 ? t('Recordings, {n}', { n: recordings.length }) : t('Recordings')} name={t('Recordings')} disk={now} n={recordings.length} empty={waiting || t('No recording yet. An alarm makes one by itself.')}>
+        {recordings.map((r) => (
+          <RecordingRow key={r.name} recording={r} open={open.value === r.name} play={() => (open.value = open.peek() === r.name ? '' : r.name)} door={door} act={act} />
+        ))}
+      </KeptSection>
     </>
   );
 }
 
 function RecordingRow({ recording: r, open, play, door, act }: { recording: Recording; open: boolean; play: () => void; door: RecorderDoor; act: (what: () => Promise<unknown>, done: string) => Promise<boolean> }) {
-  const no = useBarred('operator');
-  const renaming = useSignal(false);
+  const { name } = r;
   return (
-    <li class="row recorder-row" data-recording={r.name}>
-      <Pill word={recordingWord(r)} label={t('State')} />
-      <span class="recorder-what">
-        <b>{r.name}</b>
-        <span class="where">
-          {' '}
+    <RecorderRow
+      name={name}
+      word={recordingWord(r)}
+      marks={{ 'data-recording': name }}
+      about={
+        <>
           {r.at ? dateTime(r.at) : ''} {bytesText(r.bytes)}
           {r.automatic ? ` · ${t('by an alarm')}` : ''}
           {r.why ? marked(` · ${r.automatic ? theirs(r.why) : r.why}`) : ''}
           {r.who ? ` · ${r.who}` : ''}
           {r.fault ? marked(` · ${theirs(r.fault)}`) : ''}
-        </span>
-      </span>
-      <span class="recorder-buttons">
-        {!r.fault && (
-          <button type="button" class="button" aria-pressed={open} aria-label={t('Play back {name}', { name: r.name })} onClick={play}>
-            {t('Play back')}
-          </button>
-        )}
-        <a class="button" href={recordingFile(r.name)} download={`${r.name}.axr`} aria-label={t('Download {name}', { name: r.name })}>
-          {t('Download')}
-        </a>
-        <button type="button" class="button quiet" {...no} aria-expanded={renaming.value} aria-label={t('Rename {name}', { name: r.name })} onClick={() => (renaming.value = !renaming.value)}>
-          {t('Rename')}
-        </button>
-        <DeleteButton name={r.name} no={no} onYes={() => void act(() => door.remove('recordings', r.name), t('{name} is deleted.', { name: r.name }))} />
-      </span>
-      {renaming.value && <RenameForm name={r.name} rename={(to) => void act(() => door.rename('recordings', r.name, to), t('{name} is called {to} now.', { name: r.name, to })).then((good) => good && (renaming.value = false))} />}
-    </li>
+        </>
+      }
+      buttons={
+        <>
+          {!r.fault && (
+            <button type="button" class="button" aria-pressed={open} aria-label={t('Play back {name}', { name })} onClick={play}>
+              {t('Play back')}
+            </button>
+          )}
+          <a class="button" href={recordingFile(name)} download={`${name}.axr`} aria-label={t('Download {name}', { name })}>
+            {t('Download')}
+          </a>
+        </>
+      }
+      rename={(to) => act(() => door.rename('recordings', name, to), t('{name} is called {to} now.', { name, to }))}
+      remove={() => void act(() => door.remove('recordings', name), t('{name} is deleted.', { name }))}
+    />
   );
 }

@@ -25,12 +25,12 @@ export function openForm(room: Room, site: Site, entry: Entry | null, preset: Te
   forms[room].value = { own: entry?.name ?? null, texts };
 }
 
-const changeText: Record<Room, (name: string) => string> = {
+export const changeText: Record<Room, (name: string) => string> = {
   lines: (name) => t('Change line {name}', { name }),
   drives: (name) => t('Change drive {name}', { name }),
   axes: (name) => t('Change axis {name}', { name }),
 };
-const addText: Record<Room, string> = { lines: t('Add a line'), drives: t('Add a drive'), axes: t('Add an axis') };
+export const addText: Record<Room, string> = { lines: t('Add a line'), drives: t('Add a drive'), axes: t('Add an axis') };
 
 interface FormProps {
   room: Room;

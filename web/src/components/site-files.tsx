@@ -6,10 +6,11 @@ import { asProblem } from '../api/problem';
 import type { SiteDoor } from '../api/site';
 import { capital } from '../state/commander';
 import type { SiteDraft } from '../state/site-draft';
+import { quiet, type Reported } from '../state/reported';
 import { readSite } from '../text/site';
 import { sizeText as size } from '../text/site-files';
 import { useBarred, Why } from './gate';
-import { notOffered, quiet, Tell, type Reported } from './form';
+import { notOffered, Tell } from './form';
 import { Section } from './section';
 import { lookAtPending } from './site-pending';
 

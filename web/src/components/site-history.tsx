@@ -8,6 +8,7 @@ import type { HistoryEntry, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
 import { capital } from '../state/commander';
 import type { SiteDraft } from '../state/site-draft';
+import { refusal } from '../state/reported';
 import { differenceOf, type Difference } from '../text/site';
 import { sizeText } from '../text/site-files';
 import { clockTime } from '../text/time';
@@ -15,8 +16,7 @@ import { useBarred } from './gate';
 import { notOffered } from './form';
 import { useLoaded } from './loaded';
 import { Section } from './section';
-import { DifferenceList } from './site-stage';
-import { refusal } from './reported';
+import { DifferenceList } from './site-differences';
 
 const absent = (status: number) => status === 404 || status === 405 || status === 501;
 /** As many as are asked for at once. */

@@ -2,11 +2,12 @@
 // Asks for the same words as the Modbus door answers, once a second while the page is seen. Nothing is written.
 import { useSignal } from '@preact/signals';
 import { marked } from './marked';
-import { useEffect } from 'preact/hooks';
+import { TableHead } from './table-head';
 import { MappingDoor, type Registers } from '../api/mappings';
 import { asProblem } from '../api/problem';
-import { useGateway } from '../gateway';
+import { useDoor, useGateway } from '../gateway';
 import { t } from '../language';
+import { useRepeated } from '../state/repeated';
 import { oneBased } from '../text/mapping';
 import { hex } from '../text/axis';
 import { mbpollLine, modbusPlace, standardAddress, wordsOf } from '../text/hmi-line';
@@ -15,33 +16,23 @@ const period_ms = 1000;
 const count = 4;
 
 export function ReadFromHmi({ axis }: { axis: string }) {
-  const { client, store } = useGateway();
+  const { store } = useGateway();
+  const door = useDoor(MappingDoor);
   const words = useSignal<Registers | null>(null);
   const why = useSignal('');
   const copied = useSignal('');
   const data = store.axis(axis)?.value.data;
   const number = data?.number ?? 0;
   const first = standardAddress(number);
-  useEffect(() => {
-    if (number < 1) return;
-    const door = new MappingDoor(client);
-    const end = new AbortController();
-    let timer: ReturnType<typeof setTimeout>;
-    const look = async () => {
-      try {
-        if (!document.hidden) words.value = await door.registers({ unit: 1, table: 'holding_registers', address: first, count }, end.signal);
-        why.value = '';
-      } catch (error) {
-        if (!end.signal.aborted) why.value = asProblem(error).text;
-      }
-      if (!end.signal.aborted) timer = setTimeout(() => void look(), period_ms);
-    };
-    void look();
-    return () => {
-      end.abort();
-      clearTimeout(timer);
-    };
-  }, [client, first, number]);
+  const look = async (end: AbortSignal) => {
+    try {
+      words.value = await door.registers({ unit: 1, table: 'holding_registers', address: first, count }, end);
+      why.value = '';
+    } catch (error) {
+      if (!end.aborted) why.value = asProblem(error).text;
+    }
+  };
+  useRepeated(look, period_ms, number >= 1, [door, first, number]);
   if (!data) return null;
   const place = modbusPlace(store.about.value?.doors ?? [], location.hostname);
   if (!place) {
@@ -77,14 +68,7 @@ export function ReadFromHmi({ axis }: { axis: string }) {
         {t('Host {host}, port {port}, unit 1, holding registers:', { host: place.host, port: place.port })} {place.local && <span class="form-told is-fault">{t('The door listens on this machine alone; the setting bind of the Modbus door lets others in.')}</span>}
       </p>
       <table class="hmi-words">
-        <thead>
-          <tr>
-            <th scope="col">{t('What')}</th>
-            <th scope="col">{t('Address from 0')}</th>
-            <th scope="col">{t('Address from 1')}</th>
-            <th scope="col">{t('Now')}</th>
-          </tr>
-        </thead>
+        <TableHead of={[t('What'), t('Address from 0'), t('Address from 1'), t('Now')]} />
         <tbody>
           {row(0, t('Status word'), raw.status === null ? '–' : hex(raw.status, 4))}
           {row(2, t('Position, 32 bits, high word first, in increments'), raw.position === null ? '–' : `${raw.text} = ${raw.position}`)}

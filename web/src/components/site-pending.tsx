@@ -5,11 +5,11 @@ import { signal, useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import type { Pending, SiteDoor } from '../api/site';
 import { useGateway } from '../gateway';
+import { quiet, tellOf, type Reported } from '../state/reported';
 import { pendingText } from '../text/site-files';
-import { quiet, Tell, type Reported } from './form';
+import { Tell } from './form';
 import { Icon } from './icon';
 import { useLoaded } from './loaded';
-import { tellOf } from './reported';
 
 const lookAgain_ms = 10_000;
 /** Counts up when this page has laid one down. */

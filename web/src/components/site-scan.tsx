@@ -6,9 +6,10 @@ import { useEffect, useRef } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Scan, SiteDoor } from '../api/site';
 import type { SiteDraft } from '../state/site-draft';
+import { quiet, type Reported } from '../state/reported';
 import { freeName, freeNumber, withEntry, type Entry } from '../text/site';
 import { useBarred } from './gate';
-import { notOffered, quiet, Tell, TextField, type Reported } from './form';
+import { notOffered, Tell, TextField } from './form';
 
 const poll_ms = 300;
 const longest_ms = 600_000;

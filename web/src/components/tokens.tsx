@@ -5,11 +5,11 @@ import type { MadeToken, Token } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { barred, roles, roleWord } from '../state/session';
+import { quiet, refusal, type Reported } from '../state/reported';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { DeleteButton } from './ask';
-import { Choice, quiet, Tell, TextField, type Reported } from './form';
-import { refusal } from './reported';
+import { Choice, Tell, TextField } from './form';
 
 const ends = [
   { value: '86400', text: t('in a day') },

@@ -8,6 +8,7 @@ import { bytesOf, idText, joined, matches, type Frame, type FrameFilter } from '
 import { dateTime } from '../text/time';
 import { Empty } from './lines';
 import { Section } from './section';
+import { TableHead } from './table-head';
 
 /** Rows that are drawn; the filter looks at all that are kept. */
 const mostShown = 300;
@@ -159,15 +160,7 @@ function Details({ frame: f }: { frame: Frame }) {
       {rows.length > 0 && (
         <div class="scroll">
           <table class="byte-table">
-            <thead>
-              <tr>
-                <th scope="col">{t('Byte')}</th>
-                <th scope="col">{t('Hex')}</th>
-                <th scope="col">{t('Dec')}</th>
-                <th scope="col">{t('Bits')}</th>
-                <th scope="col">{t('ASCII')}</th>
-              </tr>
-            </thead>
+            <TableHead of={[t('Byte'), t('Hex'), t('Dec'), t('Bits'), t('ASCII')]} />
             <tbody>
               {rows.map((r) => (
                 <tr key={r.at}>

@@ -6,10 +6,11 @@ import type { Role, User } from '../api/types';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { passwordFault, roles, roleWord, userFault } from '../state/session';
+import { quiet, type Reported } from '../state/reported';
 import { clockTime } from '../text/time';
 import { useLoaded } from './loaded';
 import { DeleteButton } from './ask';
-import { Choice, quiet, Tell, TextField, type Reported } from './form';
+import { Choice, Tell, TextField } from './form';
 
 export const roleChoices = roles.map((r) => ({ value: r, text: roleWord(r) }));
 

@@ -2,7 +2,7 @@
 // Out: a card for each gateway; commands by DDS, each with its one result. Never commands by itself; old words are greyed and say how old they are.
 import { useSignal } from '@preact/signals';
 import { marked } from '../components/marked';
-import { useEffect, useMemo } from 'preact/hooks';
+import { useMemo } from 'preact/hooks';
 import { asProblem } from '../api/problem';
 import type { Command, FleetAxis, FleetGateway } from '../api/types';
 import { ResultLine, resultId } from '../components/axis-controls';
@@ -18,6 +18,7 @@ import { useGateway } from '../gateway';
 import { rich, t } from '../language';
 import { capital } from '../state/commander';
 import { persisted } from '../state/persisted';
+import { useRepeated } from '../state/repeated';
 import { markOf, motionWord, positionText, stateWord, unitOf } from '../text/axis';
 import { aboutAxis, asAxis, clockText, gatewayWord, receivedText, trustOf } from '../text/fleet';
 import { formatExact, parseQuantity } from '../text/number';
@@ -33,25 +34,15 @@ export function FleetPage() {
   const live = connection.phase === 'live';
   const fleet = useSignal<Awaited<ReturnType<typeof client.fleet>> | null>(null);
   const fault = useSignal('');
-  useEffect(() => {
-    if (!live) return;
-    let here = true;
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    const ask = async () => {
-      try {
-        if (!document.hidden) fleet.value = await client.fleet();
-        fault.value = '';
-      } catch (error) {
-        fault.value = capital(asProblem(error).text);
-      }
-      if (here) timer = setTimeout(() => void ask(), period_ms);
-    };
-    void ask();
-    return () => {
-      here = false;
-      clearTimeout(timer);
-    };
-  }, [live, connection.epoch]);
+  const ask = async () => {
+    try {
+      fleet.value = await client.fleet();
+      fault.value = '';
+    } catch (error) {
+      fault.value = capital(asProblem(error).text);
+    }
+  };
+  useRepeated(ask, period_ms, live, [connection.epoch]);
   const known = fleet.value;
   const fresh = live && fault.value === '';
   const many = (known?.gateways.reduce((n, g) => n + g.axes.length, 0) ?? 0) > unfolded;

@@ -1,31 +1,19 @@
-// Recipes: the list, and one recipe: forms and JSON side by side, checked by the gateway as it is typed; below it its runs.
-// In: the documents of the gateway. Out: changed documents, only when they are saved. The forms always show the last text that was JSON.
-import { gatewayText, t } from '../language';
-import { marked } from '../components/marked';
-import { DeleteButton } from '../components/ask';
-import { Gate, useBarred, Why } from '../components/gate';
+// Recipes: the list of them, and the name of a new one. In: the gateway's list, with each change that it tells of. Out: a page.
 import { useSignal, type Signal } from '@preact/signals';
-import { useEffect, useMemo } from 'preact/hooks';
-import { Problem } from '../api/problem';
+import { useEffect } from 'preact/hooks';
 import type { RecipeEntry } from '../api/types';
+import { useBarred, Why } from '../components/gate';
 import { Empty } from '../components/lines';
 import { useLoaded } from '../components/loaded';
+import { marked } from '../components/marked';
 import { Pill } from '../components/pill';
-import { RecordPart } from '../components/recipe-record';
-import { RunHead, RunReports, useRun } from '../components/recipe-run';
-import { StepEditor, type Fault } from '../components/recipe-steps';
-import { RecipeParameters } from '../components/recipe-parameters';
 import { Section } from '../components/section';
-import { Typed } from '../components/typed';
 import { useGateway } from '../gateway';
+import { t } from '../language';
 import { go, recipePath } from '../router';
-import { capital } from '../state/commander';
-import { RecipeFile, type RecipeClash } from '../state/recipe-file';
-import { axisMeant, documentOf, recipeDifferences, runWord, unknownAxes, unknownText, valueOf, type RecipeDocument } from '../text/recipe';
-import { unitOf } from '../text/axis';
+import { runWord } from '../text/recipe';
 import { clockTime } from '../text/time';
 
-const checkAfter_ms = 300;
 const goodName = /^[A-Za-z0-9_.-]{1,64}$/;
 
 export function RecipesPage() {
@@ -100,215 +88,6 @@ export function RecipesPage() {
       <p class="result result-refused" role="status">
         <span>{marked(fault.value)}</span>
       </p>
-    </main>
-  );
-}
-
-const textOf = (d: RecipeDocument) => JSON.stringify(d, null, 2);
-
-export function RecipePage({ name }: { name: string }) {
-  const gateway = useGateway();
-  const no = useBarred('engineer');
-  const { client, store } = gateway;
-  const text = useSignal('');
-  const document = useSignal<RecipeDocument | null>(null);
-  const textFault = useSignal('');
-  const faults: Signal<Fault[]> = useSignal([]);
-  const stored = useSignal('');
-  const result = useSignal<{ tone: 'none' | 'good' | 'partly' | 'refused'; text: string }>({ tone: 'none', text: '' });
-  const file = useMemo(() => new RecipeFile(client, name), [client, name]);
-  const clash: Signal<(RecipeClash & { act: 'save' | 'remove' }) | null> = useSignal(null);
-  const put = (d: RecipeDocument) => {
-    document.value = d;
-    text.value = textOf(d);
-    textFault.value = '';
-  };
-  const why = useLoaded(async () => {
-    // Once only: after that, what is typed stands against the state that was read, and the gateway tells whether it still is the one.
-    if (document.peek()) return;
-    const d = await file.read();
-    put(d ?? { description: '', steps: [] });
-    if (d) stored.value = text.peek();
-  }, [file]);
-
-  // The gateway says what is wrong, shortly after the last change.
-  const present = text.value;
-  useEffect(() => {
-    const d = document.peek();
-    if (!d || d.steps.length === 0 || textFault.peek() || no.disabled) return;
-    let here = true;
-    const timer = setTimeout(() => {
-      client.checkRecipe(name, d).then(
-        () => here && (faults.value = []),
-        (e) => here && (faults.value = e instanceof Problem ? ((e.document.faults ?? []) as Fault[]) : []),
-      );
-    }, checkAfter_ms);
-    return () => {
-      here = false;
-      clearTimeout(timer);
-    };
-  }, [present, no.disabled]);
-
-  const save = async () => {
-    const d = document.peek();
-    if (!d || textFault.peek()) return;
-    const sent = text.peek();
-    const outcome = await file.save(d);
-    clash.value = outcome.good || !outcome.clash ? null : { ...outcome.clash, act: 'save' };
-    if (outcome.good) {
-      stored.value = sent;
-      faults.value = [];
-      const nobody = store.listed.peek() ? unknownAxes(d, store.axisNames.peek()) : [];
-      result.value = nobody.length > 0 ? { tone: 'partly', text: t('Saved. But {nobody}', { nobody: unknownText(nobody) }) } : { tone: 'good', text: t('Saved.') };
-    } else if (!outcome.clash) {
-      faults.value = (outcome.problem.document.faults ?? []) as Fault[];
-      result.value = { tone: 'refused', text: capital(outcome.problem.text) };
-    }
-  };
-  /** Goes on from what somebody else has made of it. */
-  const adopt = () => {
-    const now = clash.peek()?.now ?? null;
-    clash.value = null;
-    put(now ?? { description: '', steps: [] });
-    stored.value = now ? text.peek() : '';
-    result.value = { tone: 'none', text: t('In view is what the gateway has now.') };
-  };
-  const remove = async () => {
-    const outcome = file.there ? await file.remove() : ({ good: true } as const);
-    if (outcome.good) return go('/recipes');
-    clash.value = outcome.clash ? { ...outcome.clash, act: 'remove' } : null;
-    result.value = { tone: 'refused', text: capital(outcome.problem.text) };
-  };
-  const d = document.value;
-  const given: Signal<Record<string, string>> = useSignal({});
-  const run = useRun(name, d?.parameters ?? {}, given);
-  const unitMeant = (named: string) => {
-    const axis = axisMeant(named, d?.parameters, given.value);
-    const entry = axis === null ? undefined : store.axis(axis);
-    return entry ? unitOf(entry.peek().data) : null;
-  };
-  const unsaved = d !== null && text.value !== stored.value;
-  return (
-    <main class="page">
-      <p class="crumbs">
-        <a href="/recipes">{t('Recipes')}</a>
-      </p>
-      <h1 tabIndex={-1}>{name}</h1>
-      {!d && why && <Empty text={why} />}
-      {d && (
-        <>
-          <Gate need="engineer">
-            <div class="recipe-bar">
-              <Typed
-                class="recipe-description"
-                aria-label={t('Description')}
-                placeholder={t('What it does')}
-                value={typeof d.description === 'string' ? d.description : ''}
-                onDone={(entered) => put({ ...d, description: entered })}
-              />
-              <label class="select">
-                {t('If it fails')}
-                <select aria-label={t('If it fails')} value={d.on_failure ?? 'halt'} onChange={(e) => put({ ...d, on_failure: e.currentTarget.value as 'halt' | 'quick_stop' })}>
-                  <option value="halt">{t('halt its axes')}</option>
-                  <option value="quick_stop">{t('quick stop its axes')}</option>
-                </select>
-              </label>
-              <label class="select">
-                {t('At most, s')}
-                <Typed
-                  class="recipe-limit"
-                  inputMode="decimal"
-                  aria-label={t('Longest time of a run, s')}
-                  placeholder="3600"
-                  value={typeof d.timeout_s === 'number' ? String(d.timeout_s) : ''}
-                  onDone={(entered) => {
-                    const { timeout_s: _, ...rest } = d;
-                    const typed = valueOf(entered);
-                    put(typed === undefined ? { ...rest } : ({ ...rest, timeout_s: typed } as RecipeDocument));
-                  }}
-                />
-              </label>
-              <button type="button" class="button primary" disabled={!unsaved || textFault.value !== '' || clash.value !== null} {...no} onClick={() => void save()}>
-                {t('Save')}
-              </button>
-              <DeleteButton name={name} class="" no={no} onYes={() => void remove()} />
-            </div>
-          </Gate>
-          <p class={`result result-${result.value.tone}`} role="status">
-            <span>{clash.value ? t('{text} What you typed is kept.', { text: clash.value.text }) : unsaved && result.value.tone !== 'refused' ? t('Not saved yet.') : marked(result.value.text)}</span>
-          </p>
-          {clash.value && (
-            <div class="theirs card form" role="group" aria-label={t('Somebody else\'s change')} data-field="recipe-clash">
-              <p class="where">{t('From what the gateway has now to what you typed:')}</p>
-              <ul class="differences" aria-label={t('What differs')}>
-                {recipeDifferences(clash.value.now ?? {}, d)
-                  .slice(0, 50)
-                  .map((entered) => (
-                    <li key={entered} class="mono">
-                      {entered}
-                    </li>
-                  ))}
-              </ul>
-              <div class="form-foot">
-                <button type="button" class="button" {...no} onClick={() => void (clash.value?.act === 'remove' ? remove() : save())}>
-                  {clash.value.act === 'remove' ? t('Delete it all the same') : t('Save mine all the same')}
-                </button>
-                <button type="button" class="button" onClick={adopt}>
-                  {t('Take theirs')}
-                </button>
-              </div>
-            </div>
-          )}
-          <RunHead run={run} saved={!unsaved && stored.value !== ''} />
-          <div class="recipe-sides">
-            <Gate need="engineer" silent>
-              <div>
-                <Section title={t('Parameters')} fold={!faults.value.some((f) => f.pointer.startsWith('/parameters/')) && Object.keys(d.parameters ?? {}).length}>
-                  <div class="card recipe-card">
-                    <RecipeParameters document={d} change={put} faults={faults.value} />
-                  </div>
-                </Section>
-                <Section title={t('Steps')}>
-                  <div class="card recipe-card">
-                    <RecordPart recipe={name} persisted={!unsaved || d.steps.length === 0} add={(steps) => put({ ...d, steps: [...d.steps, ...steps] })} />
-                    <StepEditor document={d} change={put} axes={store.axisNames.value} listed={store.listed.value} unitOf={unitMeant} faults={faults.value} />
-                    {faults.value
-                      .filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => f.pointer === `/parameters/${p}` || f.pointer.startsWith(`/parameters/${p}/`)))
-                      .map((f) => (
-                        <p key={f.pointer + f.text} class="step-fault" {...gatewayText}>
-                          {f.pointer}: {f.text}. {f.remedy}.
-                        </p>
-                      ))}
-                  </div>
-                </Section>
-              </div>
-            </Gate>
-            <Section title={t('JSON')} fold={textFault.value === ''}>
-              <div class="card recipe-card">
-                <textarea
-                  class="recipe-json mono"
-                  aria-label={t('The recipe as JSON')}
-                  aria-invalid={textFault.value !== '' || undefined}
-                  spellcheck={false}
-                  readOnly={no.disabled ?? false}
-                  value={text.value}
-                  onInput={(e) => {
-                    const typed = e.currentTarget.value;
-                    const read = documentOf(typed);
-                    if ('document' in read) document.value = read.document;
-                    textFault.value = 'fault' in read ? read.fault : '';
-                    text.value = typed;
-                  }}
-                />
-                <p class="step-fault" role="status">
-                  {textFault.value || (faults.value.length > 0 ? (faults.value.length === 1 ? t('1 place is not right yet.') : t('{n} places are not right yet.', { n: faults.value.length })) : '')}
-                </p>
-              </div>
-            </Section>
-          </div>
-          <RunReports run={run} />
-        </>
-      )}
     </main>
   );
 }

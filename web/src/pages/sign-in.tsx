@@ -2,12 +2,13 @@
 // Shown in place of a page when the gateway knows nobody here; afterwards that page is there again as it was.
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { LanguageChoice } from '../components/language';
-import { quiet, Tell, TextField, type Reported } from '../components/form';
+import { Tell, TextField } from '../components/form';
 import { useGateway } from '../gateway';
 import { t } from '../language';
 import { go, route } from '../router';
 import { persisted } from '../state/persisted';
 import { passwordFault, signInText, userFault } from '../state/session';
+import { quiet, type Reported } from '../state/reported';
 
 export function SignInPage() {
   const { session } = useGateway();

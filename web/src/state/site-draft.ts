@@ -10,13 +10,9 @@ import { differenceOf, rebase, sameDocument, withEntry, withoutEntry, type Diffe
 import { holderName, personOf } from '../text/authority';
 import { capital } from './commander';
 import { persisted } from './persisted';
+import { quiet, type Reported } from './reported';
 
-export interface Reported {
-  tone: 'none' | 'busy' | 'good' | 'refused';
-  text: string;
-}
 const none: Stage = { state: 'none' };
-const quiet: Reported = { tone: 'none', text: '' };
 /** Empty: an older gateway, where a stage cannot be told from another one. */
 const idOf = (stage: Stage): string => (typeof stage.id === 'string' ? stage.id : '');
 export const stagerOf = (stage: Stage): string => (stage.by && !/^local\b/.test(stage.by) ? holderName(stage.by) : capital(personOf(stage.by || 'local')));
@@ -330,7 +326,7 @@ export class SiteDraft {
       if (p.status === 412) await this.load();
       const n = p.document.faults?.length ?? 0;
       const text = n > 0 ? faultText(n) : p.kind === 'unreachable' && error instanceof Error ? error.message : p.status === 412 ? t('Somebody else has changed the site meanwhile; what you typed is kept.') : p.text;
-      this.reported.value = { tone: 'refused', text: text.charAt(0).toUpperCase() + text.slice(1) };
+      this.reported.value = { tone: 'refused', text: capital(text) };
       if (p.is('stage_replaced') || p.is('stage_taken')) await this.meet(p);
       return false;
     }

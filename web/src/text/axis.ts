@@ -28,6 +28,9 @@ const states: Record<AxisStateName, Word> = {
   fault: { text: t('Fault'), icon: 'triangle', tone: 'fault', long: t('Fault: reset it when its cause is gone') },
 };
 
+/** As it was, while nothing is heard of it. */
+export const wordOf = (word: Word, live: boolean): Word => (live ? word : { ...word, tone: 'muted', text: t('Was {state}', { state: midSentence(word.text) }) });
+
 export const stateName = (s: AxisStateName): string => states[s].long.split(/[:：]/)[0] as string;
 
 export function stateWord(axis: Pick<Axis, 'state'>, trust: Trust): Word {

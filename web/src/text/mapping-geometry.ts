@@ -18,6 +18,7 @@ export interface Placed extends Span {
 }
 export type MapRow = { kind: 'row'; first: number } | { kind: 'gap'; first: number; last: number };
 export const lastOf = (s: Span): number => s.address + s.width - 1;
+export const blockAt = <S extends Span>(spans: readonly S[], address: number): S | null => spans.find((s) => s.address <= address && lastOf(s) >= address) ?? null;
 
 /** Every row that has something in it, the one behind it, the first one, and those of `open`; what lies between is folded. */
 export function rowsOf(spans: readonly Span[], perRow: number, open: readonly number[] = []): MapRow[] {

@@ -1,7 +1,8 @@
 // Mapping table: rows of a spreadsheet into mappings, each with its faults, also among one another. In: text, what is known, what is there.
 // Out: rows in their order. A row with the id of a present mapping takes its place. Pure.
 import { t } from '../language';
-import { checkTexts, cellsOf, columns, columnText, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
+import { checkTexts } from './mapping-check';
+import { cellsOf, columns, columnText, conflictsOf, placeText, type Known, type Mapping, type MappingSpec, type Texts } from './mapping';
 import { csvOf, mostRows, pointed, rowsOf, separatorOf } from './table-text';
 
 export interface ReadRow {

@@ -1,10 +1,10 @@
-// A mapping in words and numbers: how many registers it takes, whom it collides with, what is free, what a person typed for it.
-// In: mappings, text, points. Out: specifications, faults per field, live values. Pure. The gateway checks all of it again.
+// A mapping in words and numbers: how many registers it takes, whom it collides with, what is free, what its register shows.
+// In: mappings, points. Out: places, words, live values. Pure. The gateway checks all of it again.
 import type { components } from '../api/schema';
 import type { Axis } from '../api/types';
-import { midSentence, t } from '../language';
-import { readAddress, spanText, type Base } from './address';
-import { parseNumber, typedNumber } from './number';
+import { t } from '../language';
+import { spanText, type Base } from './address';
+import { typedNumber } from './number';
 
 type Schemas = components['schemas'];
 export type Mapping = Schemas['Mapping'];
@@ -19,13 +19,12 @@ export const tables: readonly { id: Table; name: string; short: string; digit: s
   { id: 'coils', name: t('Coils'), short: t('Coils'), digit: '0', bits: true, writable: true },
   { id: 'discrete_inputs', name: t('Discrete inputs'), short: t('Discrete'), digit: '1', bits: true, writable: false },
 ];
+export const isBits = (table: string): boolean => table === 'coils' || table === 'discrete_inputs';
 export const tableOf = (id: Table) => tables.find((x) => x.id === id) ?? tables[0]!;
+/** For a choice. */
+export const tableChoices = tables.map((x) => ({ value: x.id, text: x.name }));
+export const orderChoices = [{ value: 'high_first', text: t('high word first') }, { value: 'low_first', text: t('low word first') }];
 export const types: readonly RegisterType[] = ['bool', 'u16', 'i16', 'u32', 'i32', 'f32', 'u64', 'i64', 'f64', 'string'];
-
-const otherNames: Record<string, Table> = {
-  coil: 'coils', discrete: 'discrete_inputs', discrete_input: 'discrete_inputs', holding: 'holding_registers',
-  holding_register: 'holding_registers', input: 'input_registers', input_register: 'input_registers',
-};
 
 /** Registers (or bits) that a type takes. */
 export function widthOf(type: RegisterType, length = 16): number {
@@ -105,83 +104,6 @@ export interface Known {
   parameters: (axis: string) => readonly string[] | null;
   /** Type and unit of a parameter by its id or name; null where they are not known. */
   parameter?: (axis: string, id: string) => { type: Schemas['AxisParameter']['type']; unit: string | null } | null;
-}
-
-export type Checked = { spec: MappingSpec | null; faults: Partial<Record<Field, string>> };
-
-function whole(text: string, say: { none: string; range: string }, min: number, max: number): { value: number; why: string } {
-  const p = parseNumber(text);
-  if (!p.good) return { value: 0, why: text.trim() === '' ? say.none : p.why };
-  if (!Number.isInteger(p.value) || p.value < min || p.value > max) return { value: 0, why: say.range };
-  return { value: p.value, why: '' };
-}
-
-/** From what was typed to a specification, or why not, field by field. Empty optional fields are left to the gateway. */
-export function checkTexts(typed: Partial<Texts>, known: Known): Checked {
-  const faults: Checked['faults'] = {};
-  const fault = (f: Field, why: string) => (faults[f] ??= why);
-  const unit = whole(typed.unit ?? '', { none: t('Type the Modbus unit.'), range: t('The Modbus unit is a whole number from 2 to 254.') }, 2, 254);
-  if (unit.why) fault('unit', unit.why);
-  const given = (typed.table || 'holding_registers').toLowerCase();
-  const table = otherNames[given] ?? (tables.find((x) => x.id === given)?.id as Table | undefined);
-  if (!table) fault('table', t('“{text}” is no table: {list}.', { text: typed.table ?? '', list: tables.map((x) => x.id).join(', ') }));
-  const address = readAddress(typed.address ?? '', table ?? 'holding_registers', known.base ?? '0');
-  if (!address.good) fault('address', address.why);
-  else if (table && address.table !== table) fault('address', t('{text} is one of the {other}, and the table is {table}.', { text: typed.address?.trim() ?? '', other: midSentence(tableOf(address.table).name), table: midSentence(tableOf(table).name) }));
-
-  let axis = typed.axis?.trim() ?? '';
-  let point = typed.point?.trim() ?? '';
-  if (axis === '' && point.includes('.')) {
-    const owner = known.axes.find((a) => point.startsWith(`${a}.`));
-    if (owner) [axis, point] = [owner, point.slice(owner.length + 1)];
-  }
-  if (axis === '') fault('axis', t('Choose an axis.'));
-  else if (!known.axes.includes(axis)) fault('axis', t('There is no axis {axis}.', { axis }));
-  if (point === '') fault('point', t('Choose a point or a parameter.'));
-  const simple = known.points.find((p) => p.point === point);
-  const parameters = known.parameters(axis);
-  if (point !== '' && !simple && known.points.length > 0 && parameters && !parameters.includes(point) && !parameters.includes(point.replace(/\[\d+\]$/, ''))) {
-    fault('point', t('{axis} has neither a point nor a parameter {point}.', { axis, point }));
-  }
-
-  const kind = table ? tableOf(table) : null;
-  const typeText = (typed.type ?? '').trim().toLowerCase().replace(/^boolean$/, 'bool');
-  if (typeText !== '' && !types.includes(typeText as RegisterType)) fault('type', t('“{text}” is no type: {list}.', { text: typed.type ?? '', list: types.join(', ') }));
-  const type = (typeText || (kind?.bits ? 'bool' : 'i32')) as RegisterType;
-  if (kind?.bits && type !== 'bool') fault('type', t('{table} hold bits: the type is bool.', { table: kind.name }));
-  const order = (typed.word_order ?? '').trim() || 'high_first';
-  if (order !== 'high_first' && order !== 'low_first') fault('word_order', t('high_first or low_first.'));
-  const number = (f: 'scale' | 'offset', fallback: number) => {
-    if ((typed[f] ?? '').trim() === '') return fallback;
-    const p = parseNumber(typed[f] as string);
-    if (!p.good) fault(f, p.why);
-    return p.good ? p.value : fallback;
-  };
-  const scale = number('scale', 1);
-  if (scale === 0) fault('scale', t('The scale must not be 0.'));
-  const offset = number('offset', 0);
-  const access = (typed.access ?? '').trim().toUpperCase();
-  if (access !== '' && !['R', 'W', 'RW'].includes(access)) fault('access', t('R, W or RW.'));
-  if (access.includes('W') && kind && !kind.writable) fault('access', t('{what} can only be read.', { what: kind.name }));
-  else if (access.includes('W') && simple?.access === 'R') fault('access', t('{what} can only be read.', { what: point }));
-  let length: number | undefined;
-  if (type === 'string' && (typed.length ?? '').trim() !== '') {
-    const n = whole(typed.length as string, { none: t('Type the length.'), range: t('The length is a whole number from 1 to 64.') }, 1, 64);
-    if (n.why) fault('length', n.why);
-    else length = n.value;
-  }
-  if (address.good && address.address + widthOf(type, length) > 65536) fault('address', t('The value would end beyond address 65535.'));
-  const overflow = (typed.on_overflow ?? '').trim() || 'mark';
-  if (overflow !== 'mark' && overflow !== 'clamp') fault('on_overflow', t('mark or clamp.'));
-  const comment = typed.comment?.trim() ?? '';
-  if (comment.length > 256) fault('comment', t('At most 256 characters.'));
-  if (Object.keys(faults).length > 0 || !table || !address.good) return { spec: null, faults };
-  const spec: MappingSpec = { unit: unit.value, table, address: address.address, axis, point, type, word_order: order as Mapping['word_order'], scale, offset };
-  if (access) spec.access = access as Mapping['access'];
-  if (length !== undefined) spec.length = length;
-  if (overflow === 'clamp') spec.on_overflow = overflow;
-  if (comment) spec.comment = comment;
-  return { spec, faults };
 }
 
 /** The cells of one mapping in the order of `columns`, as the gateway writes them. */

@@ -357,3 +357,35 @@ export function runWord(state: string): Word {
     default: return { text: t('Not run'), icon: 'circle-dashed', tone: 'muted', long: t('Not carried out') };
   }
 }
+
+/** Whether a run has ended. */
+export const isOver = (state: string): boolean => state !== 'running' && state !== 'stopping';
+
+/** What is typed for the parameters of a run; what is not typed is left to its default. */
+export function argumentsOf(parameters: NonNullable<RecipeDocument['parameters']>, typed: Readonly<Record<string, string>>): Record<string, Json> {
+  const out: Record<string, Json> = {};
+  for (const [key, p] of Object.entries(parameters)) {
+    const entered = typed[key];
+    if (entered === undefined || entered === '') continue;
+    out[key] = p.type === 'text' || p.type === 'axis' ? entered : (valueOf(entered) ?? entered);
+  }
+  return out;
+}
+
+const isAt = (pointer: string, place: string) => pointer === place || pointer.startsWith(`${place}/`);
+/** Faults that stand beside no step and no parameter. */
+export const faultsElsewhere = <F extends { pointer: string }>(faults: readonly F[], d: RecipeDocument): F[] =>
+  faults.filter((f) => !f.pointer.startsWith('/steps/') && !Object.keys(d.parameters ?? {}).some((p) => isAt(f.pointer, `/parameters/${p}`)));
+/** Faults of a step itself, and whether there is any in it, its inner steps included. */
+export function faultsOfStep<F extends { pointer: string }>(faults: readonly F[], pointer: string, kind: StepKind | undefined): { mine: F[]; any: boolean } {
+  const inner = kind?.lists?.map((l) => `${pointer}/${kind.word}/${l}/`) ?? [];
+  const all = faults.filter((f) => isAt(f.pointer, pointer));
+  return { mine: all.filter((f) => !inner.some((p) => f.pointer.startsWith(p))), any: all.length > 0 };
+}
+
+/** The places of all steps of a list and of those within them. */
+export const placesOf = (document: RecipeDocument, list: Path): string[] =>
+  ((at(document, list) ?? []) as Step[]).flatMap((s, i) => {
+    const kind = kindOf(s);
+    return [pointerOf([...list, i]), ...(kind?.lists ?? []).flatMap((l) => placesOf(document, [...list, i, kind!.word, l]))];
+  });

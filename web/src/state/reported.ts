@@ -2,8 +2,15 @@
 // do is told by the part; this is for what the gateway answers.
 import type { Signal } from '@preact/signals';
 import { asProblem } from '../api/problem';
-import { capital } from '../state/commander';
-import type { Reported } from './form';
+import { capital } from './commander';
+import type { Outcome } from './mappings';
+
+export interface Reported {
+  tone: 'none' | 'busy' | 'good' | 'refused';
+  text: string;
+}
+export const quiet: Reported = { tone: 'none', text: '' };
+export const reportedOf = (o: Outcome): Reported => ({ tone: o.good ? 'good' : 'refused', text: capital(o.text) });
 
 /** Why the gateway refused it, or why nobody answered. */
 export const refusal = (error: unknown): Reported & { tone: 'refused' } => ({ tone: 'refused', text: capital(asProblem(error).text) });

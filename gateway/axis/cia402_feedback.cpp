@@ -261,7 +261,7 @@ bool Cia402Axis::State::reached() const noexcept {
     return !feedback.moving && (feedback.target_reached || (halted && !is_streamed(mode)));
 }
 
-/// Bits 12 and 13, which each mode has for itselfeedback.
+/// Bits 12 and 13, which each mode has for itself.
 std::uint16_t Cia402Axis::State::mode_bits() const noexcept {
     if (mode == mode_profile_velocity) return feedback.velocity == 0 ? sw_mode_12 : 0;
     if (is_streamed(mode)) return following ? sw_mode_12 : 0;  // the drive follows the command value

@@ -90,9 +90,9 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now, const AuthorityCl
                              : action == FailSafeAction::quick_stop ? Stops::Kind::quick_stop
                                                                     : Stops::Kind::disable;
     if (a.stops.wanted && *a.stops.wanted >= kind && cause != LossCause::gateway_ends) return;
-    // One loss acts once on one motion; on an axis at rest, once until somebody commands it again.
+    // One cause acts once on one motion; on an axis at rest, once until somebody commands it again. Another cause may ask for more.
     const LossCause before = a.motion.runs() ? a.motion.ended_for : a.latch.cause;
-    if (before != LossCause::none && cause != LossCause::gateway_ends) return;
+    if (before == cause && cause != LossCause::gateway_ends) return;
     a.motion.ended_for = a.latch.cause = cause;
     a.latch.bits = StopLatch::latched | StopLatch::by_fail_safe;
     a.latch.by = {};

@@ -388,9 +388,8 @@ struct OrderRecord {
     AxisId axis = no_axis;
     CommandBody body;
     DriveId handback = no_drive;
-    Result kept;   ///< what the drive said, while the store works
-    Value before;  ///< of a write: what was there, as far as it is known
-    Instant given_at{};
+    Result kept;                             ///< what the drive said, while the store works
+    Value before;                            ///< of a write: what was there, as far as it is known
     AxisId mover = no_axis;                  ///< whose record: a native statement may move another axis of its drive
     std::optional<Motion> motion;            ///< the record that it makes if the drive takes it
     LossCause owner_lost = LossCause::none;  ///< its client was lost while it was on its way

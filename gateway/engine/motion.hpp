@@ -15,6 +15,9 @@
 
 namespace axisgate::engine {
 
+/// How the order of an acknowledged motion stands to the last stop of its axis.
+enum class MotionOrder : std::uint8_t { in_turn, behind_a_stop };
+
 struct Motion {
     enum class Kind : std::uint8_t {
         none,
@@ -36,10 +39,9 @@ struct Motion {
     std::int64_t deceleration = 0;  ///< increments/s^2; 0: it named none
     Duration hold{};                ///< dead-man time-out; 0: none
     Instant hold_until = never;
-    Instant asked_at{};  ///< when its order was given
-    Instant since{};     ///< when the drive acknowledged it, or it was seen first
-    Instant rested{};    ///< since when it is seen at rest, without a break; the beginning of time: it moves, or nothing was seen yet
-    bool over = false;   ///< a stop was acknowledged, or its power went: standstill is what is waited for
+    Instant since{};    ///< when the drive acknowledged it, or it was seen first
+    Instant rested{};   ///< since when it is seen at rest, without a break; the beginning of time: it moves, or nothing was seen yet
+    bool over = false;  ///< a stop was acknowledged, or its power went: standstill is what is waited for
     LossCause ended_for = LossCause::none;  ///< the loss for which it was ended; one loss acts once on one motion
     bool alarmed = false;                   ///< the supervisor has stopped it, and said so
 

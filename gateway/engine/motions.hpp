@@ -16,7 +16,7 @@ public:
     [[nodiscard]] static std::optional<Motion> asked(const Axis& axis, const CommandBody& body, const Origin& origin);
     /// The drive has taken an order: what somebody else still watched is over, and guards are this motion's from now on.
     /// `by`: the number of the client whose order it is; 0: the engine's own.
-    void acknowledged(Axis& axis, Motion motion, std::uint64_t by, std::string_view what, Instant now);
+    void acknowledged(Axis& axis, Motion motion, MotionOrder order, std::uint64_t by, std::string_view what, Instant now);
     void stop_acknowledged(Axis& axis, Stops::Kind kind, Instant now);
     /// An order left, and nobody knows whether it was taken.
     void suspect(Axis& axis, Motion motion);

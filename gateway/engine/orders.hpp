@@ -30,6 +30,7 @@ public:
     /// The stop that is wanted and was not acknowledged, once more.
     void stop_again(Axis& axis, Instant now);
     /// `what` was given before a stop, and the drive took it behind that: it is told, and stopped again.
+    void motion_taken(Axis& axis, Motion motion, const OrderRecord& record, Ticket order, Instant now);
     void stop_behind(Axis& axis, std::string_view what, const Origin& by, Instant now);
     void result(const Result& result, Instant now);
     /// What a native statement, an action or a parameter write asks of the axis, as its family reads it; other bodies are `nothing`.

@@ -119,8 +119,8 @@ class Gateway(Process):
         self.http = self.word("http").rsplit(":", 1)
         self.modbus_port = int(self.word("modbus").rsplit(":", 1)[1])
 
-    def request(self, method, path, body=None, headers=None):
-        c = http.client.HTTPConnection(self.http[0], int(self.http[1]), timeout=40)
+    def request(self, method, path, body=None, headers=None, seconds=40):
+        c = http.client.HTTPConnection(self.http[0], int(self.http[1]), timeout=seconds)
         try:
             head = dict(headers or {})
             if body is not None and not isinstance(body, (bytes, str)):

@@ -12,6 +12,9 @@ namespace json = boost::json;
 namespace {
 /// A header, because it must neither stand in an address, which is logged on the way, nor in a body that is the backup itself.
 constexpr std::string_view passphrase_header = "X-Backup-Passphrase";
+/// For making and checking a backup: the storage thread does it, which gives way to all others, and the key of a sealed backup takes a second
+/// of processor time.
+constexpr std::chrono::seconds backup_limit{120};
 
 /// Empty: none was sent. Nothing: it is not text that was percent-encoded.
 std::optional<std::string> passphrase_of(const Call& c) { return percent_decode(c.request.headers.get(passphrase_header)); }
@@ -46,7 +49,7 @@ Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
         r.body = std::move(*bytes);
         respond(std::move(r));
     });
-    return {gateway_limit, problem(504, "time_out", "the backup was not made in time: use `axisgate backup`")};
+    return {backup_limit, problem(504, "time_out", "the backup was not made in time: use `axisgate backup`")};
 }
 
 Handled put_backup(Call& c, BackupPort& backups) {
@@ -63,7 +66,7 @@ Handled put_backup(Call& c, BackupPort& backups) {
         if (!outcome.note.empty()) text += "; " + outcome.note;
         respond(json_response(json::object{{"restart_needed", true}, {"text", text}}, 202));
     });
-    return {gateway_limit, problem(504, "time_out", "the backup was not checked in time")};
+    return {backup_limit, problem(504, "time_out", "the backup was not checked in time")};
 }
 
 Handled get_waiting_backup(Call& c, BackupPort& backups) {

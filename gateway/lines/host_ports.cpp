@@ -1,6 +1,5 @@
 // Lists the host ports as Linux reports them: network devices of the type CAN, and terminals with a device behind them.
-// A serial port that the kernel lists without hardware (type 0) is left out; consoles and pseudo-terminals have no device. Links are
-// read
+// A serial port that the kernel lists without hardware (type 0) is left out; consoles and pseudo-terminals have no device. Links are read
 // for their names only and never followed out of these folders. Nothing here throws.
 #include "gateway/lines/host_ports.hpp"
 

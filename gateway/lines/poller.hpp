@@ -1,9 +1,8 @@
 // Poller: waits for many sockets through one descriptor of the io_context.
-// Each descriptor is added with a token; the handler is called once per turn with at most `events_per_turn` descriptors that are ready.
-// The poller reads and writes nothing itself. An asynchronous wait per socket would cost an epoll_ctl and an operation object per
-// request;
-// here both are paid once per turn, for any number of ready sockets. Measured with tests/bench at 64 connections, processor time per
-// answer relative to a plain epoll server: 1.20 with a wait per socket, 1.05 with this.
+// Each descriptor is added with a token; the handler is called once per turn with at most `events_per_turn` descriptors that are ready. The
+// poller reads and writes nothing itself. An asynchronous wait per socket would cost an epoll_ctl and an operation object per request; here
+// both are paid once per turn, for any number of ready sockets. Measured with tests/bench at 64 connections, processor time per answer
+// relative to a plain epoll server: 1.20 with a wait per socket, 1.05 with this.
 #pragma once
 
 #include <sys/epoll.h>
@@ -23,8 +22,7 @@ public:
     /// This many sockets are served before other work of the thread (a drive's frame, a timer) has its turn: about 100 to 150 us.
     static constexpr int events_per_turn = 32;
     /// Sockets that become ready again in the same turn are served at once for this long. The bound keeps a fast client from delaying a
-    /// SYNC
-    /// or a datagram of a connection.
+    /// SYNC or a datagram of a connection.
     static constexpr std::chrono::microseconds asks_again{50};
 
     using Clock = std::chrono::steady_clock::time_point (*)();
@@ -38,15 +36,13 @@ public:
     /// False if the process had no descriptor left when the poller was created.
     [[nodiscard]] bool good() const noexcept;
     /// Level-triggered unless `events` has EPOLLET. Errors and hang-ups are always reported. Returns false if the kernel refused (out of
-    /// memory,
-    /// too many watches).
+    /// memory, too many watches).
     [[nodiscard]] bool add(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     void change(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     // A descriptor that is closed is removed by the kernel.
 
     /// Serves the sockets that are ready at this moment, without waiting for the io_context, and returns false if there were none. For a
-    /// loop
-    /// that polls instead of sleeping, this saves two system calls per request.
+    /// loop that polls instead of sleeping, this saves two system calls per request.
     bool serve_now();
 
 private:

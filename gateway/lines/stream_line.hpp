@@ -47,8 +47,7 @@ protected:
         (void)more;
     }
     /// The instant at which the byte that is `before_the_last` bytes from the end of the present read had crossed the wire; the time stamp
-    /// of
-    /// its frame.
+    /// of its frame.
     [[nodiscard]] virtual Instant crossed(std::size_t before_the_last) const {
         (void)before_the_last;
         return clock().now();

@@ -36,8 +36,7 @@ public:
     static constexpr std::size_t most_bytes = 4u * 1024 * 1024, most_sections = 20'000, most_keys = 500'000;
 
     /// Nothing if there is a fault. A line that is no section, key, blank line or comment (`;`, `#`) is a fault; so is a section or a key
-    /// that
-    /// occurs twice, because choosing one of them would be a guess.
+    /// that occurs twice, because choosing one of them would be a guess.
     [[nodiscard]] static std::optional<Ini> read(std::string_view text, std::vector<FileFault>& faults);
     [[nodiscard]] const std::vector<IniSection>& sections() const noexcept { return sections_; }
     [[nodiscard]] const IniSection* find(std::string_view name) const;  ///< in lower case

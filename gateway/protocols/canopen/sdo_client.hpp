@@ -45,8 +45,7 @@ public:
     [[nodiscard]] std::uint64_t strays() const noexcept { return strays_; }  ///< frames of the node that belong to no transfer
 
     /// Begins a transfer; returns false and does nothing while `busy`. `block`: a block transfer, with the plain protocol as a fallback if
-    /// the
-    /// node does not know block transfers.
+    /// the node does not know block transfers.
     bool read(Address address, Instant now, std::vector<Frame>& out, bool block = false);
     bool write(Address address, std::vector<std::uint8_t> data, Instant now, std::vector<Frame>& out, bool block = false);
 
@@ -59,8 +58,7 @@ public:
     /// Whether the node has not yet answered the first request.
     [[nodiscard]] bool beginning() const noexcept;
     /// Sends the first request again while the node has not answered it: nothing is aborted, and an answer to either request counts.
-    /// Returns
-    /// false if there is no transfer, or if it is a block transfer or has been answered.
+    /// Returns false if there is no transfer, or if it is a block transfer or has been answered.
     bool repeat(Instant now, std::vector<Frame>& out);
     /// Ends the transfer without a message to the node: the next request replaces it there.
     void abandon() noexcept;

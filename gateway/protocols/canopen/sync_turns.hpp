@@ -14,8 +14,7 @@
 namespace axisgate::canopen {
 
 /// The largest number of bits of a frame with this many bytes and an 11-bit identifier: 44, and 8 for each byte; one stuff bit for each
-/// four
-/// bits after the first, up to the checksum (ISO 11898-1); and 3 between frames.
+/// four bits after the first, up to the checksum (ISO 11898-1); and 3 between frames.
 [[nodiscard]] constexpr std::uint32_t most_bits(std::uint32_t bytes) noexcept { return 44 + 8 * bytes + (33 + 8 * bytes) / 4 + 3; }
 
 struct TurnsWish {
@@ -59,8 +58,7 @@ public:
         bool operator==(const Place&) const = default;
     };
     /// Takes a place, with `places` in each beat. For each of the `others` that may come later, one place every `longest` beats (a power of
-    /// 2, up
-    /// to `most`) stays free. Nothing if there is no room.
+    /// 2, up to `most`) stays free. Nothing if there is no room.
     [[nodiscard]] std::optional<Place> take(int places, int others, int longest);
     void give_back(const Place& place) noexcept;
     [[nodiscard]] int in(std::uint64_t beat) const noexcept { return used_[beat % most]; }

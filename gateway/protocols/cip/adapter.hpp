@@ -38,8 +38,7 @@ public:
     /// `key`: any number but 0 that no other session has. Returns false if there is no room: close the connection.
     [[nodiscard]] bool on_connected(SessionKey key, Endpoint from, Instant now);
     /// Closes an idle session to make room: one that never registered, otherwise one that has been silent for at least a second. Returns
-    /// false
-    /// if all of them are active or command.
+    /// false if all of them are active or command.
     [[nodiscard]] bool give_way(Instant now);
     void on_stream(SessionKey key, View bytes, Instant now);
     void on_disconnected(SessionKey key);

@@ -65,8 +65,7 @@ public:
     static constexpr std::size_t most_connections = 128;
     static constexpr std::size_t most_explicit = 64;  ///< so that explicit messages never take the last place of an owner
     /// A quarter of each is kept for owners, or for sessions that command: for them, a connection that never carried data gives way, or one
-    /// of
-    /// the address that has most, if it has more than an eighth (gateway/core/places.hpp). An owner never gives way.
+    /// of the address that has most, if it has more than an eighth (gateway/core/places.hpp). An owner never gives way.
     static constexpr std::size_t kept = most_connections / 4, kept_explicit = most_explicit / 4;
     static constexpr std::uint16_t most_message = 4002;               ///< bytes of a connection of explicit messages in one direction
     static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, whatever the time-out is

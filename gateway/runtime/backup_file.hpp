@@ -43,7 +43,7 @@ struct BackupContents {
 [[nodiscard]] BackupResult<BackupContents> read_backup(ByteSource& from, const std::string& folder);
 
 enum class BackupForm : std::uint8_t { none, database, archive, sealed };
-/// By the first 512 bytes. `database`: a plain database, as older programs made it.
+/// Determines the form from the first 512 bytes. `database`: a plain database, as written by older versions of the program.
 [[nodiscard]] BackupForm backup_form_of(std::string_view head) noexcept;
 [[nodiscard]] BackupResult<BackupForm> backup_form_of_file(const std::string& path);
 /// Opens either form of archive and passes its stream to read_backup.

@@ -89,9 +89,10 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now, const AuthorityCl
                              : action == FailSafeAction::quick_stop ? Stops::Kind::quick_stop
                                                                     : Stops::Kind::disable;
     if (a.stops.wanted && *a.stops.wanted >= kind && cause != LossCause::gateway_ends) return;
-    // One loss causes one action on a motion; on an axis at rest it causes one action until the next command.
+    // One cause leads to one action on a motion; on an axis at rest to one action until the next command. Another cause may demand a
+    // stronger stop.
     const LossCause before = a.motion.runs() ? a.motion.ended_for : a.latch.cause;
-    if (before != LossCause::none && cause != LossCause::gateway_ends) return;
+    if (before == cause && cause != LossCause::gateway_ends) return;
     a.motion.ended_for = a.latch.cause = cause;
     a.latch.bits = StopLatch::latched | StopLatch::by_fail_safe;
     a.latch.by = {};

@@ -389,9 +389,8 @@ struct OrderRecord {
     AxisId axis = no_axis;
     CommandBody body;
     DriveId handback = no_drive;
-    Result kept;   ///< the drive's answer while the store is writing
-    Value before;  ///< of a write: the previous value, as far as it is known
-    Instant given_at{};
+    Result kept;                             ///< the drive's answer while the store is writing
+    Value before;                            ///< of a write: the previous value, as far as it is known
     AxisId mover = no_axis;                  ///< the axis that has the record: a native statement may move another axis of its drive
     std::optional<Motion> motion;            ///< the record that begins if the drive accepts the order
     LossCause owner_lost = LossCause::none;  ///< its client was lost while the order was on its way

@@ -15,6 +15,9 @@
 
 namespace axisgate::engine {
 
+/// How the order of an acknowledged motion stands to the last stop of its axis.
+enum class MotionOrder : std::uint8_t { in_turn, behind_a_stop };
+
 struct Motion {
     enum class Kind : std::uint8_t {
         none,
@@ -36,11 +39,10 @@ struct Motion {
     std::int64_t deceleration = 0;  ///< increments/s^2; 0: it named none
     Duration hold{};                ///< dead-man time; 0: none
     Instant hold_until = never;
-    Instant asked_at{};  ///< when the order was given
-    Instant since{};     ///< when the drive acknowledged it, or it was first seen
-    Instant rested{};    ///< since when the axis is at rest without interruption; the beginning of time: it moves, or no feedback has
-                         ///< arrived yet
-    bool over = false;   ///< a stop was acknowledged, or the power was switched off; only the standstill is awaited
+    Instant since{};    ///< when the drive acknowledged it, or it was first seen
+    Instant rested{};   ///< since when the axis is at rest without interruption; the beginning of time: it moves, or no feedback has
+                        ///< arrived yet
+    bool over = false;  ///< a stop was acknowledged, or the power was switched off; only the standstill is awaited
     LossCause ended_for = LossCause::none;  ///< the loss for which it was ended; one loss acts once on a motion
     bool alarmed = false;                   ///< the supervisor has stopped it and raised the alarm
 

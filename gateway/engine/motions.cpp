@@ -64,7 +64,7 @@ std::optional<Motion> Motions::asked(const Axis& a, const CommandBody& body, con
     return m;
 }
 
-void Motions::acknowledged(Axis& a, Motion m, std::uint64_t by, std::string_view what, Instant now) {
+void Motions::acknowledged(Axis& a, Motion m, MotionOrder order, std::uint64_t by, std::string_view what, Instant now) {
     if (m.kind != Motion::Kind::stream) streams_.end(a, Reason::interrupted, fmt::format("ended by {}", what), now);
     clients_.supersede(a, by, what);
     m.since = now;
@@ -76,7 +76,7 @@ void Motions::acknowledged(Axis& a, Motion m, std::uint64_t by, std::string_view
     a.at_limit = false;
     a.suspected.reset();
     a.statement.reset();
-    if (a.stops.first_at <= m.asked_at) {  // a stop that was given after the order remains wanted
+    if (order == MotionOrder::in_turn) {
         a.stops.wanted.reset();
         a.latch.bits = 0;
     }

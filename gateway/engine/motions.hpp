@@ -16,7 +16,7 @@ public:
     [[nodiscard]] static std::optional<Motion> asked(const Axis& axis, const CommandBody& body, const Origin& origin);
     /// The drive has accepted an order: earlier motions that are being watched are over, and the guards of this motion apply. `by` is the
     /// number of the client's command; 0 for an order of the engine itself.
-    void acknowledged(Axis& axis, Motion motion, std::uint64_t by, std::string_view what, Instant now);
+    void acknowledged(Axis& axis, Motion motion, MotionOrder order, std::uint64_t by, std::string_view what, Instant now);
     void stop_acknowledged(Axis& axis, Stops::Kind kind, Instant now);
     /// An order was sent, and it is unknown whether the drive accepted it.
     void suspect(Axis& axis, Motion motion);

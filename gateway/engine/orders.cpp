@@ -95,7 +95,6 @@ void Orders::stop_again(Axis& a, Instant now) {
     OrderRecord record;
     record.axis = a.id;
     record.body = Stops::body(*a.stops.wanted);
-    record.given_at = now;
     record.repeated = true;
     const Ticket ticket = make_ticket(engine_itself, pending_.next++);
     CommandBody body = record.body;
@@ -129,12 +128,10 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     record.client = client ? client->number : 0;
     record.axis = a.id;
     record.body = body;
-    record.given_at = now;
     Axis& moves = concerned(a, stated(a, body));
     record.motion = Motions::asked(moves, body, origin);
     record.mover = moves.id;
     if (record.motion) {
-        record.motion->asked_at = now;
         ++moves.motions_asked;
         moves.asked = *record.motion;
     }
@@ -272,6 +269,14 @@ void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket,
     host_.on_store(std::move(order));
 }
 
+/// The drive has accepted a motion. If a stop was requested after its order, the stop remains valid and is sent again.
+void Orders::motion_taken(Axis& a, Motion m, const OrderRecord& record, Ticket order, Instant now) {
+    const bool behind_a_stop = order < a.stops.asked;
+    motions_.acknowledged(a, std::move(m), behind_a_stop ? MotionOrder::behind_a_stop : MotionOrder::in_turn, record.client,
+                          name_of(record.body), now);
+    if (behind_a_stop) stop_behind(a, name_of(record.body), a.motion.origin, now);
+}
+
 /// Applies the drive's answer to the records of motion.
 void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Result& r, Instant now) {
     const bool is_good = good(r);
@@ -281,10 +286,8 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
             if (!other) continue;
             if (is_good) machine_.image.picture(id).motion_ticket = mover;
             if (is_good && other != &a) {
-                if (auto m = Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{})) {
-                    m->asked_at = record.given_at;
-                    motions_.acknowledged(*other, std::move(*m), record.client, name_of(record.body), now);
-                }
+                if (auto m = Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{}))
+                    motion_taken(*other, std::move(*m), record, r.ticket, now);
             }
             publisher_.publish(*other, now);
         }
@@ -296,13 +299,7 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
         if (moves->motions_asked == 0) moves->asked = {};
         if (is_good) {
             machine_.image.picture(moves->id).motion_ticket = mover;
-            const bool behind_a_stop = r.ticket < moves->stops.asked;
-            const StopLatch latch = moves->latch;
-            motions_.acknowledged(*moves, std::move(*record.motion), record.client, name_of(record.body), now);
-            if (behind_a_stop) {
-                moves->latch = latch;  // this stop remains the one that counts
-                stop_behind(*moves, name_of(record.body), moves->motion.origin, now);
-            }
+            motion_taken(*moves, std::move(*record.motion), record, r.ticket, now);
             if (record.owner_lost != LossCause::none) loss_.act(*moves, record.owner_lost, now);
         } else if (r.outcome == Outcome::failed) {
             motions_.suspect(*moves, std::move(*record.motion));

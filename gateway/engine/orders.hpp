@@ -45,6 +45,7 @@ private:
     void begin_stop(Axis& axis, const OrderRecord& record, Ticket ticket, Instant now);
     void send(Axis& axis, Client* client, Ticket ticket, CommandBody body, Origin origin, Instant now);
     void store_write(Axis& axis, OrderRecord& record, Result& result, Ticket ticket, Instant now);
+    void motion_taken(Axis& axis, Motion motion, const OrderRecord& record, Ticket order, Instant now);
     void record_motion(Axis& axis, OrderRecord& record, Ticket mover, const Result& result, Instant now);
     void answer(std::uint64_t client, Axis& axis, const Result& result, Instant now);
     void not_carried_out(const Axis& axis, const CommandBody& body, const Result& result, Instant now);

@@ -221,7 +221,6 @@ void Presences::begin_handback(Drive& d, Instant now) {
         record.axis = w.axis;
         record.body = ReadParameter{w.point};
         record.handback = d.id;
-        record.given_at = now;
         pending_.orders.emplace(ticket, std::move(record));
         Command c;
         c.ticket = ticket;

@@ -139,8 +139,7 @@ void Streams::begin(Axis& a, const SetPoint& p, const AuthorityClient& who, Inst
     m.kind = Motion::Kind::stream;
     m.who = who;
     m.origin = p.origin;
-    m.asked_at = now;
-    motions_.acknowledged(a, std::move(m), 0, "streamed set-points", now);
+    motions_.acknowledged(a, std::move(m), MotionOrder::in_turn, 0, "streamed set-points", now);
     a.latch.cause = LossCause::none;
     a.prepared.reset();
     machine_.image.picture(a.id).motion_ticket = no_ticket;

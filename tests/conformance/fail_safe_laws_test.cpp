@@ -164,6 +164,33 @@ TEST_P(FailSafeLaws, AnEnabledAxisAtRestIsSwitchedOffWhereTheSiteSaysDisable) {
     }
 }
 
+/// A scanner goes into program mode, and its connection ends before the axis has come to rest on its gentle ramp.
+TEST_P(FailSafeLaws, ALossBehindAnotherIsAsSharpAsIfItWereTheFirst) {
+    world = fresh();
+    Site s = world->twins(e);
+    s.axes.at(0).fail_safe.of(LossCause::enip_idle) = FailSafeAction::halt;
+    s.axes.at(0).fail_safe.of(LossCause::enip_timed_out) = FailSafeAction::quick_stop;
+    start(std::move(s));
+    const Result* on = tell(Enable{});
+    ASSERT_TRUE(on && good(*on)) << published(on);
+    Move m = move_to(4000, Move::Kind::velocity);
+    m.acceleration = m.deceleration = 1000;
+    const Result* r = tell(m);
+    if (r && r->reason == Reason::not_supported) return lacks_velocity(*r);
+    ASSERT_TRUE(r && good(*r)) << published(r);
+    ASSERT_TRUE(world->run_until_true([&] { return speed(a1) > 3000; }, 20s));
+    lose(LossCause::enip_idle);
+    world->run_for(300ms);
+    ASSERT_GT(speed(a1), 1000) << "its ramp takes four seconds";
+    lose(LossCause::enip_idle);
+    EXPECT_EQ(events("fail_safe"), 1) << "the same again is nothing new";
+    lose(LossCause::enip_timed_out);
+    ASSERT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) == PowerState::quick_stop_active; }, 1s));
+    EXPECT_EQ(events("fail_safe"), 2);
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::enip_timed_out));
+    ASSERT_TRUE(rests());
+}
+
 TEST_P(FailSafeLaws, ADriveThatHasAWatchdogHasItProgrammedAndStopsWhenItDoesNotHearTheGateway) {
     if (!e.catalogue->document().at("drive_watchdog").at("available").as_bool()) {
         begin_with(LossCause::line_lost, FailSafeAction::nothing);

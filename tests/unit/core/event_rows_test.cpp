@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
@@ -52,6 +54,19 @@ TEST_F(EventRowsTest, AFloodOfOneClientLeavesTheOthersTheirEvents) {
     now += 1s;
     add("192.0.2.66", "flood again");
     EXPECT_EQ(told.back(), "flood again; 995 more refusals of 192.0.2.66 were not told one by one");
+}
+
+TEST_F(EventRowsTest, TheClientThatWasReceivedLongestAgoMakesRoomAndItsCountIsReported) {
+    add("192.0.2.7", "no");
+    add("192.0.2.7", "no");
+    for (std::size_t i = 1; i < EventRows::most_clients; ++i) {
+        now += 200ms;  // all of them stay below the rate of all clients
+        add(fmt::format("198.51.100.{}", i), "no");
+    }
+    EXPECT_EQ(std::ranges::count(told, "no: once more"), 0);
+    now += 200ms;
+    add("203.0.113.1", "no");
+    EXPECT_EQ(std::ranges::count(told, "no: once more"), 1) << "one client more than there is room for";
 }
 
 TEST_F(EventRowsTest, AHundredThousandClientsAreBounded) {

@@ -42,6 +42,16 @@ TEST_F(TurnsOfALine, OnePlaceIsOneExchange) {
     EXPECT_EQ(turns.on_their_way(), 0u) << "ended twice is ended once";
 }
 
+/// A drive that is asked again before its first exchange has ended still has one place.
+TEST_F(TurnsOfALine, AnExchangeThatBeginsTwiceHasOnePlace) {
+    turns.set({.window = 2, .probe_window = 1});
+    turns.began(2, false);
+    turns.began(2, false);
+    EXPECT_EQ(turns.on_their_way(), 1u);
+    turns.ended(2);
+    EXPECT_EQ(turns.on_their_way(), 0u) << "a place that is never given back is lost to the line";
+}
+
 TEST_F(TurnsOfALine, ThePauseAfterAnAnswerIsKeptAndIsADeadline) {
     turns.set({.window = 1, .probe_window = 1, .pause = 3ms});
     turns.received(now);

@@ -371,6 +371,26 @@ TEST(Pdu, CommandsOnTheirWayAreBounded) {
     EXPECT_EQ(port.submitted, 3u);
 }
 
+/// A write that needs two commands, with one free place left, is refused as a whole.
+TEST(Pdu, AWriteThatNeedsMorePlacesThanAreFreeIsNotBegun) {
+    test::FakePort port;
+    const AxisId x = port.add_axis(1, &test::catalogue()), y = port.add_axis(2, &test::catalogue());
+    Responder::Settings settings;
+    settings.max_commands = 1;
+    test::ResponderDoor door(port, WordOrder::high_first, settings);
+    struct Nobody : WriteOwner {
+        void on_written(std::uint8_t, AxisId, Verdict) override {}
+    } nobody;
+    WritePlan plan;
+    for (const AxisId axis : {x, y})
+        plan.commands.push_back({axis, ProcessData{}, false, 0});
+    const auto begun = door.responder.writer().give({&nobody, nullptr}, 0, door.image.standard(), plan, {}, port.now());
+    EXPECT_EQ(begun.verdict, Verdict::busy);
+    EXPECT_EQ(begun.outstanding, 0);
+    EXPECT_EQ(port.submitted, 0u);
+    EXPECT_EQ(door.responder.writer().waiting(), 0u);
+}
+
 TEST(Pdu, ATicketIsNeverGivenTwice) {
     TicketTable table(3);
     table.use_number(7);
@@ -389,6 +409,26 @@ TEST(Pdu, ATicketIsNeverGivenTwice) {
             EXPECT_EQ(table.used(), 1u);
         }
     }
+}
+
+/// What may take as long as the machine does is opened first, and does not keep later ones from their end.
+TEST(Pdu, ATicketThatMayTakeADayHidesNoShorterOne) {
+    TicketTable table(3);
+    TicketTable::Waiting w;
+    w.slot = 1;
+    (void)table.open(w, at_ns(1'000'000));
+    w.slot = 2;
+    (void)table.open(w, at_ns(20));
+    w.slot = 3;
+    (void)table.open(w, at_ns(10));
+    EXPECT_EQ(table.next_deadline(), at_ns(10));
+    for (const int expected : {3, 2}) {
+        const auto ended = table.expired(at_ns(30));
+        ASSERT_TRUE(ended);
+        EXPECT_EQ(ended->slot, expected);
+    }
+    EXPECT_FALSE(table.expired(at_ns(30)));
+    EXPECT_EQ(table.next_deadline(), at_ns(1'000'000));
 }
 
 TEST(Pdu, TicketsExpireOldestFirst) {

@@ -1,0 +1,318 @@
+// Conformance, drives that do otherwise than they were told: one that goes further or faster than its order, answers a move late, does not
+// acknowledge a stop, or leaves a stream. What is wrong is seen at the drive, and ended. In: law_subjects(), on twins, behind an adapter
+// that changes orders or answers. Out: laws. Never names a family.
+#include <gtest/gtest.h>
+
+#include "gateway/axis/cia402.hpp"
+#include "tests/conformance/laws.hpp"
+#include "tests/conformance/ways.hpp"
+
+namespace axisgate::test {
+namespace {
+using namespace std::chrono_literals;
+
+/// What is wrong with the drive; each of these from the instant at which a test sets it.
+struct Flaw {
+    int stops_unheard = 0;         ///< so many stops do not reach it and are answered as failed
+    bool answers_late = false;     ///< answers to moves are held back until it is false again
+    bool leaves_stream = false;    ///< the next set-point is the end of the stream
+    bool shows_rest = false;       ///< it says that it stands
+    std::int64_t further = 0;      ///< it goes so many increments beyond each target
+    std::int64_t faster = 1;       ///< and so many times the speed of a velocity move
+    std::vector<Result> held{};    ///< answers that were held back
+    int stops = 0;                 ///< orders to stop that were given to it
+    const Family* base = nullptr;  ///< the family that is otherwise as ever
+};
+Flaw flaw;
+
+class Stubborn final : public PassingAdapter {
+public:
+    using PassingAdapter::PassingAdapter;
+    void on_command(const Command& command, Instant now, Out& out) override {
+        const bool stop = std::holds_alternative<Halt>(command.body) || std::holds_alternative<QuickStop>(command.body) ||
+                          std::holds_alternative<Disable>(command.body);
+        flaw.stops += stop;
+        if (stop && flaw.stops_unheard > 0) {
+            --flaw.stops_unheard;
+            return fail(command, out);
+        }
+        Command other = command;
+        auto* m = std::get_if<Move>(&other.body);
+        if (m) m->target = m->kind == Move::Kind::velocity ? m->target * flaw.faster : m->target + flaw.further;
+        if (m || std::holds_alternative<StartTogether>(command.body)) moves_.push_back(command.ticket);
+        PassingAdapter::on_command(other, now, out);
+        hold(out);
+    }
+    void on_set_point(const SetPoint& p, Instant now, Out& out) override {
+        if (std::exchange(flaw.leaves_stream, false))
+            return out.stream_ends.push_back({p.axis, Reason::drive_refused, "it has left the mode"});
+        PassingAdapter::on_set_point(p, now, out);
+    }
+    void on_frame(const Frame& frame, Instant now, Out& out) override {
+        PassingAdapter::on_frame(frame, now, out);
+        for (auto& f : out.feedback) {
+            if (!flaw.shows_rest) continue;
+            f.value.moving = false;
+            f.value.velocity = 0;
+        }
+        hold(out);
+    }
+    void on_deadline(Instant now, Out& out) override {
+        PassingAdapter::on_deadline(now, out);
+        hold(out);
+        if (!flaw.answers_late) std::ranges::move(std::exchange(flaw.held, {}), std::back_inserter(out.results));
+    }
+    [[nodiscard]] Instant deadline() const override {
+        return !flaw.answers_late && !flaw.held.empty() ? time_zero : PassingAdapter::deadline();
+    }
+
+private:
+    static void fail(const Command& command, Out& out) {
+        Result r;
+        r.ticket = command.ticket;
+        r.axis = command.axis;
+        r.outcome = Outcome::failed;
+        r.reason = Reason::no_answer;
+        r.text = "the drive did not answer in time";
+        if (command.ticket != no_ticket) out.results.push_back(std::move(r));
+    }
+    void hold(Out& out) {
+        if (!flaw.answers_late) return;
+        std::erase_if(out.results, [&](const Result& r) {
+            if (std::ranges::find(moves_, r.ticket) == moves_.end()) return false;
+            flaw.held.push_back(r);
+            return true;
+        });
+    }
+    std::vector<Ticket> moves_;
+};
+
+class StubbornLaws : public Laws {
+protected:
+    const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
+    const Origin plc{Door::modbus, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
+    std::uint64_t tickets = 1;
+    Family changed;
+
+    void SetUp() override {
+        flaw = {};
+        flaw.base = e.family;
+        changed = *e.family;
+        changed.served_by = nullptr;
+        changed.make_adapter = [](const Catalogue& c, LineKind kind) -> std::unique_ptr<Adapter> {
+            return std::make_unique<Stubborn>(flaw.base->make_adapter(c, kind));
+        };
+    }
+    /// In a world whose drives have flaws.
+    struct Drives {
+        std::size_t count = 1;
+        int channels = 1;
+        bool enabled = true;
+    };
+    void begin(Drives drives) {
+        begin([](AxisSpec&) {}, drives);
+    }
+    void begin(const std::function<void(AxisSpec&)>& fit, Drives drives = {1, 1, true}) {
+        Families mine = families();
+        for (auto& entry : mine.entries) {
+            if (entry.family->name != e.family->name) continue;
+            entry = e;
+            entry.family = &changed;
+        }
+        world = std::make_unique<World>(1, std::make_shared<Plant>(), std::move(mine));
+        Site s = world->twins(e, drives.count, drives.channels);
+        fit(s.axes.at(0));
+        start(std::move(s));
+        for (const AxisId axis : site->axis_ids) {
+            if (drives.enabled) order(axis, Enable{});
+        }
+        world->events.clear();
+    }
+    Ticket give(AxisId axis, CommandBody body, const Origin& by) {
+        Command c;
+        c.ticket = make_ticket(1, tickets++);
+        c.axis = axis;
+        c.body = std::move(body);
+        c.origin = by;
+        const Ticket ticket = c.ticket;
+        world->received_at = world->now;
+        world->engine.on_command(std::move(c), world->now);
+        return ticket;
+    }
+    [[nodiscard]] bool alarmed(std::string_view kind) const {
+        return std::ranges::any_of(world->events, [&](const Event& v) { return v.kind == kind && v.severity == Severity::alarm; });
+    }
+    [[nodiscard]] bool stands(Duration within) {
+        return world->run_until_true([&] { return speed(a1) < 1; }, within);
+    }
+};
+
+/// A position inside the limits is trusted until the axis is seen beyond them.
+TEST_P(StubbornLaws, APositionMoveThatGoesFurtherThanItsTargetIsStoppedBeyondTheLimit) {
+    begin([](AxisSpec& a) { a.position_max = 20'000 / a.increments_per_unit; });
+    flaw.further = 200'000;
+    const Result* r = ask(a1, move_to(15'000), false);
+    ASSERT_TRUE(r);
+    if (!good(*r)) {  // a drive that has its own limit refuses what leads beyond it
+        EXPECT_FALSE(r->text.empty());
+        return;
+    }
+    world->run_for(1s);
+    ASSERT_TRUE(stands(20s));
+    EXPECT_LT(mechanics(a1).position, 25'000);
+    world->run_for(1s);
+    EXPECT_LT(speed(a1), 1);
+}
+
+TEST_P(StubbornLaws, AnAxisThatIsFasterThanItsLimitIsStoppedWithAnAlarm) {
+    begin([](AxisSpec& a) { a.velocity_max = 4'000 / a.increments_per_unit; });
+    flaw.faster = 4;
+    const Result* r = ask(a1, move_to(3'000, Move::Kind::velocity), false);
+    ASSERT_TRUE(r);
+    if (!good(*r)) {
+        EXPECT_FALSE(r->text.empty());
+        return;
+    }
+    world->run_for(1s);
+    ASSERT_TRUE(stands(10s));
+    EXPECT_TRUE(alarmed("limit"));
+    EXPECT_EQ(now().stop_latch & 1, 1);
+    world->run_for(1s);
+    EXPECT_LT(speed(a1), 1);
+}
+
+/// The order to move came before the stop; that its answer comes behind it takes nothing of the stop back.
+TEST_P(StubbornLaws, AMoveWhoseAnswerComesBehindAStopTakesNothingOfTheStopBack) {
+    begin({1, 1, true});
+    flaw.answers_late = true;
+    flaw.stops_unheard = 1;
+    const Ticket move = world->command(a1, move_to(400'000, Move::Kind::relative), false);
+    ASSERT_TRUE(world->run_until_true([&] { return !flaw.held.empty(); }, 5s)) << "the drive has taken it";
+    give(a1, QuickStop{}, bert);
+    world->run_for(1ms);
+    ASSERT_NE(now().stop_latch, 0);
+    flaw.answers_late = false;
+    ASSERT_TRUE(world->wait(move, 5s)) << "it has its answer";
+    EXPECT_NE(now().stop_latch, 0) << "the stop of somebody else holds";
+    EXPECT_TRUE(stands(5s)) << "and is said again, because the drive has not heard it";
+}
+
+/// The same for an axis that is started together with another one, whose order it was.
+TEST_P(StubbornLaws, AJointStartWhoseAnswerComesBehindAStopTakesNothingOfTheStopBack) {
+    const int channels = std::min(2, e.catalogue->most_channels());
+    begin({channels > 1 ? 1u : 2u, channels, true});
+    const AxisId a2 = site->axis_ids.at(1);
+    Move m = move_to(400'000, Move::Kind::relative);
+    m.prepare_only = true;
+    for (const AxisId axis : {a1, a2}) {
+        const Result* r = ask(axis, m, false);
+        if (!r || !good(*r)) return;  // no prepared moves: the suite of joint starts says so
+    }
+    flaw.answers_late = true;
+    const Ticket both = world->command(a1, StartTogether{{a1, a2}}, false);
+    world->run_until_true([&] { return !flaw.held.empty(); }, 5s);
+    if (flaw.held.empty() || !good(flaw.held.front())) return;
+    flaw.stops_unheard = 1;
+    give(a2, QuickStop{}, bert);
+    world->run_for(1ms);
+    ASSERT_NE(now(a2).stop_latch, 0);
+    flaw.answers_late = false;
+    ASSERT_TRUE(world->wait(both, 5s)) << "it has its answer";
+    EXPECT_NE(now(a2).stop_latch, 0) << "the stop of somebody else holds";
+    EXPECT_TRUE(world->run_until_true([&] { return speed(a2) < 1; }, 5s));
+}
+
+TEST_P(StubbornLaws, AStopThatTheDriveDoesNotAcknowledgeIsGivenAgain) {
+    begin({1, 1, true});
+    turn(a1);
+    flaw.stops = 0;
+    flaw.stops_unheard = 3;
+    const Result* r = ask(a1, QuickStop{}, false);
+    ASSERT_TRUE(r);
+    EXPECT_FALSE(good(*r)) << "nobody has acknowledged it";
+    EXPECT_TRUE(stands(5s));
+    EXPECT_GT(flaw.stops, 3);
+    const int given = flaw.stops;
+    world->run_for(2s);
+    EXPECT_EQ(flaw.stops, given) << "what was acknowledged is not said again";
+}
+
+/// It stays enabled, because the drive does not hear that it shall switch off, and its client stays silent: that is one loss.
+TEST_P(StubbornLaws, ASilentClientOfAnAxisAtRestIsLostOnce) {
+    const auto fit = [](AxisSpec& a) {
+        a.fail_safe.of(LossCause::modbus_silent) = FailSafeAction::disable;
+        a.fail_safe.watchdog_ms = 400;
+    };
+    begin(fit, {1, 1, false});
+    const Ticket on = give(a1, Enable{}, plc);
+    ASSERT_TRUE(world->wait(on, 5s));
+    flaw.stops_unheard = 1000;
+    world->run_for(10s);
+    ASSERT_LT(flaw.stops_unheard, 1000) << "it was to be switched off";
+    EXPECT_EQ(events("fail_safe"), 1);
+    EXPECT_EQ(world->engine.losses(LossCause::modbus_silent), 1u);
+}
+
+/// A program of the drive pauses while the stop for the loss of its client is unheard, and goes on: it is stopped for that loss again.
+TEST_P(StubbornLaws, AProgramThatGoesOnBehindALossIsStoppedForItAgain) {
+    const auto& program = facts_of(e).at("motions").as_object().at("program").as_object();
+    if (program.contains("lacks")) return;
+    begin([](AxisSpec& a) {
+        a.fail_safe.of(LossCause::modbus_silent) = FailSafeAction::halt;
+        a.fail_safe.watchdog_ms = 2'000;
+    });
+    const auto say = [&](const boost::json::value& fact) {
+        const auto& o = fact.as_object();
+        CommandBody body;
+        if (const auto* text = o.if_contains("send")) {
+            body = Native{{text->as_string().begin(), text->as_string().end()}, true};
+        } else {
+            body = Action{std::string(o.at("action").as_string()), std::string(o.at("argument").as_string()), {}};
+        }
+        const Result* r = world->wait(give(a1, std::move(body), plc), 10s);
+        ASSERT_TRUE(r && good(*r)) << published(r);
+    };
+    for (const auto& before : program.at("before").as_array())
+        say(before);
+    say(program.at("begin"));
+    ASSERT_TRUE(world->run_until_true([&] { return moving(a1) && speed(a1) > 1'000; }, 1s));
+    world->run_for(300ms);
+    flaw.stops_unheard = 1'000;
+    ASSERT_TRUE(world->run_until_true([&] { return events("fail_safe") == 1; }, 5s));
+    flaw.shows_rest = true;
+    world->run_for(3s);
+    flaw.shows_rest = false;
+    flaw.stops_unheard = 0;
+    EXPECT_TRUE(stands(3s));
+    EXPECT_EQ(events("fail_safe"), 2);
+}
+
+TEST_P(StubbornLaws, AStreamThatTheDriveLeavesEndsInAHalt) {
+    begin({1, 1, true});
+    if (!e.catalogue->offers_mode(cia402::mode_of(SetPoint::Mode::velocity))) return;  // StreamLaws: it says so
+    const auto say = [&] {
+        SetPoint p;
+        p.axis = a1;
+        p.mode = SetPoint::Mode::velocity;
+        p.value = 3'000;
+        p.acceleration = p.deceleration = 20'000;
+        p.good_for = 5s;
+        p.at = world->now;
+        p.origin = bert;
+        return world->engine.on_set_point(p, world->now);
+    };
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_FALSE(say());
+        world->run_for(20ms);
+    }
+    ASSERT_GT(speed(a1), 1'000);
+    flaw.leaves_stream = true;
+    (void)say();
+    EXPECT_TRUE(stands(3s)) << "well before the set-point is too old";
+    EXPECT_FALSE(now().streaming);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, StubbornLaws, testing::ValuesIn(law_subjects()), name_of_subject);
+
+}  // namespace
+}  // namespace axisgate::test

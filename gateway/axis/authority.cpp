@@ -1,6 +1,5 @@
-// Authority: a lease by client; one that was given to a user alone is bound to the first client of that user that commands.
-// In: requests and their instant. Out: verdicts whose text names the holder.
-// Never allows two holders, and never makes a longer lease shorter.
+// The lease of an axis, by client. A lease that was handed to a user alone is bound to the first client of that user that commands. There
+// are never two holders, and a longer lease is never shortened.
 #include "gateway/axis/authority.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +12,7 @@ namespace {
 using Verdict = AxisAuthority::Verdict;
 using Change = AxisAuthority::Change;
 
-/// Not in the middle of a letter of several bytes.
+/// Cuts before a character of several bytes, never inside it.
 std::string cut(std::string_view name) {
     std::size_t n = std::min(name.size(), AxisAuthority::name_most);
     while (n > 0 && n < name.size() && (static_cast<unsigned char>(name[n]) & 0xC0u) == 0x80u)
@@ -28,7 +27,7 @@ AuthorityClient AuthorityClient::of(const Origin& origin) {
     if (origin.client) {
         c.name = cut(*origin.client);
     } else if (origin.who) {
-        // A client that comes from another port each time is still the same client.
+        // A client that uses another port each time is still the same client.
         const auto colon = origin.who->rfind(':');
         c.name = cut(std::string_view(*origin.who).substr(0, colon));
     }
@@ -58,7 +57,7 @@ bool AxisAuthority::mine(const AuthorityClient& who) const noexcept {
            who.name[holder_.name.size()] == ' ';
 }
 
-/// Who was named by the user alone is this client from now on. True: it was not before.
+/// Binds a lease for a user to this client of the user. Returns true if it was not bound before.
 bool AxisAuthority::bind(const AuthorityClient& who) noexcept {
     for_any_of_user_ = false;
     if (holder_ == who) return false;
@@ -86,7 +85,7 @@ Verdict AxisAuthority::command(const AuthorityClient& who, AuthorityMode mode, D
     const bool held_already = held(now);
     if (held_already && bind(who)) v = {true, Change::renewed, "held by " + who.text()};
     if (mode == AuthorityMode::lease) {
-        // A lease that was taken for longer is not made shorter by a command.
+        // A command does not shorten a lease that was taken for longer.
         give(who, held_already ? std::max(lease, until_ - now) : lease, now);
         if (!held_already) v = {true, Change::taken, "held by " + who.text()};
     }

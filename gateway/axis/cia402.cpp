@@ -1,6 +1,6 @@
-// CiA 402, requests: a change is tried on a copy of the state and kept only if nothing refused it.
-// In: words, commands, streamed set-points. Out: orders. States that a drive with mere on and off has not (ready, switched on) are kept
-// here. Never sends by itself: every order is a return value. What the drive says of it is cia402_feedback.cpp.
+// The requests to the CiA 402 state machine. A request is tried on a copy of the state, which is kept only if nothing refused it. States
+// that a drive with only on and off does not have (ready, switched on) are kept here. Every order is a return value; nothing is sent from
+// here. cia402_feedback.cpp contains the drive's side.
 #include "gateway/axis/cia402.hpp"
 
 #include <fmt/core.h>
@@ -15,16 +15,17 @@ namespace {
 constexpr std::uint16_t so = cw_switch_on, ev = cw_enable_voltage, qs = cw_quick_stop, eo = cw_enable_operation,
                         on_bits = so | ev | qs | eo;
 
-/// What a control word does to the power.
+/// The effect of a control word on the power.
 enum class Power : std::uint8_t { stays, on, on_by_edge, off, quick_stop, quick_stop_again };
 constexpr std::uint16_t same = 0xFFFF;
 struct Transition {
     PowerState from;
     std::uint16_t set, clear;  // bits of the word that are 1, and one that is 0
-    std::uint16_t step;        // where virtual_step goes
+    std::uint16_t step;        // the new virtual_step
     Power power;
 };
-/// By the numbers of IEC 61800-7-201; the first that applies counts. A fault is left by the drive, or by the fault reset's edge.
+/// The numbers are those of IEC 61800-7-201; the first matching row applies. A fault is left by the drive, or by the edge of the fault
+/// reset.
 constexpr Transition transitions[] = {
     {PowerState::switch_on_disabled, ev | qs, so, 1, Power::stays},         // 2
     {PowerState::ready_to_switch_on, 0, ev, 0, Power::stays},               // 7
@@ -40,7 +41,7 @@ constexpr Transition transitions[] = {
     {PowerState::operation_enabled, 0, so, 1, Power::off},                  // 8
     {PowerState::operation_enabled, 0, eo, 2, Power::off},                  // 5
     {PowerState::quick_stop_active, 0, ev, 0, Power::off},                  // 12
-    {PowerState::quick_stop_active, 0, qs, same, Power::quick_stop_again},  // while it still moves
+    {PowerState::quick_stop_active, 0, qs, same, Power::quick_stop_again},  // while the axis still moves
     {PowerState::quick_stop_active, on_bits, 0, 3, Power::on_by_edge},      // 16
 };
 }  // namespace
@@ -64,8 +65,8 @@ Cia402Axis::Decision Cia402Axis::in_fault(const State& s) const {
 
 void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
     s.forget(Cause::motion_ends);
-    // The actual position is the first target: nothing moves because something was enabled. What this very client has written for the
-    // set-point that it is about to give is kept; what was written or used before by anybody is not.
+    // The actual position becomes the first target, so that enabling never starts a motion. Values that this client has written for the
+    // set-point that it is about to give are kept; values that any client wrote or used before are not.
     const bool kept = own && own->enables == s.enables && own->target_pending;
     ++s.enables;
     s.ordered_on = true;
@@ -78,7 +79,7 @@ void Cia402Axis::order_on(State& s, Words* own, Decision& d) {
     d.orders.emplace_back(Enable{});
 }
 
-/// Said even if the drive seems to be off, or is not heard.
+/// The order is given even if the drive seems to be off or does not answer.
 void Cia402Axis::order_off_blindly(State& s, Decision& d) {
     s.forget(Cause::motion_ends);
     s.virtual_step = 0;
@@ -95,7 +96,7 @@ void Cia402Axis::order_off(State& s, Decision& d) {
     d.orders.emplace_back(Disable{});
 }
 
-/// Transition 15 ends in switch on disabled: a drive that holds its power through a fault is switched off along with the reset.
+/// Transition 15 ends in switch on disabled: a drive that keeps its power through a fault is switched off together with the reset.
 void Cia402Axis::order_reset(State& s, Decision& d) {
     d.orders.emplace_back(ResetFault{});
     if (s.feedback.fault && s.feedback.power == AxisFeedback::Power::on) {
@@ -113,7 +114,7 @@ bool Cia402Axis::Request::is_fresh() const noexcept {
     return by_word || (data.target_velocity && own.velocity_known && own.target_velocity != *data.target_velocity);
 }
 
-/// The words of a client.
+/// The registers of a client.
 Cia402Axis::Client& Cia402Axis::client(const AuthorityClient& who) {
     auto found = std::ranges::find(clients_, who, &Client::who);
     if (found == clients_.end()) {
@@ -125,7 +126,8 @@ Cia402Axis::Client& Cia402Axis::client(const AuthorityClient& who) {
         *found = Client{who, {}, 0};
         if (!s_.stopped) found->words.turn = s_.turn;
     }
-    // It is not known what it wrote before a stop; since somebody has enabled or moved the axis it would have been heard.
+    // It is unknown which word the client wrote before a stop. If another client has enabled or moved the axis since, the client's words
+    // would have been received.
     if (!s_.stopped) {
         if (!found->words.controlword) found->words.controlword = s_.controlword;
         found->words.velocity_known = true;
@@ -134,8 +136,8 @@ Cia402Axis::Client& Cia402Axis::client(const AuthorityClient& who) {
     return *found;
 }
 
-/// The drive is offline or has not reported a position yet, so it may still be moving. A word that stops is sent, and its answer is the
-/// drive's; everything else is refused, for there is nobody who could do it. False: refused, and `d` says why.
+/// The drive is offline or has not reported a position yet, so it may still be moving. A stopping word is sent, and its answer is the
+/// drive's; everything else is refused, because no drive could carry it out. Returns false if refused; `d` contains the reason.
 bool Cia402Axis::change_unreceived(State& s, const Request& r, Decision& d) const {
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
@@ -153,10 +155,11 @@ bool Cia402Axis::change_unreceived(State& s, const Request& r, Decision& d) cons
     return true;
 }
 
-/// It is shown without power, or in fault, and moves or may move all the same: what a word would end in operation enabled it ends here.
+/// The axis is shown without power or in fault, and moves or may move: a word that would end a motion in operation enabled ends it here,
+/// too.
 void Cia402Axis::stop_in_any_state(State& s, const Request& r, Decision& d) const {
     const bool repeated = r.known && r.before == r.word;
-    if (repeated && s.feedback.power == AxisFeedback::Power::off) return;  // it has been switched off already, and runs down
+    if (repeated && s.feedback.power == AxisFeedback::Power::off) return;  // the axis was switched off already, and runs down
     if (!(r.word & cw_enable_voltage)) {
         order_off_blindly(s, d);
     } else if (!(r.word & cw_quick_stop)) {
@@ -174,7 +177,7 @@ void Cia402Axis::stop_in_any_state(State& s, const Request& r, Decision& d) cons
 void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
     const bool powered = s.state == PowerState::operation_enabled || s.state == PowerState::quick_stop_active;
     if (s.power_pending == 1 && !powered && (r.word & on_bits) != on_bits) {
-        // On its way to being switched on: that is taken back, not waited for.
+        // The axis is being switched on: this is reversed without waiting for it.
         s.virtual_step = !(r.word & ev) || !(r.word & qs) ? 0 : !(r.word & so) ? 1 : 2;
         return order_off(s, d);
     }
@@ -183,11 +186,11 @@ void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
         stop_in_any_state(s, r, d);
         if (d.orders.size() != orders) return;
     }
-    const bool may_rise = r.current || r.enables_anew();  // repeated words do not undo what somebody else has ended
+    const bool may_rise = r.current || r.enables_anew();  // repeated words do not undo what another client has ended
     for (const Transition& t : transitions) {
         if (t.from != s.state || (r.word & t.set) != t.set || (r.word & t.clear)) continue;
         if (t.power == Power::on && !may_rise) continue;
-        // An edge: a controller that writes the same word again and again does not undo a stop, whoever made it.
+        // An edge is required: a controller that writes the same word again and again does not undo a stop of any client.
         if (t.power == Power::on_by_edge && !r.enables_anew()) continue;
         if (t.power == Power::quick_stop_again && !s.feedback.moving && !s.recorded) continue;
         if (t.step != same) s.virtual_step = t.step;
@@ -195,7 +198,7 @@ void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
             case Power::stays:
                 return settle(s);
             case Power::on:
-            case Power::on_by_edge:  // the drive is told again, so that a lock that the stop has set is gone or is reported
+            case Power::on_by_edge:  // the order is repeated to the drive, so that a lock that the stop has set is removed or reported
                 return order_on(s, &r.own, d);
             case Power::off:
                 return order_off(s, d);
@@ -210,7 +213,7 @@ void Cia402Axis::change_power(State& s, const Request& r, Decision& d) const {
     if (s.state >= PowerState::switch_on_disabled && s.state <= PowerState::switched_on) settle(s);
 }
 
-/// A rising edge of bit 4 in profile position mode. False: refused, and `d` says why.
+/// A rising edge of bit 4 in profile position mode. Returns false if refused; `d` contains the reason.
 bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
     Words& own = r.own;
     if (s.halted) {
@@ -224,8 +227,8 @@ bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
     }
     Move m;
     m.kind = (r.word & cw_relative) ? Move::Kind::relative : Move::Kind::absolute;
-    // A target that this client has not written since the axis was enabled, or since another drive serves it, is nobody's wish: what
-    // register 34 shows may be another client's, or be older. The axis stays where it is.
+    // A target that this client has not written since the axis was enabled, or since another drive serves it, is not its intention:
+    // register 34 may show another client's value, or an old one. The axis stays at its position.
     const std::int64_t here = m.kind == Move::Kind::relative ? 0 : s.feedback.position;
     m.target = own.target_known ? own.target_position : here;
     m.velocity = own.velocity;
@@ -249,8 +252,9 @@ bool Cia402Axis::new_set_point(State& s, const Request& r, Decision& d) const {
     return true;
 }
 
-/// Not enabled, or the power state changes with this very word: an edge for a motion has nothing to act on. A word that stops or resets is
-/// not refused for it: what ends a motion never depends on the bits that would begin one. False: refused, and `d` says why.
+/// The axis is not enabled, or the power state changes with this very word, so an edge for a motion has no effect. A word that stops or
+/// resets is not refused for this: whether it ends a motion never depends on the bits that would begin one. Returns false if refused; `d`
+/// contains the reason.
 bool Cia402Axis::change_without_power(State& s, const Request& r, Decision& d) const {
     const auto ends = [](const CommandBody& o) { return is_urgent(o) || std::holds_alternative<ResetFault>(o); };
     if (r.begins(cw_new_setpoint) && std::ranges::none_of(d.orders, ends) && (s.mode == mode_profile_position || s.mode == mode_homing)) {
@@ -261,7 +265,7 @@ bool Cia402Axis::change_without_power(State& s, const Request& r, Decision& d) c
     return true;
 }
 
-/// Bit 8: set, it halts the motion; cleared, a motion to a target goes on.
+/// Bit 8: setting it halts the motion; clearing it lets a motion to a target continue.
 void Cia402Axis::change_halt(State& s, const Request& r, Decision& d) const {
     if (r.begins(cw_halt)) {
         s.halted = true;
@@ -276,7 +280,7 @@ void Cia402Axis::change_halt(State& s, const Request& r, Decision& d) const {
     }
 }
 
-/// Bit 4 in homing mode: its rising edge starts homing, its falling one ends it. False: refused, and `d` says why.
+/// Bit 4 in homing mode: its rising edge starts homing, its falling edge ends it. Returns false if refused; `d` contains the reason.
 bool Cia402Axis::change_homing(State& s, const Request& r, bool starts, Decision& d) const {
     if (starts) {
         if (Decision no = may_home(s); no.refused) {
@@ -290,12 +294,12 @@ bool Cia402Axis::change_homing(State& s, const Request& r, bool starts, Decision
     return true;
 }
 
-/// The target velocity in profile velocity mode: written, or released by the end of a halt.
+/// The target velocity in profile velocity mode: it was written, or the end of a halt releases it.
 void Cia402Axis::change_velocity(State& s, const Request& r, Decision& d) const {
     if (s.halted || (!r.current && !r.fresh)) return;
     const bool released = (r.falling() & cw_halt) && r.own.velocity_forgotten == s.forgotten;
     if (!r.data.target_velocity && !released) return;
-    // A speed whose order has no answer yet is not ordered once more because its client repeats it.
+    // A speed whose order has no answer yet is not ordered again because the client repeats it.
     if (r.own.target_velocity == s.asked_velocity.value_or(s.ordered_velocity)) return;
     Move m;
     m.kind = Move::Kind::velocity;
@@ -306,7 +310,7 @@ void Cia402Axis::change_velocity(State& s, const Request& r, Decision& d) const 
     s.asked_velocity = m.target;
 }
 
-/// Halt, new set-points, homing start. False: refused, and `d` says why.
+/// Halt, new set-points, start of homing. Returns false if refused; `d` contains the reason.
 bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
     if (r.falling() & cw_new_setpoint) s.setpoint_acknowledged = false;
     const bool enabled = s.state == PowerState::operation_enabled && s.power_pending != 0;
@@ -319,7 +323,7 @@ bool Cia402Axis::change_motion(State& s, const Request& r, Decision& d) const {
     return true;
 }
 
-/// What the block says but its word: targets, profile and mode.
+/// The values of the block without the control word: targets, profile and mode.
 void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
     const ProcessData& data = r.data;
     Words& own = r.own;
@@ -333,8 +337,8 @@ void Cia402Axis::latch_values(State& s, const Request& r, Decision& d) const {
     if (data.profile_acceleration) s.profile_acceleration = own.acceleration = *data.profile_acceleration;
     if (data.profile_deceleration) s.profile_deceleration = own.deceleration = *data.profile_deceleration;
     if (data.homing_method) s.homing_method = *data.homing_method;
-    // A mode that is merely repeated does not end what somebody else does in another one; at rest it is taken, and one that was said then
-    // and not since with the next fresh edge of the same client's words.
+    // A repeated mode does not end the activity of another client in another mode. At rest it is accepted; a mode that was written
+    // meanwhile and not since is accepted with the next fresh edge of the same client's words.
     const bool busy = s.feedback.moving || s.feedback.homing || s.recorded || s.ordered_velocity != 0;
     const bool returns = !data.mode && !busy && !s.following && r.is_fresh();
     const std::optional<std::int16_t> mode = returns ? own.mode : data.mode;
@@ -415,8 +419,8 @@ Cia402Axis::Decision Cia402Axis::may_home(const State& s) const {
     return {};
 }
 
-/// A motion by command: what it is shown as, and what it makes forgotten. While another one runs, that waits until the drive has taken it:
-/// an order that is refused leaves the motion of another client, its mode and what waits behind it as they are.
+/// A motion by command: the mode and targets that it shows, and the values that it discards. While another motion runs, both wait until the
+/// drive has accepted the order: a refused order leaves the motion of another client, its mode and its waiting set-point as they are.
 void Cia402Axis::ask_motion(State& s, const CommandBody& body) {
     if (s.runs()) {
         ++s.asked_motions;
@@ -447,7 +451,7 @@ void Cia402Axis::State::take_motion(const CommandBody& body) {
     }
 }
 
-/// By command.
+/// Homing by command.
 void Cia402Axis::enable(State& s, Words* own, Decision& d) {
     s.ordered_on = true;
     // An axis that is enabled already keeps the other bits: a word that a controller repeats must not become an edge by this command.
@@ -458,7 +462,7 @@ void Cia402Axis::enable(State& s, Words* own, Decision& d) {
         s.virtual_step = 3;
         order_on(s, own, d);
     } else if (s.halted) {
-        s.forget(Cause::motion_ends);  // a halt bit that its client has left behind ends here, and nothing goes on for that
+        s.forget(Cause::motion_ends);  // a halt bit that its client has left set ends here, and no motion continues because of that
     }
 }
 

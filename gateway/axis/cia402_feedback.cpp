@@ -1,6 +1,5 @@
-// CiA 402, what the drive says: the power state, what became of orders, who answers, and the picture of it all.
-// In: feedback, results of orders, presence. Out: the state, the picture, and the one order that follows from feedback itself.
-// Never judges a request: those are cia402.cpp.
+// The drive's side of the state machine: power state, results of orders, the serving side, and the picture of the axis. Requests are judged
+// in cia402.cpp.
 #include "gateway/axis/cia402.hpp"
 
 #include <algorithm>
@@ -53,7 +52,7 @@ static std::uint16_t coding_of(PowerState state) noexcept {
     return codings[static_cast<std::size_t>(state)];
 }
 
-/// Sets the power state from what the drive says and what this class keeps for it.
+/// Derives the power state from the drive's report and the state that this class keeps for it.
 void Cia402Axis::settle(State& s) const {
     if (s.presence == Presence::offline || !s.seen) {
         s.state = PowerState::not_ready_to_switch_on;
@@ -70,8 +69,8 @@ void Cia402Axis::settle(State& s) const {
         return;
     }
     if (s.feedback.power == AxisFeedback::Power::on) {
-        if (s.power_pending == 0) return;  // it will be off soon; the answer decides
-        // The drive may have been stopped at itself: by its own panel, an input, or another master. It is left like any quick stop.
+        if (s.power_pending == 0) return;  // the power will be off soon; the answer decides
+        // The drive may have been stopped by its own panel, an input, or another master. This state is left like any quick stop.
         const bool stopping = s.feedback.quick_stopping || own == PowerState::quick_stop_active;
         const bool stopped = s.quick_stopped || (stopping && s.power_pending != 1);
         if (stopped && s.state == PowerState::operation_enabled) {
@@ -82,7 +81,7 @@ void Cia402Axis::settle(State& s) const {
         return;
     }
     if (s.power_pending == 1) return;
-    if (s.virtual_step == 3) {  // it was on by our order and went off by itself: back to the first step
+    if (s.virtual_step == 3) {  // the axis was on by our order and went off by itself: it returns to the first step
         s.virtual_step = 0;
         s.forget(Cause::motion_ends);
         s.end_turn();
@@ -91,14 +90,14 @@ void Cia402Axis::settle(State& s) const {
     s.state = s.state_when_off();
 }
 
-/// The drive has ended by itself what anybody was about: nobody's repeated words begin it again.
+/// The drive has ended the motion by itself; repeated words of no client begin it again.
 void Cia402Axis::State::end_turn() noexcept {
     ++turn;
     stopped = true;
 }
 
-/// Without power: the steps that a control word has gone where the drive knows on and off alone. A drive's own state is never shown lower
-/// than it is; a step that it does not know, and that a control word waits for, is shown above it.
+/// Without power: the steps that a control word has taken where the drive knows only on and off. A drive's own state is never shown lower
+/// than it is; a step that the drive does not know, and that a control word waits for, is shown above it.
 PowerState Cia402Axis::State::state_when_off() const noexcept {
     const PowerState step = virtual_step == 1   ? PowerState::ready_to_switch_on
                             : virtual_step == 2 ? PowerState::switched_on
@@ -107,7 +106,7 @@ PowerState Cia402Axis::State::state_when_off() const noexcept {
     return own <= PowerState::switched_on ? std::max(own, step) : step;
 }
 
-/// Whether it was asked for by command while another motion ran: then it counts from here on, if the drive has taken it.
+/// True if the motion was ordered while another one ran: then it counts from here on, if the drive has accepted it.
 bool Cia402Axis::asked_beside_another(State& s, const CommandBody& order, bool good) {
     if (s.asked_motions == 0) return false;
     --s.asked_motions;
@@ -162,7 +161,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
         shown(s.profile_velocity, m->velocity);
         shown(s.profile_acceleration, m->acceleration);
         shown(s.profile_deceleration, m->deceleration);
-        // Bit 12 answers bit 4: whoever has not set it does not wait for it to fall.
+        // Bit 12 answers bit 4: a client that has not set bit 4 does not wait for bit 12 to fall.
         s.setpoint_acknowledged = (s.controlword & cw_new_setpoint) != 0;
         if (m->kind == Move::Kind::velocity) {
             s.ordered_velocity = m->target;
@@ -181,7 +180,7 @@ void Cia402Axis::on_order_result(const CommandBody& order, bool good, Instant no
 std::optional<CommandBody> Cia402Axis::on_feedback(const AxisFeedback& feedback, Instant now) {
     State& s = s_;
     AxisFeedback f = feedback;
-    // Read before the drive acknowledged a power order: that part is already known better.
+    // This was read before the drive acknowledged a power order, so its power state is out of date.
     if (s.seen && f.at <= s.power_known_at) {
         f.power = s.feedback.power;
         f.quick_stopping = s.feedback.quick_stopping;
@@ -215,7 +214,7 @@ void Cia402Axis::on_presence(Presence presence) {
     if (presence == s_.presence) return;
     s_.presence = presence;
     s_.seen = false;
-    // Of a drive that is silent the last values are kept, with their age; what it is doing now is not known. Another drive begins anew.
+    // For a silent drive the last values are kept, with their age; its present activity is unknown. Another drive starts with empty values.
     AxisFeedback last;
     if (presence == Presence::offline || presence == s_.received) {
         last.position = s_.feedback.position;
@@ -235,7 +234,7 @@ void Cia402Axis::on_presence(Presence presence) {
     s_.repeated_moves = 0;
     s_.homing_refused = s_.reacting = false;
     s_.reaction_at = {};
-    ++s_.enables;  // written targets count no more
+    ++s_.enables;  // targets written earlier become invalid
     s_.ordered_on = false;
     s_.asked_motions = 0;
     s_.forget(Cause::motion_ends);
@@ -253,7 +252,7 @@ bool Cia402Axis::commanded() const noexcept {
            s_.feedback.moving;
 }
 
-/// What status word and flags show as arrived: by the mode, where the axis stands or has the speed that it should have.
+/// The condition for "target reached" in status word and flags: by mode, the axis stands or has its speed.
 bool Cia402Axis::State::reached() const noexcept {
     if (mode == mode_homing) return !feedback.moving && !feedback.homing;
     if (mode == mode_profile_velocity && !halted)
@@ -261,7 +260,7 @@ bool Cia402Axis::State::reached() const noexcept {
     return !feedback.moving && (feedback.target_reached || (halted && !is_streamed(mode)));
 }
 
-/// Bits 12 and 13, which each mode has for itself.
+/// Bits 12 and 13, which have a meaning of their own in each mode.
 std::uint16_t Cia402Axis::State::mode_bits() const noexcept {
     if (mode == mode_profile_velocity) return feedback.velocity == 0 ? sw_mode_12 : 0;
     if (is_streamed(mode)) return following ? sw_mode_12 : 0;  // the drive follows the command value

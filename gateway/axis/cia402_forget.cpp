@@ -1,5 +1,5 @@
-// CiA 402, what is forgotten: one table of causes, so that no place that ends a motion keeps a wish that another one drops. A wish that
-// outlives its motion moves the axis when nobody has asked for it.
+// One table says which values each cause discards, so that no place that ends a motion keeps a value that another one drops. A set-point
+// that outlives its motion would move the axis without a request.
 #include <algorithm>
 #include <utility>
 
@@ -55,7 +55,7 @@ void Cia402Axis::State::forget(Cause cause) {
     if (wishes & Wish::stream) leave_stream();
 }
 
-/// Back to the mode before it, unless somebody has chosen another one since.
+/// Returns to the former mode, unless a client has chosen another one since.
 void Cia402Axis::State::leave_stream() {
     if (!std::exchange(following, false) || !cia402::is_streamed(mode)) return;
     mode = mode_before;

@@ -1,5 +1,5 @@
-// Demand: a motion as pieces of constant acceleration. In: orders. Out: pieces of constant acceleration, in order, without gaps of
-// position. Never allocates, never divides by what may be 0.
+// Computes a motion as pieces of constant acceleration, in order and without gaps of position. It never allocates, and never divides by a
+// value that may be 0.
 #include "gateway/axis/demand.hpp"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 double seconds_of(Duration d) noexcept { return std::chrono::duration<double>(d).count(); }
 
-/// The way between two speeds.
+/// The distance between two speeds.
 double way(double high, double low, double rate) noexcept {
     return high > low && rate < DemandRamps::at_once ? (high - low) * (high + low) / (2 * rate) : 0;
 }
 
-/// Highest speed on a way of `distance` that begins with `from`, ends with `to`, and turns from one ramp into the other.
+/// The highest speed on a way of `distance` that begins with `from`, ends with `to`, and changes from one ramp to the other.
 double peak_of(double distance, double from, double to, const DemandRamps& r) noexcept {
     // distance = (w^2 - from^2) / 2a + (w^2 - to^2) / 2d
     const double up = r.acceleration < DemandRamps::at_once ? 1 / (2 * r.acceleration) : 0;
@@ -51,7 +51,7 @@ void Demand::add(double seconds, double velocity, double acceleration) noexcept 
     }
 }
 
-/// Slower, in the present direction: with the ramp down to the start speed, below it at once.
+/// Slows down in the present direction: with the ramp down to the start speed, below it at once.
 void Demand::brake(double to_speed, const DemandRamps& ramps) noexcept {
     const double direction = end_.velocity < 0 ? -1 : 1;
     const double from = std::abs(end_.velocity), to = std::max(to_speed, std::min(from, ramps.start_speed));
@@ -61,7 +61,7 @@ void Demand::brake(double to_speed, const DemandRamps& ramps) noexcept {
     end_.velocity = direction * to_speed;
 }
 
-/// Faster, in `direction`: from rest it steps to the start speed.
+/// Accelerates in `direction`: from rest it steps to the start speed.
 void Demand::accelerate(double direction, double to_speed, const DemandRamps& ramps) noexcept {
     const double from = std::max(std::abs(end_.velocity), std::min(ramps.start_speed, to_speed));
     if (to_speed > from && ramps.acceleration < DemandRamps::at_once) {
@@ -88,7 +88,7 @@ void Demand::move(Instant now, double target, double speed, const DemandRamps& r
     if (end_.velocity != 0) {
         const double direction = end_.velocity < 0 ? -1 : 1, ahead = direction * (target - end_.position);
         const double needed = way(std::abs(end_.velocity), ramps.start_speed, ramps.deceleration);
-        // The same target again while braking for it: a hair too late by rounding is in time.
+        // The same target may be ordered again while braking for it: a deviation by rounding counts as in time.
         if (ahead <= 0 || needed > ahead + 0.5) brake(0, ramps);
     }
     double left = std::abs(target - end_.position);

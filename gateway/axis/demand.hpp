@@ -1,6 +1,6 @@
-// Demand: where an axis should be at an instant, computed from the orders that its drive has acknowledged, for drives that do not say it.
-// In: orders (target, speed, ramps) and the instants of their acknowledgement. Out: position and speed at any later instant.
-// Never measured: who shows it says "computed". No jerk, no load, no clock of its own; unknown until told where the axis rests.
+// Computes the demand position of an axis at any instant from the orders that its drive has acknowledged (target, speed, ramps), for drives
+// that do not report it. It knows no jerk and no load, and it is unknown until the rest position is given. A value from here must be shown
+// as "computed".
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace axisgate {
 
-/// How a drive changes its speed. A rate of `infinity`: at once.
+/// The ramps with which a drive changes its speed. A rate of `infinity` means at once.
 struct DemandRamps {
     static constexpr double at_once = std::numeric_limits<double>::infinity();
     double acceleration = at_once;  ///< increments/s^2, above 0
     double deceleration = at_once;  ///< increments/s^2, above 0
-    double start_speed = 0;         ///< increments/s, 0 or more: the speed steps to it from rest, and from it to rest
+    double start_speed = 0;         ///< increments/s, 0 or more: the speed steps to this value from rest, and from it to rest
 };
 
 struct DemandState {
@@ -24,26 +24,26 @@ struct DemandState {
     double velocity = 0;  ///< increments/s
 };
 
-/// A trapezoid, or what is left of one, in closed form: asking costs nothing between the questions, and any instant can be asked.
-/// A new order goes on from the state that the old one had at that instant; a reversal brakes to rest first.
+/// A trapezoid, or the rest of one, in closed form, so that it can be evaluated at any instant. A new order continues from the state at
+/// that instant; a reversal brakes to rest first.
 class Demand {
 public:
-    /// Nobody knows any more where the axis should be: off, moved by somebody else, ended by itself.
+    /// The demand becomes unknown: the axis is off, was moved by another client, or ended its motion by itself.
     void forget() noexcept { known_ = false; }
     [[nodiscard]] bool known() const noexcept { return known_; }
 
-    /// Held there.
+    /// The axis is held at this position.
     void rest(double position) noexcept;
-    /// To `target` at no more than `speed` (above 0). Ends exactly there; brakes and comes back if it cannot stop in time.
+    /// Moves to `target` with at most `speed` (above 0) and ends exactly there; if it cannot stop in time, it brakes and returns.
     void move(Instant now, double target, double speed, const DemandRamps& ramps) noexcept;
-    /// At `velocity` for ever, its sign the direction; 0 brakes.
+    /// Moves with `velocity` without an end; its sign is the direction, and 0 brakes.
     void run(Instant now, double velocity, const DemandRamps& ramps) noexcept;
-    /// Brakes to rest, whatever it was doing.
+    /// Brakes to rest from any motion.
     void stop(Instant now, const DemandRamps& ramps) noexcept { run(now, 0, ramps); }
 
-    /// Meaningless while not known. An instant before the last order is answered with that order's beginning.
+    /// Without meaning while the demand is unknown. An instant before the last order is answered with the begin of that order.
     [[nodiscard]] DemandState at(Instant now) const noexcept;
-    /// Whether the order is carried out at `now`: the demand rests.
+    /// True if the order is finished at `now`, that is, the demand rests.
     [[nodiscard]] bool over(Instant now) const noexcept;
 
 private:
@@ -61,9 +61,9 @@ private:
     bool known_ = false;
     Instant since_{};
     double length_ = 0;  ///< s; infinite for a run
-    DemandState end_;    ///< while an order is taken: the state behind the pieces so far
+    DemandState end_;    ///< while an order is accepted: the state behind the pieces so far
     std::size_t count_ = 0;
-    std::array<Piece, 4> pieces_{};  ///< brake to turn, rise or fall to the speed, cruise, brake to the end
+    std::array<Piece, 4> pieces_{};  ///< brake to reverse, change to the speed, cruise, brake to the end
 };
 
 }  // namespace axisgate

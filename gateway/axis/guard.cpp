@@ -1,5 +1,4 @@
-// Guard: compares in increments, and words its refusals in the axis' own unit.
-// In: a command, limits, the position. Out: nothing, or the refusal with the range that is allowed. Never clips.
+// Compares in increments, and writes its refusals in the axis' own unit. Values are never clipped.
 #include "gateway/axis/guard.hpp"
 
 #include <fmt/core.h>
@@ -15,7 +14,7 @@ namespace {
 std::optional<std::int64_t> increments(const std::optional<double>& v, double scale) {
     if (!v) return std::nullopt;
     const double x = *v * scale;
-    return std::llround(std::clamp(x, -9.2e18, 9.2e18));  // a limit beyond what can be counted stays a limit
+    return std::llround(std::clamp(x, -9.2e18, 9.2e18));  // a limit beyond the range of numbers stays a limit
 }
 
 std::optional<Refusal> check_position(std::int64_t target, const AxisLimits& l) {
@@ -114,7 +113,7 @@ void name_rates(Move& m, const AxisLimits& l, const DriveRates& drive) {
 
 std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_t> offered) {
     if (mode == cia402::mode_none) return std::nullopt;
-    std::string chosen;  // what may be written instead
+    std::string chosen;  // the allowed modes
     for (const std::int16_t m : offered) {
         if (cia402::is_streamed(m)) continue;
         if (m == mode) return std::nullopt;
@@ -131,7 +130,7 @@ std::optional<Refusal> guard_mode(std::int16_t mode, std::span<const std::int16_
 std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits& l) {
     const auto rate = [&](std::string_view what, std::optional<std::uint32_t> v, std::optional<std::int64_t> max,
                           std::string_view per) -> std::optional<Refusal> {
-        if (!v || *v == 0) return std::nullopt;  // 0: as the drive has it
+        if (!v || *v == 0) return std::nullopt;  // 0: the drive's own value
         return check_rate(what, static_cast<std::int64_t>(*v), max, l, per);
     };
     if (auto r = rate("profile velocity", d.profile_velocity, l.velocity_max, "/s")) return r;
@@ -141,7 +140,7 @@ std::optional<Refusal> guard_process_data(const ProcessData& d, const AxisLimits
         Move m;
         m.kind = Move::Kind::velocity;
         m.target = *d.target_velocity;
-        AxisLimits rates = l;  // whether it leads out of the limits is asked when it moves the axis
+        AxisLimits rates = l;  // the position is checked when it moves the axis
         rates.position_min = rates.position_max = std::nullopt;
         return guard_move(m, rates, 0);
     }

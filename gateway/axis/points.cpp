@@ -1,5 +1,4 @@
-// Points: words for modes and presence, units as text, and the lists that have another order than the table.
-// In: the table. Out: texts and lists.
+// Words for modes and presence, texts of units, and the lists whose order differs from that of the table.
 #include "gateway/axis/points.hpp"
 
 #include <fmt/core.h>

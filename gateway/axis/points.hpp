@@ -1,7 +1,7 @@
-// Points: every value that the gateway shows of an axis, in one table: what it is, how it is read from a picture, and who shows it.
-// The HTTP document, the live feed's comparison, the DDS sample, the recorder, user maps, metrics and recipes walk the table; a value that
-// stands here is found at each of them. What is fixed outside (standard map, IDL, files of the recorder) is held against it by tests.
-// In: pictures. Out: values and names. Texts of a value are the picture's own: they live as long as the picture does.
+// Every value that the gateway shows of an axis, in one table: its type, how it is read from a picture, and the doors that show it. The
+// HTTP document, the comparison of pictures in the live feed, the DDS sample, the recorder, user maps, metrics and recipes walk this table,
+// so a new row appears in each of them. Formats that are fixed elsewhere (standard map, IDL, files of the recorder) are compared with the
+// table by tests. Texts of a value belong to the picture and live as long as it does.
 #pragma once
 
 #include <array>
@@ -27,45 +27,46 @@ namespace axisgate {
 [[nodiscard]] std::string_view mode_name(std::int16_t mode) noexcept;
 [[nodiscard]] std::string_view name_of(Presence presence) noexcept;
 
-/// monostate: not known. Whole numbers of every width travel as int64.
+/// monostate: unknown. Whole numbers of every width are int64 here.
 using PointValue = std::variant<std::monostate, bool, std::int64_t, double, std::string_view>;
 
-/// What a value is measured in. `axis` and `axis_per_s`: the axis' own unit; such a value is read in increments.
+/// The unit of a value. `axis` and `axis_per_s`: the axis' own unit; such a value is read in increments.
 enum class PointUnit : std::uint8_t { none, increments, increments_per_s, increments_per_s2, axis, axis_per_s, ms, s };
 [[nodiscard]] constexpr bool is_axis_unit(PointUnit unit) noexcept { return unit == PointUnit::axis || unit == PointUnit::axis_per_s; }
-/// "mm", "mm/s" for those in the axis' unit, "increments" and so on for the others; empty: nothing.
+/// For example "mm" and "mm/s" for values in the axis' unit, "increments" for others; empty: no unit.
 [[nodiscard]] std::string text_of(PointUnit unit, std::string_view axis_unit);
 
-/// `composed`: the document makes it of more than this one value (a catalogue's text, the time of day, an object of several values).
+/// `composed`: the document combines it from more than this value (a catalogue's text, the time of day, an object of several values).
 enum class PointInDocument : std::uint8_t { no, value, composed };
-/// What a condition of a recipe may look at: while the drive answers with data that are not too old, or whenever it is asked.
+/// When a condition of a recipe may use the value: while the drive answers with data that are not too old, or always.
 enum class PointInRecipe : std::uint8_t { no, while_answering, always };
 
-/// A place in a list that has an order and names of its own; 0: it does not stand there.
+/// A place in a list that has an order and names of its own; 0: not in the list.
 struct PointPlace {
     std::uint8_t place = 0;
     std::string_view name{}, text{};
 };
 
 struct AxisPointRow {
-    /// Its own among all rows. Where it stands in the axis' document or in a recipe, it is the name there.
+    /// Unique among all rows. In the axis' document and in recipes it is the name of the value.
     std::string_view name;
 
-    // what it is
-    std::uint16_t flag = 0;                                  ///< the bit of AxisPicture::flags that it is; 0: none
-    PointValue (*read)(const AxisPicture&) = nullptr;        ///< null: it is the flag, or no picture says it
-    std::string_view (*word)(const AxisPicture&) = nullptr;  ///< for people, of the same value; null: they read the number
-    bool (*known)(const AxisPicture&) = nullptr;             ///< else it is null for people, and has no line in metrics; null: always
+    // the value
+    std::uint16_t flag = 0;                                  ///< the bit of AxisPicture::flags that is the value; 0: none
+    PointValue (*read)(const AxisPicture&) = nullptr;        ///< null: the value is the flag, or is not in the picture
+    std::string_view (*word)(const AxisPicture&) = nullptr;  ///< the value as a word for people; null: they read the number
+    bool (*known)(const AxisPicture&) = nullptr;             ///< if false, the value is null for people and has no line in metrics; null:
+                                                             ///< always known
     PointUnit unit = PointUnit::none;
 
-    // who shows it
+    // the doors that show it
     PointInDocument document = PointInDocument::no;  ///< HTTP and the live feed, in the order of the table
     PointInRecipe recipe = PointInRecipe::no;
-    std::optional<AxisPoint> map{};  ///< the word for it in user maps
+    std::optional<AxisPoint> map{};  ///< its word in user maps
     std::string_view sample{};       ///< member of the DDS sample AxisState
-    PointPlace metric{};             ///< axisgate_axis_<name>, with its help
-    PointPlace channel{};            ///< the recorder's name for it: trends, captures and their triggers by level
-    bool trigger = false;            ///< a flag by whose coming or going a capture may begin
+    PointPlace metric{};             ///< axisgate_axis_<name>, with its help text
+    PointPlace channel{};            ///< the recorder's name for it: trends, captures and their level triggers
+    bool trigger = false;            ///< a flag whose change may trigger a capture
 };
 
 namespace point_readers {
@@ -92,7 +93,7 @@ using U = PointUnit;
 inline constexpr auto value = PointInDocument::value, composed = PointInDocument::composed;
 inline constexpr auto while_answering = PointInRecipe::while_answering, always = PointInRecipe::always;
 
-// A new value: a member of AxisPicture, a row here, and, where a user map shall have it, its word in gateway/site/axis_points.hpp.
+// A new value needs a member of AxisPicture, a row here, and, if user maps offer it, its word in gateway/site/axis_points.hpp.
 inline constexpr auto table = std::to_array<AxisPointRow>({
     // the axis' document, in its order
     {.name = "line", .document = composed},
@@ -324,7 +325,7 @@ inline constexpr auto table = std::to_array<AxisPointRow>({
      .map = P::age_ms,
      .metric = {4, "age_seconds", "Time since the drive said what is shown."}},
 
-    // of members of the document that are objects, and of the axis' place in the site
+    // members of objects in the document, and of the axis' place in the site
     {.name = "error_code", .read = number<&A::error_code>, .recipe = while_answering, .map = P::error_code, .sample = "error_code"},
     {.name = "number", .read = number<&A::number>, .recipe = always, .sample = "number"},
     {.name = "streaming", .read = truth<&A::streaming>, .sample = "streaming"},
@@ -339,7 +340,7 @@ inline constexpr auto table = std::to_array<AxisPointRow>({
      .word = [](const A& p) { return name_of(p.set_point_refusal); },
      .sample = "set_point_refusal"},
 
-    // of registers alone
+    // values of registers only
     {.name = "flags", .read = number<&A::flags>, .map = P::flags},
     {.name = "fail_safe", .flag = flag_fail_safe, .trigger = true},
     {.name = "modes_of_operation", .read = number<&A::mode>, .map = P::mode},
@@ -363,9 +364,9 @@ inline constexpr auto table = std::to_array<AxisPointRow>({
 inline constexpr const auto& axis_point_table = point_readers::table;
 using AxisPointRows = std::span<const AxisPointRow>;
 
-// --- what is read -----------------------------------------------------------------------------------------------------
+// --- reading --------------------------------------------------------------------------------------------------------
 
-/// The value as registers, samples and metrics have it, known or not: a word by its number, in the axis' unit where the row says so.
+/// The value for registers, samples and metrics, known or not: a word by its number, in the axis' unit if the row says so.
 [[nodiscard]] constexpr PointValue measured(const AxisPointRow& row, const AxisPicture& p, double increments_per_unit) {
     if (row.flag != 0) return (p.flags & row.flag) != 0;
     if (!row.read) return {};
@@ -375,21 +376,21 @@ using AxisPointRows = std::span<const AxisPointRow>;
     return n ? PointValue(static_cast<double>(*n) / increments_per_unit) : v;
 }
 [[nodiscard]] constexpr bool known(const AxisPointRow& row, const AxisPicture& p) { return !row.known || row.known(p); }
-/// The value as people read it: nothing while it is not known, a word where it has one.
+/// The value for people: empty while it is unknown, a word if it has one.
 [[nodiscard]] inline PointValue said(const AxisPointRow& row, const AxisPicture& p, double increments_per_unit) {
     if (!known(row, p)) return {};
     return row.word ? PointValue(row.word(p)) : measured(row, p, increments_per_unit);
 }
 
-// --- who is looked for ------------------------------------------------------------------------------------------------
+// --- lookup ---------------------------------------------------------------------------------------------------------
 
-/// Null: there is none.
+/// Null if there is none.
 [[nodiscard]] constexpr const AxisPointRow* point_named(std::string_view name, AxisPointRows rows = axis_point_table) noexcept {
     for (const auto& row : rows)
         if (row.name == name) return &row;
     return nullptr;
 }
-/// What a word of user maps stands for.
+/// The row of a word of user maps.
 [[nodiscard]] constexpr const AxisPointRow* row_of(AxisPoint point, AxisPointRows rows = axis_point_table) noexcept {
     for (const auto& row : rows)
         if (row.map == point) return &row;
@@ -403,25 +404,26 @@ static_assert(
     }(),
     "a word of user maps stands for a row of the table");
 
-/// Members of the axis' document that tell its state: requests may carry them, and they are ignored there.
+/// Members of the axis' document that describe its state: requests may contain them, and they are ignored there.
 [[nodiscard]] constexpr bool is_document_member(std::string_view name, AxisPointRows rows = axis_point_table) noexcept {
     const auto* row = point_named(name, rows);
     return row && row->document != PointInDocument::no;
 }
-/// What a condition of a recipe can look at, in the order of the table.
+/// The points that a condition of a recipe can use, in the order of the table.
 [[nodiscard]] std::vector<std::string_view> recipe_points(AxisPointRows rows = axis_point_table);
-/// The rows that stand in a list with an order of its own, in that order.
+/// The rows of a list with an order of its own, in that order.
 [[nodiscard]] std::vector<const AxisPointRow*> in_order(PointPlace AxisPointRow::*list, AxisPointRows rows = axis_point_table);
 
-// --- what is compared -------------------------------------------------------------------------------------------------
+// --- comparison -----------------------------------------------------------------------------------------------------
 
-/// Same for whoever reads any of the table's values, but for those that no picture says: the age, and the instant of the data.
+/// True if all values of the table are equal, except for those that are not in the picture: the age, and the instant of the data.
 template <const auto& rows>
 [[nodiscard]] bool same_values(const AxisPicture& a, const AxisPicture& b) noexcept {
     const auto same = [&a, &b](const AxisPointRow& row) {
         return known(row, a) == known(row, b) && measured(row, a, 1) == measured(row, b, 1);
     };
-    // Unrolled, so that each reader is called by its name and not through its pointer: pictures are compared at every turn of the feed.
+    // The loop is unrolled, so that each reader is called directly and not through its pointer: pictures are compared at every turn of the
+    // feed.
     return [&]<std::size_t... i>(std::index_sequence<i...>) { return (same(rows[i]) && ...); }
     (std::make_index_sequence<rows.size()>());
 }

@@ -1,5 +1,5 @@
-// Process data: which member of a write belongs to a point of the standard map, and whether a number fits its width.
-// In: a point and a number. Out: the member set, or false. Never wraps a number that is too large.
+// Assigns a number to the member of a write that belongs to a point of the standard map. A number that does not fit its width is refused
+// and never wrapped.
 #include "gateway/axis/process_data.hpp"
 
 #include <utility>

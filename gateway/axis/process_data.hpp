@@ -1,5 +1,5 @@
-// Process data by point: a number into the member of the standard map's set-points that a point of an axis stands for.
-// In: a point, a number. Out: the member set. Shared by all that write set-points by name: own register maps, recipes.
+// Sets the set-point of the standard map that a point of an axis stands for. Shared by all writers of set-points by name: user register
+// maps and recipes.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-/// False: the point is none that can be set so, or the number does not fit its register.
+/// Returns false if the point cannot be set in this way, or the number does not fit its register.
 [[nodiscard]] bool put_process_data(ProcessData& into, AxisPoint point, std::int64_t number);
 
 }  // namespace axisgate

@@ -1,6 +1,5 @@
-// Assets: the files that live inside the program: catalogues, SQL migrations, the OpenAPI description, the page.
-// In: nothing at run time; the build gathers them. Out: bytes by path ("schema/families/uim342.json").
-// Never reads the disk: the program is whole as one file.
+// The files that are embedded in the program: catalogues, SQL migrations, the OpenAPI description, the page. The build gathers them; at run
+// time they are bytes by path ("schema/families/uim342.json"), so that the program consists of one file.
 #pragma once
 
 #include <span>

@@ -1,6 +1,4 @@
-// CAN identifiers: which frames of a CAN line concern a family, as plain data, so that several families can share the line.
-// In: identifiers, frames. Out: whether one is among the other.
-// Never looks into a frame's data.
+// The CAN identifiers that belong to a family, as plain data, so that several families can share a line. The data of frames are not used.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +9,14 @@
 
 namespace axisgate {
 
-/// Frames of one length of identifier with (id & mask) == value.
+/// Frames with one length of identifier and (id & mask) == value.
 struct CanIdentifiers {
-    bool extended = false;  ///< 29 bits; else 11
+    bool extended = false;  ///< 29 bits; otherwise 11
     std::uint32_t mask = 0;
     std::uint32_t value = 0;
 
     [[nodiscard]] constexpr bool holds(const Frame& f) const noexcept { return f.extended == extended && (f.id & mask) == value; }
-    /// Some identifier belongs to both.
+    /// True if some identifier belongs to both.
     [[nodiscard]] constexpr bool meets(const CanIdentifiers& o) const noexcept {
         return extended == o.extended && ((value ^ o.value) & mask & o.mask) == 0;
     }

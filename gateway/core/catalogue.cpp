@@ -1,5 +1,5 @@
-// Catalogue: reading a family's JSON page, and the checks that every write goes through.
-// In: the JSON text. Out: tables and lookups; all faults at once. Never guesses: a missing field is a fault, a null is "not known".
+// Reads a family's JSON page and checks values before they are written. All faults are reported together: a missing field is a fault, a
+// null means "unknown".
 #include "gateway/core/catalogue.hpp"
 
 #include <fmt/core.h>

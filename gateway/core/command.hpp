@@ -1,6 +1,6 @@
-// Command: what a client wants of one axis (or drive), and Result: the one answer it gets.
-// In: built by doors from their protocol's requests. Out: consumed by the engine, and (but for ProcessData and Hand) by adapters.
-// Never carries protocol detail of a door or of a drive: positions, velocities and accelerations are in the axis' increments.
+// A command for one axis (or drive), and its one answer, the Result. Doors make commands of the requests of their protocols; the engine and
+// (except for ProcessData and Hand) the adapters carry them out. Positions, velocities and accelerations are in the axis' increments;
+// details of a door's or drive's protocol are not included.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 
 namespace axisgate {
 
-/// Number shown in register 17 (command authority).
+/// The number in register 17 (command authority).
 enum class Door : std::uint8_t { none = 0, modbus = 1, ethernet_ip = 2, http = 3, dds = 4, internal = 5 };
 [[nodiscard]] std::string_view name_of(Door door) noexcept;
 
-/// Who asked: the door and a text for the audit ("192.0.2.7:51123", "token commissioning").
+/// The client: the door and a text for events ("192.0.2.7:51123", "token commissioning").
 struct Origin {
     Door door = Door::internal;
     std::shared_ptr<const std::string> who;
-    /// The stable part, by which a client holds an axis ("anna", "192.0.2.7 panel"); absent: `who` without its port.
+    /// The stable part of the name, by which a client holds an axis ("anna", "192.0.2.7 panel"); absent: `who` without its port.
     std::shared_ptr<const std::string> client{};
     [[nodiscard]] std::string text() const { return std::string(name_of(door)) + (who ? " " + *who : std::string()); }
 };
 
-// --- what can be asked ------------------------------------------------------------------------------------------------
+// --- bodies -----------------------------------------------------------------------------------------------------------
 
 struct Enable {};     ///< to CiA 402 operation enabled; the actual position becomes the first target, the target velocity 0
 struct Disable {};    ///< power off
@@ -40,9 +40,9 @@ struct Home {
     std::int16_t method = 0;  ///< CiA 402 homing method; 0: the drive's own
 };
 struct SetPosition {
-    std::int64_t position = 0;  ///< what the present position shall be called, increments
+    std::int64_t position = 0;  ///< the new value of the present position, increments
 };
-/// A motion. Values that are absent stay as the drive has them.
+/// A motion. For absent values the drive uses its present ones.
 struct Move {
     enum class Kind : std::uint8_t { absolute, relative, velocity };
     Kind kind = Kind::absolute;
@@ -50,12 +50,12 @@ struct Move {
     std::optional<std::int64_t> velocity;      ///< increments/s, > 0; not used by Kind::velocity
     std::optional<std::int64_t> acceleration;  ///< increments/s^2, > 0
     std::optional<std::int64_t> deceleration;  ///< increments/s^2, > 0
-    bool prepare_only = false;                 ///< load, but start only with StartTogether
-    /// Dead-man time-out of a velocity move, ms (100..10000): the axis is halted when this has passed without the same command again.
-    /// The same command again costs no exchange with the drive.
+    bool prepare_only = false;                 ///< prepare only; StartTogether starts it
+    /// Dead-man time of a velocity move, ms (100..10000): the axis is halted when it has passed without the same command again. The
+    /// repetition causes no exchange with the drive.
     std::optional<std::int64_t> hold_ms;
-    /// With hold_ms: only that, never a motion of its own; refused if the axis does not move by this held move any more. A renewal that
-    /// comes after the stop that was sent after it then starts nothing.
+    /// With hold_ms: only renews a held move and never starts one; refused if the axis does not move by this held move any more. A renewal
+    /// that arrives after the stop that follows it then starts nothing.
     bool renew_only = false;
 };
 /// Starts several prepared axes of one line at the same instant. Command::axis is the first of them.
@@ -65,25 +65,24 @@ struct StartTogether {
 struct ReadParameter {
     Point point;
 };
-/// `value` has been checked against the catalogue's type and range before it gets to an adapter.
+/// `value` was checked against the catalogue's type and range before it reaches an adapter.
 struct WriteParameter {
     Point point;
     Value value;
 };
-/// One exchange in the drive's own language. The answer is the Result's `text` (and `bytes`).
+/// One exchange in the drive's own language. The answer is in the Result's `text` (and `bytes`).
 struct Native {
     std::vector<std::uint8_t> send;
-    bool is_text = true;  ///< the client gave text (`{"send": ...}`); the family completes it (terminator, checksum, address)
+    bool is_text = true;  ///< the client gave text (`{"send": ...}`), which the family completes (terminator, checksum, address)
 };
 /// A function of one family beyond the common ones, by its catalogue name ("program.download", "start_group").
 struct Action {
     std::string name;
     std::string argument;
-    /// Of a command with typed arguments: one per argument of the catalogue, in its order, in the drive's counts; checked before it gets
-    /// here.
+    /// For a command with typed arguments: one value per argument of the catalogue, in its order, in the drive's counts; checked before.
     std::vector<Value> values{};
 };
-/// Sets one of the twin's outside conditions ("stall", "power", "inputs"): the tester's hand. Only for simulated drives.
+/// Sets one of the twin's external conditions ("stall", "power", "inputs"). Only for simulated drives.
 struct Hand {
     std::string name;
     Value value;
@@ -99,13 +98,13 @@ struct ProcessData {
     std::optional<std::int32_t> target_velocity;
     std::optional<std::int16_t> homing_method;
 };
-/// Not a command to the drive: takes, renews, gives up or hands over the lease by which one client alone commands the axis.
+/// Not a command to the drive: takes, renews, releases or hands over the lease by which only one client commands the axis.
 struct HoldAxis {
     enum class Kind : std::uint8_t { take, release, hand_over };
     Kind kind = Kind::take;
     std::int64_t lease_s = 30;  ///< 1..3600
-    bool take_over = false;     ///< take it away from another client; the door has asked whether this one may
-    std::string to;             ///< hand_over: the client that gets it, "modbus 192.0.2.7"
+    bool take_over = false;     ///< take the lease from another client; the door has checked that this one may
+    std::string to;             ///< hand_over: the next holder, "modbus 192.0.2.7"
 };
 
 using CommandBody = std::variant<Enable, Disable, QuickStop, Halt, ResetFault, Home, SetPosition, Move, StartTogether, ReadParameter,
@@ -115,8 +114,8 @@ struct Command {
     Ticket ticket = no_ticket;
     AxisId axis = no_axis;
     CommandBody body;
-    /// false: the one Result comes when the drive has acknowledged. true: when it is done (target reached, homed, powered). To an adapter
-    /// it is said of actions alone, and counts for those that the catalogue says are complete when the drive `reported` it.
+    /// false: the Result comes when the drive has acknowledged. true: when the command is done (target reached, homed, powered). An adapter
+    /// gets true only for actions whose completion in the catalogue is `reported`.
     bool until_done = false;
     Origin origin;
 };
@@ -126,23 +125,23 @@ struct Command {
     return std::holds_alternative<QuickStop>(b) || std::holds_alternative<Halt>(b) || std::holds_alternative<Disable>(b);
 }
 
-/// Where an axis shall be, or how fast it shall go, as long as this is renewed: beside commands, for what comes in cycles. It has no ticket
-/// and no answer; the newest one counts and an older one that was not sent yet is forgotten. The first one begins a stream, which is one
-/// event, as is its end; what was taken, refused and why is state of the axis (AxisPicture). One client streams to an axis at a time.
+/// The position or speed of an axis for as long as this is renewed, for clients that send it in cycles. It has no ticket and no answer; the
+/// newest one counts, and an older one that was not sent yet is dropped. The first one begins a stream, whose begin and end are one event
+/// each; accepted and refused set-points, and the reason, are state of the axis (AxisPicture). One client streams to an axis at a time.
 struct SetPoint {
     enum class Mode : std::uint8_t { position, velocity, torque };  ///< CiA 402 modes 8, 9 and 10
     static constexpr Duration good_for_min = std::chrono::milliseconds(20), good_for_max = std::chrono::seconds(10);
     AxisId axis = no_axis;
     Mode mode = Mode::position;
     std::int64_t value = 0;                    ///< increments; increments/s; 1/1000 of the rated torque
-    std::optional<std::int64_t> velocity;      ///< at which the axis goes there at most, increments/s, > 0; not used by Mode::velocity
-    std::optional<std::int64_t> acceleration;  ///< increments/s^2, > 0; absent, as all three: as the drive has it
+    std::optional<std::int64_t> velocity;      ///< the highest speed of the motion, increments/s, > 0; not used by Mode::velocity
+    std::optional<std::int64_t> acceleration;  ///< increments/s^2, > 0; absent (as for all three): the drive's present value
     std::optional<std::int64_t> deceleration;  ///< increments/s^2, > 0
-    /// Without the next one for so long, its client counts as lost (LossCause::set_points_silent).
+    /// If no further one arrives for this time, its client counts as lost (LossCause::set_points_silent).
     Duration good_for = std::chrono::milliseconds(500);
-    Instant at{};  ///< when the client's message was here; what is older than good_for when its turn comes is refused
+    Instant at{};  ///< when the client's message arrived; a set-point older than good_for is refused when its turn comes
     Origin origin;
-    /// The motion that it asks for: what the axis' limits are compared with. Not for torque.
+    /// The motion that it requests, for the comparison with the axis' limits. Not for torque.
     [[nodiscard]] Move as_move() const {
         Move m;
         m.kind = mode == Mode::velocity ? Move::Kind::velocity : Move::Kind::absolute;
@@ -157,34 +156,34 @@ struct SetPoint {
 [[nodiscard]] std::string_view name_of(SetPoint::Mode mode) noexcept;
 [[nodiscard]] std::optional<SetPoint::Mode> set_point_mode_of(std::string_view name) noexcept;
 
-/// What to call the command in messages: "move_absolute", "enable", ... (the names of POST /axes/{name}/commands).
+/// The name of the command in messages: "move_absolute", "enable", ... (the names of POST /axes/{name}/commands).
 [[nodiscard]] std::string_view name_of(const CommandBody& body) noexcept;
 
-// --- the one answer ---------------------------------------------------------------------------------------------------
+// --- the answer -------------------------------------------------------------------------------------------------------
 
 enum class Outcome : std::uint8_t {
     accepted,  ///< the drive acknowledged it
-    done,      ///< and it is finished
-    refused,   ///< nothing reached the drive, or the drive said no; nothing changed
-    failed     ///< it was begun and did not come to its end, or nobody knows
+    done,      ///< the drive acknowledged it, and it is finished
+    refused,   ///< nothing reached the drive, or the drive refused; nothing changed
+    failed     ///< it was begun and did not come to its end, or its end is unknown
 };
 [[nodiscard]] std::string_view name_of(Outcome outcome) noexcept;
 
-/// Why it was refused or failed. Doors map these to Modbus exceptions and HTTP status codes.
+/// The reason of a refusal or failure. Doors map it to Modbus exceptions and HTTP status codes.
 enum class Reason : std::uint8_t {
     none,
     out_of_range,   ///< a value outside its type or range: Modbus exception 3, HTTP 422
     unknown_point,  ///< no such parameter, element or function: 2, 404
     not_writable,   ///< read only: 2, 409
-    wrong_state,    ///< the axis is not in a state for it (not enabled, fault, moving): 4, 409
+    wrong_state,    ///< the state of the axis does not allow it (not enabled, fault, moving): 4, 409
     not_supported,  ///< this drive cannot do that: 4, 409
-    drive_refused,  ///< the drive answered with an error; `code` holds it: 4, 409
+    drive_refused,  ///< the drive answered with an error, which is in `code`: 4, 409
     busy,           ///< a queue or the parameter channel is full: 6, 503
     line_down,      ///< the line is down, or the axis is not configured: 0x0A, 503
     no_answer,      ///< the drive did not answer: 0x0B, 504
     interrupted,    ///< another command, a stop or a fault ended it: 4, 409
     authority,      ///< another client holds the axis: 6, 409
-    not_stored,     ///< the drive took it but the database could not: 4, 507
+    not_stored,     ///< the drive accepted it but the database could not store it: 4, 507
     internal        ///< a fault of the gateway itself: 4, 500
 };
 [[nodiscard]] std::string_view name_of(Reason reason) noexcept;
@@ -195,8 +194,8 @@ struct Result {
     Outcome outcome = Outcome::done;
     Reason reason = Reason::none;
     std::int32_t code = 0;            ///< the drive's own error code, 0 if it has none
-    std::string text;                 ///< for people: what happened, why, what to do; or a Native command's answer
-    Value value;                      ///< ReadParameter: what was read; WriteParameter: what the drive took
+    std::string text;                 ///< for people: what happened, why, and the remedy; or the answer to a Native command
+    Value value;                      ///< ReadParameter: the value; WriteParameter: the value that the drive accepted
     std::vector<std::uint8_t> bytes;  ///< Native: the raw answer
 };
 

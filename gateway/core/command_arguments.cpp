@@ -1,5 +1,4 @@
-// Command arguments: names, types, scales and ranges of what a catalogue command takes.
-// In: JSON members or text. Out: values in counts, in order; all faults at once. Never keeps anything.
+// Reads the arguments of a catalogue command from JSON members or text: names, types, scales and ranges. All faults are reported together.
 #include "gateway/core/command_arguments.hpp"
 
 #include <fmt/core.h>
@@ -21,7 +20,7 @@ std::string range_text(const CommandArgument& a) {
     return fmt::format("{:.10g}..{:.10g}{}{}", low, high, a.unit.empty() ? "" : " ", a.unit);
 }
 
-/// One value in its unit into counts; the fault's text, or nothing.
+/// Converts one value in its unit to counts; returns the fault, or an empty text.
 std::string into_counts(const CommandArgument& a, const Value& given, Value& into) {
     if (a.type == ValueType::text || a.type == ValueType::bytes) {
         if (!std::holds_alternative<std::string>(given)) return fmt::format("{} takes a text", a.name);
@@ -46,7 +45,7 @@ std::string into_counts(const CommandArgument& a, const Value& given, Value& int
     const double nearest = std::nearbyint(counts);
     if (a.scale == 1 && nearest != counts) return fmt::format("{} takes a whole number, not {}", a.name, *number);
     const auto own = *range_of(a.type);
-    // An i64's largest value is no double: the next one above it is outside.
+    // An i64's largest value is not a double: the next double above it is out of range.
     const bool fits =
         nearest >= static_cast<double>(own.min) && (own.max == INT64_MAX ? nearest < 0x1p63 : nearest <= static_cast<double>(own.max));
     if (!fits || (a.min && *number < *a.min) || (a.max && *number > *a.max))

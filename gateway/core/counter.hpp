@@ -1,5 +1,4 @@
-// Counter: a number that one thread counts and any thread reads.
-// In: counted by its one writer. Out: the number of this moment; two counters may be a moment apart. Never goes back by itself.
+// A number that one thread counts and any thread reads. Two counters that are read together may belong to slightly different instants.
 #pragma once
 
 #include <atomic>
@@ -7,7 +6,7 @@
 
 namespace axisgate {
 
-/// One writer, any number of readers; costs the writer no more than a plain number.
+/// One writer, any number of readers; for the writer it is as fast as a plain number.
 class Counter {
 public:
     void add(std::uint64_t n = 1) noexcept { value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_relaxed); }

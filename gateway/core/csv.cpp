@@ -1,6 +1,5 @@
-// CSV: one pass over the text, a line at a time; rows by the names of the first line.
-// In: text. Out: cells, rows, faults with their lines. At most `most_kept` faults are kept, and nothing is read behind a quote that is left
-// open.
+// One pass over the text, line by line; rows by the names of the first line. At most `most_kept` faults are kept, and nothing is read
+// behind a quote that is left open.
 #include "gateway/core/csv.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +11,7 @@ namespace axisgate {
 namespace {
 constexpr std::size_t most_kept = 1000;
 
-/// What csv_cell has put before a text that a spreadsheet would carry out.
+/// Removes the mark that csv_cell has put before a text that a spreadsheet would evaluate.
 void take_mark_away(std::string& cell) {
     const auto first = cell.find_first_not_of('\'');
     if (first != 0 && first != std::string::npos && std::string_view("=+-@").find(cell[first]) != std::string_view::npos) cell.erase(0, 1);

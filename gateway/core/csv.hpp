@@ -1,6 +1,5 @@
-// CSV: tables of a spreadsheet read back, whatever it separates cells by (RFC 4180 beside it: quotes doubled, CR LF or LF, a byte order
-// mark). In: text of strangers. Out: lines of cells with their numbers, rows as JSON objects, and every faulty line. `csv_cell` of text.hpp
-// writes. Never guesses a value: a cell that cannot be read is a fault of its line.
+// Reads tables of spreadsheets with any separator (otherwise RFC 4180: doubled quotes, CR LF or LF, a byte order mark). The text may have
+// any origin. A cell that cannot be read is a fault of its line. `csv_cell` of text.hpp writes cells.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -14,7 +13,7 @@
 namespace axisgate {
 
 struct CsvFault {
-    std::size_t line = 0;  ///< 1-based; 0: no line of the table, but what it would make of the rest
+    std::size_t line = 0;  ///< 1-based; 0: not a line of the table, but a consequence for the rest
     std::string text;
 };
 
@@ -23,16 +22,16 @@ struct CsvLine {
     std::vector<std::string> cells;
 };
 
-/// Takes a text apart. The separator is what the first line has: a tab if there is one, else a semicolon if it has more of these than
-/// commas.
+/// Splits a text into lines and cells. The first line determines the separator: a tab if there is one, otherwise a semicolon if it has more
+/// of these than commas.
 class CsvReader {
 public:
-    static constexpr std::size_t longest_line = 4096;  ///< bytes, those of a quoted cell with line breaks together
+    static constexpr std::size_t longest_line = 4096;  ///< bytes; for quoted cells including line breaks
 
-    /// `text` outlives it.
+    /// `text` must outlive it.
     explicit CsvReader(std::string_view text);
-    /// The next line that has more than empty cells, cells as they were given to csv_cell; nothing at the end, or where `fault` says why
-    /// not.
+    /// The next line that has more than empty cells, with cells as they were given to csv_cell; empty at the end, or if `fault` has a
+    /// reason.
     [[nodiscard]] std::optional<CsvLine> next();
     [[nodiscard]] const std::optional<CsvFault>& fault() const noexcept { return fault_; }
     [[nodiscard]] char separator() const noexcept { return separator_; }
@@ -46,20 +45,20 @@ private:
 
 struct CsvColumn {
     std::string_view name;
-    bool number = false;  ///< with a comma in it where cells are not separated by commas
+    bool number = false;  ///< with a comma in it if cells are not separated by commas
 };
-/// A table of one thing after another, and what is written where its columns are told.
+/// A table of one kind of entries, with the words for messages about its columns.
 struct CsvShape {
     std::span<const CsvColumn> columns;
     std::size_t most = 0;    ///< rows
     std::string_view what;   ///< "mappings"
-    std::string_view needs;  ///< the columns that a first line begins with: "id,unit,table,..."
+    std::string_view needs;  ///< the columns with which a first line begins: "id,unit,table,..."
 };
 /// The columns' names, with a line end.
 [[nodiscard]] std::string csv_head(const CsvShape& shape);
-/// The rows that can be read, members by their columns without those of empty cells, with the line of each in `lines`, and the faults of
-/// those that cannot: only without any may the rows be used; with some they still tell what else is wrong. Nothing if the columns cannot be
-/// read. `faults` and `lines` come empty.
+/// The rows that can be read, with members by their columns (without empty cells), the line of each in `lines`, and the faults of the other
+/// rows. The rows may be used only if there are no faults; otherwise they help to find further faults. Empty if the columns cannot be read.
+/// `faults` and `lines` must be empty.
 [[nodiscard]] std::optional<boost::json::array> rows_from_csv(std::string_view csv, const CsvShape& shape, std::vector<std::size_t>& lines,
                                                               std::vector<CsvFault>& faults);
 

@@ -1,5 +1,5 @@
-// Drive limits: the software limits of position that a drive keeps by itself, as its adapter has programmed them from the site's limits.
-// In: the drive's acknowledgement. Out: values for people. Never a promise for a drive that was set up again by somebody else since.
+// The software limits of position in a drive, as its adapter has programmed them from the site's limits and the drive has acknowledged
+// them. Another client may have changed the drive since.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct DriveLimits {
         unknown,  ///< the drive has not been set up yet, its family has no such limits, or the site gives none
         off,      ///< the drive's option `drive_limits` has switched them off
         armed,    ///< programmed for each axis that the site limits, and acknowledged
-        refused   ///< the drive does not take them; `text` says why
+        refused   ///< the drive does not accept them; `text` has the reason
     };
     State state = State::unknown;
     std::string text{};  ///< for people; empty unless refused

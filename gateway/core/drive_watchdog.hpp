@@ -1,6 +1,5 @@
-// Drive watchdog: what a drive does by itself when it hears nothing of the gateway any more, as its adapter has programmed it.
-// In: what the drive has acknowledged. Out: values for people and for the rehearsal's reader. Never a promise: it is what was set when the
-// drive was set up last.
+// The watchdog of a drive: its own reaction when it receives nothing from the gateway any more, as its adapter programmed it at the last
+// setup and the drive acknowledged it.
 #pragma once
 
 #include <string>
@@ -14,10 +13,10 @@ struct DriveWatchdog {
         unknown,  ///< the drive has not been set up yet, or its family has none
         off,      ///< the site has switched it off
         armed,    ///< programmed, and the drive has acknowledged it
-        refused   ///< the drive does not take it
+        refused   ///< the drive does not accept it
     };
     State state = State::unknown;
-    Duration time{};       ///< of silence, after which the drive acts
+    Duration time{};       ///< duration of the silence after which the drive acts
     std::string action{};  ///< "quick_stop", "disable", "fault"
     bool operator==(const DriveWatchdog&) const = default;
 };

@@ -1,5 +1,5 @@
-// Event rows: rows of identical events, and two buckets: the client's own first, so that who is over it uses up nothing of the others'.
-// In: events. Out: those that are told. Never looks at a clock: a bucket fills by the instants that it is given.
+// Rows of identical events and two buckets: the client's own first, so that a client above its rate does not use up the rate of the others.
+// A bucket fills by the instants that it is given.
 #include "gateway/core/event_rows.hpp"
 
 #include <fmt/core.h>
@@ -41,7 +41,7 @@ EventRows::Client& EventRows::client_of(std::string_view host, Instant now) {
 }
 
 void EventRows::tell(Client& c, std::string words, Instant now) {
-    // The client's own bucket first: one that is over its rate does not use up what the others may tell.
+    // The client's own bucket first: a client above its rate does not use up the rate of the others.
     if (!c.published.take(client_burst, client_rate, now) || !all_.take(all_burst, all_rate, now)) {
         ++c.unpublished;
         ++counted_only_;

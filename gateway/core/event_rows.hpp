@@ -1,7 +1,7 @@
-// Event rows: what clients cause as fast as they like (refusals above all), as events of which people can read all and nobody can flood
-// the storage. In: events with their instant, by client. Out: events through `tell`. Never tells more than this:
+// Limits events that clients can cause at any rate (refusals above all), so that people can read all of them and nobody can flood the
+// storage. Events pass through `tell` at most at these rates:
 //   identical events of one client in a row     one event at once; then their count, every `row_period` and when the row ends
-//   one client (its address)                    5 events at once, then 1 per second; what is beyond is counted and told with the next one
+//   one client (its address)                    5 events at once, then 1 per second; further ones are counted and reported with the next
 //   all clients                                 32 events at once, then 8 per second
 //   clients remembered                          64; then the one that was quiet for longest is forgotten
 #pragma once
@@ -26,17 +26,18 @@ public:
     static constexpr Duration row_period = std::chrono::seconds(10);
 
     using Tell = std::function<void(Event event, AxisId axis)>;
-    /// `what`: as the counts call them.
+    /// `what` is the word for the events in the counts.
     explicit EventRows(Tell tell, std::string_view what = "refusals", Duration row_period = EventRows::row_period)
         : tell_(std::move(tell)), what_(what), row_lasts_(row_period) {}
 
-    /// `host`: the client's address, by which clients are told apart. `row`: what makes two of them identical; empty: their texts.
+    /// `host` is the client's address, by which clients are distinguished. `row` is the key by which two events are identical; empty: their
+    /// texts.
     void add(std::string_view host, AxisId axis, Event event, std::string row, Instant now);
-    /// Tells the counts of rows that have lasted so long.
+    /// Reports the counts of rows that have lasted for `row_period`.
     void flush(Instant now);
-    /// Something waits for flush().
+    /// True if there is work for flush().
     [[nodiscard]] bool pending() const noexcept;
-    /// Those that have no event of their own, since the start: they are in the counts that others tell.
+    /// Number of events since the start that were reported only as part of a count.
     [[nodiscard]] std::uint64_t counted_only() const noexcept { return counted_only_; }
 
 private:
@@ -51,8 +52,8 @@ private:
         Event event;  ///< of the present row, with its own words
         std::string row;
         AxisId axis = no_axis;
-        std::uint64_t again = 0;        ///< further ones of the row that were not told
-        std::uint64_t unpublished = 0;  ///< others that the rate kept back
+        std::uint64_t again = 0;        ///< further events of the row that were not reported
+        std::uint64_t unpublished = 0;  ///< other events that the rate kept back
         Instant row_published{};
         Instant received{};
     };
@@ -61,7 +62,7 @@ private:
     void end_row(Client& c, Instant now);
 
     Tell tell_;
-    std::string_view what_;  // a word that lives as long as the program
+    std::string_view what_;  // a text that lives as long as the program
     Duration row_lasts_;
     Bucket all_;
     std::uint64_t counted_only_ = 0;

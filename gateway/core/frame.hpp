@@ -1,6 +1,5 @@
-// Frame: what crosses a line: one CAN frame, one CAN error report, or a run of bytes, with the instant it was seen.
-// In: bytes from a line, a twin or an adapter. Out: the same, with hex text for people.
-// Never interpreted here: what a frame means is known only in adapters/<family>. Never allocates.
+// The content of a line: one CAN frame, one CAN error report, or a run of bytes, with the instant at which it was seen. The meaning of a
+// frame is known only in adapters/<family>. No memory is allocated.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +18,8 @@ namespace axisgate {
 struct Frame {
     enum class Kind : std::uint8_t {
         can,        ///< `id`, `extended`, `remote`, 0..8 bytes
-        can_error,  ///< a report of the CAN controller; `id` holds the error class bits of linux/can/error.h, 8 bytes of detail
-        bytes       ///< a run of 1..capacity bytes of a byte stream; run boundaries mean nothing
+        can_error,  ///< a report of the CAN controller; `id` has the error class bits of linux/can/error.h, with 8 bytes of detail
+        bytes       ///< a run of 1..capacity bytes of a byte stream; the boundaries of runs have no meaning
     };
     static constexpr std::size_t capacity = 256;
 
@@ -28,11 +27,12 @@ struct Frame {
     Kind kind = Kind::bytes;
     bool extended = false;
     bool remote = false;
-    /// Which of the gateway's adapters on its line sends it: those that wait leave in turn by sender. Not on the wire; 0 if there is one.
+    /// The adapter on the gateway's line that sends it: waiting frames are sent in turn by sender. Not a part of the frame on the wire; 0
+    /// if there is one.
     std::uint8_t sender = 0;
     std::uint16_t size = 0;
     std::uint32_t id = 0;                        ///< 11 or 29 bits; 0 for bytes
-    std::array<std::uint8_t, capacity> storage;  // deliberately not cleared: `size` says what is valid
+    std::array<std::uint8_t, capacity> storage;  // deliberately not cleared: `size` is the number of valid bytes
 
     Frame() noexcept {}  // NOLINT(modernize-use-equals-default): `= default` would clear `storage` in value-initialisation
     Frame(const Frame& o) noexcept { *this = o; }
@@ -44,7 +44,7 @@ struct Frame {
         sender = o.sender;
         size = o.size;
         id = o.id;
-        // A CAN frame's bytes in one go, whatever their number is: no call.
+        // Copies the bytes of a CAN frame at once, whatever their number is, without a call.
         if (o.size <= 8) {
             std::memcpy(storage.data(), o.storage.data(), 8);
         } else {
@@ -53,7 +53,7 @@ struct Frame {
         return *this;
     }
 
-    /// One CAN data frame with a 29-bit identifier. Bytes past 8 are dropped.
+    /// One CAN data frame with a 29-bit identifier. Bytes beyond 8 are dropped.
     [[nodiscard]] static Frame can_extended(std::uint32_t id, std::span<const std::uint8_t> data) noexcept {
         Frame f;
         f.kind = Kind::can;
@@ -62,7 +62,7 @@ struct Frame {
         f.assign(data.first(std::min<std::size_t>(data.size(), 8)));
         return f;
     }
-    /// A run of bytes. Bytes past `capacity` are dropped: split longer runs with `for_each_run`.
+    /// A run of bytes. Bytes beyond `capacity` are dropped: split longer runs with `for_each_run`.
     [[nodiscard]] static Frame run(std::span<const std::uint8_t> data) noexcept {
         Frame f;
         f.kind = Kind::bytes;
@@ -76,7 +76,7 @@ struct Frame {
         if (size > 0) std::memcpy(storage.data(), data.data(), size);
     }
 
-    /// Same content; the instant does not count.
+    /// True if the content is equal; the instant is not compared.
     [[nodiscard]] bool same(const Frame& o) const noexcept {
         return kind == o.kind && extended == o.extended && remote == o.remote && id == o.id && std::ranges::equal(data(), o.data());
     }
@@ -95,15 +95,15 @@ void for_each_run(std::span<const std::uint8_t> data, F&& f) {
     }
 }
 
-/// Order in which frames that wait for the same line leave it. `urgent` is for stop, quick stop and disable alone.
+/// The order in which frames that wait for the same line are sent. `urgent` is only for stop, quick stop and disable.
 enum class Priority : std::uint8_t { urgent, command, poll };
 
 /// One recorded frame.
 struct TraceEntry {
-    std::uint64_t sequence = 0;  ///< counts up per line; a gap means that older ones were overwritten
+    std::uint64_t sequence = 0;  ///< increases per line; a gap means that older ones were overwritten
     std::int64_t at_unix_ns = 0;
     bool to_drive = false;
-    bool simulated = false;  ///< crossed the twin bus, not the cable
+    bool simulated = false;  ///< on the twin bus, not on the cable
     Frame frame;
 };
 

@@ -1,5 +1,5 @@
-// Hand table: the conditions that a twin's hand can set, as rows: how each is called, what it shows and what writing it does. What a twin
-// lists and what it takes come from the same rows, so that neither has a name that the other has not.
+// The conditions that a twin's hand can set, as rows: name, present value, and the effect of a write. The list of a twin's conditions and
+// the setting of one use the same rows, so that neither has a name that the other lacks.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace axisgate {
 
-/// One condition that is being written, with the usual readings of its value: `then` gets what was read, and says what is wrong with it
-/// where it does not always fit.
+/// A write of one condition, with the usual conversions of its value: `then` gets the converted value and returns the fault, if there is
+/// one.
 struct HandWish {
     const std::string& name;
     const Value& value;
@@ -59,7 +59,8 @@ private:
     }
 };
 
-/// `Model` is what shows the condition, `Hand` what takes it. Without `write` it is not taken; without `fitted` it is always there.
+/// `Model` provides the present value, `Hand` accepts a write. Without `write` the condition is read only; without `fitted` it always
+/// exists.
 template <class Model, class Hand = Model>
 struct HandRow {
     std::string_view name;
@@ -70,7 +71,7 @@ struct HandRow {
     bool (*fitted)(const Model&) = nullptr;
 };
 
-/// Each condition as it is now, in the order of the rows.
+/// Each condition with its present value, in the order of the rows.
 template <class Model, class Hand, std::size_t N>
 [[nodiscard]] std::vector<HandItem> hand_items(const HandRow<Model, Hand> (&rows)[N], const Model& model, Instant now) {
     std::vector<HandItem> items;
@@ -81,7 +82,7 @@ template <class Model, class Hand, std::size_t N>
     return items;
 }
 
-/// Sets one condition: the empty string, or what is wrong with it; nothing where no row takes it.
+/// Sets one condition: an empty text, or the fault; no value if no row has this name.
 template <class Model, class Hand, std::size_t N>
 [[nodiscard]] std::optional<std::string> set_hand_row(const HandRow<Model, Hand> (&rows)[N], const Model& model, Hand& hand,
                                                       const HandWish& wish) {

@@ -1,5 +1,5 @@
-// Histogram: counts in fixed buckets. In: durations. Out: counts and text.
-// Buckets are kept apart and summed up by the reader: the observing thread writes two numbers.
+// Counts durations in fixed buckets. The buckets are separate and the reader adds them, so that the observing thread writes only two
+// numbers.
 #include "gateway/core/histogram.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Histogram: how long something took, counted in fixed buckets, for /metrics.
-// In: durations, observed by one thread. Out: Prometheus text and quantiles, for any thread at any time. Never allocates or locks when it
-// observes; two of its numbers may be a moment apart for a reader.
+// Durations counted in fixed buckets, for /metrics: one thread observes, any thread reads. Observing allocates nothing and takes no lock;
+// two numbers of a reading may belong to slightly different instants.
 #pragma once
 
 #include <array>
@@ -16,20 +15,20 @@ namespace axisgate {
 
 class Histogram {
 public:
-    /// Upper ends of the buckets in nanoseconds, in steps of 1, 2, 5 from 1 us to 10 s; what is longer is in one more.
+    /// Upper ends of the buckets in nanoseconds, in steps of 1, 2, 5 from 1 us to 10 s; one further bucket is for longer durations.
     static constexpr std::array<std::int64_t, 22> bounds{
         1'000,       2'000,       5'000,         10'000,        20'000,        50'000,        100'000,    200'000,
         500'000,     1'000'000,   2'000'000,     5'000'000,     10'000'000,    20'000'000,    50'000'000, 100'000'000,
         200'000'000, 500'000'000, 1'000'000'000, 2'000'000'000, 5'000'000'000, 10'000'000'000};
 
-    /// `times` things that took so long each. Less than nothing counts as nothing.
+    /// `times` observations of this duration. A negative duration counts as 0.
     void observe(Duration d, std::uint64_t times = 1) noexcept;
 
     struct Reading {
-        std::array<std::uint64_t, bounds.size() + 1> buckets{};  ///< not cumulative; the last one: beyond all bounds
+        std::array<std::uint64_t, bounds.size() + 1> buckets{};  ///< not cumulative; the last one is beyond all bounds
         std::uint64_t sum_ns = 0;
         [[nodiscard]] std::uint64_t count() const noexcept;
-        /// `q` 0..1, in seconds, between the bounds of its bucket in proportion; beyond all bounds the last one. 0 where nothing was
+        /// `q` is 0..1, the result in seconds, interpolated within its bucket; beyond all bounds it is the last bound. 0 if nothing was
         /// observed.
         [[nodiscard]] double quantile(double q) const noexcept;
     };

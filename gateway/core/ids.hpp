@@ -1,6 +1,5 @@
-// Ids: the small numbers by which lines, drives, axes, points and tickets are named inside the process.
-// In: nothing. Out: strong integer types. Names (text) belong to the site; ids are given out by the engine.
-// Never reused while the process runs: a removed drive's id is not given to another.
+// The small numbers by which lines, drives, axes, points and tickets are named inside the process. The engine assigns them to the names of
+// the site. An id is never reused while the process runs.
 #pragma once
 
 #include <compare>
@@ -22,10 +21,10 @@ inline constexpr AxisId no_axis{0xFFFF};
 [[nodiscard]] constexpr std::uint16_t index_of(DriveId id) noexcept { return static_cast<std::uint16_t>(id); }
 [[nodiscard]] constexpr std::uint16_t index_of(AxisId id) noexcept { return static_cast<std::uint16_t>(id); }
 
-/// Axes, drives and lines that a site may have, each.
+/// The number of axes, drives and lines that a site may have, each.
 inline constexpr std::size_t max_axes = 1024;
 
-/// Names one Command on its way; exactly one Result carries it back. 0 means "nobody waits".
+/// Identifies one Command in progress; exactly one Result contains it. 0 means that nobody waits for the result.
 using Ticket = std::uint64_t;
 inline constexpr Ticket no_ticket = 0;
 

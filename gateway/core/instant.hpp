@@ -1,6 +1,5 @@
-// Instant: a point on the gateway's monotonic time line, in nanoseconds.
-// In: nothing. Out: the types Instant and Duration, which every pure part takes as arguments.
-// Never reads a clock: only gateway/runtime does that, and tests make instants up.
+// A point on the gateway's monotonic time line in nanoseconds, and Duration; every pure part takes them as arguments. Only gateway/runtime
+// reads a clock; tests make instants up.
 #pragma once
 
 #include <chrono>
@@ -10,7 +9,7 @@ namespace axisgate {
 
 using Duration = std::chrono::nanoseconds;
 
-/// A clock without `now()`: instants are handed in, so the same calls give the same results.
+/// A clock without `now()`: instants are arguments, so that the same calls give the same results.
 struct PureClock {
     using rep = std::int64_t;
     using period = std::nano;
@@ -21,10 +20,10 @@ struct PureClock {
 
 using Instant = PureClock::time_point;
 
-/// "No deadline": later than every instant that can happen.
+/// "No deadline": later than every possible instant.
 inline constexpr Instant never = Instant::max();
 
-/// The beginning of a simulated world; real time lines start wherever the runtime's clock says.
+/// The beginning of a simulated world; real time lines start at the value of the runtime's clock.
 inline constexpr Instant time_zero{};
 
 [[nodiscard]] constexpr Instant at_ns(std::int64_t ns) noexcept { return Instant{Duration{ns}}; }
@@ -33,7 +32,7 @@ inline constexpr Instant time_zero{};
 [[nodiscard]] constexpr std::int64_t milliseconds_of(Duration d) noexcept {
     return std::chrono::duration_cast<std::chrono::milliseconds>(d).count();
 }
-/// `a + b`, or the end of what 64 bits hold: for times that somebody asks for, or that a file tells.
+/// `a + b`, limited to 64 bits: for times from a request or a file.
 [[nodiscard]] constexpr std::int64_t saturated_sum(std::int64_t a, std::int64_t b) noexcept {
     std::int64_t sum = 0;
     return !__builtin_add_overflow(a, b, &sum) ? sum : b > 0 ? INT64_MAX : INT64_MIN;

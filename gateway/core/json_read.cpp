@@ -1,5 +1,4 @@
-// JSON read: Boost's parser calls a handler that builds the value and keeps, for each object that is open, the names seen in it.
-// In: text. Out: a value or a fault. Never keeps names of an object that has ended.
+// Boost's parser calls a handler that builds the value and keeps the names of each open object. Names of a finished object are dropped.
 #include "gateway/core/json_read.hpp"
 
 #include <fmt/core.h>
@@ -19,7 +18,7 @@ using Error = boost::system::error_code;
 constexpr std::size_t most_depth = 32;
 constexpr std::size_t most_shown_name = 64, most_shown_pointer = 512;  // a name may have as many bytes as the text
 
-/// At most so many bytes, not cut in the middle of a letter.
+/// At most this number of bytes, not cut inside a character.
 std::string shortened(std::string_view s, std::size_t most) {
     if (s.size() <= most) return std::string(s);
     while (most > 0 && (static_cast<unsigned char>(s[most]) & 0xC0u) == 0x80u)
@@ -40,7 +39,7 @@ void put_token(std::string& pointer, std::string_view token) {
     }
 }
 
-/// What basic_parser calls; names and signatures are the library's.
+/// The handler of basic_parser; names and signatures are the library's.
 class Builder {
 public:
     static constexpr std::size_t max_object_size = std::size_t(-1);
@@ -115,7 +114,7 @@ public:
         return ended();
     }
     bool on_double(double d, json::string_view, Error&) {
-        // The library makes "0e999" of nothing times infinity, which is no number: it would pass every comparison with a limit.
+        // The library makes NaN of "0e999", which would pass every comparison with a limit.
         stack_.push_double(std::isnan(d) ? 0.0 : d);
         return ended();
     }
@@ -134,8 +133,8 @@ public:
 private:
     struct Level {
         bool is_array = false;
-        std::size_t items = 0;  ///< of an array, those that have ended
-        std::string name{};     ///< of an object, the member that is read
+        std::size_t items = 0;  ///< of an array, the number of finished elements
+        std::string name{};     ///< of an object, the member that is being read
         std::set<std::string> names{};
     };
     bool ended() {

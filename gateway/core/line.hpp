@@ -1,6 +1,6 @@
-// Line: where frames cross, and the one seam that a cable, a twin, a trace and a fault injector all have.
-// In: frames to send, the passing of time. Out: arriving frames and changes of state, through LineEvents.
-// Never interprets frames. Real lines (gateway/lines) call their events from the hot loop; pure lines only from on_deadline and send.
+// The interface of everything that carries frames: a cable, a twin bus, a replayed trace, a fault injector. Received frames and changes of
+// state are reported through LineEvents. Real lines (gateway/lines) call their events from the hot loop; pure lines only from on_deadline
+// and send.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace axisgate {
 
-/// What a line tells its owner. Called on the hot thread only, never from inside the owner's own send().
+/// The reports of a line to its owner. Called on the hot thread only, never from inside the owner's own send().
 struct LineEvents {
     virtual void on_frame(const Frame& frame) = 0;
-    /// `up` false: nothing can be sent (cable gone, interface down, bus-off, connection lost); `why` for people.
+    /// `up` false: nothing can be sent (cable disconnected, interface down, bus-off, connection lost); `why` is for people.
     virtual void on_line_state(bool up, const std::string& why) = 0;
-    /// One frame really left (echoed by the CAN controller, written to the port); for the trace. May be left out by a line.
+    /// One frame was really sent (echoed by the CAN controller, written to the port); for the trace. A line need not report it.
     virtual void on_sent(const Frame& frame) = 0;
     virtual ~LineEvents() = default;
 };
@@ -28,23 +28,23 @@ struct LineStatus {
     std::uint64_t frames_out = 0;
     std::uint64_t bytes_in = 0;
     std::uint64_t bytes_out = 0;
-    std::uint64_t dropped = 0;   ///< frames that found the queue full
+    std::uint64_t dropped = 0;   ///< frames that were dropped because the queue was full
     std::uint64_t errors = 0;    ///< controller errors, framing errors, failed writes
-    std::uint64_t reopened = 0;  ///< times the line came back
+    std::uint64_t reopened = 0;  ///< number of times the line came back
     std::uint32_t queued = 0;    ///< frames waiting now
-    double load = 0;             ///< share of the bit rate used in the last second, 0..1; 0 where there is no bit rate
-    std::uint8_t tx_errors = 0;  ///< CAN controller's counters, where it tells them
+    double load = 0;             ///< share of the bit rate used in the last second, 0..1; 0 if there is no bit rate
+    std::uint8_t tx_errors = 0;  ///< the CAN controller's counters, if it provides them
     std::uint8_t rx_errors = 0;
 };
 [[nodiscard]] std::string_view name_of(LineStatus::State state) noexcept;
 
 struct Line {
-    /// Begins to open; state changes arrive through `events`, which outlives the line. Opens again by itself after every fault,
-    /// with growing pauses, until closed.
+    /// Begins to open; state changes are reported through `events`, which must outlive the line. It opens again by itself after every
+    /// fault, with growing pauses, until it is closed.
     virtual void open(LineEvents& events, Instant now) = 0;
     virtual void close() = 0;
-    /// Takes a frame for sending. Urgent ones go before all that wait. False: the bounded queue is full or the line is down;
-    /// the frame is dropped and counted.
+    /// Accepts a frame for sending. Urgent ones go before all waiting ones. False: the bounded queue is full or the line is down; the frame
+    /// is dropped and counted.
     virtual bool send(const Frame& frame, Priority priority, Instant now) = 0;
     /// Pure lines work by deadline; real lines return `never` and use the loop's own timers.
     [[nodiscard]] virtual Instant deadline() const = 0;

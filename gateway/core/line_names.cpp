@@ -1,5 +1,5 @@
-// Line names: the words for a line's states, as they appear in REST answers and metrics.
-// In: enumerators. Out: words. Never translated, never changed: they are the contract.
+// The words for a line's states, as they appear in REST answers and metrics. They are part of the contract: never translated, never
+// changed.
 #include "gateway/core/line.hpp"
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// LineUri: scheme, place and options of a line. In: text. Out: a value or a fault with an example.
-// Never accepts what it does not understand: a mistyped option would otherwise be found on the machine, at night.
+// Reads scheme, place and options of a line, or reports a fault with an example. An unknown option is refused, because a typing error would
+// otherwise be found on the machine.
 #include "gateway/core/line_uri.hpp"
 
 #include <fmt/core.h>
@@ -36,7 +36,7 @@ std::optional<std::uint32_t> number(std::string_view text) noexcept {
 
 bool is_letter_or_digit(char c) noexcept { return is_letter(c) || is_digit(c); }
 
-/// What is wrong with a host, or nothing.
+/// The fault in a host name, or an empty text.
 std::string host_fault(std::string_view host, bool bracketed) {
     if (host.empty()) return "the host is missing";
     if (host.size() > 253) return "the host's name is longer than 253 characters";
@@ -87,7 +87,7 @@ LineUriResult parse_endpoint(std::string_view scheme, std::string_view rest, Lin
 LineUriResult parse_can(std::string_view rest) {
     if (rest.find('?') != std::string_view::npos)
         return fault("a CAN line takes no options: its bit rate is set where the interface is", can_example);
-    // What the kernel takes as an interface's name.
+    // The rules of the kernel for an interface's name.
     const bool bad = rest.empty() || rest.size() > 15 || rest == "." || rest == ".." ||
                      std::ranges::any_of(rest, [](char c) { return c <= ' ' || c == '/' || c == ':' || c == '\x7f'; });
     if (bad)
@@ -99,7 +99,7 @@ LineUriResult parse_can(std::string_view rest) {
     return r;
 }
 
-/// One `key=value` of a serial line; empty if it was good.
+/// One `key=value` of a serial line; empty if it is correct.
 std::string set_serial(SerialSettings& s, std::string_view key, std::string_view value) {
     const auto flag = [&](bool& to) -> std::string {
         if (value != "0" && value != "1") return fmt::format("{} is 0 or 1, not \"{}\"", key, value);
@@ -138,7 +138,7 @@ std::string set_serial(SerialSettings& s, std::string_view key, std::string_view
     return fmt::format("a serial line has no option \"{}\" (it has baud, format, rs485, rts_before_ms, rts_after_ms, rtscts)", key);
 }
 
-/// The `key=value&key=value` after the question mark; what is wrong, or nothing.
+/// The `key=value&key=value` after the question mark; the fault, or an empty text.
 template <class Set>
 std::string read_options(std::string_view options, std::set<std::string_view>& seen, const Set& set) {
     for (;;) {

@@ -1,5 +1,5 @@
-// Names: the words for enumerations, one place for all doors.
-// In: enumerators. Out: words that appear in REST answers, events and messages. Never translated, never changed: they are the contract.
+// The words for enumerators in REST answers, events and messages, in one place for all doors. They are part of the contract: never
+// translated, never changed.
 #include <fmt/core.h>
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Parameter forms: read from the catalogue's document each time they are asked for: a write or a page's list is rare beside what is polled.
-// In: the document, values. Out: fields, meanings, the form in force, checks in words.
-// Never guesses: what is not written as it should be is a fault at the start (check_forms) and nothing here.
+// Forms are read from the catalogue's document at each request, because writes and lists are rare compared with polls. A wrong member is a
+// fault at the start (check_forms) and ignored here.
 #include "gateway/core/parameter_form.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// Plain text: what names and texts of strangers may hold where a person or a terminal reads them: no line end, no escape, no change of the
-// direction of writing.
+// Checks and cleans names and texts of unknown origin for display to people or on a terminal: no line end, no escape sequence, no change of
+// the writing direction.
 #pragma once
 
 #include <fmt/core.h>
@@ -10,8 +10,8 @@
 
 namespace axisgate {
 
-/// One character at the beginning of `text`, which is not empty: its bytes, and whether it is plain. What is not UTF-8 is one byte, not
-/// plain.
+/// One character at the beginning of `text`, which is not empty: its length in bytes, and whether it is plain. A byte that is not UTF-8 is
+/// one character, not plain.
 struct PlainStep {
     std::size_t bytes = 1;
     std::uint32_t code = 0;
@@ -35,7 +35,8 @@ struct PlainStep {
     return {n, code, !controls};
 }
 
-/// No control character (also none of C1), no separator of lines or paragraphs, no override of the direction, and whole UTF-8.
+/// True if there is no control character (including C1), no separator of lines or paragraphs, no override of the direction, and only
+/// complete UTF-8.
 [[nodiscard]] inline bool is_plain(std::string_view text) noexcept {
     while (!text.empty()) {
         const PlainStep step = plain_step(text);
@@ -45,7 +46,7 @@ struct PlainStep {
     return true;
 }
 
-/// The text with all else written out: \\n, \\x1b, \\u202e. A tabulator becomes a blank.
+/// The text with all other characters escaped: \\n, \\x1b, \\u202e. A tabulator becomes a blank.
 [[nodiscard]] inline std::string one_line(std::string_view text) {
     std::string out;
     out.reserve(text.size());

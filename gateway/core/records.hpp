@@ -1,6 +1,5 @@
-// Records: what is kept of a site over restarts, as plain values: stored parameters, snapshots, revisions of the site, and questions for
-// events. In: built from acknowledged writes and from people's requests. Out: the store, services and doors. Never holds ids of the running
-// process.
+// Stored data of a site as plain values: parameters, snapshots, revisions of the site, and queries for events. They contain no ids of the
+// running process.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@ struct EventQuery {
     std::string axis;                ///< empty: any
     std::optional<Severity> at_least;
     std::size_t limit = 200;      ///< 1..1000; the newest ones if there are more, or the oldest ones
-    bool oldest_first = false;    ///< the oldest ones if there are more than `limit`: for reading on from `since_id`
+    bool oldest_first = false;    ///< the oldest ones if there are more than `limit`, for reading on from `since_id`
     std::string kind;             ///< empty: any
     std::uint64_t before_id = 0;  ///< events with a smaller id, for paging backwards; 0: no bound
 };
@@ -38,26 +37,26 @@ struct LiveParameter {
     Quality quality = Quality::unknown;
 };
 
-// --- what is kept: snapshots of an axis' parameters, and documents of the site ---
+// --- snapshots of an axis' parameters, and documents of the site ---
 struct SnapshotValue {
     std::string parameter;
     Value value;
 };
 struct SnapshotInfo {
-    std::uint32_t n = 0;  ///< counts up per axis from 1; never given twice
+    std::uint32_t n = 0;  ///< increases per axis from 1; never used twice
     std::string name;
     std::string comment;
     std::string who;
     std::int64_t at_unix_ns = 0;
-    std::uint64_t values = 0;  ///< how many
-    std::string family;        ///< of the drive that it was taken from; empty: not known
+    std::uint64_t values = 0;  ///< number of values
+    std::string family;        ///< of the drive that it was taken from; empty: unknown
 };
 struct AxisSnapshot : SnapshotInfo {
     std::vector<SnapshotValue> parameters;  ///< in order of parameter id
 };
 
 struct SiteRevision {
-    std::uint64_t revision = 0;  ///< counts up; never given twice
+    std::uint64_t revision = 0;  ///< increases; never used twice
     std::int64_t at_unix_ns = 0;
     std::string who;
     std::string text;         ///< the document; empty in site_history()

@@ -1,7 +1,5 @@
-// Scan: looking for drives on a line: which addresses a family would ask, and what was found.
-// In: what the client wants searched. Out: addresses in order; a report that grows.
-// The asking itself is the adapter's own first exchange with a drive, at its lowest priority, within its own discipline: nothing is written
-// to any drive, and what is polled goes on.
+// A search for drives on a line: the addresses that a family would ask, and a report that grows. The question is the adapter's own first
+// exchange with a drive, at its lowest priority: nothing is written to any drive, and polling continues.
 #pragma once
 
 #include <cstddef>
@@ -16,37 +14,37 @@ namespace axisgate {
 
 struct ScanWish {
     LineKind kind = LineKind::bytes;
-    std::string family;              ///< to be searched for; empty: each family of the line
+    std::string family;              ///< to search for; empty: each family of the line
     std::string from, to;            ///< first and last address, in the family's form; empty: all
     std::vector<std::string> known;  ///< addresses of the site's drives on this line
     Duration limit{};                ///< of the whole scan
 };
 
-/// What Family::scan answers.
+/// The answer of Family::scan.
 struct ScanPlan {
-    std::vector<std::string> addresses;  ///< to be asked, in this order; those of `known` are left out by the engine
+    std::vector<std::string> addresses;  ///< addresses to ask, in this order; the engine leaves out those of `known`
     std::size_t at_once = 1;             ///< asked at the same time, 1..16
-    std::string fault;                   ///< not empty: `from` or `to` is none of this family, and what would be right
+    std::string fault;                   ///< not empty: `from` or `to` is wrong in this family, with the remedy
 };
 
 struct ScanReport {
     enum class State : std::uint8_t { none, running, done, failed, cancelled };
     struct Found {
         std::string address, family;
-        std::string text;      ///< what it said it is
-        std::string known_as;  ///< name of the site's drive at that address; empty: none yet
+        std::string text;      ///< its identification
+        std::string known_as;  ///< name of the site's drive at that address; empty: none
     };
-    /// How far the search for one family is.
+    /// The progress of the search for one family.
     struct Part {
         std::string family;
         std::size_t asked = 0, of = 0;
-        std::string text;  ///< why it is not searched for; empty: it is
+        std::string text;  ///< the reason why it is not searched for; empty: it is
     };
     State state = State::none;
     std::size_t asked = 0, of = 0;
     std::vector<Part> parts;   ///< by family, in the order of the line; `asked` and `of` are their sums
     std::vector<Found> found;  ///< in order of discovery; the site's own drives that answer come first
-    std::string text;          ///< why it failed or ended early
+    std::string text;          ///< the reason why it failed or ended early
 };
 [[nodiscard]] std::string_view name_of(ScanReport::State state) noexcept;
 

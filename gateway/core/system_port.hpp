@@ -1,5 +1,4 @@
-// System port: one place of this machine where a line can be: a serial port or a CAN interface, as the system lists it.
-// In: nothing. Out: plain values. That one is listed says nothing of what hangs on it.
+// A serial port or a CAN interface of this machine, as the system lists it. A listed port need not have anything connected to it.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +10,10 @@ namespace axisgate {
 struct SystemPort {
     enum class Kind : std::uint8_t { serial, can };
     Kind kind = Kind::serial;
-    std::string name;  ///< the system's: "ttyUSB0", "can0"
-    std::string path;  ///< serial: the name that stays when it is plugged in elsewhere (/dev/serial/by-id/...), else its device; can: empty
-    std::string text;  ///< maker and product, or the driver's name; empty: the system says no more
-    bool up = true;    ///< can: the interface is switched on; a serial port is always so
+    std::string name;  ///< the system's name: "ttyUSB0", "can0"
+    std::string path;  ///< serial: the name that stays the same in every socket (/dev/serial/by-id/...), otherwise its device; can: empty
+    std::string text;  ///< maker and product, or the driver's name; empty: unknown
+    bool up = true;    ///< can: the interface is switched on; always true for a serial port
     bool operator==(const SystemPort&) const = default;
 };
 /// "serial", "can".

@@ -1,5 +1,5 @@
-// Text: numbers by the character functions of the library, times by the calendar of <chrono>.
-// In: text, values. Out: the other one. Never throws for bad text, and never writes bytes that are not UTF-8.
+// Numbers by the character functions of the library, times by the calendar of <chrono>. Bad text never throws, and all written bytes are
+// UTF-8.
 #include "gateway/core/text.hpp"
 
 #include <fmt/format.h>
@@ -159,7 +159,7 @@ std::optional<std::int64_t> parse_time(std::string_view s) noexcept {
     if (!s.empty() && (s.front() == 'Z' || s.front() == 'z')) {
         s.remove_prefix(1);
     } else {
-        // A plus that a query string turned into a blank is still a plus.
+        // A plus that a query string has turned into a blank is still a plus.
         const bool minus = !s.empty() && s.front() == '-';
         if (!skip("+- ")) return std::nullopt;
         const auto oh = digits(2, 0, 23);
@@ -290,7 +290,7 @@ json::value text_or_null(std::string_view text) {
 
 std::string csv_cell(std::string_view text) {
     std::string s(text);
-    // Behind marks that are its own as well, so that the reader, which takes one away, gives back what was written.
+    // The mark is also put behind marks that the text has itself, so that the reader, which removes one, restores the text.
     const auto first = s.find_first_not_of('\'');
     const bool formula =
         first != std::string::npos && std::string_view("=+-@").find(s[first]) != std::string_view::npos && !parse_number(s);

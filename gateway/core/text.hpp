@@ -1,6 +1,5 @@
-// Text: numbers, times, hex and JSON as text, and back.
-// In: text of strangers, or values to show. Out: values, or text that is always valid UTF-8. Bad input gives nothing, never a guess.
-// Never knows a protocol.
+// Numbers, times, hex and JSON as text, and back. The text may have any origin: bad input gives an empty result, and written text is always
+// valid UTF-8.
 #pragma once
 
 #include <boost/json/value.hpp>
@@ -13,9 +12,9 @@
 
 namespace axisgate {
 
-/// "1", "true", "": true; "0", "false": false; nothing for other text.
+/// "1", "true", "": true; "0", "false": false; empty for other text.
 [[nodiscard]] std::optional<bool> parse_flag(std::string_view text) noexcept;
-/// Decimal, within the bounds; nothing else.
+/// Decimal, within the bounds; otherwise empty.
 [[nodiscard]] std::optional<std::int64_t> parse_whole(std::string_view text, std::int64_t low, std::int64_t high) noexcept;
 /// Finite decimal number, the whole text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text) noexcept;
@@ -27,10 +26,10 @@ namespace axisgate {
 
 /// Upper case pairs without spaces.
 [[nodiscard]] std::string to_hex(std::span<const std::uint8_t> bytes);
-/// Pairs, with blanks between pairs allowed; nothing if it is not that.
+/// Pairs, with blanks between pairs allowed; empty for anything else.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> from_hex(std::string_view text);
 
-/// ASCII, whatever the locale is.
+/// ASCII, in every locale.
 [[nodiscard]] constexpr bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 [[nodiscard]] constexpr bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 [[nodiscard]] constexpr char upper(char c) noexcept { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -40,16 +39,16 @@ namespace axisgate {
 [[nodiscard]] std::string lower(std::string_view text);
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
-/// JSON text, compact. Doubles in their shortest form (whole ones without an exponent), not-a-number and infinities as null, bytes that
-/// are not UTF-8 as U+FFFD: what leaves the door is always JSON.
+/// JSON text, compact. Doubles in their shortest form (whole ones without an exponent), NaN and infinities as null, bytes that are not
+/// UTF-8 as U+FFFD, so that the output is always JSON.
 [[nodiscard]] std::string json_text(const boost::json::value& value);
 void json_text(const boost::json::value& value, std::string& into);
-/// A double as the JSON number people expect: whole ones below 2^53 as integers; null if it is not finite.
+/// A double as the JSON number that people expect: whole ones below 2^53 as integers; null if it is not finite.
 [[nodiscard]] boost::json::value number(double value);
 /// null for an empty text.
 [[nodiscard]] boost::json::value text_or_null(std::string_view text);
 
-/// A cell that a spreadsheet takes as text and not as a formula or as several cells.
+/// A cell that a spreadsheet takes as text, and not as a formula or as several cells.
 [[nodiscard]] std::string csv_cell(std::string_view text);
 
 }  // namespace axisgate

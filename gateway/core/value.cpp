@@ -1,5 +1,4 @@
-// Values: names of types, conversions, text.
-// In: values and texts. Out: the same in the other form. Never rounds silently.
+// Names of types, conversions, text. No conversion rounds silently.
 #include "gateway/core/value.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Wire time: the bits of a frame, stuffed ones included. In: frames. Out: bit counts.
-// Never allocates; two to eight bits at a time.
+// Counts the bits of a frame, including stuffed ones, two to eight bits at a time, without allocating memory.
 #include "gateway/core/wire_time.hpp"
 
 #include <array>
@@ -9,7 +8,7 @@ namespace {
 
 /// Bit stuffing: after five equal bits the sender inserts the opposite one, which begins the next run.
 struct Stuffing {
-    std::uint8_t last, run;  ///< a run of five has ended already; state 0 is that after the start of frame
+    std::uint8_t last, run;  ///< the end of a run of five is past; state 0 is that after the start of frame
     std::uint8_t count;
 
     constexpr void put(std::uint32_t bit) noexcept {
@@ -28,7 +27,7 @@ constexpr std::uint32_t crc_of_bit(std::uint32_t crc, std::uint32_t bit) noexcep
     return ((crc << 1) & 0x7FFFu) ^ (((crc >> 14) ^ bit) != 0 ? 0x4599u : 0u);
 }
 
-/// What so many bits do, from each state: how many they grow to, and in the low three bits the state behind them.
+/// The effect of this number of bits, for each state: the length that they grow to, and in the low three bits the next state.
 template <unsigned width>
 struct OfBits {
     std::array<std::array<std::uint8_t, 1u << width>, 8> stuffing{};
@@ -52,7 +51,7 @@ struct OfBits {
 template <unsigned width>
 constexpr OfBits<width> of_bits{};
 
-/// Takes the bits of a frame as they are sent, from behind the start of frame, and keeps count, checksum and stuff bits.
+/// Takes the bits of a frame in the order of sending, from behind the start of frame, and keeps count, checksum and stuff bits.
 class BitStream {
 public:
     /// The low `width` bits, the highest first: whole bytes, with 2 or 6 behind them.
@@ -62,7 +61,7 @@ public:
         if (width == 6) take<6>(static_cast<std::uint32_t>(value) & 0x3Fu);
         if (width == 2) take<2>(static_cast<std::uint32_t>(value) & 0x3u);
     }
-    /// The checksum itself is stuffed like the rest but does not go into the checksum.
+    /// The checksum itself is stuffed like the rest but is not included in the checksum.
     void put_crc() noexcept {
         stuff<8>(crc_ >> 7);
         stuff<7>(crc_ & 0x7Fu);
@@ -82,7 +81,7 @@ private:
         state_ = then & 7u;
         count_ += then >> 3;
     }
-    std::uint32_t crc_ = 0;  // the start of frame, a 0, leaves it as it is
+    std::uint32_t crc_ = 0;  // the start of frame, a 0, does not change it
     std::uint32_t state_ = 0, count_ = 1;
 };
 

@@ -1,6 +1,5 @@
-// Wire time: how many bits a frame is on the wire, how long that takes, and which of two CAN frames goes first.
-// In: frames and bit rates. Out: bit counts, durations, arbitration order. Exact, also for CAN's stuff bits.
-// Never estimates: the bit stream is built up to its checksum and the stuff bits are counted in it. (ISO 11898-1)
+// The length of a frame in bits, its duration, and the arbitration between two CAN frames (ISO 11898-1). The numbers are exact: the bit
+// stream is built up to its checksum, and the stuff bits are counted in it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@ inline constexpr std::uint32_t can_intermission_bits = 3;
 /// The smaller number wins the bus: identifier, then data before remote and standard before extended, as the bits are sent.
 [[nodiscard]] std::uint32_t can_arbitration(const Frame& frame) noexcept;
 
-/// `bits` at `bit_rate` bit/s, to the nearest nanosecond; zero if the rate is zero (not known).
+/// `bits` at `bit_rate` bit/s, to the nearest nanosecond; zero if the rate is zero (unknown).
 [[nodiscard]] constexpr Duration wire_time(std::uint64_t bits, std::uint32_t bit_rate) noexcept {
     if (bit_rate == 0) return Duration::zero();
     return Duration{static_cast<std::int64_t>((bits * 1'000'000'000ull + bit_rate / 2) / bit_rate)};

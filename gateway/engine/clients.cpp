@@ -1,6 +1,5 @@
-// Clients: by what each kind of command is seen to be done.
-// In: accepted commands and their axis' feedback. Out: results.
-// Never answers from feedback that is older than the acceptance where the end of a motion before could be seen.
+// Recognizes the end of each kind of command in the feedback of its axis. Feedback that is older than the drive's acceptance is not used
+// where it could still show the end of the previous motion.
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -11,12 +10,12 @@
 
 namespace axisgate::engine {
 namespace {
-/// A motion that stands still without having arrived has been ended by something else; not at the first look, since a drive may need
-/// a moment to get going.
+/// A motion that stands still before its target was ended by something else. The first feedback after the start does not count, because a
+/// drive may need a moment to begin to move.
 constexpr Duration rest_before_interrupted = std::chrono::milliseconds(250);
 constexpr Duration reset_limit = std::chrono::seconds(3);
 
-/// What is seen of a command whose end is watched; of one that has failed, why.
+/// The observed progress of a command whose end is watched, with the reason if it has failed.
 struct Progress {
     enum class Kind : std::uint8_t { done, going_on, failed } kind = Kind::going_on;
     Reason reason = Reason::none;
@@ -91,7 +90,7 @@ Progress of_action(const Axis& a, const Client& c, Completion completes) {
     const AxisFeedback& f = a.profile.feedback();
     if (completes == Completion::powered) return of_enabling(a);
     if (completes == Completion::standstill) return of_standstill(a, c.accepted_at);
-    // Before it has begun, the axis shows the end of the motion before.
+    // Until the motion has begun, the axis still shows the end of the previous one.
     const bool begun = c.was_moving || f.fault || f.at - c.accepted_at > rest_before_interrupted;
     return begun ? of_motion(a, c.accepted_at) : going_on;
 }
@@ -103,7 +102,7 @@ bool is_any_of(const CommandBody& body) {
     return (std::holds_alternative<Bodies>(body) || ...);
 }
 
-/// Done when all axes have arrived, failed with the first that fails.
+/// The start is done when all axes have arrived, and has failed when the first of them fails.
 Progress of_start_together(const Machine& machine, const StartTogether& together, Instant accepted_at) {
     bool all = true;
     for (const AxisId id : together.axes) {
@@ -116,7 +115,7 @@ Progress of_start_together(const Machine& machine, const StartTogether& together
     return all ? done : going_on;
 }
 
-/// What the axis shows of a command whose client waits for its end.
+/// Derives the progress of a command whose client waits for its end from the feedback of the axis.
 Progress progress_of(const Machine& machine, const Axis& a, const Client& c, Completion completes, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     const bool online = is_online(a), fresh = f.at > c.accepted_at;
@@ -131,12 +130,12 @@ Progress progress_of(const Machine& machine, const Axis& a, const Client& c, Com
     if (std::holds_alternative<Home>(c.body)) return of_homing(a, c.accepted_at);
     if (const auto* together = std::get_if<StartTogether>(&c.body)) return of_start_together(machine, *together, c.accepted_at);
     const auto* move = std::get_if<Move>(&c.body);
-    // Parameters, native exchanges, set-points written as process data and prepared moves are done when the drive has taken them.
+    // Parameters, native exchanges, set-points written as process data and prepared moves are done when the drive has acknowledged them.
     if (!move || move->prepare_only) return done;
     return move->kind == Move::Kind::velocity ? of_velocity(a, *move, c.accepted_at) : of_motion(a, c.accepted_at);
 }
 
-/// The command's result, once it has one: what the drive answered, turned into what the axis shows.
+/// The command's result, as soon as there is one: the drive's answer, corrected by the observed state of the axis.
 std::optional<Result> result_of(const Machine& machine, const Axis& a, Client& c, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     const auto* action = std::get_if<Action>(&c.body);
@@ -145,7 +144,7 @@ std::optional<Result> result_of(const Machine& machine, const Axis& a, Client& c
     if (completes == Completion::online_again && !is_online(a)) c.was_silent = true;
     c.was_moving = c.was_moving || (f.at > c.accepted_at && f.moving);
     const bool by_axis = completes != Completion::acknowledged && completes != Completion::reported;
-    // What the axis shows is not the adapter's to tell: its `done` is the drive's acknowledgement then.
+    // The end of these commands is observed at the axis, so the adapter's `done` only means that the drive has acknowledged the command.
     if (by_axis) c.result.outcome = Outcome::accepted;
     if (action && (!by_axis || !c.until_done)) {
         if (completes == Completion::acknowledged) c.result.outcome = Outcome::done;
@@ -160,14 +159,14 @@ std::optional<Result> result_of(const Machine& machine, const Axis& a, Client& c
         r.code = f.error_code;
         r.text = std::move(progress.text);
     } else {
-        // Whatever its adapter calls it: what was merely taken is not done.
+        // A command that the drive has only accepted is not done, even if its adapter reports it as done.
         r.outcome = c.until_done || !is_any_of<Move, Home, Halt, QuickStop, StartTogether>(c.body) ? Outcome::done : Outcome::accepted;
     }
     return r;
 }
 }  // namespace
 
-/// Other motions of the axis that somebody still watches end here: a new one takes their place.
+/// Other motions of the axis that are still being watched end here, because a new one replaces them.
 void Clients::supersede(Axis& a, std::uint64_t by, std::string_view what) {
     std::vector<std::uint64_t> ended;
     for (const auto number : a.clients) {
@@ -184,7 +183,7 @@ void Clients::supersede(Axis& a, std::uint64_t by, std::string_view what) {
     }
 }
 
-/// Looks at every command of the axis that was accepted and asked to be answered when done (or needs no drive to be done).
+/// Examines every accepted command of the axis whose client waits for its end, or whose end does not depend on the drive.
 void Clients::track(Axis& a, Instant now) {
     const auto watched = a.clients;  // finish() changes the list
     for (const auto number : watched) {
@@ -192,7 +191,7 @@ void Clients::track(Axis& a, Instant now) {
         if (it == pending_.clients.end() || !it->second->accepted) continue;
         if (auto result = result_of(machine_, a, *it->second, now)) finish(number, *std::move(result));
     }
-    // More watchers than the bound cannot gather: the oldest one is told so.
+    // If more commands are watched than the bound allows, the oldest one is answered with this reason.
     while (a.clients.size() > max_clients_per_axis) {
         Result r;
         r.outcome = Outcome::failed;

@@ -1,6 +1,5 @@
-// Clients: commands on their way until their one answer; motions are watched until they are done, interrupted or lost.
-// In: the profiles' feedback, motions that take the place of others. Out: the one result of each command.
-// Never takes silence for success: what nobody saw end is reported as failed or goes on being watched.
+// Clients keeps each command from its arrival until its one answer. The end of a motion is watched until the motion is done, interrupted or
+// lost. Silence is never taken for success: a command whose end nobody observed is reported as failed or is watched further.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -20,7 +19,7 @@ private:
     Publisher& publisher_;
 };
 
-/// Commands of one axis that may be on their way at the same time; beyond it: busy.
+/// Limit of commands of one axis that are in progress at the same time; further ones are refused with `busy`.
 inline constexpr std::size_t max_clients_per_axis = 64;
 
 }  // namespace axisgate::engine

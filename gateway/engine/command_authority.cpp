@@ -1,6 +1,4 @@
-// Command authority: who may command an axis now.
-// In: commands with their origin, leases taken, released and handed over. Out: verdicts, events.
-// Never begins a lease before the end of the one before it has been told.
+// Checks each command against the lease of its axis. The end of a lease is always reported before the next lease begins.
 #include <fmt/core.h>
 
 #include "gateway/engine/command_authority.hpp"
@@ -36,7 +34,7 @@ bool CommandAuthority::only_stops(const Axis& a, const CommandBody& body) {
     const std::uint16_t word = *data->controlword;
     if (word & cia402::cw_fault_reset) return false;
     if (!(word & cia402::cw_enable_voltage) || !(word & cia402::cw_quick_stop)) return true;
-    if (a.profile.state() != PowerState::operation_enabled) return false;  // the same words would switch it on
+    if (a.profile.state() != PowerState::operation_enabled) return false;  // the same control word would switch the axis on
     return !(word & cia402::cw_enable_operation) || ((word & cia402::cw_halt) && !(word & cia402::cw_new_setpoint));
 }
 
@@ -52,10 +50,10 @@ std::optional<Refusal> CommandAuthority::ask(Axis& a, const Command& c, Instant 
     return std::nullopt;
 }
 
-/// Whoever may command does: takes or renews the lease where the axis wants one.
+/// A client that may command takes or renews the lease, if the axis is configured for leases.
 void CommandAuthority::note_commander(Axis& x, const Origin& origin, Instant now) {
     if (!is_asked(origin)) return;
-    changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is told before the next one begins
+    changed(x, x.authority.expire(now), nullptr, now);  // the end of a lease is reported before the next one begins
     const auto v = x.authority.command(AuthorityClient::of(origin), x.spec.authority_mode, machine_.lease, now);
     changed(x, v, &origin, now);
 }
@@ -85,7 +83,7 @@ void CommandAuthority::hold(Axis& a, const Command& c, const HoldAxis& wish, Ins
 void CommandAuthority::changed(Axis& a, const AxisAuthority::Verdict& v, const Origin* by, Instant now) {
     using Authority = AxisAuthority::Change;
     if (v.change == Authority::none) {
-        return;  // a lease that a command prolongs is published with that command
+        return;  // a lease that a command prolongs is published together with that command
     }
     publisher_.publish(a, now);
     if (v.change == Authority::renewed) return;

@@ -1,6 +1,5 @@
-// Command authority: who may command an axis, what a lease does to the others, and what is said about it.
-// In: commands with their origin. Out: refusals that name the holder, events of kind "authority", the image's holder and register 17.
-// Never holds up a stop, and never asks the gateway's own orders.
+// CommandAuthority decides whether a client may command an axis, and reports changes of the lease: refusals name the holder, events have
+// the kind "authority", and the image shows the holder and register 17. Stops are never checked, and neither are the gateway's own orders.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -11,9 +10,10 @@ class CommandAuthority {
 public:
     CommandAuthority(Machine& machine, Publisher& publisher) : machine_(machine), publisher_(publisher) {}
     [[nodiscard]] AxisAuthority::Verdict may_command(const Axis& axis, const Command& command, Instant now) const;
-    /// Ends motion and nothing else: not asked for a lease.
+    /// True if the command only ends motion; such a command needs no lease.
     [[nodiscard]] static bool only_stops(const Axis& axis, const CommandBody& body);
-    /// Nothing: the client is noted as the one who commands; else another client holds the axis, by its name.
+    /// Empty if the client may command (it is then recorded as the commander); otherwise the refusal, which names the client that holds the
+    /// axis.
     [[nodiscard]] std::optional<Refusal> ask(Axis& axis, const Command& command, Instant now);
     void note_commander(Axis& axis, const Origin& origin, Instant now);
     void hold(Axis& axis, const Command& command, const HoldAxis& wish, Instant now);

@@ -1,6 +1,5 @@
-// Commands: guarded, planned, noted and carried out; `on_command` is the list of it.
-// In: one command. Out: a refusal, an answer, or its orders, one by one.
-// Never guards in two places: authority, limits and profile are each asked in `plan_motion`.
+// Checks, plans and carries out a client's command; `on_command` shows the steps in order. Each check is made in one place only: authority,
+// limits and profile in `plan_motion`.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,15 +15,16 @@
 
 namespace axisgate::engine {
 
-/// What a command of a client comes to.
+/// The plan for a client's command.
 struct Commands::Plan {
     std::vector<CommandBody> orders;
-    std::optional<Move> waits;  ///< a set-point behind the running motion
-    bool motion = false;        ///< a command of CiA 402's, by word or by name
-    bool stops = false;         ///< it ends motion and nothing else: free for everybody
+    std::optional<Move> waits;  ///< a set-point that waits behind the running motion
+    bool motion = false;        ///< a command of CiA 402, as a control word or by name
+    bool stops = false;         ///< it only ends motion, so every client may give it
     bool lets_go = false;       ///< see Client
-    bool unread = false;        ///< a statement whose motion, if it begins one, nobody has compared with the limits
-    bool answered = false;      ///< nothing is left to do
+    bool unread = false;        ///< a native statement that cannot be read, so that its motion, if it begins one, was not compared with the
+                                ///< limits
+    bool answered = false;      ///< nothing more has to be done
     [[nodiscard]] bool empty() const { return orders.empty() && !waits; }
 };
 
@@ -49,7 +49,7 @@ void Commands::on_command(Command c, Instant now) {
     carry_out(*a, std::move(c), std::move(plan), now);
 }
 
-/// Not looked at any closer: too many are on their way, or the axis is about to go.
+/// Refuses commands without further checks while too many are in progress, or while a site change is about to remove the axis.
 std::optional<Refusal> Commands::turned_away(const Axis& a, const Command& c, Instant now) {
     if (a.clients.size() >= max_clients_per_axis && !is_urgent(c.body)) {
         return Refusal{Reason::busy, fmt::format("axis {}: {} commands are on their way already; wait for their answers", a.spec.name,
@@ -73,7 +73,7 @@ void Commands::answer_hand(const Axis& a, const Command& c, const Hand& hand, In
     publisher_.answer(r);
 }
 
-/// Nothing, with the plan; or why not.
+/// Empty, with `plan` filled in; or the refusal.
 std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Instant now) {
     if (std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body)) {
         if (auto no = beyond_reading(a, c.body, plan)) return no;
@@ -85,7 +85,7 @@ std::optional<Refusal> Commands::plan_for(Axis& a, Command& c, Plan& plan, Insta
     return plan_motion(a, c, plan, now);
 }
 
-/// A statement in the drive's own language passes the same limits as an order where its family can read it.
+/// A statement in the drive's own language is checked against the same limits as an order, if its family can read it.
 std::optional<Refusal> Commands::beyond_reading(const Axis& a, const CommandBody& body, Plan& plan) const {
     const Stated said = Orders::stated(a, body);
     const Axis& about = orders_.concerned(a, said);
@@ -127,11 +127,11 @@ std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, In
     plan.stops = CommandAuthority::only_stops(a, c.body);
     if (const auto v = authority_.may_command(a, c, now); !v.allowed) {
         if (!plan.stops) return Refusal{Reason::authority, v.text};
-        // A stop counts for everybody; but only who may command gives set-points with it.
+        // Every client may stop, but only a client that may command can give set-points in the same write.
         if (data) *data = stop_alone(*data);
     }
     if (std::holds_alternative<Disable>(c.body) || (data && data->controlword && !(*data->controlword & cia402::cw_enable_voltage))) {
-        a.drive->device_lost_while_commanded = false;  // nobody commands it any more: its twin may take over
+        a.drive->device_lost_while_commanded = false;  // no client commands the axis any more, so its twin may take over
         plan.lets_go = a.drive->spec.presence == PresenceRule::automatic && a.drive->serving == Presence::device && !a.drive->device_online;
     }
     if (auto no = orders_.beyond_limits(a, c.body)) return no;
@@ -140,7 +140,7 @@ std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, In
         return std::nullopt;
     }
     const std::int64_t buffered_from = a.profile.active_target().value_or(a.profile.feedback().position);
-    // A set-point that starts with this word, or waits because of it, is looked at as what it is.
+    // A set-point that starts with this control word, or waits because of it, is checked as the move that it is.
     const auto look = [&](const Cia402Axis::Decision& d) -> std::optional<Refusal> {
         for (const auto& o : d.orders) {
             if (auto no = begins_too_early(a, o)) return no;
@@ -166,7 +166,7 @@ std::optional<Refusal> Commands::plan_motion(Axis& a, Command& c, Plan& plan, In
     return std::nullopt;
 }
 
-/// Nothing is begun behind a quick stop that has no answer yet, and no prepared move of an axis that is not free to move.
+/// While a quick stop has no answer yet, nothing may begin behind it; a prepared move needs an axis that is free to move.
 std::optional<Refusal> Commands::begins_too_early(const Axis& a, const CommandBody& body) const {
     const auto* together = std::get_if<StartTogether>(&body);
     const bool begins = std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<Enable>(body);
@@ -182,13 +182,13 @@ std::optional<Refusal> Commands::begins_too_early(const Axis& a, const CommandBo
     return std::nullopt;
 }
 
-/// What a move does not say: rates that the site limits, and, out of a running motion, the place from which a distance counts.
+/// Fills in values that a move does not name: rates that the site limits, and, during a motion, the position from which a distance counts.
 void Commands::complete(const Axis& a, Move& move) {
     name_rates(move, a.limits, a.profile.feedback().rates);
     if (move.kind != Move::Kind::relative || !a.motion.runs() || !a.profile.feedback().moving) return;
     const std::int64_t from = a.profile.active_target().value_or(a.profile.feedback().position);
     std::int64_t target = 0;
-    if (__builtin_add_overflow(from, move.target, &target)) return;  // refused by its width already
+    if (__builtin_add_overflow(from, move.target, &target)) return;  // the range check has refused it already
     move.kind = Move::Kind::absolute;
     move.target = target;
 }
@@ -199,7 +199,8 @@ ProcessData Commands::stop_alone(const ProcessData& data) {
     return stop;
 }
 
-/// A block of registers whose word stops is not lost for a wrong value beside it: the stop is given, and the answer is about the value.
+/// A block of registers with a stopping control word is not refused for a wrong value beside it: the stop is carried out, and the answer
+/// reports the value.
 void Commands::give_the_stop_alone(const Command& c, Instant now) {
     const auto* data = std::get_if<ProcessData>(&c.body);
     const bool values = data && (data->target_position || data->target_velocity || data->profile_velocity || data->profile_acceleration ||
@@ -217,7 +218,8 @@ bool Commands::needs_authority(const Command& c, const Plan& plan) {
 
 void Commands::note_command(const Axis& a, const Command& c, const Plan& plan, Instant now) {
     const bool audited =
-        plan.motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body);  // writes when they are stored
+        // parameter writes are recorded when they are stored
+        plan.motion || std::holds_alternative<Native>(c.body) || std::holds_alternative<Action>(c.body);
     if (plan.empty() || !audited || c.origin.door == Door::internal) return;
     Event e;
     e.kind = "command";
@@ -237,9 +239,10 @@ void Commands::note_command(const Axis& a, const Command& c, const Plan& plan, I
     publisher_.event(std::move(e), now);
 }
 
-/// Who moves the axis finds it stopped by somebody else: what registers and documents show of that.
+/// The owner of a motion that another client has stopped can see this in registers and documents: this function sets the stop latch.
 void Commands::note_stop(Axis& a, const AuthorityClient& by) {
-    const bool idle = a.owner().door == Door::none && !a.motion.runs() && a.profile.at_rest();  // nobody has anything to say again
+    // no client has an interest in the axis any more
+    const bool idle = a.owner().door == Door::none && !a.motion.runs() && a.profile.at_rest();
     if (by.door == Door::internal || idle || a.owner() == by) return;
     a.latch.bits = StopLatch::latched | StopLatch::by_client;
     a.latch.by = by;
@@ -272,7 +275,7 @@ void Commands::carry_out(Axis& a, Command&& c, Plan&& plan, Instant now) {
     if (plan.orders.empty()) return clients_.track(a, now);
     for (auto& o : plan.orders) {
         const auto still = pending_.clients.find(number);
-        if (still == pending_.clients.end()) return;  // an earlier order was refused at once
+        if (still == pending_.clients.end()) return;  // an earlier order of this command was refused at once
         orders_.give(a, still->second.get(), std::move(o), c.origin, now);
     }
 }

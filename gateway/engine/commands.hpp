@@ -1,6 +1,5 @@
-// Commands: the way in, from a client's command to the orders that carry it out, or to the one reason for which it is refused.
-// In: commands with their origin. Out: orders on their way to the adapter, or a refusal; the audit's event.
-// Never changes an axis for a command that is refused, but for the stop in it.
+// Commands is the entry of the engine: it turns a client's command into the orders that carry it out, or into the one reason why it is
+// refused. A refused command changes nothing, except that a stop in it is carried out.
 #pragma once
 
 #include "gateway/engine/machine.hpp"

@@ -1,6 +1,5 @@
-// Engine: the way in to its parts, and time: whose deadline is next, who is due, and what is looked at every now and then.
-// In: commands, set-points, frames, results of the store, time. Out: calls of the part that each of them concerns; turns of adapters and
-// twins. Never looks at a side that nothing has touched and that is not due.
+// The entry points of Engine, and its time: which deadline is next, which sides are due, and the periodic checks. A side that was not
+// touched and is not due is never visited.
 #include "gateway/engine/engine.hpp"
 
 #include <algorithm>
@@ -65,7 +64,7 @@ Instant Engine::deadline() const {
 }
 
 Instant Engine::wake_at() const {
-    constexpr std::size_t most_looked_at = 32;  // more orders than that are on their way to every line
+    constexpr std::size_t most_looked_at = 32;  // no line has more orders than this outstanding
     const auto& orders = parts_->pending.orders;
     Machine& machine = parts_->machine;
     if (orders.size() > most_looked_at || parts_->site_change.waits()) return deadline();
@@ -84,7 +83,7 @@ void Engine::on_deadline(Instant now) {
     const FlightWithin within(p.publisher.tap());
     Machine& machine = p.machine;
     machine.now = std::max(machine.now, now);
-    // Bounded: a side that is due again at once gets its next turn with the next call.
+    // The loop is bounded: a side that is due again at once has its next turn in the next call.
     std::size_t at = 0;
     for (Side* next = machine.sides.due(at, now); next; next = machine.sides.due(at, now)) {
         Side& s = *next;

@@ -1,6 +1,4 @@
-// Engine, what others ask: reports of lines and drives, frame logs, whether all is settled.
-// In: questions from the hot thread. Out: copies.
-// Never changes anything.
+// The queries of Engine: reports of lines and drives, frame logs, readiness. They return copies and change nothing.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 namespace axisgate {
 using engine::Axis, engine::Drive, engine::LineUnit, engine::Side, engine::Speaker;
 
-// --- what others ask ------------------------------------------------------------------------------------------------
+// --- queries --------------------------------------------------------------------------------------------------------
 
 const Catalogue* Engine::catalogue(AxisId id) const {
     const Axis* a = parts_->machine.axis(id);
@@ -40,7 +38,7 @@ LineReport Engine::line_report(LineId id, Instant now) const {
             const AdapterCounters counted = Speaker::difference(all, scanned);
             r.scanned += scanned;
             r.counters += counted;
-            // What families share is the first one's.
+            // Values that several families share are taken from the first one.
             const auto of =
                 std::ranges::find_if(u->families, [&](const FamilyEntry& f) { return &serving_family(*f.family) == s->family.family; });
             if (of != u->families.end()) r.families[static_cast<std::size_t>(of - u->families.begin())].counters += counted;
@@ -80,7 +78,7 @@ bool Engine::settled() const {
         const bool served =
             d->serving == Presence::twin ? d->twin_online : (d->serving == Presence::device && (d->device_online || (real && real->tried)));
         if (!served) return false;
-        // Whoever is told `ready` commands at once: an axis whose drive answers has also said where it is.
+        // A client may command as soon as it sees `ready`, so an axis counts only when its drive has also reported its position.
         const bool answers = d->serving == Presence::twin ? d->twin_online : d->device_online;
         if (answers && !std::ranges::all_of(d->axes, [&](AxisId a) { return parts_->machine.image.picture(a).current; })) return false;
     }

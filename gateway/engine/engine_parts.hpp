@@ -1,6 +1,5 @@
-// Engine parts: all of them, and which of them each one knows.
-// In: what the engine is made with. Out: the parts, wired once.
-// Never known to a part: each has what its own constructor names.
+// Constructs the parts of the engine once and connects them: each part gets the others that its constructor names, and does not know this
+// file.
 #pragma once
 
 #include "gateway/engine/clients.hpp"

@@ -1,6 +1,4 @@
-// Fast look: an axis is polled more often for a while.
-// In: wishes, the passing of time. Out: a period at each axis, its line's adapters told.
-// Never changes one axis where another of the same wish is refused.
+// Polls axes more often for a while. If one axis of a request is refused, none of them is changed.
 #include <algorithm>
 
 #include "gateway/engine/fast_look.hpp"
@@ -31,7 +29,7 @@ std::string FastLook::ask_for(const std::vector<AxisId>& axes, Duration period, 
     return {};
 }
 
-/// Nobody who asked to look closely needs to be there to say that it is enough.
+/// The request ends by its time even if its client is gone.
 void FastLook::end_those_over(Instant now) {
     for (const auto& slot : machine_.axes) {
         if (!slot || slot->look_period == Duration::zero() || now < slot->look_until) continue;

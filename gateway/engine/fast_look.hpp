@@ -1,6 +1,5 @@
-// Fast look: axes of one line that are asked more often for a while.
-// In: which axes, how often, until when. Out: the line's adapters configured with that period, and without it when the time is over.
-// Never for longer than Engine::longest_look: nobody who asked needs to be there to say that it is enough.
+// FastLook configures the adapters of a line so that some of its axes are polled more often for a while, and removes the period when the
+// time is over. It never lasts longer than Engine::longest_look, because the client that requested it may be gone by then.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -10,7 +9,7 @@ namespace axisgate::engine {
 class FastLook {
 public:
     FastLook(Machine& machine, Publisher& publisher, Speakers& speakers) : machine_(machine), publisher_(publisher), speakers_(speakers) {}
-    /// Empty: so it is; else why not.
+    /// Empty if the request was accepted, otherwise the reason why not.
     [[nodiscard]] std::string ask_for(const std::vector<AxisId>& axes, Duration period, Instant until, Instant now);
     void end_those_over(Instant now);
 

@@ -1,6 +1,5 @@
-// Flight codec: how the values of a recording lie in bytes: one function per type, for both directions.
-// In: values, bytes of any origin. Out: bytes, values. Never throws for what it reads, never reads beyond its end, and never allocates what
-// a damaged size asks for. For flight_*.cpp alone.
+// Encodes the values of a recording: one function per type describes both directions. Recorded bytes may have any origin, so reading never
+// throws, never reads beyond the end, and never allocates the size that a damaged field claims. Only for flight_*.cpp.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +35,7 @@ inline bool take_number(std::span<const char>& in, std::uint64_t& v) {
     return false;
 }
 
-/// Writes. Unpacker has the same calls.
+/// Encodes; Unpacker has the same functions.
 struct Packer {
     std::string& out;
     static constexpr bool reading = false;
@@ -89,7 +88,7 @@ struct Unpacker {
     }
 };
 
-/// A reference for reading, a const one for writing.
+/// A reference when decoding, a const reference when encoding.
 template <class A, class T>
 using Of = std::conditional_t<A::reading, T&, const T&>;
 
@@ -140,7 +139,7 @@ void io_list(A& a, T& list, F&& each) {
     std::uint64_t n = list.size();
     a.number(n);
     if constexpr (A::reading) {
-        if (!a.good || n > a.in.size()) return void(a.good = false);  // each takes a byte at least
+        if (!a.good || n > a.in.size()) return void(a.good = false);  // each element takes at least one byte
         list.resize(static_cast<std::size_t>(n));
     }
     for (auto& x : list) {
@@ -148,7 +147,7 @@ void io_list(A& a, T& list, F&& each) {
         each(x);
     }
 }
-/// One of several: its number, then what it holds.
+/// A variant: its index, then its value.
 template <std::size_t I = 0, class V, class F>
 void with_alternative(V& v, std::size_t n, F&& f, bool& good) {
     if constexpr (I < std::variant_size_v<V>) {

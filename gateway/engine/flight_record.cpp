@@ -1,5 +1,5 @@
-// Flight record: payloads read back, the site of a recording, and records in words.
-// In: bytes of any origin. Out: values or nothing, and one line of text. Never throws for what it reads.
+// Decodes the payloads of records and the site of a recording, and writes records as text. The bytes may have any origin; decoding never
+// throws.
 #include "gateway/engine/flight_record.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace axisgate {
 namespace json = boost::json;
-using namespace flight;  // a part of these files
+using namespace flight;  // this file is a part of the codec
 namespace {
 json::object json_of(const NonVolatile& memory) {
     json::object o;

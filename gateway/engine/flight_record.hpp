@@ -1,6 +1,5 @@
-// Flight record: what the engine was given and what came of it, as plain records of bytes: the language of recordings.
-// In: calls of the engine, each once. Out: records, handed on; and read back. Little-endian, numbers as LEB128, signed ones zigzag.
-// Never allocates for a frame, a turn or a picture, and never looks at a clock: `at` is the instant that the engine was told.
+// The format of recordings: every input of the engine and its consequences are records of bytes (little-endian, LEB128 numbers, zigzag for
+// signed ones). Recording a frame, a turn or a picture allocates nothing. No clock is read: `at` is the instant that the engine was given.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +21,9 @@
 
 namespace axisgate {
 
-/// What a record is. Below 32: inputs, from which everything else follows; from 32 on: what came of them.
+/// The kind of a record. Below 32 are inputs, which determine everything else; from 32 on are their consequences.
 enum class FlightKind : std::uint8_t {
-    site = 1,       ///< a site came into force, or shall: SiteInput
+    site = 1,       ///< a site came into force, or was requested: SiteInput
     command = 2,    ///< index: axis
     set_point = 3,  ///< index: axis
     client_lost = 4,
@@ -34,14 +33,14 @@ enum class FlightKind : std::uint8_t {
     scan_cancel = 8,  ///< index: line
     hand = 9,         ///< index: drive
     shut_down = 10,
-    received = 11,       ///< a frame from a cable; index: line
-    sent = 12,           ///< a frame has left by a cable; index: line
-    line_state = 13,     ///< of a cable; index: line
-    last_received = 14,  ///< the answer of a door to the question when a client was heard last
-    look = 16,           ///< axes are looked at closely, or no more
-    send_refused = 15,   ///< the line did not take a frame: its number among those handed to it; index: line
+    received = 11,       ///< a frame received from a cable; index: line
+    sent = 12,           ///< a frame sent over a cable; index: line
+    line_state = 13,     ///< state of a cable; index: line
+    last_received = 14,  ///< the answer of a door when it was asked for the last message of a client
+    look = 16,           ///< fast polling of axes begins or ends
+    send_refused = 15,   ///< the line did not accept a frame: its number among the frames given to it; index: line
     twin_frame = 32,     ///< a frame on a twin bus; index: line
-    handed = 33,         ///< a frame for a cable, handed to its line; index: line
+    handed = 33,         ///< a frame given to a line with a cable; index: line
     picture = 34,        ///< index: axis
     result = 35,         ///< index: axis
     event = 36,
@@ -50,7 +49,8 @@ enum class FlightKind : std::uint8_t {
 [[nodiscard]] constexpr bool is_input(FlightKind kind) noexcept { return static_cast<std::uint8_t>(kind) < 32; }
 [[nodiscard]] std::string_view name_of(FlightKind kind) noexcept;
 
-/// In the index of what a line told from inside a turn, or from inside its opening: it belongs to the record before it that is no such.
+/// Added to the index of a record that a line caused during a turn, or while it was being opened. Such a record belongs to the previous
+/// record without this mark.
 inline constexpr std::uint16_t flight_within = 0x8000;
 
 struct FlightRecord {
@@ -60,14 +60,14 @@ struct FlightRecord {
     std::span<const char> payload;
 };
 
-/// What the engine was given when a site came: enough to begin with nothing else.
+/// The inputs of the engine when a site was applied: sufficient to start a replay from nothing.
 struct SiteInput {
     Site site;
     SiteMemory memory;
     std::uint64_t revision = 0;
-    bool at_once = true;  ///< apply_site; else change_site
+    bool at_once = true;  ///< apply_site; otherwise change_site
     Duration lease{}, watchdog{};
-    std::vector<DescriptionText> descriptions;  ///< that its drives name
+    std::vector<DescriptionText> descriptions;  ///< the descriptions that its drives name
 };
 
 /// The part of an AxisPicture that is recorded.
@@ -79,18 +79,18 @@ struct PictureRecord {
     DemandSource demand_source = DemandSource::none;
     Presence presence = Presence::offline;
     bool current = false;
-    Duration age{};  ///< from the drive's word to the record
+    Duration age{};  ///< from the drive's report to the record
     bool operator==(const PictureRecord&) const = default;
 };
 [[nodiscard]] PictureRecord picture_record(const AxisPicture& p, Instant now) noexcept;
 
 struct FrameRecord {
     bool to_drive = false;
-    Ticket cause = no_ticket;  ///< the client's command for which it was sent; none: a poll, or the gateway's own doing
+    Ticket cause = no_ticket;  ///< the client's command for which it was sent; none for a poll or an action of the gateway itself
     Frame frame;
 };
 
-/// How a command is called in texts: without the place in which its ticket was given out.
+/// The text for a command: its ticket without the door's number.
 [[nodiscard]] constexpr std::uint64_t ticket_number(Ticket ticket) noexcept { return ticket & 0xFFFFFFFFFFFFFFull; }
 
 struct CommandRecord {
@@ -121,7 +121,7 @@ struct LineStateRecord {
     std::string why;
 };
 
-/// Reads payloads back; nothing: it is damaged.
+/// Decodes a payload; empty if it is damaged.
 template <class T>
 [[nodiscard]] std::optional<T> unpack(std::span<const char> payload);
 extern template std::optional<PictureRecord> unpack(std::span<const char>);
@@ -139,14 +139,14 @@ extern template std::optional<Event> unpack(std::span<const char>);
 extern template std::optional<Sample> unpack(std::span<const char>);
 extern template std::optional<std::int64_t> unpack(std::span<const char>);
 
-/// A site as it lies in a recording: a JSON document with its memory. `read_site_input` needs the families that can read it.
+/// The site in a recording: a JSON document with its memory. `read_site_input` needs the families that can read it.
 [[nodiscard]] std::string pack_site(const SiteInput& site);
 [[nodiscard]] std::optional<SiteInput> read_site_input(std::span<const char> payload, const Families& families, std::string& fault);
 
-/// What a record says, for people: one line.
+/// The content of a record as one line for people.
 [[nodiscard]] std::string to_text(const FlightRecord& record);
 
-/// The engine tells it what it is given and what it tells. Whoever wants to record derives from it and takes the records.
+/// Receives the inputs and outputs of the engine as records. A recorder derives from it and implements `take`.
 class FlightTap {
 public:
     virtual ~FlightTap() = default;
@@ -166,20 +166,20 @@ public:
     void line_state(LineId line, bool up, const std::string& why, Instant now);
     void last_received(std::optional<Instant> at, Instant now);
     void send_refused(LineId line, Instant now);
-    // inputs on a cable, outcomes on a twin bus
+    // inputs on a cable, consequences on a twin bus
     void frame(LineId line, const Frame& frame, bool to_drive, bool twin);
 
-    // what came of it
-    /// `command`: for whose it is sent; none: of a poll, or what the call in hand is for (FlightCause).
+    // consequences
+    // `command` is the command for which the frame is sent; none for a poll, or for the cause of the current call (FlightCause).
     void handed(LineId line, const Frame& frame, bool twin, Ticket command, Instant now);
     void picture(AxisId axis, const AxisPicture& p, Instant now);
     void result(const Result& r, Instant now);
     void event(const Event& e, Instant now);
     void sample(const Sample& s, Instant now);
 
-    /// A turn, or a site's coming into force, is under way.
+    /// A turn is in progress, or a site is coming into force.
     void set_within(bool on) noexcept { within_ = on; }
-    /// What is sent until it is called again is sent for this command of a client.
+    /// Frames that are sent until the next call are sent for this client's command.
     void set_cause(Ticket ticket) noexcept { cause_ = ticket; }
     [[nodiscard]] Ticket cause() const noexcept { return cause_; }
 
@@ -196,7 +196,7 @@ private:
     }
     Ticket cause_ = no_ticket;
     bool within_ = false;
-    /// Frames of commands that wait in a line's queue: the newest few.
+    /// The newest frames of commands that wait in a line's queue.
     struct Waiting {
         LineId line = no_line;
         Ticket cause = no_ticket;
@@ -207,7 +207,7 @@ private:
     std::vector<std::uint64_t> handed_;  ///< by line
 };
 
-/// While it lives, what is sent is sent for this command.
+/// During its lifetime, sent frames are recorded as sent for this command.
 class FlightCause {
 public:
     FlightCause(FlightTap* tap, Ticket ticket) noexcept : tap_(tap), before_(tap ? tap->cause() : no_ticket) {
@@ -224,7 +224,7 @@ private:
     Ticket before_;
 };
 
-/// While it lives, what lines tell is told from inside a turn, or while a site comes into force.
+/// During its lifetime, calls of lines are recorded as part of a turn, or of a site that comes into force.
 class FlightWithin {
 public:
     explicit FlightWithin(FlightTap* tap) noexcept : tap_(tap) {
@@ -240,7 +240,7 @@ private:
     FlightTap* tap_;
 };
 
-/// Records one behind the other, in chunks of bounded size; each chunk begins with an instant of its own.
+/// Records one behind the other, in chunks of bounded size. Each chunk begins with an absolute instant.
 class FlightLog {
 public:
     static constexpr std::size_t chunk_bytes = 64 * 1024;
@@ -251,12 +251,12 @@ public:
     };
     using Chunks = std::vector<std::shared_ptr<const Chunk>>;
 
-    /// `bound`: bytes; beyond it the oldest chunk goes (`keep_newest`), or all of it, and nothing is kept any more.
+    /// `bound` is in bytes. Beyond it the oldest chunk is dropped (`keep_newest`), or all chunks, and nothing more is recorded.
     FlightLog(std::size_t bound, bool keep_newest) : bound_(bound), keep_newest_(keep_newest) {}
     void add(const FlightRecord& r);
-    [[nodiscard]] Chunks chunks() const;  ///< shared with this log: cheap
+    [[nodiscard]] Chunks chunks() const;  ///< the chunks are shared with this log, so this is cheap
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
-    [[nodiscard]] std::uint64_t gone() const noexcept { return gone_; }  ///< records that were let go
+    [[nodiscard]] std::uint64_t gone() const noexcept { return gone_; }  ///< number of dropped records
     [[nodiscard]] std::uint64_t gone_outcomes() const noexcept { return gone_outcomes_; }
     [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
     void give_up() noexcept;
@@ -272,11 +272,11 @@ private:
     std::shared_ptr<Chunk> open_;
 };
 
-/// Reads what FlightLog wrote, a chunk behind the other.
+/// Reads the records of a FlightLog, chunk by chunk.
 class FlightReader {
 public:
     explicit FlightReader(std::span<const char> bytes) : rest_(bytes) {}
-    /// Nothing: the end, or damage.
+    /// Empty at the end, or if the data are damaged.
     [[nodiscard]] std::optional<FlightRecord> next();
     [[nodiscard]] bool damaged() const noexcept { return damaged_; }
 

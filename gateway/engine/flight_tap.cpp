@@ -1,13 +1,12 @@
-// Flight tap and log: calls of the engine become records, and records lie one behind the other in chunks.
-// In: what the engine is given and tells; records. Out: records; chunks that are shared and do not change any more.
-// Never holds more than its bound and one chunk.
+// FlightTap turns the engine's calls into records; FlightLog stores records in chunks, which do not change when they are shared. The log
+// never exceeds its bound by more than one chunk.
 #include <algorithm>
 
 #include "gateway/engine/flight_codec.hpp"
 #include "gateway/engine/flight_record.hpp"
 
 namespace axisgate {
-using namespace flight;  // a part of these files
+using namespace flight;  // this file is a part of the codec
 
 // --- the tap --------------------------------------------------------------------------------------------------------
 
@@ -107,7 +106,7 @@ void FlightTap::sample(const Sample& s, Instant now) {
 // --- records in a row -----------------------------------------------------------------------------------------------
 
 namespace {
-constexpr char absolute_mark = 0;  // in the place of a kind: the instant that follows counts from the beginning of time
+constexpr char absolute_mark = 0;  // replaces the kind; the instant that follows is absolute
 }
 
 void FlightLog::add(const FlightRecord& r) {
@@ -155,7 +154,7 @@ void FlightLog::give_up() noexcept {
 
 FlightLog::Chunks FlightLog::chunks() const {
     Chunks all = whole_;
-    if (open_) all.push_back(std::make_shared<const Chunk>(*open_));  // it is still written to
+    if (open_) all.push_back(std::make_shared<const Chunk>(*open_));  // the last chunk is still being written
     return all;
 }
 

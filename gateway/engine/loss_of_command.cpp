@@ -1,6 +1,5 @@
-// Loss of command: what was lost, by what words, and what is done about it.
-// In: a client that is gone or silent, a drive that speaks again, the gateway's own end. Out: the site's action, an event, a count.
-// Never acts twice for one loss: until the next command to the axis, the first cause stands.
+// Decides which client or drive was lost and applies the site's action. One loss causes one action: until the next command to the axis, the
+// first cause remains.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -55,15 +54,15 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
     machine_.now = std::max(machine_.now, now);
     for (const auto& a : machine_.axes) {
         if (!a) continue;
-        // A feed that is closed was one of perhaps several connections of its client: what it commanded otherwise goes on. And set-points
-        // over DDS have a deadline of their own: they go on while they are renewed, whoever else does not write for their client any more.
+        // A live feed may be one of several connections of its client, whose other motions continue when the feed closes. Set-points over
+        // DDS have a deadline of their own and continue while they are renewed, even if another writer of their client ends.
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
         const bool owns = a->motion.runs() ? a->motion.is_of(who) : a->owner() == who;
         if (feed ? !streams : !owns || (cause == LossCause::dds_deadline && streams)) continue;
         act(*a, feed ? silence_of(who) : cause, now, &who);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
-    for (auto& [ticket, order] : pending_.orders) {  // what the drive takes now begins without its owner
+    for (auto& [ticket, order] : pending_.orders) {  // orders that the drive accepts from now on begin without their owner
         if (order.motion && order.motion->who == who) order.owner_lost = cause;
     }
 }
@@ -80,17 +79,18 @@ AtLoss LossOfCommand::at_loss(const Axis& a) {
 void LossOfCommand::act(Axis& a, LossCause cause, Instant now, const AuthorityClient* lost) {
     AtLoss at = at_loss(a);
     if (const auto before = std::exchange(a.lost_line, std::nullopt); before && cause == LossCause::line_lost) {
-        at.endless = at.endless || before->endless;  // it forgets, or does not say at once, what it was about
+        at.endless = at.endless || before->endless;  // the drive forgets its motion, or does not report it at once
         at.powered = at.powered || before->powered;
     }
     const auto action = a.spec.fail_safe.action(cause, at);
     if (machine_.closing || action == FailSafeAction::nothing) return;
-    // A stop that is at least as strong is being carried out already, and is said again until the drive has taken it.
+    // A stop that is at least as strong is in progress already, and is repeated until the drive has accepted it.
     const Stops::Kind kind = action == FailSafeAction::halt         ? Stops::Kind::halt
                              : action == FailSafeAction::quick_stop ? Stops::Kind::quick_stop
                                                                     : Stops::Kind::disable;
     if (a.stops.wanted && *a.stops.wanted >= kind && cause != LossCause::gateway_ends) return;
-    // One cause acts once on one motion; on an axis at rest, once until somebody commands it again. Another cause may ask for more.
+    // One cause leads to one action on a motion; on an axis at rest to one action until the next command. Another cause may demand a
+    // stronger stop.
     const LossCause before = a.motion.runs() ? a.motion.ended_for : a.latch.cause;
     if (before == cause && cause != LossCause::gateway_ends) return;
     a.motion.ended_for = a.latch.cause = cause;
@@ -126,11 +126,12 @@ void LossOfCommand::unowned(Axis& a, Instant now) {
     publisher_.event(std::move(e), now);
 }
 
-/// Looked at with every housekeeping, so an action comes at most one of its periods late.
+/// Called with every housekeeping, so an action is at most one housekeeping period late.
 void LossOfCommand::check_watchdog(Axis& a, Instant now) {
     const AuthorityClient& who = a.owner();
     const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
-    const bool by_messages = who.door == Door::ethernet_ip;  // the owner of an implicit connection is heard by that alone: nothing here
+    const bool by_messages = who.door == Door::ethernet_ip;  // the owner of an implicit connection is monitored by that connection, not
+                                                             // here
     if ((who.door != Door::modbus && !by_messages) || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
     const auto received = host_.last_received(who);
     if (FlightTap* tap = publisher_.tap()) tap->last_received(received, now);

@@ -1,4 +1,5 @@
-// The times here are bounds for what drives show late: a position that is reached before the flag says so, a flag that flickers at rest.
+// The times in this file allow for drives that report late: a position that is reached before the flag says so, and a flag that flickers at
+// rest.
 #include "gateway/engine/motions.hpp"
 
 #include <fmt/core.h>
@@ -14,18 +15,18 @@
 
 namespace axisgate::engine {
 namespace {
-/// A motion that shows neither its end nor movement for so long is over; a program may pause for less.
+/// A motion that shows neither its end nor movement for this time is over; a program may pause for less.
 constexpr Duration rest_ends = std::chrono::seconds(1);
-/// Movement without a record for so long is a motion, and no flicker of the drive's flag.
+/// Movement without a record that lasts this long is a motion, and not a flicker of the drive's flag.
 constexpr Duration found_after = std::chrono::milliseconds(150);
 constexpr Duration stop_again = std::chrono::milliseconds(250);
 
-/// The axis may have been taken over from the owner while the order was on its way to the drive.
+/// Another client may have taken the axis over from the owner while the order was on its way to the drive.
 Motion kept(const Axis& a, Motion m, Instant now) {
     if (m.who.door != Door::none && a.authority.held(now) && a.authority.holder() != m.who) m.keeper = a.authority.holder();
     return m;
 }
-/// Axes of other gateways are moved by those; what they do is guarded there.
+/// Axes of other gateways are guarded by those gateways.
 bool is_guarded_elsewhere(const Axis& a) { return a.drive->family.family->uses_dds; }
 }  // namespace
 
@@ -109,7 +110,7 @@ void Motions::look(Axis& a, Instant now) {
     if (f.position != a.watch.position) {
         a.watch.position = f.position;
         const double round_s = std::clamp(std::chrono::duration<double>(now - std::exchange(a.watch.since, now)).count(), 0.0, 1.0);
-        a.watch.round_s = std::max(round_s, 0.8 * a.watch.round_s);  // rounds differ: one that was long may come again
+        a.watch.round_s = std::max(round_s, 0.8 * a.watch.round_s);  // the times between reports vary, and a long one may come again
     }
     if (!f.moving && !(f.homing && a.motion.kind == Motion::Kind::homing)) return rests(a, now);
     a.motion.rested = {};
@@ -125,12 +126,12 @@ void Motions::rests(Axis& a, Instant now) {
     if (told_to_end || (a.stops.wanted && !a.motions_asked && rest > rest_ends)) a.stops.wanted.reset();
     if (a.suspected && rest > rest_ends) a.suspected.reset();
     if (!m.runs()) {
-        a.watch = {f.position, now, 0};  // the next position comes one round from here
+        a.watch = {f.position, now, 0};  // the next position arrives one report period from here
         a.moves_since = {};
         a.contradicts = m.alarmed = false;
         return;
     }
-    if (f.at <= m.since) return;  // it was read before the drive took the order
+    if (f.at <= m.since) return;  // the position was read before the drive accepted the order
     const bool powerless = a.profile.state() != PowerState::operation_enabled;
     bool gone = m.over || powerless;
     if (m.kind == Motion::Kind::position) gone = gone || f.target_reached || rest > rest_ends;
@@ -139,7 +140,7 @@ void Motions::rests(Axis& a, Instant now) {
     if (m.kind == Motion::Kind::statement) gone = gone || rest > rest_ends;
     if (m.kind == Motion::Kind::found) gone = true;
     if (!gone) return;
-    if (m.kind == Motion::Kind::statement && !m.over && !powerless) a.statement = m;  // what it began may move again
+    if (m.kind == Motion::Kind::statement && !m.over && !powerless) a.statement = m;  // the statement may begin to move again
     m = {};
     m.rested = f.at;
     a.moves_since = {};
@@ -148,11 +149,11 @@ void Motions::rests(Axis& a, Instant now) {
     publisher_.publish(a, now);
 }
 
-/// It moves, and no order that this gateway gave says so.
+/// The axis moves although no order of this gateway explains it.
 void Motions::moves_without_record(Axis& a, Instant now) {
     if (is_guarded_elsewhere(a) || a.motions_asked > 0) return;
     if (a.moves_since == Instant{}) a.moves_since = now;
-    // A drive that gives its position another name may call that a motion; the shaft stands.
+    // A drive may report movement while its position is being redefined, although the shaft stands.
     const Duration long_enough = a.profile.feedback().velocity == 0 ? rest_ends : found_after;
     if (now - a.moves_since < long_enough && !a.suspected) return;
     Event e;

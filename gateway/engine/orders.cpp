@@ -1,6 +1,5 @@
-// Orders: one order down, its one result up, the site's limits on the way.
-// In: an order's body, its client. Out: the call of the adapter; from its result the answer, once all orders of a client have theirs.
-// Never answers a parameter write before the store has it.
+// Sends one order to the adapter and handles its one result; the site's limits are checked on the way. A client is answered when all orders
+// of its command have their results, and for a parameter write after the store has recorded it.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -31,7 +30,7 @@ Stated Orders::stated(const Axis& a, const CommandBody& body) {
     if (!in_its_language && !std::holds_alternative<WriteParameter>(body)) return nothing;
     if (const auto read = a.drive->family.family->stated) {
         Stated said = read(*a.drive->catalogue, a.spec.channel, body);
-        // An action that is complete when the axis has arrived, or stands, moves it, whatever it is called.
+        // An action that is complete when the axis has arrived or stands moves the axis, whatever its name is.
         const auto* action = std::get_if<Action>(&body);
         const CatalogueCommand* listed = action ? a.drive->catalogue->command(action->name) : nullptr;
         const bool moves = listed && (listed->completes == Completion::target_reached || listed->completes == Completion::standstill);
@@ -41,9 +40,9 @@ Stated Orders::stated(const Axis& a, const CommandBody& body) {
     return in_its_language ? Stated{} : nothing;
 }
 
-/// The same stop is on its way already: this one shares its place and gets its answer, so that no crowd of stops keeps another one out.
+/// The same stop is on its way already: this one shares its entry and its answer, so that many equal stops cannot keep another stop out.
 bool Orders::join_stop(Axis& a, Client* client, const CommandBody& body) {
-    constexpr std::size_t most = 1024;  // of those that wait for one answer; who comes after them is told that the stop is on its way
+    constexpr std::size_t most = 1024;  // limit of commands that wait for one answer; further ones are answered that the stop is on its way
     const auto kind = Stops::of(body);
     if (!kind) return false;
     a.stops.asked = make_ticket(engine_itself, pending_.next);
@@ -76,7 +75,8 @@ void Orders::begin_stop(Axis& a, const OrderRecord& record, Ticket ticket, Insta
     a.stops.given_at = now;
 }
 
-/// An order that was given before a stop was taken by the drive behind it, or may have been: what it begins ends as the stop says.
+/// An order was given before a stop, and the drive accepted it, or may have accepted it, behind the stop. The motion that it begins is
+/// ended as the stop demands.
 void Orders::stop_behind(Axis& a, std::string_view what, const Origin& by, Instant now) {
     Event e;
     e.severity = Severity::warning;
@@ -105,9 +105,9 @@ void Orders::stop_again(Axis& a, Instant now) {
     send(a, nullptr, ticket, std::move(body), {}, now);
 }
 
-/// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
+/// Sends one order to the adapter of the axis' line. `client` is the command that it belongs to; null for the engine's own orders.
 void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Instant now) {
-    if (!client) {  // a client's order was looked at before it changed anything; what waited since may not fit any more
+    if (!client) {  // a client's order was checked before it changed anything; a set-point that has waited may not fit any more
         if (const auto no = beyond_limits(a, body)) {
             a.profile.on_order_result(body, false, now);
             Event e;
@@ -137,7 +137,7 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     }
     begin_stop(a, record, ticket, now);
     if (const auto* write = std::get_if<WriteParameter>(&body)) {
-        // Looked at now: the acknowledgement may come with the new value said already.
+        // The previous value is read now, because the acknowledgement may arrive after the new value was reported.
         const auto reported = a.reported.find(write->point), stored = a.stored.find(write->point);
         if (reported != a.reported.end() && known(reported->second))
             record.before = reported->second;
@@ -163,7 +163,7 @@ void Orders::send(Axis& a, Client* client, Ticket ticket, CommandBody body, Orig
     Command order;
     order.ticket = ticket;
     order.axis = a.id;
-    // What ends in the drive's own way is the adapter's to tell; every other end is watched here, by what the axis shows.
+    // The adapter reports the end of commands that end in the drive's own way; every other end is observed here at the axis.
     order.until_done = client && client->until_done && std::holds_alternative<Action>(body);
     order.body = std::move(body);
     order.origin = std::move(origin);
@@ -184,13 +184,15 @@ Ticket Orders::client_of(Ticket order) const noexcept {
 }
 
 void Orders::result(const Result& given, Instant now) {
-    for (Side* s : machine_.sides) {  // it has ended: with a frame that was seen to leave, or without one
+    for (Side* s : machine_.sides) {  // the measurement has ended, with or without a frame that was sent
         if (s->followed.ticket != given.ticket) continue;
         s->followed.ticket = no_ticket;
         s->followed.handed_on = false;
     }
     const auto it = pending_.orders.find(given.ticket);
-    if (it == pending_.orders.end()) return;  // answered already: the adapter broke its law, the client is not told twice
+    if (it == pending_.orders.end())
+        return;  // the order was answered already; the adapter broke its law, and the client gets no second
+                 // answer
     if (it->second.handback != no_drive) {
         presences_.handback_result(given);
         return;
@@ -215,7 +217,7 @@ void Orders::result(const Result& given, Instant now) {
     pending_.orders.erase(it);
     if (!a) return;
     const auto owner = pending_.clients.find(record.client);
-    // A set-point that had to wait begins by an order of the engine's own: it is still the motion of its client.
+    // A waiting set-point begins by an order of the engine, but it is still the motion of its client.
     const Ticket mover = owner != pending_.clients.end() ? owner->second->ticket : a->setpoint_ticket;
     record_motion(*a, record, mover, r, now);
     if (is_good) remember_prepared(*a, record.body);
@@ -234,7 +236,7 @@ void Orders::result(const Result& given, Instant now) {
         answer(number, *a, r, now);
 }
 
-/// Acknowledged by the drive; the client hears of it when it is on disk.
+/// The drive has acknowledged the write; the client gets its answer when the value is on the disk.
 void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket, Instant now) {
     const auto& write = std::get<WriteParameter>(record.body);
     StoreOrder order;
@@ -249,12 +251,12 @@ void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket,
     if (const auto c = pending_.clients.find(record.client); c != pending_.clients.end()) order.origin = c->second->origin;
     r.value = order.value;
     record.kept = r;
-    for (auto& [other_ticket, other] : pending_.orders) {  // those given behind it find what it left
+    for (auto& [other_ticket, other] : pending_.orders) {  // later writes find the value that this one has left
         const auto* later = std::get_if<WriteParameter>(&other.body);
         if (later && other_ticket != ticket && other.axis == record.axis && later->point == write.point && !known(other.kept.value))
             other.before = order.value;
     }
-    // The drive has it, whether the disk takes it or not.
+    // The drive has the value, whether the disk records it or not.
     Sample s;
     s.axis = record.axis;
     s.point = write.point;
@@ -263,11 +265,11 @@ void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket,
     s.source = a.source;
     a.reported[s.point] = s.value;
     publisher_.sample(s, now);
-    twins_.save_memory(*a.drive);  // a twin's EEPROM goes to disk along with the value that it took
+    twins_.save_memory(*a.drive);  // the twin's EEPROM is stored together with the value that it accepted
     host_.on_store(std::move(order));
 }
 
-/// The drive has taken a motion. Behind a stop that was asked for after it, the stop is still the one that counts, and is given again.
+/// The drive has accepted a motion. If a stop was requested after its order, the stop remains valid and is sent again.
 void Orders::motion_taken(Axis& a, Motion m, const OrderRecord& record, Ticket order, Instant now) {
     const bool behind_a_stop = order < a.stops.asked;
     motions_.acknowledged(a, std::move(m), behind_a_stop ? MotionOrder::behind_a_stop : MotionOrder::in_turn, record.client,
@@ -275,7 +277,7 @@ void Orders::motion_taken(Axis& a, Motion m, const OrderRecord& record, Ticket o
     if (behind_a_stop) stop_behind(a, name_of(record.body), a.motion.origin, now);
 }
 
-/// What the drive's answer makes of the records of motion.
+/// Applies the drive's answer to the records of motion.
 void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Result& r, Instant now) {
     const bool is_good = good(r);
     if (const auto* together = std::get_if<StartTogether>(&record.body)) {
@@ -328,7 +330,7 @@ void Orders::not_carried_out(const Axis& a, const CommandBody& body, const Resul
     publisher_.event(std::move(e), now);
 }
 
-/// One of a client's orders has its answer; with the last one the client has its own, or goes on to wait for the end.
+/// One order of a client has its answer. After the last one, the client gets its own answer or its motion is watched until the end.
 void Orders::answer(std::uint64_t number, Axis& a, const Result& r, Instant now) {
     const auto c = pending_.clients.find(number);
     if (c == pending_.clients.end()) return;
@@ -398,9 +400,9 @@ void Orders::on_stored(Ticket order, const std::string& fault, Instant now) {
     clients_.finish(record.client, std::move(r));
 }
 
-/// The site's limits, for every order on its one way down: what moves the axis, now or when others are ready, and what it shall be called;
-/// of registers the values that are kept for later, and a mode that the drive has not. The one place that compares with them: streamed
-/// set-points come here as the motion that they ask for.
+/// Checks an order against the site's limits, on the only way to the drives: orders that move the axis, now or together with others, or set
+/// its position; values of registers that are kept for later; and modes that the drive does not have. Streamed set-points are checked here,
+/// too, as the motion that they request.
 std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& body) const {
     if (const auto* data = std::get_if<ProcessData>(&body)) {
         if (data->mode) {
@@ -411,7 +413,7 @@ std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& b
     const std::int64_t position = a.profile.feedback().position;
     if (const auto* m = std::get_if<Move>(&body)) {
         if (auto no = guard_move(*m, a.limits, position)) return no;
-        // Some drives count a distance from where they are, some from where they were going: neither may lead out.
+        // Some drives count a distance from the actual position, others from the previous target: neither may lead out of the limits.
         const auto from = m->kind == Move::Kind::relative ? a.profile.active_target() : std::nullopt;
         return from ? guard_move(*m, a.limits, *from) : std::nullopt;
     }
@@ -435,7 +437,7 @@ std::optional<Refusal> Orders::beyond_limits(const Axis& a, const CommandBody& b
     return std::nullopt;
 }
 
-/// A statement in the drive's own language names places and speeds like any order.
+/// The positions and speeds that a statement in the drive's own language names are checked as in any order.
 std::optional<Refusal> Orders::beyond_by_statement(const Axis& a, const Stated& said) const {
     const Axis& about = concerned(a, said);
     if (said.kind == Stated::Kind::motion) {
@@ -444,7 +446,7 @@ std::optional<Refusal> Orders::beyond_by_statement(const Axis& a, const Stated& 
     return guard_rates(said.sets, about.limits);
 }
 
-/// Of the axes of the drive the one that the statement is about.
+/// The axis of the drive that the statement refers to.
 Axis& Orders::concerned(const Axis& a, const Stated& said) const {
     for (const AxisId id : a.drive->axes) {
         if (Axis* x = machine_.axis(id); x && said.channel != 0 && said.channel == x->spec.channel) return *x;
@@ -452,7 +454,7 @@ Axis& Orders::concerned(const Axis& a, const Stated& said) const {
     return *machine_.axis(a.id);
 }
 
-/// What a drive was told to brake with it keeps; whatever else is said to it may have changed that.
+/// A drive keeps the deceleration of the last move; any other order may have changed it.
 void Orders::remember_ramp(Axis& a, const CommandBody& body) {
     const auto* m = std::get_if<Move>(&body);
     if (m && m->deceleration) a.last_deceleration = *m->deceleration;
@@ -460,7 +462,7 @@ void Orders::remember_ramp(Axis& a, const CommandBody& body) {
         a.last_deceleration = 0;
 }
 
-/// A move that was prepared counts until the axis is moved or stopped.
+/// A prepared move is valid until the axis is moved or stopped.
 void Orders::remember_prepared(Axis& a, const CommandBody& body) {
     if (const auto* m = std::get_if<Move>(&body)) {
         a.prepared = m->prepare_only ? std::optional<Move>(*m) : std::nullopt;

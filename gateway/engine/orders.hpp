@@ -1,7 +1,6 @@
-// Orders: commands of the engine to adapters, and what has become of them.
-// In: what a client's command, a fault reaction or a loss of command comes to; results of adapters, acknowledgements of the store. Out: the
-// order at its adapter; the client's answer, the axis' profile and picture, store orders.
-// Equal stops of an axis share one place on their way down, so that no crowd of them keeps another stop out.
+// Orders sends the engine's orders to the adapters and applies their results. Orders come from clients' commands, fault reactions and
+// losses of command; their results go to the client's answer, the profile and the picture of the axis, and the store. Equal stops of an
+// axis share one entry, so that many of them cannot keep another stop out.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -23,19 +22,18 @@ public:
           motions_(motions),
           streams_(streams),
           loss_(loss) {}
-    /// Sends one order to the adapter of the axis' line. `client`: whose command it is; null for the engine's own.
+    /// Sends one order to the adapter of the axis' line. `client` is the command that it belongs to; null for the engine's own orders.
     void give(Axis& axis, Client* client, CommandBody body, Origin origin, Instant now);
-    /// A command of the engine's own: what the axis' state makes of it.
+    /// Carries out a command of the engine itself, as the state of the axis requires.
     void give_own(Axis& axis, const CommandBody& body, Instant now);
-    /// The stop that is wanted and was not acknowledged, once more.
+    /// Sends the stop that is wanted and was not acknowledged once more.
     void stop_again(Axis& axis, Instant now);
-    /// `what` was given before a stop, and the drive took it behind that: it is told, and stopped again.
-    void motion_taken(Axis& axis, Motion motion, const OrderRecord& record, Ticket order, Instant now);
+    /// `what` was given before a stop, and the drive accepted it behind the stop: reports this, and stops the axis again.
     void stop_behind(Axis& axis, std::string_view what, const Origin& by, Instant now);
     void result(const Result& result, Instant now);
-    /// What a native statement, an action or a parameter write asks of the axis, as its family reads it; other bodies are `nothing`.
+    /// The motion that a native statement, an action or a parameter write requests, as its family reads it; `nothing` for other bodies.
     [[nodiscard]] static Stated stated(const Axis& axis, const CommandBody& body);
-    /// The ticket of the client for whom it was given; no_ticket: nobody's, or it has ended.
+    /// The ticket of the client for which it was given; no_ticket if there is none, or if it has ended.
     [[nodiscard]] Ticket client_of(Ticket order) const noexcept;
     void on_stored(Ticket order, const std::string& fault, Instant now);
     [[nodiscard]] std::optional<Refusal> beyond_limits(const Axis& axis, const CommandBody& body) const;
@@ -47,6 +45,7 @@ private:
     void begin_stop(Axis& axis, const OrderRecord& record, Ticket ticket, Instant now);
     void send(Axis& axis, Client* client, Ticket ticket, CommandBody body, Origin origin, Instant now);
     void store_write(Axis& axis, OrderRecord& record, Result& result, Ticket ticket, Instant now);
+    void motion_taken(Axis& axis, Motion motion, const OrderRecord& record, Ticket order, Instant now);
     void record_motion(Axis& axis, OrderRecord& record, Ticket mover, const Result& result, Instant now);
     void answer(std::uint64_t client, Axis& axis, const Result& result, Instant now);
     void not_carried_out(const Axis& axis, const CommandBody& body, const Result& result, Instant now);

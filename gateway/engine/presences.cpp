@@ -1,6 +1,5 @@
-// Presences: links, the presence rule, and what is compared before a device gets its axes back.
-// In: line states, drives' links. Out: who serves, told to the axes and as an event.
-// Never lets a twin take over an axis whose device went silent while it was commanded.
+// The presence rule: which side serves a drive, and the comparison of parameters before a device gets its axes back. A twin never takes
+// over an axis whose device fell silent while the axis was commanded.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -76,7 +75,7 @@ void Presences::link(Side& side, const DriveLink& l, Instant now) {
             Axis& a = *machine_.axes[index_of(id)];
             if (!a.profile.commanded() && !a.motion.runs()) continue;
             d->device_lost_while_commanded = !side.twin;
-            a.lost_line = LossOfCommand::at_loss(a);  // nothing can be told to it now: what it does is judged when it has spoken again
+            a.lost_line = LossOfCommand::at_loss(a);  // no order can reach it now; its motion is judged when it reports again
         }
     }
     online = l.online;
@@ -102,7 +101,7 @@ void Presences::link(Side& side, const DriveLink& l, Instant now) {
     if (changed || !l.online) decide(*d, now);
 }
 
-/// Applies the presence rule. The twin takes over only an axis that nobody commands; the device gets it back only at rest.
+/// Applies the presence rule: the twin takes over only an axis that no client commands, and the device gets it back only at rest.
 void Presences::decide(Drive& d, Instant now) {
     const bool line_has_device = d.line->real != nullptr;
     const PresenceRule rule = line_has_device ? d.spec.presence : PresenceRule::twin;
@@ -153,7 +152,7 @@ void Presences::serve(Drive& d, Presence by, std::string why, Instant now) {
     d.serving = by;
     d.why = why;
     for (const AxisId id : d.axes)
-        publisher_.new_source(*machine_.axes[index_of(id)]);  // before it says its first word
+        publisher_.new_source(*machine_.axes[index_of(id)]);  // before its first feedback
     if (by == Presence::twin) {
         if (!unit.twins) {
             unit.twins = std::make_unique<Side>(routing_, unit, true);

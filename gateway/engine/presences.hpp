@@ -1,6 +1,5 @@
-// Presences: lines going up and down, and who serves each drive: the device, its twin, or nobody.
-// In: line states, drives' links, the passing of time. Out: presence events, twins that take over and hand back.
-// Never hands an axis over while it moves.
+// Presences handles lines that go up and down, and decides which side serves each drive: the device, its twin, or none. An axis never
+// changes sides while it moves.
 #pragma once
 
 #include "gateway/engine/machine.hpp"

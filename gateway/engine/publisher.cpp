@@ -1,6 +1,4 @@
-// Publisher: how an axis becomes its picture.
-// In: an axis as its parts have left it. Out: its picture in the image; results, events and samples at the host.
-// Never allocates for a picture.
+// Fills the picture of an axis from its parts, without allocating memory.
 #include <algorithm>
 
 #include "gateway/engine/flight_record.hpp"
@@ -26,10 +24,10 @@ void Publisher::publish(Axis& a, Instant now) {
         write(p.authority_holder, a.authority.holder().name);
         write(p.authority_commander, a.authority.commander().door == Door::none ? std::string() : a.authority.commander().text());
     }
-    // An axis is online when it can be commanded: its drive answers, and has said where it is.
+    // An axis is online when it can be commanded: its drive answers and has reported its position.
     const bool answers = a.drive->answers();
     const bool online = answers && p.current;
-    p.presence = answers ? a.drive->serving : Presence::offline;  // as the drive's own status says it
+    p.presence = answers ? a.drive->serving : Presence::offline;  // like the status of the drive
     const auto put = [](std::uint16_t& word, std::uint16_t bit, bool on) {
         word = on ? static_cast<std::uint16_t>(word | bit) : static_cast<std::uint16_t>(word & ~bit);
     };
@@ -82,7 +80,7 @@ void Publisher::sample(const Sample& sample, Instant now) {
     host_.on_sample(sample);
 }
 
-/// Another drive, channel or twin speaks for the axis: all that was said until now is forgotten, here and by who reads the image.
+/// Another drive, channel or twin serves the axis: earlier feedback becomes invalid, here and for the readers of the image.
 void Publisher::new_source(Axis& a) {
     a.source = ++sources_;
     a.reported.clear();

@@ -1,7 +1,5 @@
-// Publisher: everything that the engine tells, in one place.
-// In: what has become of axes, commands and parameters. Out: pictures into the image, results, events and samples to the host; each of them
-// to the tap, too, if there is one.
-// Never decides anything: what is told has happened.
+// Publisher delivers everything that leaves the engine: pictures into the image; results, events and samples to the host; all of them to
+// the tap as well, if there is one. It takes no decisions.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -11,7 +9,7 @@ namespace axisgate::engine {
 class Publisher {
 public:
     Publisher(Machine& machine, EngineHost& host) : machine_(machine), host_(host) {}
-    /// Null: nobody listens.
+    /// Null if nothing is recorded.
     void set_tap(FlightTap* tap) noexcept { tap_ = tap; }
     [[nodiscard]] FlightTap* tap() const noexcept { return tap_; }
     void publish(Axis& axis, Instant now);

@@ -1,6 +1,5 @@
-// Rehearsal: a world of models in virtual time, one axis set in motion by a client of the cause's door, what else was chosen, and that
-// client taken away. In: a wish. Out: a cell with figures, or with the reason why there are none. Never runs for longer than its bounds of
-// virtual time.
+// One cell of a rehearsal in virtual time: a client sets one axis in motion over the door of the cause, the selected disturbances follow,
+// and the client is taken away. The result has figures, or the reason why there are none. The virtual time is bounded.
 #include "gateway/engine/rehearsal.hpp"
 
 #include <fmt/core.h>
@@ -16,11 +15,11 @@ namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
 
-/// How often a controller writes its registers, and a client its set-points.
+/// The period in which a controller writes its registers, and a client its set-points.
 constexpr Duration cycle = 20ms;
-/// A gateway that is found dead is started at once: the axis has no time to end by itself.
+/// A gateway that is found dead is started at once, so the axis has no time to end its motion by itself.
 constexpr Duration at_once = 300ms;
-/// Less than this is the settling of a shaft, in increments.
+/// Smaller movements, in increments, are the settling of a shaft.
 constexpr double settling = 3;
 
 AxisSpec as_wished(const Site& site, const RehearsalWish& wish) {
@@ -53,26 +52,26 @@ public:
     }
 
 private:
-    // --- what is played
+    // --- the scenario
     [[nodiscard]] bool gateway_gone() const { return wish_.cause == LossCause::none && !wish_.restart; }
-    /// The gateway is killed, and another one finds the axis as it is.
+    /// The gateway is killed, and another one finds the axis in motion.
     [[nodiscard]] bool restarts() const { return wish_.restart || wish_.cause == LossCause::motion_unowned; }
     [[nodiscard]] Duration without_gateway() const { return wish_.restart ? wish_.gateway_away : at_once; }
-    /// The cause by which the site's choice is looked up.
+    /// The cause whose action in the site applies.
     [[nodiscard]] LossCause rule() const { return wish_.restart ? LossCause::motion_unowned : wish_.cause; }
     [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
     [[nodiscard]] bool has(RehearsalStep step) const { return wish_.steps.has(step); }
-    /// The loss is not the controller's own: it is there all the time.
+    /// The loss does not concern the controller itself, which is present all the time.
     [[nodiscard]] bool client_stays() const {
         return wish_.cause == LossCause::line_lost || wish_.cause == LossCause::gateway_ends || restarts() || gateway_gone();
     }
-    /// Whose client it is; of a loss that may be anybody's, a controller over Modbus.
+    /// The door of the client; for a cause without a door of its own, a controller over Modbus.
     [[nodiscard]] Door door() const {
         const bool anybodys =
             wish_.cause == LossCause::none || std::ranges::find(losses_of_anybody, wish_.cause) != losses_of_anybody.end();
         return anybodys ? Door::modbus : door_that_tells(wish_.cause);
     }
-    /// By registers, as controllers do; who comes over HTTP or DDS gives commands by name.
+    /// True for clients that write registers, like controllers; clients over HTTP or DDS send commands by name.
     [[nodiscard]] bool by_registers() const { return door() == Door::modbus || door() == Door::ethernet_ip; }
     [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
 
@@ -97,7 +96,7 @@ private:
         stream_fault_ = refused ? refused->text : "";
         if (!refused) place_ = p.value;
     }
-    /// Empty: taken by the drive; else what was answered.
+    /// Empty if the drive has accepted it; otherwise the answer.
     std::string order(CommandBody body) {
         const std::string what(name_of(body));
         const auto r = models_.ask(std::move(body), origin(), 10s);
@@ -107,7 +106,7 @@ private:
     }
 
     // --- the motion
-    /// Brings the axis up, enables it and lets it run. Empty, or why that cannot be.
+    // Brings the axis up, enables it and starts the motion. Empty, or the reason why this is impossible.
     std::string set_off() {
         if (!models_.run_until([&] { return models_.online(); }, 60s)) return "its twin does not come up";
         models_.run_for(500ms);
@@ -196,7 +195,7 @@ private:
         return m;
     }
 
-    // --- what comes between
+    // --- the disturbances
     void disturb() {
         if (has(RehearsalStep::second_client)) {
             second_client_speaks();
@@ -207,7 +206,7 @@ private:
             note_disturbed(RehearsalStep::refused_commands);
         }
     }
-    /// Of a client that has no part in the motion: a question, a reset, commands that are refused; and its connection ends.
+    /// Actions of a client without a part in the motion: a question, a reset, commands that are refused, and the end of its connection.
     void second_client_speaks() {
         const Origin other{Door::modbus, other_, {}};
         const auto parameters = models_.engine().catalogue(models_.axis())->parameters();
@@ -221,7 +220,7 @@ private:
         are_refused(other);
         models_.engine().on_client_lost(AuthorityClient::of(other), LossCause::modbus_closed, models_.now());
     }
-    /// Each of them asks for another motion, and for none that there can be.
+    /// Each of these commands requests another motion, and each is refused.
     void are_refused(const Origin& by) {
         Move renewal = move(Move::Kind::velocity, fast_ / 2 + 1);
         renewal.hold_ms = 500;
@@ -241,7 +240,7 @@ private:
 
     // --- the loss
     void lose() {
-        if (wish_.cause == LossCause::lease_ended) {  // the same motion again would disturb it; a lease that is renewed does not
+        if (wish_.cause == LossCause::lease_ended) {  // the same motion again would disturb it; a renewed lease does not
             HoldAxis again;
             again.lease_s = std::max<std::int64_t>(1, std::chrono::duration_cast<std::chrono::seconds>(wish_.lease).count());
             (void)order(again);
@@ -250,7 +249,7 @@ private:
         if (of_streams_alone(wish_.cause)) stream();
         at_ = models_.now();
         lost_ = true;
-        if (silent()) models_.silent_since = at_;  // the connection stays; else there is none
+        if (silent()) models_.silent_since = at_;  // the connection stays open; for the other causes there is none
         place_at_loss_ = models_.mechanics().position;
         speed_at_loss_ = models_.speed();
         cell_.speed = speed_at_loss_ / spec_.increments_per_unit;
@@ -259,7 +258,7 @@ private:
             case LossCause::enip_silent:
             case LossCause::lease_ended:
             case LossCause::set_points_silent:
-                return;  // nothing more comes
+                return;  // the client sends nothing more
             case LossCause::line_lost:
                 return models_.silence(true);
             case LossCause::gateway_ends:
@@ -309,7 +308,7 @@ private:
         cell_.watched_ms = ms(models_.now());
         cell_.travel = std::fabs(models_.mechanics().position - place_at_loss_) / spec_.increments_per_unit;
     }
-    /// What the gateway tells of the axis after the loss: the first thing that stops it is what ends the motion.
+    /// Observes the gateway's reaction after the loss: the first event that stops the axis is the end of the motion.
     void note(const Event& e, Instant at) {
         if (!lost_) return;
         const bool by_supervisor = e.kind == "limit" || (e.severity == Severity::alarm && (e.kind == "state" || e.kind == "motion"));
@@ -325,7 +324,7 @@ private:
     }
     void judge() {
         if (!cell_.ended_by.empty() || !still_) return;
-        // A motor that was slower before anybody acted, or that nobody has stopped, has ended it by itself.
+        // If the motor became slower before anybody acted, or nobody has stopped it, the motor has ended the motion by itself.
         if (stopped_ && (!slower_ || *stopped_ <= *slower_)) {
             cell_.ended_by = stopped_by_;
         } else {
@@ -339,7 +338,7 @@ private:
     }
 
     // --- afterwards
-    /// The controller is back, or was never away, and writes what it wrote before the loss; it has noticed nothing.
+    // The controller has returned, or was never away, and writes the same registers as before the loss, because it has noticed nothing.
     void come_back() {
         if (!has(RehearsalStep::old_image) || !by_registers() || gateway_gone() || !still_) return;
         const double place = models_.mechanics().position;
@@ -361,7 +360,7 @@ private:
     RehearsalCell cell_;
     const std::shared_ptr<const std::string> who_ = std::make_shared<const std::string>("rehearsal:1");
     const std::shared_ptr<const std::string> other_ = std::make_shared<const std::string>("another:1");
-    ProcessData image_;  ///< what the controller writes, whole, in every cycle
+    ProcessData image_;  ///< the whole image that the controller writes in every cycle
     bool tends_ = false;
     Instant next_cycle_{};
     Instant at_{};

@@ -1,7 +1,6 @@
-// Rehearsal: what becomes of an axis when the one who commands it is lost, tried out on the twins of the site: one axis, one cause, one
-// figure. In: families, a site, an axis, a cause, the gateway's times. Out: what was done, how long it took until the motor began to stop
-// and until it stood, and how far it went. Virtual time: the same site gives the same figures. Never touches the gateway that runs: it
-// makes an engine of its own, whose lines are models.
+// Tries out on the twins of the site how an axis reacts when the client that commands it is lost: one axis, one cause, one set of figures
+// (the action, the time until the motor began to stop and until it stood, the distance). It runs in virtual time, so the same site gives
+// the same figures. The running gateway is not involved: the rehearsal has an engine of its own, whose lines are models.
 #pragma once
 
 #include "gateway/engine/engine.hpp"
@@ -9,8 +8,8 @@
 
 namespace axisgate {
 
-/// Takes some milliseconds to a second of a processor: not for the hot thread. `memory`: of the twins, so that they are set as the site's
-/// are.
+/// Takes from some milliseconds to a second of processor time, so it must not run on the hot thread. `memory` is that of the twins, which
+/// gives them the settings of the site.
 [[nodiscard]] RehearsalCell rehearse(const Families& families, const Site& site, const SiteMemory& memory, const RehearsalWish& wish);
 
 }  // namespace axisgate

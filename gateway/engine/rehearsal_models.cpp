@@ -1,5 +1,5 @@
-// Rehearsal models: the site's line cut out and turned into one with a cable, models plugged in behind it, time that passes on both sides.
-// In: the site. Out: frames between the two, as a cable carries them. Never lets a model hear two gateways at once.
+// Cuts one line out of the site, replaces it by a line with a cable, connects the models behind the cable, and advances the time on both
+// sides. A model never receives frames of two gateways at once.
 #include "gateway/engine/rehearsal_models.hpp"
 
 #include <fmt/core.h>
@@ -14,7 +14,7 @@ namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
 
-/// At the end of the cable while there is no gateway.
+/// The far end of the cable while there is no gateway.
 class NoGateway final : public LineEvents {
 public:
     void on_frame(const Frame&) override {}
@@ -22,13 +22,13 @@ public:
     void on_sent(const Frame&) override {}
 };
 
-/// A line of embedded drives alone has no cable: it gets one on which a frame takes the same time.
+/// A line that has only embedded drives has no cable. It gets one on which a frame takes the same time.
 void lay_cable(LineSpec& line, const Families& families) {
     const auto uri = parse_line_uri(line.uri);
     if (uri.good() && uri.uri.kind != LineUri::Kind::twin) return;
     const Family* family = families.find(line.family).family;
     if (kind_of(line, families) == LineKind::can) {
-        constexpr std::uint32_t of_no_family = 1'000'000;  // CiA 301's highest
+        constexpr std::uint32_t of_no_family = 1'000'000;  // the highest bit rate of CiA 301
         if (line.bitrate == 0) line.bitrate = family ? family->default_can_bit_rate : of_no_family;
         line.uri = "can:model";
     } else {
@@ -36,7 +36,8 @@ void lay_cable(LineSpec& line, const Families& families) {
     }
 }
 
-/// The axis' line with all of its drives, each by its model. Limits of position are left out: they would end the motion first.
+/// The line of the axis with all of its drives, each served by its model. Limits of position are left out, because they would end the
+/// motion first.
 Site only_its_line(const Site& site, const AxisSpec& axis, const Families& families) {
     Site s;
     const auto drive = std::ranges::find(site.drives, axis.drive, &DriveSpec::name);
@@ -79,7 +80,7 @@ void RehearsalModels::start_gateway() {
         if (site_.drives[i].name == spec_.drive) drive_id_ = state->drive_ids[i];
 }
 
-/// Without a word: whatever was on the wire or in a queue is gone with it.
+/// Without notice: frames on the wire or in a queue are lost.
 void RehearsalModels::kill_gateway() {
     static NoGateway nobody;
     gateway_.reset();
@@ -100,7 +101,7 @@ std::unique_ptr<Line> RehearsalModels::make_line(const LineSpec& spec, const Lin
     return std::make_unique<TwinBusEnd>(*bus_);
 }
 
-/// Each drive's model with the channels that the site uses. A gateway numbers the drives in the site's order.
+/// The model of each drive, with the channels that the site uses. A gateway numbers the drives in the order of the site.
 void RehearsalModels::plug_in(const LineSetup& setup) {
     for (std::size_t i = 0; i < site_.drives.size(); ++i) {
         const DriveSpec& d = site_.drives[i];
@@ -145,7 +146,7 @@ Ticket RehearsalModels::give(CommandBody body, const Origin& by) {
 
 std::optional<Result> RehearsalModels::ask(CommandBody body, const Origin& by, Duration limit) {
     answer_.reset();
-    awaited_ = make_ticket(first_service_door, tickets_ + 1);  // it may be answered at once
+    awaited_ = make_ticket(first_service_door, tickets_ + 1);  // the answer may come at once
     (void)give(std::move(body), by);
     (void)run_until([&] { return answer_.has_value(); }, limit);
     awaited_ = no_ticket;

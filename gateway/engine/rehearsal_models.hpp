@@ -1,6 +1,5 @@
-// Rehearsal models: one line of the site with all of its drives as models behind a cable, and a gateway at the other end of it, in virtual
-// time. In: the site, what its models have kept. Out: time, the mechanics, what the gateway tells. The gateway can be killed and another
-// one started: the drives go on meanwhile, with nobody who speaks to them. Never opens a real line.
+// One line of the site with all of its drives as models behind a cable, and a gateway at the other end, in virtual time. The gateway can be
+// killed and another one started; the drives continue meanwhile. No real line is opened.
 #pragma once
 
 #include <cmath>
@@ -19,7 +18,7 @@ public:
     struct Times {
         Duration watchdog{}, lease{};
     };
-    /// The first gateway is there, and everything of it about to begin. `site` has the axis.
+    /// The first gateway exists and is about to begin. `site` contains the axis.
     RehearsalModels(const Families& families, const Site& site, const SiteMemory& memory, const AxisSpec& axis, Times times);
     ~RehearsalModels() override;
     RehearsalModels(const RehearsalModels&) = delete;
@@ -37,14 +36,14 @@ public:
     [[nodiscard]] Instant now() const noexcept { return now_; }
     [[nodiscard]] TwinMechanics mechanics() { return bus_->twin(drive_id_)->mechanics(spec_.channel, now_); }
     [[nodiscard]] double speed() { return std::fabs(mechanics().velocity); }
-    /// The drive hears, and does not answer.
+    /// The drive receives, and does not answer.
     void silence(bool on) { (void)bus_->set_hand(drive_id_, "silent", Value{on}, now_); }
 
-    /// Called at every step of time while it is set: what the clients do by themselves.
+    /// If set, it is called at every step of time: the actions of the clients.
     std::function<void()> tend;
-    /// Is told what the gateway tells of the axis.
+    /// Receives the gateway's events and results for the axis.
     std::function<void(const Event&, Instant)> on_axis_event;
-    /// Since when who commands is silent; nothing: it is heard.
+    /// Since when the commanding client is silent; empty while it is not.
     std::optional<Instant> silent_since;
 
     void step();
@@ -60,9 +59,9 @@ public:
         }
         return true;
     }
-    /// The result of a command, when it is there; nothing: it did not come within the time.
+    /// The result of a command; empty if it did not arrive within the time.
     std::optional<Result> ask(CommandBody body, const Origin& by, Duration limit);
-    /// The same where nobody waits for the answer.
+    /// The same without waiting for the answer.
     void say(CommandBody body, const Origin& by) { (void)give(std::move(body), by); }
 
     // --- EngineHost

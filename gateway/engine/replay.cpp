@@ -1,5 +1,5 @@
-// Replay: the engine's host is the recording: lines that bring what came, doors that say what they said.
-// In: records of any origin. Out: a report. Never trusts a record: what cannot be read ends the replay with its reason.
+// The host of the replayed engine: its lines and doors repeat the recorded inputs. A record may have any origin; one that cannot be read
+// ends the replay with a reason.
 #include "gateway/engine/replay.hpp"
 
 #include <fmt/format.h>
@@ -15,12 +15,12 @@
 namespace axisgate {
 namespace {
 
-/// What the lines of a recording have in common, by line.
+/// The data that all lines of the recording share, by line.
 struct Cable {
     std::uint64_t handed = 0;
     std::set<std::uint64_t> refused;
     LineEvents* events = nullptr;
-    /// What the line told from inside a turn, with the turn's place among the inputs.
+    /// A call of a line during a turn, with the index of the turn among the inputs.
     struct Within {
         std::size_t input;
         Instant at;
@@ -53,7 +53,7 @@ private:
 class Player final : public EngineHost, FlightTap {
 public:
     Player(const Families& families, const ReplayInput& recording) : families_(families), recording_(recording) {
-        // What the recording has shelved is for this replay alone.
+        // Descriptions in the recording are valid for this replay only.
         families_.descriptions = std::make_shared<DescriptionShelf>();
         engine_ = std::make_unique<Engine>(families_, *this, image_, 16);
         engine_->set_tap(this);
@@ -111,7 +111,7 @@ private:
         return report_.fault.empty();
     }
     static bool of_a_line(FlightKind k) { return k == FlightKind::received || k == FlightKind::sent || k == FlightKind::line_state; }
-    /// What a line told in the turn that is under way.
+    /// A call of a line during the current turn.
     void tell(Cable& cable) {
         while (!cable.within.empty() && cable.within.front().input <= current_ && report_.fault.empty()) {
             const FlightRecord r = cable.within.front().record;
@@ -202,13 +202,13 @@ private:
         return at < 0 ? std::nullopt : std::optional(at_ns(at));
     }
 
-    // FlightTap: what this engine tells.
+    // FlightTap: the outputs of this engine.
     void take_site(std::shared_ptr<const SiteInput>, Instant) override {}
     void take(const FlightRecord& r) override {
         if (is_input(r.kind) || outcomes_++ < recording_.outcomes_before) return;
         Stream& stream = streams_[key_of(r)];
         if (stream.next >= stream.records.size()) {
-            if (!last_) differs("", to_text(r));  // of the last input the recording need not have all
+            if (!last_) differs("", to_text(r));  // the recording may lack a part of the last input's outcomes
             return;
         }
         const FlightRecord& was = stream.records[stream.next++];
@@ -232,7 +232,7 @@ private:
     std::size_t current_ = 0;
     bool last_ = false;
     Instant now_{};
-    std::unique_ptr<Engine> engine_;  // the first to go: its lines speak to the rest
+    std::unique_ptr<Engine> engine_;  // destroyed first, because its lines use the other members
 };
 
 }  // namespace

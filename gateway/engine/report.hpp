@@ -1,5 +1,4 @@
-// Reports: how a line and a drive are doing, as the engine tells it to whoever asks.
-// In: made by the engine. Out: doors and metrics. Never a part of the round.
+// Reports on the condition of lines and drives, made by the engine for doors and metrics.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +12,29 @@
 namespace axisgate {
 
 struct DriveStatus {
-    Presence presence = Presence::offline;  ///< who serves the axes now
+    Presence presence = Presence::offline;  ///< the side that serves the axes now
     bool simulated = false;                 ///< the twin serves them, whether it answers or not
     bool device_online = false;             ///< the real drive answers
-    std::string text;                       ///< why it is so, for people
+    std::string text;                       ///< the reason, for people
     std::uint32_t silent_exchanges = 0;
     std::int64_t retry_pause_ms = 0;
-    DriveWatchdog watchdog{};  ///< of the drive that serves
+    DriveWatchdog watchdog{};  ///< of the serving drive
     DriveLimits limits{};      ///< the same
     DriveBeats beats{};        ///< the same
 };
 struct LineReport {
     LineStatus status;          ///< of the real line; of the twin bus if the URI is "twin"
-    AdapterCounters counters;   ///< without what was counted while a scan ran
-    AdapterCounters scanned;    ///< while a scan ran: addresses where nobody is time out, which says nothing of the line
-    bool has_twin_bus = false;  ///< some drives of it are simulated now
+    AdapterCounters counters;   ///< without those counted during scans
+    AdapterCounters scanned;    ///< during scans: addresses without a drive cause time-outs, which do not indicate a fault of the line
+    bool has_twin_bus = false;  ///< some of its drives are simulated now
     LineStatus twin_status;
-    /// What each family's adapter counted; `counters` is their sum.
+    /// The counters of each family's adapter; `counters` is their sum.
     struct OfFamily {
         std::string family;
         AdapterCounters counters;
     };
     std::vector<OfFamily> families;
-    std::uint64_t unclaimed = 0;  ///< CAN frames with identifiers that are no family's of the line
+    std::uint64_t unclaimed = 0;  ///< CAN frames whose identifiers belong to no family of the line
 };
 
 }  // namespace axisgate

@@ -1,6 +1,5 @@
-// Routing, upwards: frames to the adapters that hear them, and what one call of an adapter gave back to whom it concerns.
-// In: what a line received or sent, an adapter's Out. Out: calls of the other parts; `drain` alone keeps their order.
-// Never takes feedback or samples from a side that does not serve the drive.
+// Passes frames to the adapters that use their identifiers, and distributes the output of an adapter's call; the order of the distribution
+// is fixed in `drain`. Feedback and samples of a side that does not serve the drive are ignored.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -56,17 +55,18 @@ void Routing::line_state(Side& side, bool up, const std::string& why) {
     presences_.line_state(side, up, why, machine_.now);
 }
 
-/// Hands on what one call to an adapter gave back. Feedback goes before results: a client that hears "accepted" finds the image ready.
+/// Distributes the output of one call of an adapter. Feedback is applied before results, so that a client that gets "accepted" finds the
+/// new state in the image.
 void Routing::drain(Speaker& by, Out& out, Instant now) {
     Side& side = by.side;
     side.touched();
-    for (const auto& n : out.notices) {  // why a search failed is known before the feedback says that it has
+    for (const auto& n : out.notices) {  // the reason of a failed homing must be known before the feedback reports the failure
         if (Axis* a = n.kind == "homing" ? machine_.axis(n.axis) : nullptr) a->homing_why = n.text;
     }
     for (auto& tx : out.frames) {
         tx.frame.sender = by.number;
         if (FlightTap* tap = publisher_.tap()) tap->handed(side.unit.id, tx.frame, side.twin, orders_.client_of(tx.order), now);
-        const bool taken = side.line->send(tx.frame, tx.priority, now);  // a full queue is counted there
+        const bool taken = side.line->send(tx.frame, tx.priority, now);  // the line counts frames that a full queue refuses
         if (publisher_.tap() && !taken && !side.twin) publisher_.tap()->send_refused(side.unit.id, now);
         if (auto& f = side.followed; taken && f.ticket != no_ticket && !f.handed_on && tx.priority != Priority::poll) {
             f.handed_on = true;
@@ -86,7 +86,7 @@ void Routing::drain(Speaker& by, Out& out, Instant now) {
         publisher_.sample(s, now);
     }
     for (const auto& n : out.notices) {
-        if (Scans::is_probe(n.drive)) continue;  // the report of the scan says what there is to say
+        if (Scans::is_probe(n.drive)) continue;  // the report of the scan contains the notice
         const Axis* a = machine_.axis(n.axis);
         const Drive* d = a ? a->drive : machine_.drive(n.drive);
         if (d && d->serving != mine) continue;
@@ -114,7 +114,7 @@ void Routing::feedback(Side& side, AxisId id, const AxisFeedback& value, Instant
     a->stale = now - value.at > a->drive->line->stale_after;
     if (first) a->last_deceleration = 0;  // its power may have been off
     if (bool& lost = a->drive->device_lost_while_commanded; lost && !side.twin) {
-        // It is back and has said that nothing is under way any more: its next silence is judged by what it does then.
+        // The drive has returned and has reported that no motion is in progress: its next silence is judged by its state then.
         lost = std::ranges::any_of(a->drive->axes, [&](AxisId x) {
             const auto& p = machine_.axes[index_of(x)]->profile;
             return p.commanded() || p.state() == PowerState::not_ready_to_switch_on;

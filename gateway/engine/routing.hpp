@@ -1,7 +1,5 @@
-// Routing: calls of adapters, and the way up of what they and their lines bring.
-// In: a call of one adapter; frames, line states and sent frames of a side. Out: frames to the line; links, feedback, samples, notices,
-// results and ends of streams to the parts that they concern.
-// Never blocks and never loops over more than what one call brought.
+// Routing calls the adapters, and distributes their output and that of their lines: frames to the line; links, feedback, samples, notices,
+// results and ends of streams to the parts that handle them. It never blocks, and its loops are bounded by the output of one call.
 #pragma once
 
 #include <deque>
@@ -23,24 +21,24 @@ public:
           supervisor_(supervisor),
           loss_(loss),
           streams_(streams) {}
-    /// One call of an adapter, and what it gave back handed on.
+    /// Makes one call of an adapter and distributes its output.
     template <class F>
     void ask(Speaker& by, Instant now, F&& call) {
         const Spare spare(*this);
         call(spare.out);
         drain(by, spare.out, now);
     }
-    // What a line tells its side.
+    // Calls of a line to its side.
     void received(Side& side, const Frame& frame);
     void sent(Side& side, const Frame& frame);
     void line_state(Side& side, bool up, const std::string& why);
-    /// From a command's being taken to its first frame having left on a real line; any thread.
+    /// The time from the acceptance of a command to the transmission of its first frame on a real line; any thread.
     [[nodiscard]] const Histogram& write_to_frame() const noexcept { return write_to_frame_; }
 
 private:
     void drain(Speaker& by, Out& out, Instant now);
     void feedback(Side& side, AxisId axis, const AxisFeedback& value, Instant now);
-    /// An Out for one call. Calls come from inside others, so there is one for each depth; kept for their room.
+    /// An Out for one call. Calls can be nested, so there is one for each depth; they are kept to avoid allocations.
     struct Spare {
         explicit Spare(Routing& r) : depth(r.depth_), out(depth < r.outs_.size() ? r.outs_[depth] : r.outs_.emplace_back()) { ++depth; }
         ~Spare() {

@@ -1,6 +1,5 @@
-// Scans: from a wish to the addresses that are asked, and what each turn makes of the answers.
-// In: the families of a line, its drives. Out: probes for the line's adapters; a report for whoever asks.
-// Never changes what the site's own drives are told.
+// Turns the request for a scan into addresses that are asked a few at a time, and evaluates the answers. The configuration of the site's
+// own drives stays unchanged.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -61,9 +60,9 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
         for (auto& a : plan.addresses) {
             if (std::ranges::find(wish.known, a) == wish.known.end()) part.waiting.push_back(std::move(a));
         }
-        std::ranges::reverse(part.waiting);  // taken from the back
+        std::ranges::reverse(part.waiting);  // addresses are taken from the back
         row.of = part.waiting.size();
-        if (!side) {  // a line of twins alone that has none
+        if (!side) {  // a line that has only twins, and none of them is running
             part.waiting.clear();
             row.asked = row.of;
         }
@@ -87,7 +86,7 @@ std::string Scans::start(LineId id, ScanWish wish, Instant now) {
     return {};
 }
 
-/// Why a family cannot be searched for on this line; empty: it can.
+/// The reason why a family cannot be searched for on this line; empty if it can.
 std::string Scans::not_to_be_searched(const LineUnit& unit, const FamilyEntry& wanted, std::string_view name) const {
     if (!wanted.family) return fmt::format("there is no family {}; use one of: {}", name, machine_.families.names());
     const auto on_line = [&](const FamilyEntry& f) { return f.family == wanted.family; };
@@ -127,7 +126,7 @@ void Scans::end(LineUnit& unit, ScanReport::State state, std::string why, Instan
     speakers_.fit(*side, now);
 }
 
-/// From housekeeping: what was answered or waited for long enough makes room for the next addresses.
+/// Called by housekeeping: addresses that have answered or have been asked long enough make room for the next ones.
 void Scans::turn(LineUnit& unit, Instant now) {
     if (!unit.scan || unit.scan->report.state != ScanReport::State::running) return;
     Scan& scan = *unit.scan;
@@ -148,7 +147,7 @@ void Scans::turn(LineUnit& unit, Instant now) {
     if (now >= scan.ends_at && !scan.over())
         return end(unit, ScanReport::State::failed, "its limit_s was over before every address was asked", now);
     for (auto& part : scan.parts) {
-        // Who has the same adapter, and with it the same addresses, is searched for when this one is over.
+        // Families with the same adapter have the same addresses, so one is searched for after the other.
         const auto before = std::ranges::find_if(scan.parts, [&](const Scan::Part& p) {
             return &serving_family(*p.family.family) == &serving_family(*part.family.family) && !p.over();
         });
@@ -184,7 +183,7 @@ void Scans::answered(Side& side, const DriveLink& l) {
         for (auto& a : part.asking) {
             if (a.id != l.drive || a.over) continue;
             a.online = l.online;
-            a.over = l.online || l.retry_pause > Duration::zero();  // given up for now: nobody is there
+            a.over = l.online || l.retry_pause > Duration::zero();  // the adapter has given the address up for now: no drive is there
             a.text = l.text;
         }
     }

@@ -1,7 +1,6 @@
-// Scans. Addresses that the site does not name are given to the line's adapter as drives without axes, a few at a time;
-// its own search for a drive is the question, its DriveLink the answer.
-// In: wishes, links, the passing of time. Out: reports. Bounds: one scan per line, 16 addresses of a family at once, 2 s per address, the
-// wish's own limit. Never asks an address that the site has given to a drive, and ends when the site changes.
+// Scans searches for drives at addresses that the site does not name. A few of them at a time are given to the line's adapter as drives
+// without axes; the adapter's own search is the question, and its DriveLink is the answer. Bounds: one scan per line, 16 addresses of a
+// family at once, 2 s per address, and the limit of the request. A scan ends when the site changes.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -11,9 +10,9 @@ namespace axisgate::engine {
 class Scans {
 public:
     Scans(Machine& machine, Publisher& publisher, Speakers& speakers) : machine_(machine), publisher_(publisher), speakers_(speakers) {}
-    /// Whether a drive is an address that a scan asks: no drive of the site.
+    /// True if the drive is an address that a scan asks, and not a drive of the site.
     [[nodiscard]] static bool is_probe(DriveId id) noexcept;
-    /// Empty: it has begun; else why not.
+    /// Empty if the scan has begun, otherwise the reason why not.
     [[nodiscard]] std::string start(LineId line, ScanWish wish, Instant now);
     void cancel(LineId line, Instant now);
     [[nodiscard]] ScanReport report(LineId line) const;

@@ -1,6 +1,5 @@
-// A site change: at once, or when what it takes away stands.
-// In: the wanted site, the passing of time. Out: stops, then the site in force; an alarm for each axis of which nobody knows that it
-// stands. Never two at a time: an older one comes into force before the next begins.
+// Puts a new site in force at once, or when the axes that it removes or replaces stand. An alarm reports each axis whose standstill is
+// unknown. There is one change at a time: an older one comes into force before the next begins.
 #include <algorithm>
 
 #include "gateway/engine/flight_record.hpp"
@@ -25,7 +24,7 @@ void SiteChange::begin(Site site, SiteMemory memory, std::uint64_t revision, Ins
     if (publisher_.tap()) record(site, memory, revision, false, now);
     const FlightWithin within(publisher_.tap());
     machine_.now = std::max(machine_.now, now);
-    if (change_) put_in_force(now);  // one at a time: the older one has had its time
+    if (change_) put_in_force(now);  // one at a time; the older one has had its time
     change_ = std::make_unique<Change>();
     change_->until = now + rest_limit;
     const KeptParts kept{machine_.site->site, site};
@@ -59,7 +58,7 @@ void SiteChange::check(Instant now) {
     const auto stands = [&](const Change::Stopped& s) {
         const Axis& a = *machine_.axis(s.axis);
         const Side* side = machine_.side_of(*a.drive);
-        if (!side || !side->up) return true;  // nothing can be sent any more
+        if (!side || !side->up) return true;  // the line is down, so no order can be sent
         if (awaits_answer(a)) return false;
         return !a.drive->answers() || (a.profile.at_rest() && a.profile.feedback().at > s.asked);
     };
@@ -86,12 +85,12 @@ void SiteChange::put_in_force(Instant now) {
 }
 
 bool SiteChange::under_way(const Axis& a) const {
-    if (!a.drive->answers()) return a.drive->device_lost_while_commanded;  // it may be moving: nobody knows
+    if (!a.drive->answers()) return a.drive->device_lost_while_commanded;  // an unreachable drive that was commanded may still be moving
     const AxisFeedback& f = a.profile.feedback();
     return f.moving || f.homing || a.stream.on || (a.motion.runs() && !a.motion.over) || awaits_answer(a);
 }
 
-/// An order that may set it in motion, or end that, has not been answered yet.
+/// An order that may start or end a motion has not been answered yet.
 bool SiteChange::awaits_answer(const Axis& a) const {
     return std::ranges::any_of(pending_.orders, [&](const auto& entry) {
         const CommandBody& body = entry.second.body;
@@ -102,7 +101,7 @@ bool SiteChange::awaits_answer(const Axis& a) const {
     });
 }
 
-/// All that a replay needs to begin with nothing else.
+/// The inputs that a replay needs to begin.
 void SiteChange::record(const Site& site, const SiteMemory& memory, std::uint64_t revision, bool at_once, Instant now) {
     auto input = std::make_shared<SiteInput>();
     input->site = site;

@@ -1,6 +1,5 @@
-// A site change in motion: what the new site takes away or makes anew is stopped first, while its line still stands.
-// In: the wanted site. Out: a quick stop and an event per axis under way, then the site in force.
-// Never waits for ever: a drive that cannot be brought to rest, or is not heard, does not keep its site from being changed.
+// A change of the site while axes move: axes that the new site removes or replaces are stopped first, while their line still works. The
+// wait is bounded: a drive that cannot be stopped, or does not answer, does not prevent the change.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -17,7 +16,7 @@ public:
     [[nodiscard]] bool waits() const noexcept { return change_ != nullptr; }
 
 private:
-    /// A site that comes into force as soon as what it takes away stands.
+    /// A site that comes into force as soon as the axes that it removes or replaces stand.
     struct Change {
         struct Stopped {
             AxisId axis = no_axis;

@@ -1,6 +1,5 @@
-// The site in force: what goes, what comes or changes, and how it is put to work.
-// In: the wanted site and what is remembered of its drives. Out: the machine as the site wants it; what is told of removed axes and
-// options. Never gives an id to another name.
+// Applies a site to the machine: removes, adds and changes lines, drives and axes, and reports removed axes and faulty options. An id is
+// never given to another name.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace axisgate::engine {
 namespace {
-/// The place of a name: its own if it is known, else a new one at the end.
+/// The index of a name: its former one if the name is known, otherwise a new one at the end.
 template <class Id, class Slot>
 Id place_of(const std::map<std::string, Id>& known, const std::string& name, std::vector<Slot>& slots) {
     if (const auto it = known.find(name); it != known.end()) return it->second;
@@ -51,7 +50,8 @@ SiteInForce::Ids SiteInForce::ids_in_force() const {
     return ids;
 }
 
-/// What goes: axes, then drives, then lines. Their ids stay theirs if the name comes back. The axes live on until the new site works.
+/// Removes axes, then drives, then lines. Their ids stay reserved for the case that the name returns. The axes remain in memory until the
+/// new site works.
 std::vector<std::unique_ptr<Axis>> SiteInForce::take_away(const Site& old, const KeptParts& kept, const Ids& ids) {
     std::vector<std::unique_ptr<Axis>> gone_axes;
     for (const auto& a : old.axes) {
@@ -151,7 +151,7 @@ void SiteInForce::add_axes(const Site& site, const Ids& ids, const SiteMemory& m
         auto& slot = machine_.axes[index_of(id)];
         if (!slot) slot = new_axis(id, a, memory);
         slot->leaving_until = {};
-        slot->spec = a;  // number, unit, scale and limits change without disturbing anything
+        slot->spec = a;  // number, unit, scale and limits change without disturbing the axis
         slot->limits = AxisLimits::of(a);
         state.axis_ids.push_back(id);
         if (static_cast<std::size_t>(a.number) >= by_number.size()) by_number.resize(static_cast<std::size_t>(a.number) + 1, no_axis);
@@ -160,7 +160,7 @@ void SiteInForce::add_axes(const Site& site, const Ids& ids, const SiteMemory& m
     machine_.image.set_numbers(std::move(by_number));
 }
 
-/// Adapters of lines that stay are told the new set of drives; fresh lines are opened.
+/// Gives the adapters of remaining lines the new set of drives, and opens new lines.
 void SiteInForce::put_to_work(std::span<LineUnit* const> fresh_lines, std::span<Drive* const> fresh_drives, Instant now) {
     for (const auto& d : machine_.drives) {
         if (d) twins_.refit(*d, now);
@@ -200,7 +200,7 @@ std::shared_ptr<const SiteState> SiteInForce::put(Site site, SiteMemory memory, 
     return machine_.site;
 }
 
-/// Options that nobody reads as they stand: said once, of what is new. What an adapter reads it complains of itself.
+/// Reports options that have no effect, once, for new lines and drives. An adapter reports the options that it reads itself.
 void SiteInForce::tell_options(std::span<LineUnit* const> lines, std::span<Drive* const> drives, Instant now) {
     for (const OptionFault& f : check_options(machine_.site->site, machine_.families)) {
         const bool fresh = f.drive.empty() ? std::ranges::any_of(lines, [&](const LineUnit* l) { return l->spec.name == f.line; })

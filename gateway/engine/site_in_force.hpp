@@ -1,6 +1,5 @@
-// The site in force: what is kept, made anew and taken away when another one is applied.
-// In: the wanted site. Out: lines, drives and axes; adapters configured, twins made and removed.
-// Never disturbs what did not change.
+// SiteInForce compares a new site with the present one and keeps, makes or removes lines, drives and axes. Unchanged ones are never
+// disturbed.
 #pragma once
 
 #include <map>

@@ -1,6 +1,4 @@
-// Speakers: what a line's adapters are told of it and of its drives.
-// In: the site's words. Out: LineSetup, and adapters that have it.
-// Never gives an adapter drives of another family, or those that the other side serves.
+// Makes the LineSetup of each adapter from the site. An adapter gets only drives of its families that its side serves.
 #include <algorithm>
 
 #include "gateway/core/line_uri.hpp"
@@ -13,11 +11,11 @@ Duration stale_limit(const LineSpec& spec, LineKind kind) {
     if (spec.timing.stale_after > Duration::zero()) return spec.timing.stale_after;
     return kind == LineKind::can ? std::chrono::seconds(1) : std::chrono::seconds(3);
 }
-/// Of embedded drives on a line that names neither a rate nor a family: CiA 301's highest.
+/// The bit rate of embedded drives on a line that names neither a rate nor a family: the highest one of CiA 301.
 constexpr std::uint32_t can_bit_rate_of_no_family = 1'000'000;
 }  // namespace
 
-/// Of the line alone.
+/// The setup of the line without drives.
 LineSetup Speakers::setup_for(const LineUnit& unit) const {
     LineSetup s;
     s.id = unit.id;
@@ -67,7 +65,7 @@ LineSetup Speakers::setup_for(const Speaker& speaker) const {
     return s;
 }
 
-/// Tells an adapter its drives; the frames that it is given follow from their addresses.
+/// Gives an adapter its drives; the frames that it receives follow from their addresses.
 void Speakers::configure(Speaker& speaker, Instant now) {
     const LineSetup setup = setup_for(speaker);
     const auto identifiers = speaker.side.unit.kind == LineKind::can ? speaker.family.family->can_identifiers : nullptr;
@@ -86,10 +84,10 @@ void Speakers::configure_side(Side& side, Instant now) {
         configure(*s, now);
 }
 
-/// The adapter of a family on this side, made where there is none.
+/// The adapter of a family on this side; it is made if it does not exist.
 Speaker& Speakers::bring_in(Side& side, const FamilyEntry& family, Instant now) {
     if (Speaker* known = side.speaker_of(family)) return *known;
-    const FamilyEntry serves{&serving_family(*family.family), family.catalogue};  // each drive's setup has its own
+    const FamilyEntry serves{&serving_family(*family.family), family.catalogue};  // each drive's setup has its own catalogue
     std::uint8_t number = 0;
     while (std::ranges::any_of(side.speakers, [&](const auto& s) { return s->number == number; }))
         ++number;
@@ -100,7 +98,8 @@ Speaker& Speakers::bring_in(Side& side, const FamilyEntry& family, Instant now) 
     return fresh;
 }
 
-/// Adapters for the line's families, each with its drives; those of families that have left it end with what they had in hand.
+/// Makes adapters for the families of the line and gives each its drives. Adapters of families that have left the line end their work and
+/// are removed.
 void Speakers::fit(Side& side, Instant now) {
     const auto& families = side.unit.families;
     configure_side(side, now);
@@ -110,7 +109,7 @@ void Speakers::fit(Side& side, Instant now) {
     side.touched();
 }
 
-/// Makes the sides that a new line needs and opens the real one. The twins' side is made when the first drive is simulated.
+/// Makes the sides of a new line and opens the real one. The twins' side is made when the first drive is simulated.
 void Speakers::build_line(LineUnit& unit, Instant now) {
     const auto uri = parse_line_uri(unit.spec.uri);
     unit.kind = kind_of(unit.spec, machine_.families);

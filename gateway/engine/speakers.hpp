@@ -1,6 +1,4 @@
-// Speakers: the adapters of each line, and the drives that each of them is told of.
-// In: lines with their families and drives, what a scan asks. Out: adapters made, configured and taken away; lines opened.
-// Never more than one adapter of a family on a side.
+// Speakers makes, configures and removes the adapters of each line, and opens lines. A side has at most one adapter of a family.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -11,7 +9,7 @@ class Speakers {
 public:
     Speakers(Machine& machine, EngineHost& host, Routing& routing, std::size_t trace_frames)
         : machine_(machine), host_(host), routing_(routing), trace_frames_(trace_frames) {}
-    /// Makes the sides that a new line needs and opens the real one. The twins' side is made when the first drive is simulated.
+    /// Makes the sides of a new line and opens the real one. The twins' side is made when the first drive is simulated.
     void build_line(LineUnit& unit, Instant now);
     void fit(Side& side, Instant now);
     Speaker& bring_in(Side& side, const FamilyEntry& family, Instant now);

@@ -1,6 +1,5 @@
-// Streams: from a set-point to its adapter, or to the one reason for which it is refused.
-// In: set-points. Out: the profile that follows them, the newest to the adapter; begin, end and refusals in the axis' picture.
-// Never begins again what was ended before its client has paused.
+// Checks each streamed set-point and passes it to its adapter, or refuses it with one reason. A stream that was ended does not begin again
+// before its client has paused.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +17,8 @@
 
 namespace axisgate::engine {
 namespace {
-/// In which the drive follows set-points of this kind: the cyclic mode, the older one that comes near it, or none.
+/// The mode in which the drive follows set-points of this kind: the cyclic mode, or the older one that is closest to it; empty if there is
+/// none.
 std::int16_t stream_mode(const Catalogue& catalogue, SetPoint::Mode kind) {
     for (const std::int16_t m : {cia402::mode_of(kind), cia402::older_mode_of(kind)})
         if (m != cia402::mode_none && catalogue.offers_mode(m)) return m;
@@ -71,11 +71,11 @@ std::optional<Refusal> Streams::on_set_point(const SetPoint& p, Instant now) {
     publisher_.publish(*a, now);
     Speaker& by = Machine::speaker_of(*machine_.side_of(*a->drive), *a->drive);
     routing_.ask(by, now, [&](Out& out) { by.adapter->on_set_point(p, now, out); });
-    if (!s.on) return Refusal{s.ended_for, s.ended_why};  // not even begun
+    if (!s.on) return Refusal{s.ended_for, s.ended_why};  // the stream has not even begun
     return std::nullopt;
 }
 
-/// Why this one is not handed on; nothing: it is.
+/// The reason why this set-point is refused; empty if it is passed on.
 std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) const {
     const Axis::Stream& s = a.stream;
     if (p.good_for < SetPoint::good_for_min || p.good_for > SetPoint::good_for_max)
@@ -88,7 +88,8 @@ std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const 
     if (p.origin.door != Door::internal) {
         if (auto v = a.authority.may(who, now); !v.allowed) return Refusal{Reason::authority, std::move(v.text)};
     }
-    // Whatever ended a stream holds: who does not notice, and goes on, must not begin another one with its next cycle.
+    // Whatever has ended a stream remains in force: a client that does not notice it and continues must not begin another stream with its
+    // next cycle.
     const Duration pause = std::max(p.good_for, s.good_for);
     if (!s.on && s.ended_by == who && now - s.ended_received <= pause)
         return Refusal{s.ended_for, fmt::format("the stream is over ({}); send nothing for {} ms before a new one", s.ended_why,
@@ -111,8 +112,9 @@ std::optional<Refusal> Streams::against(const Axis& a, const SetPoint& p, const 
     return too_far(a, p, Machine::speaker_of(*side, *a.drive));
 }
 
-/// A drive that follows each set-point within its interpolation time would exceed the site's limits, whatever the period of the client: the
-/// step from the one before it (from where the axis is, if it is the first) is no greater than the limit allows in that time.
+/// A drive that follows each set-point within its interpolation time could exceed the site's limits, whatever the client's period is. The
+/// step from the previous set-point (for the first one, from the position of the axis) must not exceed the distance that the limit allows
+/// in that time.
 std::optional<Refusal> Streams::too_far(const Axis& a, const SetPoint& p, const Speaker& speaker) {
     const Duration period = speaker.adapter->interpolation_time(a.id);
     const bool position = p.mode == SetPoint::Mode::position;
@@ -130,7 +132,7 @@ std::optional<Refusal> Streams::too_far(const Axis& a, const SetPoint& p, const 
                                std::chrono::duration_cast<std::chrono::microseconds>(period).count())};
 }
 
-/// What a motion of a command would end ends here, too.
+/// Events that end a commanded motion end the stream here, too.
 void Streams::begin(Axis& a, const SetPoint& p, const AuthorityClient& who, Instant now) {
     authority_.note_commander(a, p.origin, now);
     Motion m;
@@ -157,13 +159,13 @@ void Streams::end(Axis& a, Reason reason, const std::string& why, Instant now) {
     s.ended_why = why;
     a.profile.end_following();
     Motion& m = a.motion;
-    const bool pushes = m.stream != SetPoint::Mode::position && m.target != 0;  // it may begin to move yet
+    const bool pushes = m.stream != SetPoint::Mode::position && m.target != 0;  // the axis may still begin to move
     if (m.kind == Motion::Kind::stream && a.profile.at_rest() && !pushes) m.over = true;
     tell(a, s.origin, reason == Reason::none ? Severity::info : Severity::warning, fmt::format("streamed set-points end: {}", why), now);
     publisher_.publish(a, now);
 }
 
-/// The drive has not taken one: what it does now is not what the client wants, so it is treated as if the client were lost.
+/// The drive has not accepted a set-point. Its motion is not what the client requests, so the client is treated as lost.
 void Streams::refused(const Side& side, const Out::StreamEnd& by_drive, Instant now) {
     Axis* a = machine_.axis(by_drive.axis);
     if (!a || !a->stream.on || a->drive->serving != (side.twin ? Presence::twin : Presence::device)) return;
@@ -171,7 +173,7 @@ void Streams::refused(const Side& side, const Out::StreamEnd& by_drive, Instant 
     if (a->motion.kind == Motion::Kind::stream && !a->motion.over) orders_.give_own(*a, Halt{}, now);
 }
 
-/// Looked at with every housekeeping, so an end comes at most one of its periods late.
+/// Called with every housekeeping, so an end is at most one housekeeping period late.
 void Streams::check(Axis& a, Instant now) {
     if (!a.stream.on) return;
     if (now - a.stream.renewed > a.stream.good_for) {
@@ -179,7 +181,7 @@ void Streams::check(Axis& a, Instant now) {
         return end(a, Reason::interrupted,
                    fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
     }
-    authority_.note_commander(a, a.stream.origin, now);  // whoever streams commands: its lease goes on
+    authority_.note_commander(a, a.stream.origin, now);  // a client that streams is commanding, so its lease is renewed
 }
 
 void Streams::tell(const Axis& a, const Origin& by, Severity severity, std::string text, Instant now) {

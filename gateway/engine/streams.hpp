@@ -1,6 +1,6 @@
-// Streams: set-points that are renewed in cycles without an answer. The first is looked at like a command, each by the same limits.
-// In: set-points, what adapters say of them, the passing of time. Out: the newest one to its adapter; begin and end as events, all else as
-// state. Never an event per cycle: a client that goes on after a refusal is told at most once a second.
+// Streams handles set-points that a client renews in cycles, without answers. The first one is checked like a command, and each one against
+// the same limits. The begin and the end of a stream are events; everything else is state, so that a client that continues after a refusal
+// causes at most one event per second.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -18,7 +18,7 @@ public:
           authority_(authority),
           loss_(loss),
           motions_(motions) {}
-    /// Nothing: it was handed on; else why not.
+    /// Empty if the set-point was passed on, otherwise the refusal.
     std::optional<Refusal> on_set_point(const SetPoint& set_point, Instant now);
     void end(Axis& axis, Reason reason, const std::string& why, Instant now);
     void refused(const Side& side, const Out::StreamEnd& by_drive, Instant now);

@@ -1,6 +1,6 @@
-// Whatever is beyond a limit, or has no room left to come to rest before it, is stopped on the quick-stop ramp, with an alarm. A velocity
-// move has no target that could be checked beforehand: while there is room, it is halted early enough to rest at the limit, and told; that
-// is a guard, and no supervision. A position move inside its limits is trusted until it is seen beyond them.
+// An axis that exceeds a limit, or has no room left to stop before it, is stopped on the quick-stop ramp, with an alarm. A velocity move
+// has no target that could be checked beforehand: while there is room, it is halted early enough to come to rest at the limit, with an
+// event; this is normal operation and no alarm. A position move inside its limits is trusted until it is seen beyond them.
 #include "gateway/engine/supervisor.hpp"
 
 #include <fmt/core.h>
@@ -14,9 +14,9 @@
 
 namespace axisgate::engine {
 namespace {
-/// With an unknown ramp an axis is taken to need so long to come to rest.
+/// If its ramp is unknown, an axis is assumed to need this time to come to rest.
 constexpr double worst_stop_s = 1.0;
-/// A measured speed beyond its limit by no more than this is overshoot of the drive's own control.
+/// A measured speed that exceeds its limit by no more than this is overshoot of the drive's control.
 constexpr double overspeed = 1.1;
 constexpr Duration state_limit = std::chrono::seconds(2);
 constexpr Duration quick_stop_margin = std::chrono::seconds(1);
@@ -31,7 +31,7 @@ void Supervisor::look(Axis& a, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     if (!f.moving || (a.drive->family.family->uses_dds && !a.motion.runs())) return;
     state(a, now);
-    if (f.homing || a.motion.kind == Motion::Kind::homing) return;  // the position is about to get another name
+    if (f.homing || a.motion.kind == Motion::Kind::homing) return;  // the position is about to be redefined
     if (a.motion.runs() || !a.asked.runs()) limits(a, a.motion, now);
     if (a.asked.runs()) limits(a, a.asked, now);
     speed(a, now);
@@ -41,7 +41,7 @@ void Supervisor::limits(Axis& a, const Motion& m, Instant now) {
     if (m.kind == Motion::Kind::homing) return;
     const AxisFeedback& f = a.profile.feedback();
     const bool by_speed = m.kind == Motion::Kind::velocity || (m.kind == Motion::Kind::stream && m.stream == SetPoint::Mode::velocity);
-    // A drive may report its place before its speed: then it is taken to go as it was told.
+    // A drive may report its position before its speed: then the ordered speed is assumed.
     const std::int64_t velocity = f.velocity != 0 ? f.velocity : by_speed ? m.target : 0;
     if (velocity == 0) return;
     const bool up = velocity > 0;
@@ -51,7 +51,7 @@ void Supervisor::limits(Axis& a, const Motion& m, Instant now) {
     const double reported = std::fabs(static_cast<double>(velocity));
     const std::int64_t ramp = m.deceleration > 0 ? m.deceleration : a.deceleration(),
                        quick = f.rates.quick_stop > 0 ? f.rates.quick_stop : ramp;
-    const double late = 2 * reported * a.watch.round_s;  // until the next position, and until the stop has gone down the line
+    const double late = 2 * reported * a.watch.round_s;  // until the next position arrives, and until the stop has reached the drive
     constexpr double settling = 2;                       // increments
     const auto ends_badly = [&](double room) {
         if (left >= room || a.motion.alarmed) return false;
@@ -63,8 +63,8 @@ void Supervisor::limits(Axis& a, const Motion& m, Instant now) {
     const bool inside = to_place && (!a.limits.position_max || m.target <= *a.limits.position_max) &&
                         (!a.limits.position_min || m.target >= *a.limits.position_min);
     if (a.stops.wanted) {
-        // It is being stopped already: only a ramp that is too weak asks for the stronger stop. What the halt was given too early by, it
-        // may use up, and an unknown ramp is the one by which it was reckoned.
+        // The axis is being stopped already: only a ramp that is too weak requires the stronger stop. The halt was given early by some
+        // distance, which may be used, and it was calculated with the assumed ramp if the ramp is unknown.
         if (*a.stops.wanted != Stops::Kind::halt) return;
         const double then = std::max(reported, static_cast<double>(a.stops.speed_then));
         const double way = ramp > 0 ? way_to_rest(reported, ramp) : reported * reported / then * worst_stop_s / 2;
@@ -76,9 +76,9 @@ void Supervisor::limits(Axis& a, const Motion& m, Instant now) {
         return;
     }
     if (by_speed || m.kind == Motion::Kind::position) {
-        // A speed that was reported may be older than its place, by as much as the guard is early.
+        // The reported speed may be older than the position, by as much as the guard is early.
         if (ends_badly(std::max(-settling, way_to_rest(reported, ramp) - late))) return;
-        // While it gains speed it is faster by the time the halt arrives, but never than it was told to go.
+        // An axis that accelerates is faster when the halt arrives, but never faster than ordered.
         const double gained = reported + 2 * a.watch.round_s * static_cast<double>(m.acceleration);
         const double ordered = std::fabs(static_cast<double>(by_speed ? m.target : m.velocity));
         const double speed = by_speed && (m.target > 0) == up ? std::max(reported, std::min(gained, ordered)) : reported;
@@ -98,7 +98,7 @@ void Supervisor::speed(Axis& a, Instant now) {
     stop(a, "limit", fmt::format("its speed is above velocity_max {}", in_unit(*limit, a.limits, "/s")), now);
 }
 
-/// It moves while its state says that it has no power, or that its quick stop is over.
+/// The axis moves while its state says that it has no power, or that its quick stop is over.
 void Supervisor::state(Axis& a, Instant now) {
     const AxisFeedback& f = a.profile.feedback();
     const PowerState shown = a.profile.state();
@@ -106,7 +106,7 @@ void Supervisor::state(Axis& a, Instant now) {
     if (shown == PowerState::switch_on_disabled || shown == PowerState::ready_to_switch_on || shown == PowerState::switched_on) {
         if (a.moves_since == Instant{}) a.moves_since = now;
         if (now == a.moves_since) a.speed_then = fast;
-        // An axis that was switched off runs down; one that keeps its speed is driven.
+        // An axis that was switched off runs down; an axis that keeps its speed is driven.
         if (fast * 10 < a.speed_then * 9) {
             a.moves_since = now;
             a.speed_then = fast;
@@ -131,7 +131,8 @@ void Supervisor::state(Axis& a, Instant now) {
     stop(a, "state", fmt::format("it moves while it is {}", name_of(shown)), now);
 }
 
-/// Power that an input has taken is withdrawn here as well: when the input is given back, nobody has enabled the axis.
+/// When an input has removed the power, the gateway withdraws its enable as well, so that the axis is not enabled when the input is
+/// released.
 void Supervisor::inputs(Axis& a, Instant now) {
     const bool acts = a.profile.feedback().safe_stop;
     if (std::exchange(a.was_safe_stop, acts) == acts) return;

@@ -1,6 +1,6 @@
-// Supervisor: each axis' position, speed and state against the site's limits, at every feedback, whatever moves it.
-// Limits that are looked at with an order see what the order names. A torque, a program, a statement nobody can read or a motion found at
-// the start names nothing: what such a motion does is seen here alone, and ended here.
+// Supervisor compares the position, speed and state of each axis with the site's limits, at every feedback and for every kind of motion.
+// Checks of an order see only the values that the order names. A torque, a program, an unreadable statement or a motion that was found at
+// the start names none: only the supervisor sees such a motion and can end it.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -13,7 +13,7 @@ public:
     void look(Axis& axis, Instant now);
 
 private:
-    /// How far the axis may still go, and how it is ended: by a quick stop with an alarm, or before that by a halt that comes to rest at
+    /// Checks how far the axis may still go, and ends the motion: by a quick stop with an alarm, or earlier by a halt that comes to rest at
     /// the limit.
     void limits(Axis& axis, const Motion& motion, Instant now);
     void speed(Axis& axis, Instant now);

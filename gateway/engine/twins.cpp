@@ -1,6 +1,5 @@
-// Twins: plugged into their bus, kept over a restart, moved by hand.
-// In: a drive that its twin serves. Out: the twin with as many axes as the site uses, its memory, what the hand did.
-// Never sets a part of what the hand wants: unknown names are refused before the first is set.
+// Connects twins to their bus, with as many axes as the site uses, stores their memory, and applies the tester's conditions. Unknown names
+// are refused before the first condition is set.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 
 namespace axisgate::engine {
 
-/// On the line's bus of twins, with the channels that the site uses.
+/// Connects a twin to the line's twin bus, with the channels that the site uses.
 void Twins::plug_in(Drive& d, Instant now) {
     LineUnit& unit = *d.line;
     TwinSetup t;
@@ -28,8 +27,8 @@ void Twins::plug_in(Drive& d, Instant now) {
     d.twin_axes = t.axes;
 }
 
-/// A channel was configured that the running twin does not have. Where it cannot be fitted as it runs, the twin is built anew, as a real
-/// drive would be switched off for it.
+/// A channel was configured that the running twin does not have. If it cannot be added while the twin runs, the twin is built anew, as a
+/// real drive would be switched off for it.
 void Twins::refit(Drive& d, Instant now) {
     LineUnit& unit = *d.line;
     const bool fits = std::ranges::all_of(d.axes, [&](AxisId id) { return machine_.axes[index_of(id)]->spec.channel <= d.twin_axes; });
@@ -53,7 +52,7 @@ void Twins::refit(Drive& d, Instant now) {
     publisher_.event(std::move(e), now);
 }
 
-/// Hands a twin's non-volatile memory to the store if it has changed since.
+/// Passes a twin's non-volatile memory to the store if it has changed.
 void Twins::save_memory(Drive& d) {
     if (d.serving != Presence::twin || !d.line->twins) return;
     const Twin* t = d.line->twins->bus->twin(d.id);

@@ -1,6 +1,5 @@
-// Twins: the embedded drives on their line's twin bus.
-// In: drives that are simulated, the tester's hand. Out: twins plugged in with their memory, memories to keep, events of the hand.
-// Never reaches a real drive.
+// Twins runs the embedded drives on the twin bus of their line, stores their memory, and applies the tester's conditions with an event. It
+// never reaches a real drive.
 #pragma once
 
 #include "gateway/engine/machine.hpp"
@@ -15,7 +14,7 @@ public:
     void save_memory(Drive& drive);
     /// Null unless the drive is simulated now.
     [[nodiscard]] Twin* of(DriveId drive) const;
-    /// Empty: it is set; else why not.
+    /// Empty if the condition was set, otherwise the reason why not.
     [[nodiscard]] std::string use_hand(DriveId drive, const std::vector<std::pair<std::string, Value>>& items, const Origin& origin,
                                        Instant now);
 

@@ -1,7 +1,7 @@
-// BytePace: the wire time of one direction of a line that has no rate of its own: which bytes have arrived by now.
-// In: instants and byte counts. Out: how many bytes may pass, and when the next ones may.
-// Never lets the last byte of a burst pass earlier than its first by less than the bytes between them take; being called late costs
-// nothing: the bytes that are due by then pass together, as out of the buffer of a serial port.
+// BytePace: spreads the bytes of one direction over time as a serial wire would, for a line that has no bit rate of its own.
+// It is given instants and byte counts, and returns how many bytes may pass now and when the next ones may. The last byte of a burst
+// never passes earlier than the transmission time of the burst allows. A late call loses nothing: all bytes that are due by then pass
+// together, as if they were read from the buffer of a serial port.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ public:
             passed_ = 0;
         }
         const std::int64_t due = (now - origin_) / byte_time_ - passed_;
-        // The first bytes of a burst never catch up: what comes after them is timed from when they really passed.
+        // The first bytes of a burst never catch up: the bytes after them are timed from the instant at which they really passed.
         return static_cast<std::size_t>(std::max<std::int64_t>(0, passed_ == 0 ? std::min(due, step_) : due));
     }
     /// So many bytes have passed; `more`: others wait behind them, else the wire is quiet again.
@@ -40,7 +40,8 @@ public:
         passed_ += n;
         busy_ = more;
     }
-    /// When the last of the bytes that have passed in this burst had crossed: at `now` at the latest, and earlier for who asks late.
+    /// The instant at which the last byte that passed in this burst had crossed the wire: `now` at the latest, earlier if the call comes
+    /// late.
     [[nodiscard]] Instant crossed(Instant now) const noexcept { return active() ? std::min(now, origin_ + byte_time_ * passed_) : now; }
     [[nodiscard]] Duration byte_time() const noexcept { return byte_time_; }
     /// Bytes that pass together; 0: no pace.
@@ -50,7 +51,7 @@ public:
         if (!active() || !busy_) return {};
         return std::max(Duration{}, origin_ + byte_time_ * (passed_ + step_) - now);
     }
-    /// What was on its way is lost.
+    /// Discards the burst: bytes that were on the wire are lost.
     void stop() noexcept { busy_ = false; }
 
 private:

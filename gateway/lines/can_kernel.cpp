@@ -1,5 +1,4 @@
-// CAN kernel: SocketCAN's raw sockets and rtnetlink.
-// In: names and frames. Out: descriptors and errno. Never waits.
+// The CAN kernel interface over SocketCAN raw sockets and rtnetlink. No call waits.
 #include "gateway/lines/can_kernel.hpp"
 
 #include <fmt/core.h>
@@ -19,7 +18,7 @@
 namespace axisgate {
 namespace {
 
-/// The smallest that the kernel allows: some six frames. What is queued there can no longer be overtaken by a stop.
+/// The smallest send buffer that the kernel allows: about six frames. Frames in the kernel's queue can no longer be overtaken by a stop.
 constexpr int send_buffer = 1;
 constexpr int receive_buffer = 512 * 1024;
 
@@ -72,7 +71,7 @@ public:
     bool is_echo(const ::can_frame&, int message_flags) const override { return (message_flags & MSG_CONFIRM) != 0; }
 
 private:
-    /// nullptr, or the call that failed, with errno.
+    /// Returns nullptr, or the name of the call that failed, with errno set.
     static const char* set_up(int fd, const std::string& interface, std::span<const CanFilter> filters, int& index) {
         ifreq request{};
         std::strncpy(request.ifr_name, interface.c_str(), IFNAMSIZ - 1);

@@ -1,6 +1,5 @@
-// CanLine: frames both ways; what happens to the interface itself is in can_line_link.cpp.
-// In: readiness of the raw socket. Out: frames and reports.
-// Never takes a frame for sent because the kernel took it: only the controller's echo says so.
+// CanLine, sending and receiving; changes of the interface itself are handled in can_line_link.cpp.
+// A frame does not count as sent when the kernel accepts it, only when the controller's echo arrives.
 #include "gateway/lines/can_line.hpp"
 
 #include <fmt/core.h>
@@ -25,7 +24,7 @@ constexpr auto timer_duration(Duration d) noexcept { return std::chrono::duratio
 
 }  // namespace
 
-/// Room for what one recvmmsg brings.
+/// The buffers for one call of recvmmsg.
 struct CanLine::Batch {
     std::array<::can_frame, batch_size> frames;
     std::array<std::array<std::uint8_t, 128>, batch_size> beside;
@@ -86,7 +85,7 @@ void CanLine::start() {
     full_pause_ = full_pause_first;
     if (!came_up(up_text())) return;
     begin_reading();
-    ask(link_request(index_, ++sequence_));  // it may be bus-off already, and knows its bit rate
+    ask(link_request(index_, ++sequence_));  // the controller may be bus-off already; the answer also gives its bit rate
 }
 
 void CanLine::stop() {
@@ -209,20 +208,20 @@ void CanLine::flush() {
                     if (in_flight_++ == 0) progress_ = now;
                     watch_for_stall();
                 } else {
-                    unechoed_.push_back(e->frame);  // our own filter hides its echo
+                    unechoed_.push_back(e->frame);  // our own receive filter hides its echo
                 }
                 queue_.pop();
                 break;
             case EAGAIN:
                 wait_until_writable();
                 break;
-            case ENOBUFS:  // the interface's own queue is full; the socket would call itself writable all the same
+            case ENOBUFS:  // the interface's queue is full, although poll would report the socket as writable
                 ++counters_.tx_full;
                 wait_before_sending(full_pause_);
                 full_pause_ = std::min(full_pause_ * 2, full_pause_last);
                 break;
             case EINVAL:
-            case EMSGSIZE:  // this frame is not wanted here, others may be
+            case EMSGSIZE:  // the interface refuses this frame, but may accept others
                 ++status_.errors;
                 ++status_.dropped;
                 queue_.pop();
@@ -258,7 +257,8 @@ void CanLine::wait_before_sending(Duration pause) {
     }));
 }
 
-/// Echoes can fail to come: nobody acknowledges, or they were lost in a full receive buffer. Then one frame at a time is tried.
+/// Echoes can be missing because no node acknowledges or because they were lost in a full receive buffer. Then one frame at a time is
+/// tried.
 void CanLine::watch_for_stall() {
     if (stall_watched_) return;
     stall_watched_ = true;

@@ -1,6 +1,6 @@
 // CanLine: a SocketCAN interface as a line.
-// In: CAN frames to send; what the kernel delivers. Out: frames, error reports, and on_sent when a frame has really been on the bus.
-// Never has more than four frames on their way to the controller: the rest waits here, where a stop can overtake it.
+// It sends and receives CAN frames, passes on error reports, and calls on_sent when a frame has really been on the bus. At most four
+// frames are with the controller at a time: the others wait in the queue of the line, where a stop can overtake them.
 #pragma once
 
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -17,10 +17,11 @@
 namespace axisgate {
 
 struct CanLineOptions {
-    std::uint32_t bit_rate = 0;                      ///< bit/s, for the load, if the interface does not say (vcan, slcan); 0: not known
-    std::vector<CanFilter> filters;                  ///< received identifiers; empty: all. At most most_can_filters, else all
-    PauseRange restart_pauses{};                     ///< between orders to restart a controller that is bus-off
-    Duration stall_limit = std::chrono::seconds(1);  ///< without an echo for so long, frames count as not acknowledged
+    std::uint32_t bit_rate = 0;                      ///< bit/s, used for the bus load if the interface does not report it (vcan, slcan); 0:
+                                                     ///< unknown
+    std::vector<CanFilter> filters;                  ///< identifiers to receive; empty, or more than most_can_filters: all
+    PauseRange restart_pauses{};                     ///< pause between two restarts of a controller that is bus-off
+    Duration stall_limit = std::chrono::seconds(1);  ///< frames without an echo for this long count as not acknowledged
 };
 
 class CanLine final : public RealLine {
@@ -28,15 +29,15 @@ public:
     struct Counters {
         std::uint64_t bus_off = 0;
         std::uint64_t restarts_asked = 0;
-        std::uint64_t rx_lost = 0;     ///< frames that came while our receive buffer was full
-        std::uint64_t tx_full = 0;     ///< times the interface's own queue was full
-        std::uint64_t tx_stalled = 0;  ///< times no frame left for a second
+        std::uint64_t rx_lost = 0;     ///< frames lost because our receive buffer was full
+        std::uint64_t tx_full = 0;     ///< number of times the queue of the interface was full
+        std::uint64_t tx_stalled = 0;  ///< number of times no frame was sent for a second
     };
 
     CanLine(const LineBase& base, std::string interface, CanLineOptions options = {}, const CanKernel& kernel = linux_can());
     ~CanLine() override;
 
-    /// New filters; a line that is open is opened anew with them.
+    /// Replaces the filters; a line that is open is opened again with them.
     void set_filters(std::vector<CanFilter> filters);
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
 
@@ -51,7 +52,7 @@ private:
     [[nodiscard]] bool takes(const Frame& frame) const override { return frame.kind == Frame::Kind::can; }
     [[nodiscard]] std::string up_text() const override;
 
-    // Those that return bool say whether the line is still there afterwards and in the same attempt.
+    // Those that return bool return whether the line still exists afterwards and is still in the same attempt.
     void begin_reading();
     void on_readable();
     [[nodiscard]] After read_batch();
@@ -65,7 +66,7 @@ private:
     void wait_before_sending(Duration pause);
     void watch_for_stall();
 
-    // The interface itself: can_line_link.cpp.
+    // Changes of the interface itself are in can_line_link.cpp.
     [[nodiscard]] bool bus_off();
     [[nodiscard]] bool back_from_bus_off();
     [[nodiscard]] std::string bus_off_text() const;
@@ -82,18 +83,18 @@ private:
     CanLineOptions options_;
     const CanKernel& kernel_;
     std::optional<asio::posix::stream_descriptor> raw_;
-    std::optional<asio::posix::stream_descriptor> links_;  // from the first attempt to close()
+    std::optional<asio::posix::stream_descriptor> links_;  // open from the first attempt to close()
     int index_ = 0;
     std::unique_ptr<Batch> batch_;
     std::vector<std::uint8_t> link_buffer_;
 
     asio::steady_timer send_timer_, stall_timer_, restart_timer_;
-    std::size_t in_flight_ = 0;  // given to the kernel, echo not seen yet
+    std::size_t in_flight_ = 0;  // frames given to the kernel whose echo has not arrived
     bool send_waits_ = false;
     bool stall_watched_ = false;
-    bool stalled_ = false;  // nobody acknowledges
+    bool stalled_ = false;  // no node acknowledges
     Duration full_pause_{};
-    Instant progress_{};  // last echo, or first frame after none was under way
+    Instant progress_{};  // the last echo, or the first frame sent while none was outstanding
     std::vector<Frame> unechoed_;
     std::optional<std::uint32_t> lost_before_;
 
@@ -102,7 +103,7 @@ private:
     std::optional<std::uint32_t> restart_ms_;
     GrowingPause restart_pause_;
     Instant back_since_{};
-    std::string restart_refused_;  // why the kernel does not restart the controller for us
+    std::string restart_refused_;  // why the kernel refuses to restart the controller for us
     std::uint32_t sequence_ = 0;
     std::uint32_t restart_sequence_ = 0;
     Counters counters_;

@@ -1,6 +1,6 @@
-// CanLine's interface: bus-off and back, the interface going down, vanishing and coming again.
-// In: netlink messages, the controller's reports. Out: state changes of the line, orders to restart the controller.
-// Never restarts a controller that restarts itself (restart-ms), and says what to type where it is not permitted to.
+// CanLine, changes of the interface: bus-off and recovery, interface down, interface removed and added again.
+// Netlink messages and the controller's error reports come in; the line's state changes and restart requests go out. A controller that
+// restarts itself (restart-ms) is left to do so; where a restart is not permitted, the fault text names the command to type.
 #include <fmt/core.h>
 #include <linux/netlink.h>
 #include <sys/socket.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int datagrams_per_turn = 16;
 constexpr std::size_t datagram_size = 32 * 1024;
-/// A controller that has worked this long since its last restart is restarted with the shortest pause again.
+/// A controller that has worked for this long since its last restart is restarted with the shortest pause again.
 constexpr Duration settled_after = std::chrono::seconds(5);
 
 }  // namespace
@@ -36,9 +36,9 @@ bool CanLine::bus_off() {
     ++counters_.bus_off;
     can_state_ = CanState::bus_off;
     send_timer_.cancel();
-    send_waits_ = true;  // nothing leaves until it is back
+    send_waits_ = true;  // no frame leaves until the controller is back
     in_flight_ = 0;
-    drop_all();  // nobody expects these any more when it is back
+    drop_all();  // no caller expects these frames any more once the controller is back
     if (clock().now() - back_since_ > settled_after) restart_pause_.reset();
     ask_for_restart_later();
     return tell_state(State::bus_off, false, bus_off_text());
@@ -76,7 +76,7 @@ void CanLine::ask_for_restart() {
 void CanLine::open_links() {
     if (links_) return;
     const CanOpened opened = kernel_.open_links();
-    if (opened.fd < 0) return;  // then changes are noticed at the next attempt only
+    if (opened.fd < 0) return;  // without the socket, changes are noticed only at the next attempt
     boost::system::error_code error;
     links_.emplace(io());
     links_->assign(opened.fd, error);
@@ -101,13 +101,15 @@ void CanLine::read_links() {
         socklen_t from_size = sizeof from;
         const ssize_t n = ::recvfrom(links_->native_handle(), link_buffer_.data(), link_buffer_.size(), MSG_DONTWAIT,
                                      reinterpret_cast<sockaddr*>(&from), &from_size);
-        if (n < 0 && (errno == EINTR || errno == ENOBUFS)) continue;  // ENOBUFS: some news was lost; the next attempt or question makes up
+        // After ENOBUFS some messages are lost; the next attempt or request makes up for them.
+        if (n < 0 && (errno == EINTR || errno == ENOBUFS)) continue;
         if (n <= 0) {
             if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
             links_.reset();
             return;
         }
-        if (from_size >= sizeof from && from.nl_family == AF_NETLINK && from.nl_pid != 0) continue;  // not from the kernel
+        // The message does not come from the kernel.
+        if (from_size >= sizeof from && from.nl_family == AF_NETLINK && from.nl_pid != 0) continue;
         for (const LinkNews& news : read_link_news(std::span(link_buffer_).first(static_cast<std::size_t>(n)))) {
             if (!on_news(news)) return;
         }
@@ -125,12 +127,12 @@ void CanLine::ask(const std::vector<std::uint8_t>& request) {
 
 void CanLine::on_answer(const LinkNews& answer) {
     if (answer.sequence != restart_sequence_ || restart_sequence_ == 0 || state() != State::bus_off) return;
-    if (answer.error == EBUSY) return;  // it is not bus-off any more; the report is on its way
+    if (answer.error == EBUSY) return;  // the controller is no longer bus-off; its report is on the way
     restart_refused_ = answer.error == 0 ? std::string() : answer.error == EPERM ? std::string("not permitted") : error_text(answer.error);
     say(bus_off_text());
 }
 
-/// False if the line was closed by its owner meanwhile.
+/// Returns false if the owner closed the line meanwhile.
 bool CanLine::on_news(const LinkNews& n) {
     if (n.kind == LinkNews::Kind::answer) {
         on_answer(n);

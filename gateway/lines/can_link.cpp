@@ -1,5 +1,5 @@
-// CAN link: netlink messages about a CAN interface. In and out: bytes.
-// Never uses the macros of the kernel's headers to walk a message: they trust its lengths.
+// Reads and writes the netlink messages about a CAN interface.
+// Messages are not walked with the macros of the kernel's headers, because those macros trust the lengths in the message.
 #include "gateway/lines/can_link.hpp"
 
 #include <linux/can/netlink.h>
@@ -24,7 +24,7 @@ std::optional<T> read(std::span<const std::uint8_t> from) noexcept {
     return t;
 }
 
-/// Calls f(type, value) for each attribute that is there as a whole.
+/// Calls f(type, value) for each attribute that is complete.
 template <class F>
 void each_attribute(std::span<const std::uint8_t> data, F&& f) {
     while (const auto head = read<rtattr>(data)) {
@@ -99,7 +99,7 @@ LinkNews read_link(bool removed, std::span<const std::uint8_t> body) {
             if (inner == IFLA_INFO_DATA) can = data;
         });
     });
-    if (n.type == "can") read_can(n, can);  // the numbers of the attributes mean other things for other types
+    if (n.type == "can") read_can(n, can);  // the attribute numbers have another meaning for other interface types
     return n;
 }
 
@@ -176,7 +176,8 @@ std::vector<LinkNews> read_link_news(std::span<const std::uint8_t> datagram) {
                 LinkNews n;
                 n.kind = LinkNews::Kind::answer;
                 n.sequence = head->nlmsg_seq;
-                n.error = *error > -4096 && *error <= 0 ? -*error : EPROTO;  // the kernel gives errno below zero; more is no error number
+                n.error = *error > -4096 && *error <= 0 ? -*error : EPROTO;  // the kernel sends errno as a negative number; other values
+                                                                             // are no error number
                 all.push_back(n);
             }
         }

@@ -1,6 +1,5 @@
-// CAN link: the netlink messages by which the kernel tells of a network interface and takes the order to restart a CAN controller.
-// In: bytes of an rtnetlink socket. Out: what they say; and the requests as bytes.
-// Never touches a socket, and never believes a length that it has not checked.
+// CAN link: the netlink messages that report the state of a network interface and that restart a CAN controller.
+// It decodes the bytes of an rtnetlink socket and encodes the requests. It touches no socket, and checks every length before using it.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +16,25 @@ namespace axisgate {
 struct LinkNews {
     enum class Kind : std::uint8_t { link, removed, answer };
     Kind kind = Kind::link;
-    int index = 0;  ///< of the interface
+    int index = 0;  ///< index of the interface
     std::string name;
-    bool up = false;   ///< set up by somebody (IFF_UP)
-    std::string type;  ///< "can", "vcan", "slcan" has none
+    bool up = false;   ///< the interface has been set up (IFF_UP)
+    std::string type;  ///< "can" or "vcan"; empty for slcan
     std::uint32_t bit_rate = 0;
     std::optional<CanState> state;
-    std::optional<std::uint32_t> restart_ms;  ///< 0: the controller stays bus-off until somebody restarts it
+    std::optional<std::uint32_t> restart_ms;  ///< 0: the controller stays bus-off until it is restarted by a command
     bool has_counters = false;
     std::uint8_t tx_errors = 0, rx_errors = 0;
-    std::uint32_t sequence = 0;  ///< answer: of the request
-    int error = 0;               ///< answer: 0 or errno
+    std::uint32_t sequence = 0;  ///< in an answer: the sequence number of the request
+    int error = 0;               ///< in an answer: 0 or errno
 };
 
-/// Asks what `index` is now; answered by one link message.
+/// Asks for the present state of interface `index`; the kernel answers with one link message.
 [[nodiscard]] std::vector<std::uint8_t> link_request(int index, std::uint32_t sequence);
-/// Restarts a controller that is bus-off, as `ip link set IF type can restart` does; answered by an `answer`.
+/// Restarts a controller that is bus-off, as `ip link set IF type can restart` does; the kernel answers with an `answer`.
 [[nodiscard]] std::vector<std::uint8_t> restart_request(int index, std::uint32_t sequence);
 
-/// Everything in one datagram; what is not about links, or is cut off, is left out.
+/// All messages of one datagram; messages that are not about links, or that are truncated, are left out.
 [[nodiscard]] std::vector<LinkNews> read_link_news(std::span<const std::uint8_t> datagram);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// CAN wire: SocketCAN's frames and error frames. In: the kernel's structures. Out: ours.
-// Never allocates for a data frame.
+// Converts SocketCAN's frames and error frames into ours. Data frames are converted without allocation.
 #include "gateway/lines/can_wire.hpp"
 
 #include <linux/can/error.h>
@@ -10,7 +9,7 @@
 #include <cstring>
 
 #ifndef CAN_ERR_CNT
-#define CAN_ERR_CNT 0x00000200U  // since Linux 6.0: data[6], data[7] are the error counters
+#define CAN_ERR_CNT 0x00000200U  // since Linux 6.0: data[6] and data[7] are the error counters
 #endif
 
 namespace axisgate {
@@ -98,7 +97,7 @@ CanReport read_report(const ::can_frame& k) {
         if (s) say(name_of(*s));
         if (s && !r.state) r.state = s;
     }
-    // Older drivers fill the counters in without saying so, but never leave rubbish there: a zero pair tells nothing.
+    // Older drivers fill in the counters without setting the flag, but never leave random values there: two zeros carry no information.
     r.has_counters = (classes & CAN_ERR_CNT) != 0 || k.data[6] != 0 || k.data[7] != 0;
     r.tx_errors = k.data[6];
     r.rx_errors = k.data[7];
@@ -114,7 +113,7 @@ std::vector<::can_filter> to_kernel(std::span<const CanFilter> filters) {
     }
     for (const CanFilter& f : filters) {
         const std::uint32_t bits = f.extended ? CAN_EFF_MASK : CAN_SFF_MASK;
-        // The form is part of the mask: otherwise an 11-bit identifier would match the low bits of a 29-bit one.
+        // The frame format is part of the mask: otherwise an 11-bit identifier would match the low bits of a 29-bit one.
         k.push_back({(f.id & bits) | (f.extended ? CAN_EFF_FLAG : 0), (f.mask & bits) | CAN_EFF_FLAG});
     }
     return k;
@@ -137,7 +136,7 @@ CanBeside read_beside(const ::msghdr& message) noexcept {
             std::memcpy(&v, CMSG_DATA(c), sizeof v);
             b.overflow = v;
         } else if ((c->cmsg_type == SO_TIMESTAMPING || c->cmsg_type == SO_TIMESTAMPNS) && size >= sizeof(timespec)) {
-            timespec t{};  // of SO_TIMESTAMPING's three, the first is the kernel's own
+            timespec t{};  // the first of SO_TIMESTAMPING's three stamps is the kernel's own
             std::memcpy(&t, CMSG_DATA(c), sizeof t);
             if (t.tv_sec != 0 || t.tv_nsec != 0) b.stamp_unix_ns = std::int64_t{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
         }

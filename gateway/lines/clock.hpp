@@ -1,6 +1,6 @@
-// Clock: where a real line takes its time from: the same time line as everything else of the process.
-// In: nothing. Out: instants, and the wall-clock time that belongs to them (the kernel stamps CAN frames with that one).
-// Never goes backwards in now(); unix_ns() follows the wall clock, jumps included.
+// Clock: the time source of a real line, on the same time line as the rest of the process.
+// now() is monotonic. unix_ns() returns the wall-clock time, with which the kernel stamps CAN frames; it follows every change of that
+// clock.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ struct Clock {
     virtual ~Clock() = default;
 };
 
-/// The machine's monotonic clock, in the form in which the runtime reads it.
+/// The monotonic clock of the machine, in the form in which the runtime reads it.
 struct MachineClock final : Clock {
     [[nodiscard]] Instant now() const override {
         return Instant{std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch())};
@@ -27,7 +27,7 @@ struct MachineClock final : Clock {
     }
 };
 
-/// A machine has one.
+/// The one instance that the process uses.
 [[nodiscard]] inline const Clock& machine_clock() noexcept {
     static const MachineClock clock;
     return clock;

@@ -1,5 +1,5 @@
-// Error text: what a failed system call means to who runs the gateway. In: errno. Out: words.
-// Never uses strerror(), whose text another thread could change.
+// Words for the errno values that a user of the gateway is likely to see.
+// strerror() is not used, because another thread could change its text.
 #include "gateway/lines/error_text.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Error text: errno as words that do not depend on the locale.
-// In: an errno value. Out: "No such device (19)". Never allocates more than the text.
+// Error text: errno as words that do not depend on the locale, for example "No such device (19)".
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// Host ports, as Linux lists them: network devices of the type CAN, terminals that have a device behind them.
-// A serial port that is soldered in but not there (type 0) is none; consoles and pseudo-terminals have no device.
-// In: files below a root. Out: ports. Never throws, never follows a link out of the lists that it reads further than to its name.
+// Lists the host ports as Linux reports them: network devices of the type CAN, and terminals with a device behind them.
+// A serial port that the kernel lists without hardware (type 0) is left out; consoles and pseudo-terminals have no device. Links are read
+// for their names only and never followed out of these folders. Nothing here throws.
 #include "gateway/lines/host_ports.hpp"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view arphrd_can = "280";  // linux/if_arp.h
 constexpr unsigned iff_up = 1;                  // linux/if.h
-constexpr int most_parents = 6;                 // from a port to the USB device that it is part of
-constexpr std::size_t longest = 128;            // bytes of a text of the system
+constexpr int most_parents = 6;                 // levels from a port up to the USB device that it belongs to
+constexpr std::size_t longest = 128;            // maximum length of a text read from the system
 
-/// The first line of a small file; empty if there is none.
+/// The first line of a small file; empty if the file cannot be read.
 std::string line_of(const fs::path& file) {
     std::ifstream in(file);
     std::string s;
@@ -26,7 +26,7 @@ std::string line_of(const fs::path& file) {
     s.resize(std::min(s.size(), longest));
     while (!s.empty() && (s.back() == ' ' || s.back() == '\r'))
         s.pop_back();
-    // A device tells its own name: what is no plain text is not passed on.
+    // The device chooses its own name, so characters outside printable ASCII are removed.
     std::erase_if(s, [](unsigned char c) { return c < 0x20 || c > 0x7E; });
     return s;
 }
@@ -46,7 +46,7 @@ std::string driver_of(const fs::path& device) {
     return ec ? std::string() : driver.filename().string();
 }
 
-/// "FTDI FT232R USB UART" of the USB device that it is part of, else its driver's name.
+/// The name of the USB device that the port belongs to ("FTDI FT232R USB UART"), otherwise the name of its driver.
 std::string text_of(const fs::path& device) {
     std::error_code ec;
     fs::path at = fs::canonical(device, ec);
@@ -70,7 +70,7 @@ std::vector<SystemPort> host_ports(const fs::path& root) {
         const bool wired = fs::exists(net / "device", ec);
         out.push_back({SystemPort::Kind::can, net.filename().string(), "", wired ? text_of(net / "device") : "virtual", up});
     }
-    std::map<std::string, std::string> lasting;  // by the device's name
+    std::map<std::string, std::string> lasting;  // persistent names, by the name of the device
     for (const auto& link : entries_of(root / "dev/serial/by-id")) {
         const auto target = fs::read_symlink(link, ec);
         if (!ec) lasting.emplace(target.filename().string(), "/dev/serial/by-id/" + link.filename().string());

@@ -1,5 +1,5 @@
-// Host ports: which serial ports and CAN interfaces this machine has.
-// In: the system's lists below a root. Out: at most `most_host_ports` of them, CAN first, each by its name. Opens no port and asks none.
+// Host ports: lists the serial ports and CAN interfaces of this machine.
+// It returns at most `most_host_ports` of them, CAN interfaces first, each by its name. No port is opened or queried.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace axisgate {
 
-inline constexpr std::size_t most_host_ports = 256;  ///< what is beyond is not told
+inline constexpr std::size_t most_host_ports = 256;  ///< further ports are not listed
 
-/// Read anew at each call: /sys/class/net, /sys/class/tty, /dev/serial/by-id below `root`. What cannot be read is left out.
+/// Reads /sys/class/net, /sys/class/tty and /dev/serial/by-id below `root` at each call. Entries that cannot be read are left out.
 [[nodiscard]] std::vector<SystemPort> host_ports(const std::filesystem::path& root = "/");
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Making lines: one kind for each scheme of a URI. In: a URI. Out: a line.
-// Never opens anything.
+// Creates the line for each scheme of a URI. Nothing is opened here.
 #include "gateway/lines/make_line.hpp"
 
 #include "gateway/lines/pty_line.hpp"
@@ -11,7 +10,7 @@
 namespace axisgate {
 namespace {
 
-/// Stands where a line should be and says why there is none.
+/// Stands in for a line that cannot be created; it stays down and reports the reason.
 class NoLine final : public RealLine {
 public:
     NoLine(const LineBase& base, std::string why) : RealLine(base), why_(std::move(why)) {}

@@ -1,5 +1,4 @@
-// PairLine: a line whose other end another part of the program takes. In: a pair of sockets for each attempt. Out: frames.
-// Never keeps the other end: it is given away before the line is up.
+// PairLine creates a pair of sockets at each attempt and gives one end away before the line comes up.
 #include "gateway/lines/pair_line.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
-// PairLine: a line whose other end is in this process, on another thread: the mirror line, which ends in the fleet.
-// In: who takes the other end. Out: see StreamLine. Never waits for the other end: what it does not read is bounded by the kernel's buffer
-// and the line's own queue; where it closes its end, the line goes down and a new pair is made after a pause.
+// PairLine: a line whose other end is in this process, on another thread: the mirror line, whose other end is in the fleet.
+// It never waits for the other end: bytes that the other end does not read are bounded by the kernel's buffer and by the line's own
+// queue. If the other end is closed, the line goes down and a new pair is created after a pause.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-/// Is given one end of a connected pair of sockets, which is its own from then on; called on the line's thread. Empty: nobody takes it.
+/// Takes ownership of one end of a connected pair of sockets; called on the line's thread. Empty: the other end has no taker.
 using PairEnd = std::function<void(int fd)>;
 
 class PairLine final : public StreamLine {

@@ -1,6 +1,6 @@
-// ParityMarks: takes the kernel's marks out of what a serial port delivers (PARMRK): 377 377 is one byte 377, 377 0 x was received badly.
-// In: bytes as read, in pieces of any size. Out: the bytes meant, in place, and how many were bad.
-// Never hides a bad byte: it becomes 0, which no checksum and no number forgives. Dropping it could turn 1200 into 120.
+// ParityMarks: removes the kernel's PARMRK marks from the bytes of a serial port: 377 377 is one byte 377, 377 0 x is a bad byte.
+// It works in place on bytes as they were read, in pieces of any size, and counts the bad ones. A bad byte is replaced by 0, which fails
+// every checksum and is part of no number. If it were dropped, 1200 could become 120.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace axisgate {
 
 class ParityMarks {
 public:
-    /// Works on `data` in place and returns how many bytes of it count. A mark may be split between two calls.
+    /// Works on `data` in place and returns the number of valid bytes at its beginning. A mark may be split between two calls.
     [[nodiscard]] std::size_t take_out(std::span<std::uint8_t> data) noexcept {
         std::size_t kept = 0;
         for (const std::uint8_t b : data) {
@@ -25,7 +25,7 @@ public:
                     break;
                 case State::mark:
                     state_ = b == 0 ? State::bad : State::plain;
-                    if (b != 0) data[kept++] = b;  // 377 377; anything else the kernel never writes, and is kept as it is
+                    if (b != 0) data[kept++] = b;  // 377 377; the kernel writes no other pair, so any other is kept as it is
                     break;
                 case State::bad:
                     state_ = State::plain;
@@ -36,9 +36,9 @@ public:
         }
         return kept;
     }
-    /// Bytes with a parity or framing error, and breaks.
+    /// The number of bytes with a parity or framing error, and of breaks.
     [[nodiscard]] std::uint64_t bad() const noexcept { return bad_; }
-    /// The port was opened anew: a mark that was begun will not be finished.
+    /// For a port that was opened again: a mark that had begun is discarded.
     void reset() noexcept { state_ = State::plain; }
 
 private:

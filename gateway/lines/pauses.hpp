@@ -1,5 +1,4 @@
-// Pauses: how long to wait before something is tried again: longer each time, up to a bound.
-// In: attempts. Out: durations. Never has a clock.
+// Pauses: the pauses between attempts, each twice as long as the one before, up to a bound. It has no clock.
 #pragma once
 
 #include <algorithm>

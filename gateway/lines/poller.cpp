@@ -1,5 +1,5 @@
-// Poller: an epoll descriptor inside the io_context's own: it is readable while one of its sockets is ready.
-// In: sockets. Out: those that are ready, asked for again in the same turn while there are more. Never runs beyond its bound per turn.
+// Poller: an epoll descriptor inside the io_context's own, readable while one of its sockets is ready.
+// Sockets that are ready again are served again in the same turn, up to a bound per turn.
 #include "gateway/lines/poller.hpp"
 
 #include <unistd.h>
@@ -27,7 +27,7 @@ struct Poller::State : std::enable_shared_from_this<State> {
         }
     };
     bool serve() {
-        // Who was answered asks again meanwhile: to look here once more is cheaper than a turn of the io_context.
+        // A client that was answered sends its next request meanwhile: polling here once more costs less than a turn of the io_context.
         epoll_event events[events_per_turn];
         bool any = false;
         const auto until = clock() + asks_again;
@@ -62,7 +62,7 @@ Poller::~Poller() {
 bool Poller::good() const noexcept { return state_->fd >= 0; }
 
 bool Poller::serve_now() {
-    const auto kept = state_;  // what it serves may end the server
+    const auto kept = state_;  // the handler may destroy the server
     return kept->fd >= 0 && !kept->ended && kept->serve();
 }
 

@@ -1,8 +1,8 @@
-// Poller: the readiness of many sockets behind one descriptor of the io_context.
-// In: descriptors with a token each. Out: one call per turn with those that are ready, at most `events_per_turn` of them.
-// Never reads or writes. Why not one asynchronous wait per socket: that costs an epoll_ctl and an operation object per request; here both
-// are paid once per turn, however many sockets are ready. Measured with tests/bench at 64 connections, processor time per answer against
-// a plain epoll server: 1.20 with a wait per socket, 1.05 with this.
+// Poller: waits for many sockets through one descriptor of the io_context.
+// Each descriptor is added with a token; the handler is called once per turn with at most `events_per_turn` descriptors that are ready. The
+// poller reads and writes nothing itself. An asynchronous wait per socket would cost an epoll_ctl and an operation object per request; here
+// both are paid once per turn, for any number of ready sockets. Measured with tests/bench at 64 connections, processor time per answer
+// relative to a plain epoll server: 1.20 with a wait per socket, 1.05 with this.
 #pragma once
 
 #include <sys/epoll.h>
@@ -19,30 +19,30 @@ namespace axisgate {
 
 class Poller {
 public:
-    /// So many sockets are served before other work of the thread (a drive's frame, a timer) has its turn: some 100 to 150 us.
+    /// This many sockets are served before other work of the thread (a drive's frame, a timer) has its turn: about 100 to 150 us.
     static constexpr int events_per_turn = 32;
-    /// And so long those that ask again in the same turn are served at once: who is quick must not make a SYNC or a connection's datagram
-    /// late.
+    /// Sockets that become ready again in the same turn are served at once for this long. The bound keeps a fast client from delaying a
+    /// SYNC or a datagram of a connection.
     static constexpr std::chrono::microseconds asks_again{50};
 
     using Clock = std::chrono::steady_clock::time_point (*)();
-    /// `on_ready` is called from the io_context with tokens (epoll_event::data.u64) and events. `clock`: a test has its own.
+    /// `on_ready` is called from the io_context with tokens (epoll_event::data.u64) and events. Tests pass their own `clock`.
     Poller(boost::asio::io_context& io, std::function<void(std::span<const epoll_event>)> on_ready,
            Clock clock = &std::chrono::steady_clock::now);
     ~Poller();
     Poller(const Poller&) = delete;
     Poller& operator=(const Poller&) = delete;
 
-    /// False: the process had no descriptor left when it was made.
+    /// False if the process had no descriptor left when the poller was created.
     [[nodiscard]] bool good() const noexcept;
-    /// Level-triggered unless `events` has EPOLLET. Errors and hang-ups are always told. False: the kernel refused (out of memory, too many
-    /// watches).
+    /// Level-triggered unless `events` has EPOLLET. Errors and hang-ups are always reported. Returns false if the kernel refused (out of
+    /// memory, too many watches).
     [[nodiscard]] bool add(int fd, std::uint64_t token, std::uint32_t events) noexcept;
     void change(int fd, std::uint64_t token, std::uint32_t events) noexcept;
-    // A descriptor that is closed leaves by itself.
+    // A descriptor that is closed is removed by the kernel.
 
-    /// Serves what is ready at this moment, without waiting for the io_context to find it. False: nothing was. For a loop that polls
-    /// instead of sleeping: it saves two system calls per request.
+    /// Serves the sockets that are ready at this moment, without waiting for the io_context, and returns false if there were none. For a
+    /// loop that polls instead of sleeping, this saves two system calls per request.
     bool serve_now();
 
 private:

@@ -1,5 +1,5 @@
-// PtyLine: a pseudo-terminal that another program opens as if it were the drive. In: readiness of the pseudo-terminal's master. Out:
-// frames. Never goes down because the other side closes: the next program finds the same name.
+// PtyLine: a pseudo-terminal that another program opens as if it were the drive's serial port.
+// The line does not go down when that program closes the port: the next program finds the same name.
 #include "gateway/lines/pty_line.hpp"
 #include "gateway/core/wire_time.hpp"
 #include "gateway/lines/error_text.hpp"
@@ -20,10 +20,10 @@
 namespace axisgate {
 namespace {
 
-/// How often we look whether somebody has opened the other side: the first bytes of a program wait at most this long.
+/// How often the line checks whether a program has opened the port: the first bytes of a program wait at most this long.
 constexpr auto look_every = std::chrono::milliseconds(10);
 
-/// On Linux the master's settings are those of the slave. Every program starts from raw mode, whatever the last one left.
+/// On Linux the settings of the master are those of the slave. Every program starts in raw mode, whatever settings the last one left.
 bool make_raw(int master) noexcept {
     termios t{};
     if (::tcgetattr(master, &t) != 0) return false;
@@ -32,13 +32,13 @@ bool make_raw(int master) noexcept {
     return ::tcsetattr(master, TCSANOW, &t) == 0;
 }
 
-/// Somebody has the other side open, or had it open just now and left something to read.
+/// Whether a program has the port open, or has just closed it and left bytes to read.
 bool is_worth_reading(int master) noexcept {
     pollfd p{master, POLLIN, 0};
     return ::poll(&p, 1, 0) >= 0 && ((p.revents & POLLHUP) == 0 || (p.revents & POLLIN) != 0);
 }
 
-/// What a program left unread is partly on its way and partly in its terminal's own buffer, which only its own side can empty.
+/// Bytes that a program left unread are partly in transit and partly in the buffer of its terminal, which only the slave side can empty.
 void throw_away_unread(int master, const std::string& slave) noexcept {
     (void)::tcflush(master, TCOFLUSH);
     const int fd = ::open(slave.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -53,7 +53,7 @@ std::string target_of(const std::string& path) {
     return n > 0 ? std::string(buffer.data(), static_cast<std::size_t>(n)) : std::string();
 }
 
-/// Where a pseudo-terminal of this system would be: what a link of ours points to, also when that one has gone with its program.
+/// Whether a link target is the name of a pseudo-terminal, also of one that has gone with its program.
 bool names_a_pty(std::string_view target) noexcept {
     constexpr std::string_view folder = "/dev/pts/";
     if (!target.starts_with(folder) || target.size() == folder.size()) return false;
@@ -61,7 +61,7 @@ bool names_a_pty(std::string_view target) noexcept {
     return std::all_of(target.begin(), target.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Links resolved, "." and ".." gone; empty if it is not there.
+/// The path with links, "." and ".." resolved; empty if it does not exist.
 std::string real_path(const std::string& path) {
     std::array<char, PATH_MAX> buffer{};
     return ::realpath(path.c_str(), buffer.data()) ? std::string(buffer.data()) : std::string();
@@ -71,12 +71,12 @@ bool lies_in(const std::string& path, const std::string& folder) {
     return !folder.empty() && (path == folder || folder == "/" || (path.starts_with(folder) && path[folder.size()] == '/'));
 }
 
-/// Why the link must not stand there; empty: it may.
+/// The reason why the link must not be created there; empty if it may.
 std::string forbidden(const std::string& path, const PtyPlaces& places) {
     const auto slash = path.rfind('/');
     const std::string parent = slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
     const std::string folder = real_path(parent);
-    if (folder.empty()) return {};  // the link itself cannot be made there, and says why
+    if (folder.empty()) return {};  // creating the link fails there and reports the reason
     if (!places.never_in.empty() && lies_in(folder, real_path(places.never_in)))
         return fmt::format("{} is in the gateway's data directory: choose another folder", path);
     if (places.only_below.empty()) return {};
@@ -89,7 +89,7 @@ std::string forbidden(const std::string& path, const PtyPlaces& places) {
                        places.only_below);
 }
 
-/// Puts the link; a link to a pseudo-terminal that is there already is taken as left over from before. Empty, or what is wrong.
+/// Creates the link; an existing link to a pseudo-terminal counts as left over and is replaced. Returns the error, or an empty text.
 std::string put_link(const std::string& target, const std::string& path, const PtyPlaces& places) {
     if (std::string wrong = forbidden(path, places); !wrong.empty()) return wrong;
     struct stat there {};
@@ -130,7 +130,7 @@ void PtyLine::start() {
         if (master >= 0) ::close(master);
         return went_down(fmt::format("cannot make a pseudo-terminal: {}", error_text(error)));
     }
-    // Opened and closed once, the master says from the beginning what it says later: that nobody is there.
+    // After the slave has been opened and closed once, the master reports a hang-up from the beginning, as it does later without a program.
     if (const int slave = ::open(name.data(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC); slave >= 0) ::close(slave);
     if (std::string wrong = put_link(name.data(), path_, places_); !wrong.empty()) {
         ::close(master);
@@ -172,7 +172,7 @@ void PtyLine::watch_for_somebody() {
 
 void PtyLine::on_gone(int error) {
     if (error != EIO && error != 0) return went_down(fmt::format("the pseudo-terminal {} failed: {}", slave_, error_text(error)));
-    // The program has closed its side. What it did not read and what it changed must not meet the next one.
+    // The program has closed the port. Bytes that it did not read and settings that it changed must not reach the next program.
     somebody_ = false;
     drop_partial();
     out_.stop();
@@ -182,8 +182,8 @@ void PtyLine::on_gone(int error) {
     watch_for_somebody();
 }
 
-/// Bytes that were there before their time came have crossed at the line's pace, however late this process reads them; a program that keeps
-/// behind the pace has written the last of them just now.
+/// Bytes that arrived before they were due count as having crossed at the pace of the line, however late this process reads them; if a
+/// program writes more slowly than the pace, its last byte counts as written now.
 void PtyLine::got(std::size_t bytes, bool more) {
     const Instant now = clock().now();
     in_handed_ = in_crossed_;

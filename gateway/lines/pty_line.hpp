@@ -1,9 +1,8 @@
-// PtyLine: a pseudo-terminal made by us, under a name of the user's choice: a serial port that any program can open.
-// In: a path at which to put the link. Out: see StreamLine.
-// Never overwrites anything but a link to a pseudo-terminal, links only where PtyPlaces lets it, and takes away at the end only its own.
-// Bytes that are sent while nobody has the other side open are lost, as on a cable without a listener. A pseudo-terminal has no rate: with
-// settings that name one, bytes pass both ways as slowly as over a serial port; what waits meanwhile is held by the send queue and by the
-// terminal's own buffer, both bounded (a program that writes more is held up, as by a full port).
+// PtyLine: a pseudo-terminal created by the gateway under a name that the user chooses: a serial port that any program can open.
+// The link replaces nothing but another link to a pseudo-terminal, is created only where PtyPlaces permits it, and is removed at the
+// end only if it is still ours. Bytes that are sent while no program has the port open are lost, as on a cable without a listener. A
+// pseudo-terminal has no bit rate: with settings that name one, bytes pass in both directions at that rate. Waiting bytes are held in
+// the send queue and in the terminal's own buffer, both bounded; a program that writes more is blocked, as by a full port.
 #pragma once
 
 #include <string>
@@ -14,15 +13,15 @@
 
 namespace axisgate {
 
-/// Where links may be put. A site comes over the network from people who are not the owner of this machine's files.
+/// Where links may be created. A site is received over the network, from people who do not own the files of this machine.
 struct PtyPlaces {
-    std::string only_below{};  ///< folder; empty: anywhere, as the person at the machine wants it
+    std::string only_below{};  ///< folder; empty: anywhere, for a user at the machine itself
     std::string never_in{};    ///< folder; empty: none
 };
 
 class PtyLine final : public StreamLine {
 public:
-    /// The pace to keep, as that of a serial port; a baud of 0: as fast as the other side takes and gives.
+    /// `pace_baud` and `pace_format` set the pace, as those of a serial port; with a baud of 0, bytes pass as fast as both sides allow.
     PtyLine(const LineBase& base, std::string path, std::uint32_t pace_baud = 0, const SerialFormat& pace_format = {},
             PtyPlaces places = {});
     ~PtyLine() override { close(); }
@@ -48,10 +47,10 @@ private:
     std::uint32_t pace_baud_;
     SerialFormat pace_format_;
     BytePace out_, in_;
-    Instant in_crossed_{};   // the last byte of the read in hand
-    Instant in_handed_{};    // the last byte of the reads before it: none crosses before that
-    std::string slave_;      // what the link points to; empty: there is no link of ours
-    bool somebody_ = false;  // has the other side open
+    Instant in_crossed_{};   // when the last byte of the present read had crossed
+    Instant in_handed_{};    // the same for the reads before it: no byte crosses before that
+    std::string slave_;      // target of our link; empty: there is no link of ours
+    bool somebody_ = false;  // a program has the port open
     asio::steady_timer watch_;
 };
 

@@ -1,5 +1,5 @@
-// RealLine: opening, sending in order, and trying again, for every transport. In: calls of the owner and of the transport. Out: LineEvents.
-// Never calls the owner from inside open(), close() or send().
+// RealLine: opening, sending in order and reconnecting, for every transport.
+// The owner is never called from inside open(), close() or send().
 #include "gateway/lines/real_line.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace axisgate {
 namespace {
 
-/// A line that stayed up this long begins anew with the shortest pause when it goes down.
+/// A line that stayed up for this long starts with the shortest pause again when it goes down.
 constexpr Duration up_for_good_after = std::chrono::seconds(5);
 
 }  // namespace
@@ -41,7 +41,7 @@ void RealLine::close() {
 }
 
 bool RealLine::send(const Frame& frame, Priority priority, Instant) {
-    // The line's own clock, not the caller's instant: the queue needs instants that never go back, and so does its age limit.
+    // The instant comes from the line's own clock, not from the caller: the queue and its age limit need instants that never go back.
     const std::uint64_t displaced = queue_.displaced();
     const bool good = status_.state == State::up && takes(frame) && queue_.push(frame, priority, base_.clock.now());
     status_.dropped += (good ? 0 : 1) + (queue_.displaced() - displaced);

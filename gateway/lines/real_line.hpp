@@ -1,6 +1,7 @@
-// RealLine: what all lines with a kernel behind them have in common: opening again after every fault, the bounded queue, the counters.
-// In: frames to send; what the transport (a derived class) reports. Out: LineEvents, from handlers of the io_context alone.
-// Never blocks; single thread: everything runs in the loop's thread. A line may be closed or destroyed from inside its own events.
+// RealLine: the common part of all lines that use the kernel: reconnecting after every fault, the bounded send queue, the counters.
+// The owner gives it frames to send, the transport (a derived class) reports what happens on the connection, and the owner receives
+// LineEvents, only from handlers of the io_context. It never blocks and runs in the thread of the loop alone. A line may be closed or
+// destroyed from inside its own events.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -20,16 +21,16 @@ namespace axisgate {
 
 namespace asio = boost::asio;
 
-/// A frame that has waited this long is thrown away and counted: a command must not be carried out when nobody expects it any more.
-/// The drive's side of a line has no such limit: what it says is said late on a slow line, and whole.
+/// A frame that has waited this long is discarded and counted, because a command must not be carried out when its sender no longer
+/// expects it. The drive's side of a line has no such limit: on a slow line its answers are sent late, but complete.
 inline constexpr Duration stale_send_limit = std::chrono::seconds(2);
 
-/// What every real line is built on. Both outlive the line.
+/// The loop and the clock of every real line. Both outlive the line.
 struct LineBase {
     asio::io_context& io;
     const Clock& clock;
     PauseRange pauses{};
-    Duration stale_after = stale_send_limit;  ///< zero: what waits is never too old
+    Duration stale_after = stale_send_limit;  ///< zero: frames never become too old
 };
 
 class RealLine : public Line {
@@ -48,44 +49,44 @@ public:
 protected:
     using State = LineStatus::State;
 
-    /// One attempt to open; it ends in came_up() or went_down(), now or later.
+    /// Starts one attempt to open; it ends with came_up() or went_down(), now or later.
     virtual void start() = 0;
-    /// Lets go of everything that the attempt has got. Tells nobody.
+    /// Releases everything that the attempt has acquired. The owner is not informed.
     virtual void stop() = 0;
-    /// close() lets go of what outlives a single attempt.
+    /// Called by close(): releases everything that outlives a single attempt.
     virtual void let_go() {}
-    /// Sends what the queue holds, as far as the transport takes it. Called from the loop once per turn in which frames came.
+    /// Sends the frames of the queue as far as the transport accepts them. Called once per turn of the loop in which frames were queued.
     virtual void flush() = 0;
     [[nodiscard]] virtual bool takes(const Frame& frame) const { return frame.kind == Frame::Kind::bytes; }
-    /// What the status says while the line is up; lines that can tell more than they said at came_up() do it here.
+    /// The status text while the line is up; lines whose text changes after came_up() override it.
     [[nodiscard]] virtual std::string up_text() const { return text_; }
 
-    /// These four call the owner, who may close or destroy the line meanwhile: where they return false, return without touching it.
+    /// The next four call the owner, who may close or destroy the line meanwhile: if they return false, return without touching the line.
     [[nodiscard]] bool came_up(std::string text);
     [[nodiscard]] bool deliver(const Frame& frame);
     [[nodiscard]] bool tell_sent(const Frame& frame);
     [[nodiscard]] bool tell_state(State state, bool up, std::string text);
-    /// The attempt or the connection is over: stops, tells the owner if that is news, and tries again after a pause. Return after it.
+    /// The attempt or the connection is over: stops, informs the owner if it was up, and tries again after a pause. Return after this call.
     void went_down(std::string why);
-    /// Tries again now instead of after the pause; nothing if the line is not down.
+    /// Tries again now instead of after the pause; does nothing if the line is not down.
     void try_now();
 
-    /// Changes what the status says without telling the owner.
+    /// Changes the status text without informing the owner.
     void say(std::string text) { text_ = std::move(text); }
-    /// Empties the queue; what was in it counts as dropped.
+    /// Empties the queue; its frames count as dropped.
     void drop_all() noexcept;
     void flush_soon();
     void drop_stale(Instant now);
     void count_received(std::size_t frames, std::size_t bytes) noexcept;
 
-    /// Wraps a handler so that it does nothing once the present attempt is over (or the line gone).
+    /// Wraps a handler so that it does nothing once the present attempt has ended or the line has been destroyed.
     template <class F>
     [[nodiscard]] auto guarded(F f) const {
         return [alive = std::weak_ptr<char>(attempt_), f = std::move(f)](auto&&... arguments) mutable {
             if (!alive.expired()) f(std::forward<decltype(arguments)>(arguments)...);
         };
     }
-    /// The same for what lives from open() to close().
+    /// The same for handlers that live from open() to close().
     template <class F>
     [[nodiscard]] auto guarded_while_open(F f) const {
         return [alive = std::weak_ptr<char>(opened_), f = std::move(f)](auto&&... arguments) mutable {
@@ -112,12 +113,12 @@ private:
     std::string text_;
     asio::steady_timer retry_;
     GrowingPause pause_;
-    std::shared_ptr<char> opened_;   // from open() to close()
-    std::shared_ptr<char> attempt_;  // from one attempt to the next
+    std::shared_ptr<char> opened_;   // lives from open() to close()
+    std::shared_ptr<char> attempt_;  // lives from one attempt to the next
     bool flush_posted_ = false;
-    bool published_ = false;  // the owner has heard a state since open()
+    bool published_ = false;  // the owner has received a state since open()
     bool ever_up_ = false;
-    bool received_ = false;  // something came in since the line came up
+    bool received_ = false;  // a frame has been received since the line came up
     Instant up_since_{};
 };
 

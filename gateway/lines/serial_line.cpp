@@ -1,5 +1,5 @@
-// SerialLine: a port, opened and read as it is ready. In: readiness of the port. Out: frames.
-// Never gives up: an adapter that is pulled out and plugged in again is found under its path.
+// SerialLine: opens a serial port and reads it whenever it is ready.
+// It keeps trying after a fault: an adapter that is pulled out and plugged in again is found under its path.
 #include "gateway/lines/serial_line.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +13,7 @@
 namespace axisgate {
 namespace {
 
-/// The driver is given at most this much of the future, and never less than a short frame.
+/// The driver is given at most the bytes of this duration, and never less than a short frame.
 constexpr Duration most_ahead = std::chrono::milliseconds(20);
 constexpr std::size_t least_ahead = 64;
 
@@ -47,7 +47,7 @@ std::size_t SerialLine::room_to_write() {
     return unsent >= most_unsent_ ? 0 : most_unsent_ - unsent;
 }
 
-/// Until about half of what the driver holds is out.
+/// The time until about half of the bytes in the driver have been sent.
 Duration SerialLine::pause_before_write() const {
     return std::max<Duration>(std::chrono::milliseconds(1), byte_time_ * static_cast<std::int64_t>(most_unsent_ / 2));
 }

@@ -1,6 +1,5 @@
-// SerialLine: a serial port (RS-232, RS-422, RS-485, a USB adapter) as a line.
-// In: a path and settings. Out: see StreamLine; errors of the receiver counted.
-// Never leaves more than a few bytes in the driver: what is there can no longer be overtaken by a stop.
+// SerialLine: a serial port (RS-232, RS-422, RS-485, a USB adapter) as a line, with the errors of the receiver counted.
+// Only a few bytes are left in the driver at a time, because bytes in the driver can no longer be overtaken by a stop.
 #pragma once
 
 #include <string>

@@ -1,6 +1,5 @@
-// Serial port: any bit rate. The kernel's own terminal structures, because the C library's know only the usual bit rates.
-// In: a path and settings. Out: a descriptor.
-// Never included together with <termios.h>: the two define the same names differently. Hence a file of its own.
+// Serial port with any bit rate, through the kernel's own terminal structures: those of the C library know only the usual bit rates.
+// The kernel's header cannot be included together with <termios.h>, because both define the same names differently. Hence this file.
 #include "gateway/lines/serial_port.hpp"
 
 #include <asm/termbits.h>
@@ -39,7 +38,7 @@ std::string open_fault(const std::string& path, int error) {
 }
 
 termios2 raw_settings(termios2 t, const SerialSettings& s) noexcept {
-    // Bad bytes come marked (PARMRK) so that they can be counted; see parity_marks.hpp.
+    // Bad bytes arrive marked (PARMRK) so that they can be counted; see parity_marks.hpp.
     t.c_iflag = INPCK | PARMRK;
     t.c_oflag = 0;
     t.c_lflag = 0;
@@ -55,20 +54,20 @@ termios2 raw_settings(termios2 t, const SerialSettings& s) noexcept {
     return t;
 }
 
-/// A receiver samples in the middle of the tenth bit: a rate that is off by more than this does not work.
+/// A receiver samples in the middle of the tenth bit: a rate that differs by more than this does not work.
 bool near_enough(std::uint32_t asked, std::uint32_t granted) noexcept {
     const std::uint64_t off = granted > asked ? granted - asked : asked - granted;
     return off * 100 <= std::uint64_t{asked} * 3;
 }
 
-/// A pseudo-terminal has no wire: it takes every format and says 8N1.
+/// A pseudo-terminal has no wire: it accepts every format and reports 8N1.
 bool is_pseudo_terminal(int fd) noexcept {
     struct stat what {};
-    constexpr unsigned first_major = 136, last_major = 143;  // of /dev/pts
+    constexpr unsigned first_major = 136, last_major = 143;  // major numbers of /dev/pts
     return ::fstat(fd, &what) == 0 && major(what.st_rdev) >= first_major && major(what.st_rdev) <= last_major;
 }
 
-/// Empty, or what is wrong.
+/// Returns the error, or an empty text.
 std::string set_up(int fd, const SerialSettings& s, std::string& granted) {
     termios2 t{};
     if (::ioctl(fd, TCGETS2, &t) != 0) return fmt::format("is not a serial port: {}", error_text(errno));
@@ -86,7 +85,7 @@ std::string set_up(int fd, const SerialSettings& s, std::string& granted) {
     return {};
 }
 
-/// RS-485 by the driver. Empty, or what is wrong; drivers may shorten the delays, so what they keep is read back and said.
+/// RS-485 switched by the driver. Returns the error, or an empty text. Drivers may shorten the delays, so the granted ones are read back.
 std::string set_rs485(int fd, const SerialSettings& s, std::string& granted) {
     if (s.rs485 == Rs485::off) return {};
     serial_rs485 wanted{};
@@ -109,7 +108,7 @@ std::string set_rs485(int fd, const SerialSettings& s, std::string& granted) {
     return {};
 }
 
-/// Hands each byte on as it comes instead of collecting for up to 16 ms. A driver that cannot is as good as it was.
+/// Asks the driver to pass on each byte at once instead of collecting for up to 16 ms. If it cannot, nothing is lost.
 void ask_for_low_latency(int fd) noexcept {
     serial_struct s{};
     if (::ioctl(fd, TIOCGSERIAL, &s) != 0) return;
@@ -130,7 +129,8 @@ SerialOpened open_serial(const std::string& path, const SerialSettings& settings
     if (::fstat(fd, &what) != 0 || !S_ISCHR(what.st_mode)) {
         r.fault = fmt::format("{} is not a serial port but a file: check the path", path);
     } else if (::flock(fd, LOCK_EX | LOCK_NB) != 0 || ::ioctl(fd, TIOCEXCL) != 0) {
-        // TIOCEXCL keeps later openers out, but not root and not those who were there first; the lock is for those who ask.
+        // TIOCEXCL keeps later openers out, but neither root nor programs that had the port open before; the lock is for programs that
+        // check it.
         r.fault = errno == ENOTTY ? fmt::format("{} is not a serial port", path) : open_fault(path, EBUSY);
     } else if (std::string wrong = set_up(fd, settings, r.text); !wrong.empty()) {
         r.fault = fmt::format("{} {}", path, wrong);

@@ -1,6 +1,6 @@
-// Serial port: the system calls that make a terminal device a plain, exclusive, fast byte pipe, and what the driver granted of it.
-// In: a path and settings. Out: an open, non-blocking descriptor and a sentence, or a fault with a remedy.
-// Never waits for a carrier and never becomes the process's controlling terminal.
+// Serial port: the system calls that turn a terminal device into a plain, exclusive, fast byte stream.
+// The result is an open, non-blocking descriptor with a text of the settings that the driver granted, or a fault text with a remedy.
+// Opening does not wait for a carrier, and the port never becomes the controlling terminal of the process.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 namespace axisgate {
 
 struct SerialOpened {
-    int fd = -1;        ///< belongs to the caller; -1: see `fault`
-    std::string text;   ///< what was granted: "9600 bit/s 7E1, RS-485 by the driver (1 ms before, 0 ms after)"
-    std::string fault;  ///< why not, and what to do
+    int fd = -1;        ///< owned by the caller; -1 on failure, then see `fault`
+    std::string text;   ///< the granted settings: "9600 bit/s 7E1, RS-485 by the driver (1 ms before, 0 ms after)"
+    std::string fault;  ///< why opening failed, and what the user can do about it
 };
 
-/// Raw mode, any bit rate, exclusive, local (no modem control), stale input and output thrown away, low latency where the driver can.
+/// Raw mode, any bit rate, exclusive, local (no modem control), old input and output discarded, low latency if the driver supports it.
 [[nodiscard]] SerialOpened open_serial(const std::string& path, const SerialSettings& settings);
 
-/// Bytes that were written but are still waiting in the driver; 0 where it cannot tell.
+/// The number of bytes that were written but are still in the driver; 0 if the driver cannot report it.
 [[nodiscard]] std::size_t serial_unsent(int fd) noexcept;
 
 }  // namespace axisgate

@@ -1,6 +1,6 @@
-// Spare descriptor: one descriptor that a door keeps open for the moment when the process has no other, so that it can still take a client.
-// In: a listening socket. Out: an accepted client in the spare one's place. Without it, one door that has taken all descriptors shuts the
-// others, and with them every stop that would come over them.
+// Spare descriptor: a descriptor that a door keeps open, so that it can accept one more client when the process has no other left.
+// The client is accepted in the place of the spare descriptor. Without it, a door that has used up all descriptors would lock out the
+// clients of the other doors, and with them every stop that they would send.
 #pragma once
 
 #include <fcntl.h>
@@ -19,12 +19,12 @@ public:
     SpareDescriptor(const SpareDescriptor&) = delete;
     SpareDescriptor& operator=(const SpareDescriptor&) = delete;
 
-    /// Has it again, if a descriptor has become free; called whenever one may have. False: none has.
+    /// Opens the spare descriptor again if one has become free; called whenever that is possible. Returns false if there is none.
     bool refill() noexcept {
         if (fd_ < 0) fd_ = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
         return fd_ >= 0;
     }
-    /// After an accept that found no descriptor: takes the client in the place of the spare one. -1 and errno as accept4 does it, which is
+    /// For an accept that found no descriptor: accepts the client in the place of the spare one. Returns -1 and errno as accept4 does, with
     /// EMFILE while the spare one is in use.
     [[nodiscard]] int accept(int listening, sockaddr* peer, socklen_t* length) noexcept {
         if (fd_ < 0) {
@@ -38,7 +38,7 @@ public:
         errno = why;
         return client;
     }
-    /// What a call says that found no descriptor, or no memory for one.
+    /// Whether `error` means that the call found no descriptor, or no memory for one.
     [[nodiscard]] static constexpr bool none_left(int error) noexcept {
         return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
     }

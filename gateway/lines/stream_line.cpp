@@ -1,5 +1,5 @@
-// StreamLine: what all lines of bytes have in common. In: readiness of the descriptor. Out: frames up, bytes down.
-// Never cuts into a frame that is half written, not even for an urgent one.
+// StreamLine: reading and writing for all lines that carry bytes.
+// A frame that is half written is always completed first, even if an urgent frame waits.
 #include "gateway/lines/stream_line.hpp"
 
 #include <fcntl.h>
@@ -61,7 +61,7 @@ void StreamLine::on_readable() {
             const auto size = static_cast<std::size_t>(n);
             got(size, size == room);
             if (!hand_up(std::span(buffer_).first(size))) return;
-            if (size < room) break;  // that was all: spares the read that would say so
+            if (size < room) break;  // everything has been read: saves the read that would return nothing
             continue;
         }
         got(0, false);
@@ -76,7 +76,7 @@ void StreamLine::on_readable() {
     begin_reading();
 }
 
-/// A terminal that is set to return at once reads 0 bytes when there are none as well as when it was hung up.
+/// A terminal that returns at once reads 0 bytes if none are there, and also after a hang-up; this call distinguishes the two.
 bool StreamLine::nothing_more_will_come() {
     if (is_socket_) return true;
     pollfd p{fd(), POLLIN, 0};
@@ -125,7 +125,7 @@ void StreamLine::flush() {
             }));
             return;
         }
-        // All that waits goes out in one call: first the rest of a frame that was begun, then the queue in its order.
+        // All waiting frames go out in one call: first the rest of a frame that was begun, then the queue in its order.
         std::array<iovec, frames_per_write + 1> parts{};
         std::array<const SendQueue::Entry*, frames_per_write> entries{};
         std::size_t count = 0, wanted = 0;
@@ -160,10 +160,10 @@ void StreamLine::flush() {
         if (!account_written(written, waiting)) return;
         if (written < wanted) return wait_writable();
     }
-    flush_soon();  // the rest at the next turn
+    flush_soon();  // the rest follows in the next turn
 }
 
-/// Removes what is written from the queue and tells the owner of every frame that is out as a whole.
+/// Removes the written bytes from the queue and reports every frame that is completely written to the owner.
 bool StreamLine::account_written(std::size_t bytes, std::size_t frames) {
     const Instant now = clock().now();
     load_out_.add(now, byte_time_ * static_cast<std::int64_t>(bytes));

@@ -1,6 +1,6 @@
-// StreamLine: a line that is one file descriptor with bytes both ways: a serial port, a TCP connection, a pseudo-terminal.
-// In: a non-blocking descriptor from the derived class. Out: runs of bytes as frames; frames written together, one call per turn.
-// Never reads or writes more than a bounded amount per turn: other lines share the loop.
+// StreamLine: a line over one file descriptor with bytes in both directions: a serial port, a TCP connection, a pseudo-terminal.
+// The derived class provides a non-blocking descriptor. Received bytes are passed on in runs, one frame each; frames to send are
+// written together, with one call per turn. The amount per turn is bounded, because other lines share the loop.
 #pragma once
 
 #include <array>
@@ -19,44 +19,45 @@ public:
     explicit StreamLine(const LineBase& base);
 
 protected:
-    /// Takes the descriptor over (also when it fails: then false, and `why` says so). `is_socket`: write without SIGPIPE.
+    /// Takes ownership of the descriptor, also if it fails: then it returns false and sets `why`. `is_socket`: write without SIGPIPE.
     [[nodiscard]] bool attach(int fd, bool is_socket, std::string& why);
     void begin_reading();
     [[nodiscard]] int fd() noexcept { return port_ ? port_->native_handle() : -1; }
-    /// Each byte takes this long on the wire, for the load; zero: not known.
+    /// The time that one byte takes on the wire, for the load; zero: unknown.
     void set_byte_time(Duration d) noexcept { byte_time_ = d; }
 
     void stop() override;
     void flush() override;
-    /// Bytes that were read; may change them, and returns how many of them count.
+    /// Called with the bytes that were read; may change them, and returns how many of them are valid.
     [[nodiscard]] virtual std::size_t filter(std::span<std::uint8_t> data) { return data.size(); }
-    /// How many bytes the transport should be given now. 0: asked again after pause_before_write().
+    /// How many bytes may be written to the transport now. 0: the line asks again after pause_before_write().
     [[nodiscard]] virtual std::size_t room_to_write() { return chunk; }
     [[nodiscard]] virtual Duration pause_before_write() const { return std::chrono::milliseconds(1); }
-    /// So many bytes were given to the transport; `more`: others wait behind them.
+    /// Called after `bytes` bytes were written to the transport; `more`: others wait behind them.
     virtual void wrote(std::size_t bytes, bool more) {
         (void)bytes;
         (void)more;
     }
-    /// How many bytes may be read now. 0: asked again after pause_before_read(). What is not read waits in the kernel's buffer.
+    /// How many bytes may be read now. 0: the line asks again after pause_before_read(). Unread bytes wait in the kernel's buffer.
     [[nodiscard]] virtual std::size_t room_to_read() { return chunk; }
     [[nodiscard]] virtual Duration pause_before_read() const { return std::chrono::milliseconds(1); }
-    /// So many bytes were read; `more`: there may be others. 0 bytes: there are none after all.
+    /// Called after `bytes` bytes were read; `more`: there may be others. 0 bytes: there were none.
     virtual void got(std::size_t bytes, bool more) {
         (void)bytes;
         (void)more;
     }
-    /// When the byte had crossed that stands so many bytes before the last one of the read in hand; frames are stamped so.
+    /// The instant at which the byte that is `before_the_last` bytes from the end of the present read had crossed the wire; the time stamp
+    /// of its frame.
     [[nodiscard]] virtual Instant crossed(std::size_t before_the_last) const {
         (void)before_the_last;
         return clock().now();
     }
-    /// Bytes that are handed up as one frame, at most: those that have crossed together.
+    /// The largest number of bytes passed on as one frame: bytes that have crossed together.
     [[nodiscard]] virtual std::size_t run() const { return Frame::capacity; }
-    /// Reading or writing failed, or (error 0) the other side has ended. Normally the line goes down.
+    /// Reading or writing failed, or (error 0) the other side has closed. By default the line goes down.
     virtual void on_gone(int error);
 
-    /// The rest of a frame that was begun has nobody to go to any more.
+    /// Discards the rest of a frame that was begun, because its receiver is gone.
     void drop_partial() noexcept { partial_done_ = 0; }
 
     static constexpr std::size_t chunk = 4096;
@@ -77,8 +78,8 @@ private:
     bool is_socket_ = false;
     bool write_waits_ = false;
     Duration byte_time_{};
-    Frame partial_;                 // a frame whose first bytes are written: nothing may come between them and the rest
-    std::size_t partial_done_ = 0;  // 0: there is none
+    Frame partial_;                 // a frame that is partly written: its rest must follow directly
+    std::size_t partial_done_ = 0;  // bytes of it that are written; 0: there is no such frame
     std::vector<Frame> sent_;
     std::array<std::uint8_t, chunk> buffer_;
 };

@@ -1,5 +1,5 @@
-// TcpLine: a name is resolved, connected to, and tried again. In: answers of the resolver and of the peer. Out: frames.
-// Never blocks: names are resolved by Asio's own thread, and an address is used without asking anybody.
+// TcpLine: resolves a name, connects, and reconnects after a fault.
+// Nothing blocks: names are resolved in Asio's own thread, and a numeric address is used without the resolver.
 #include "gateway/lines/tcp_line.hpp"
 
 #include <fmt/core.h>
@@ -44,7 +44,7 @@ void TcpLine::start() {
             went_down(fmt::format("cannot reach {}: the name {} is not resolved in time: use its address, or check the name server", name(),
                                   host_));
     }));
-    if (resolving_) return;  // an earlier question is still open; its answer serves this attempt too
+    if (resolving_) return;  // an earlier request is still pending; its answer serves this attempt too
     resolving_ = true;
     resolver_.async_resolve(
         host_, std::to_string(port_number_), tcp::resolver::numeric_service,
@@ -58,7 +58,7 @@ void TcpLine::start() {
 void TcpLine::resolved(const boost::system::error_code& error, const tcp::resolver::results_type& found) {
     const bool waiting =
         (state() == State::opening || state() == State::down) && limit_.expiry() > std::chrono::steady_clock::now() && !connecting_;
-    if (!waiting) return;  // closed, or given up meanwhile: the next attempt asks again
+    if (!waiting) return;  // closed or given up meanwhile: the next attempt resolves again
     limit_.cancel();
     if (error) return went_down(fmt::format("cannot reach {}: the name {} is not known: {}", name(), host_, error.message()));
     for (const auto& entry : found) {
@@ -78,9 +78,9 @@ void TcpLine::connect_next(std::string why) {
     boost::system::error_code error;
     connecting_->open(to.protocol(), error);
     if (error) return connect_next(error.message());
-    set_up_connection(connecting_->native_handle());  // before connecting: the send buffer's size is settled with the connection
+    set_up_connection(connecting_->native_handle());  // before connecting, because the size of the send buffer is fixed with the connection
     limit_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(connect_limit_));
-    // Each address has a marker of its own, so that a late time-out cannot hit the next one.
+    // Each address has its own marker, so that a late time-out cannot affect the next one.
     const auto number = to_try_.size();
     limit_.async_wait(guarded([this, number](const boost::system::error_code& cancelled) {
         if (cancelled || !connecting_ || number != to_try_.size()) return;
@@ -97,7 +97,7 @@ void TcpLine::connect_next(std::string why) {
 void TcpLine::connected() {
     boost::system::error_code error;
     const auto local = connecting_->local_endpoint(error);
-    // A port of our own machine in the range of outgoing connections can meet itself when nobody listens.
+    // A socket that connects to a port of this machine in the range of outgoing ports can connect to itself if no program listens there.
     if (!error && local == connecting_->remote_endpoint(error)) return connect_next("nothing listens there (connected to itself)");
     const int fd = connecting_->release(error);
     connecting_.reset();

@@ -1,6 +1,6 @@
-// TcpLine: a TCP connection to a drive or a serial server, which we open.
-// In: host and port. Out: see StreamLine. A peer that ends its side ends the line; it is opened again.
-// Never waits longer than 3 s for one address, and tries at most four addresses of a name in one attempt.
+// TcpLine: a TCP connection to a drive or a serial server, opened by the gateway.
+// If the peer closes its side, the line goes down and connects again. One address is given at most 3 s, and one attempt tries at most
+// four addresses of a name.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -32,8 +32,8 @@ private:
     asio::ip::tcp::resolver resolver_;
     asio::steady_timer limit_;
     std::optional<asio::ip::tcp::socket> connecting_;
-    std::vector<asio::ip::tcp::endpoint> to_try_;  // the next one last
-    bool resolving_ = false;                       // one question at a time: the system's resolver cannot be called back
+    std::vector<asio::ip::tcp::endpoint> to_try_;  // in reverse order: the next one is the last element
+    bool resolving_ = false;                       // one request at a time: a request to the system's resolver cannot be cancelled
     std::shared_ptr<char> alive_ = std::make_shared<char>();
 };
 

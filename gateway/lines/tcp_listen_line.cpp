@@ -1,5 +1,5 @@
-// TcpListenLine: whoever connects shares the line with the others. In: connections and their bytes. Out: frames.
-// Never goes down because a client does; only the port itself can fail.
+// TcpListenLine: accepts clients and carries bytes between them and the line.
+// The line does not go down when a client disconnects; only the port itself can fail.
 #include "gateway/lines/tcp_listen_line.hpp"
 
 #include <fmt/core.h>
@@ -31,7 +31,7 @@ std::string listen_fault(const std::string& where, const boost::system::error_co
 struct TcpListenLine::Client {
     explicit Client(tcp::socket s) : socket(std::move(s)) {}
     tcp::socket socket;
-    std::vector<std::uint8_t> unsent;  // from `done` on
+    std::vector<std::uint8_t> unsent;  // valid from index `done`
     std::size_t done = 0;
     bool write_waits = false;
 
@@ -65,7 +65,7 @@ void TcpListenLine::start() {
 void TcpListenLine::stop() {
     acceptor_.reset();
     accept_pause_.cancel();
-    clients_.clear();  // handlers hold what they need and find their client closed
+    clients_.clear();  // pending handlers own their client and find it closed
     address_.clear();
     bound_port_ = 0;
 }
@@ -81,7 +81,7 @@ void TcpListenLine::accept() {
             return accept();
         }
         if (error == asio::error::operation_aborted) return;
-        // Out of descriptors, or a client that was gone before it was accepted: the port itself is good.
+        // No descriptor is left, or the client disconnected before it was accepted: the port itself still works.
         ++status_.errors;
         accept_pause_.expires_after(std::chrono::milliseconds(100));
         accept_pause_.async_wait(guarded([this](const boost::system::error_code& cancelled) {
@@ -123,14 +123,14 @@ void TcpListenLine::on_readable(const std::shared_ptr<Client>& client) {
         }
         if (n < 0 && errno == EINTR) continue;
         if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
-        return drop(client);  // ended or failed: as if unplugged
+        return drop(client);  // closed or failed: treated as unplugged
     }
     begin_reading(client);
 }
 
 bool TcpListenLine::hand_up(const std::shared_ptr<Client>& client, std::size_t size) {
     const std::span<const std::uint8_t> data = std::span(buffer_).first(size);
-    // As on a wire, the others hear it as well. A copy of the list: giving may drop a client.
+    // As on a wire, the other clients receive the bytes too. The list is copied, because sending may drop a client.
     if (clients_.size() > 1) {
         const auto others = clients_;
         for (const auto& other : others) {
@@ -176,7 +176,7 @@ void TcpListenLine::give(const std::shared_ptr<Client>& client, std::span<const 
         ++status_.errors;
         return drop(client);
     }
-    if (client->done > most_unsent / 2) {  // keeps the buffer from creeping
+    if (client->done > most_unsent / 2) {  // keeps the buffer from growing slowly
         client->unsent.erase(client->unsent.begin(), client->unsent.begin() + static_cast<std::ptrdiff_t>(client->done));
         client->done = 0;
     }

@@ -1,6 +1,6 @@
-// TcpListenLine: a TCP port at which up to four programs may meet the line, as at a bus: who comes in hears everything.
-// In: bytes of any client. Out: frames up; frames down to every client; what one client says is heard by the others too.
-// Never keeps more than 64 KiB for a client that does not read: it is closed, and counted. A fifth client is turned away, and counted.
+// TcpListenLine: a TCP port through which up to four programs share the line, as on a bus: each one receives everything.
+// Bytes of a client go to the line and to the other clients; frames of the line go to every client. A client that does not read is
+// closed and counted when more than 64 KiB wait for it. A fifth client is rejected and counted.
 #pragma once
 
 #include <array>
@@ -21,15 +21,15 @@ public:
     static constexpr std::size_t most_unsent = 64 * 1024;  ///< bytes per client
 
     struct Counters {
-        std::uint64_t accepted = 0;     ///< clients that were let in
-        std::uint64_t turned_away = 0;  ///< the fifth and later
-        std::uint64_t slow_closed = 0;  ///< did not read what was sent to them
+        std::uint64_t accepted = 0;     ///< clients that were accepted
+        std::uint64_t turned_away = 0;  ///< clients that were rejected because four were connected
+        std::uint64_t slow_closed = 0;  ///< clients that were closed because they did not read
     };
 
     TcpListenLine(const LineBase& base, std::string host, std::uint16_t port);
     ~TcpListenLine() override { close(); }
 
-    /// Where it listens, with the port that the system chose for port 0: "127.0.0.1:41234"; empty while it does not.
+    /// The address it listens on, with the port that the system chose for port 0: "127.0.0.1:41234"; empty while it does not listen.
     [[nodiscard]] const std::string& address() const noexcept { return address_; }
     [[nodiscard]] std::uint16_t port() const noexcept { return bound_port_; }
     [[nodiscard]] std::size_t clients() const noexcept { return clients_.size(); }

@@ -1,5 +1,4 @@
-// TCP socket: no delay, and a peer that is gone is noticed. In: a descriptor. Out: nothing.
-// Never throws, never waits.
+// Sets the options of a TCP socket. Nothing here throws or waits.
 #include "gateway/lines/tcp_socket.hpp"
 
 #include <netinet/in.h>

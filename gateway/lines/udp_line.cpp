@@ -1,5 +1,5 @@
-// UdpLine: one datagram is one frame. In: datagrams. Out: frames.
-// Never blocks; a datagram that the kernel cannot take now waits in the queue, one that it refuses is counted as an error.
+// UdpLine: one datagram is one frame.
+// Nothing blocks: a datagram that the kernel cannot accept now waits in the queue, one that it refuses is counted as an error.
 #include "gateway/lines/udp_line.hpp"
 
 #include <fmt/core.h>
@@ -29,7 +29,7 @@ void UdpLine::start() {
     boost::system::error_code error;
     if (const auto address = asio::ip::make_address(host_, error); !error) return use({address, port_number_});
     awaits_name_ = true;
-    if (resolving_) return;  // the system's resolver cannot be called back; its answer serves this attempt too
+    if (resolving_) return;  // the system's resolver cannot be cancelled; its answer serves this attempt too
     resolving_ = true;
     resolver_.async_resolve(
         host_, std::to_string(port_number_), udp::resolver::numeric_service,
@@ -41,7 +41,7 @@ void UdpLine::start() {
 }
 
 void UdpLine::resolved(const boost::system::error_code& error, const udp::resolver::results_type& found) {
-    if (!awaits_name_) return;  // closed meanwhile: the next attempt asks again
+    if (!awaits_name_) return;  // closed meanwhile: the next attempt resolves again
     awaits_name_ = false;
     if (error) return went_down(fmt::format("cannot reach {}: the name {} is not known: {}", name(), host_, error.message()));
     if (found.empty()) return went_down(fmt::format("cannot reach {}: the name {} has no address", name(), host_));
@@ -54,10 +54,10 @@ void UdpLine::use(const udp::endpoint& where) {
     socket_->open(where.protocol(), error);
     if (!error && role_ == Role::listens) socket_->bind(where, error);
     if (!error && role_ == Role::connects) socket_->connect(where, error);
-    if (!error) socket_->non_blocking(true, error);  // not native_non_blocking: then Asio itself would wait
+    if (!error) socket_->non_blocking(true, error);  // not native_non_blocking, with which Asio itself would wait
     if (error && role_ == Role::listens) return went_down(fmt::format("cannot listen on {}: {}", name(), error.message()));
     if (error) return lost(error);
-    // A port of our own machine in the range of outgoing ones can meet itself when nobody listens.
+    // A socket that sends to a port of this machine in the range of outgoing ports can reach itself if no program listens there.
     if (role_ == Role::connects && socket_->local_endpoint(error) == where) return lost(asio::error::connection_refused);
     const std::string text = role_ == Role::listens ? fmt::format("up, listening on UDP port {}", socket_->local_endpoint(error).port())
                                                     : fmt::format("up, UDP to {}", name());
@@ -111,7 +111,7 @@ void UdpLine::flush() {
         drop_stale(clock().now());
         const SendQueue::Entry* next = queue_.front();
         if (next == nullptr) return;
-        if (role_ == Role::listens && !last_speaker_) return drop_all();  // nobody is there to hear it
+        if (role_ == Role::listens && !last_speaker_) return drop_all();  // no peer is known yet
         boost::system::error_code error;
         const auto data = asio::buffer(next->frame.storage.data(), next->frame.size);
         if (role_ == Role::listens) {

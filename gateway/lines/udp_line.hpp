@@ -1,6 +1,6 @@
-// UdpLine: datagrams to and from a drive (udp:HOST:PORT), or from whoever speaks to us (udp-listen:HOST:PORT, for twins).
-// In: host and port. Out: each frame is one datagram; each datagram arrives as frames of at most their capacity.
-// Never waits for anybody: UDP has no connection, so the line is up as soon as its socket is; that a drive is there shows in its answers.
+// UdpLine: datagrams to and from a drive (udp:HOST:PORT), or with the peer that has sent to us last (udp-listen:HOST:PORT, for twins).
+// Each frame is sent as one datagram; each datagram is received as frames of at most their capacity. UDP has no connection, so the line
+// is up as soon as its socket is open; whether a drive is there shows only in its answers.
 #pragma once
 
 #include <array>
@@ -14,8 +14,10 @@ namespace axisgate {
 
 class UdpLine final : public RealLine {
 public:
-    /// Connecting: only datagrams of that host and port are taken, and a port where nobody listens ends the line, which is opened again.
-    /// Listening: answers go to whoever has spoken last; before that, what is sent is dropped and counted. Port 0: the system chooses.
+    /// Connecting: only datagrams of that host and port are accepted, and the line goes down and reopens if no program listens on that
+    /// port.
+    /// Listening: answers go to the peer that has sent last; before that, frames to send are dropped and counted. Port 0: the system
+    /// chooses.
     enum class Role : std::uint8_t { connects, listens };
     UdpLine(const LineBase& base, std::string host, std::uint16_t port, Role role);
     ~UdpLine() override { close(); }
@@ -23,7 +25,7 @@ public:
     /// The port in use; 0 while the line is not up.
     [[nodiscard]] std::uint16_t port() const;
 
-    /// So many datagrams are read or written before other work of the loop has its turn.
+    /// This many datagrams are read or written before other work of the loop has its turn.
     static constexpr int datagrams_per_turn = 16;
 
 private:

@@ -1,5 +1,4 @@
-// Mapping, values: what a point's value is as registers, and what registers mean.
-// In: values, register bytes. Out: the same the other way round. Never rounds a whole number that fits.
+// Converts between the value of a point and its registers. A whole number that fits is never rounded.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,7 +10,7 @@
 namespace axisgate {
 namespace {
 
-/// `size` registers of `bits`, the highest first or last; each register big-endian.
+/// Writes `size` registers of `bits`, the highest first or last; each register is big-endian.
 void put(std::uint64_t bits, std::size_t registers, MapWordOrder order, std::uint8_t* out) noexcept {
     for (std::size_t i = 0; i < registers; ++i) {
         const std::size_t from_top = order == MapWordOrder::high_first ? i : registers - 1 - i;
@@ -34,7 +33,7 @@ struct Whole {
     std::int64_t max;
     std::size_t registers;
 };
-/// u64 is bounded by what a value carries: 0..2^63-1.
+/// u64 is limited by the type Value: 0..2^63-1.
 std::optional<Whole> whole_of(MapType t) noexcept {
     switch (t) {
         case MapType::boolean:
@@ -56,7 +55,7 @@ std::optional<Whole> whole_of(MapType t) noexcept {
     }
 }
 
-/// What stands for a number that the type cannot show: the end that is nearest to `wanted`, or the mark. NaN is near to no end.
+/// The registers for a number that the type cannot show: the nearest end of the range, or the mark. NaN has no nearest end.
 void put_unfit(const Mapping& m, double wanted, std::uint8_t* out) noexcept {
     const bool clamped = m.on_overflow == MapOverflow::clamp && !std::isnan(wanted);
     if (m.type == MapType::f32) {
@@ -80,7 +79,7 @@ bool encode(const Mapping& m, const Value& value, std::uint8_t* out) noexcept {
         const std::size_t room = 2u * m.length;
         std::memset(out, 0, room);
         if (!text) return false;
-        std::memcpy(out, text->data(), std::min(text->size(), room));  // a longer one is cut: the reader sees its beginning
+        std::memcpy(out, text->data(), std::min(text->size(), room));  // a longer text is cut at its end
         return true;
     }
     const bool plain = m.scale == 1 && m.offset == 0;
@@ -140,7 +139,7 @@ Value decode(const Mapping& m, const std::uint8_t* in) {
     }
     if (!std::isfinite(y)) return {};
     const double x = (y - m.offset) / m.scale;
-    // What is whole but for the arithmetic of the scale is whole.
+    // If the value is a whole number except for the arithmetic of the scale, it is treated as one.
     const double nearest = std::round(x);
     if (std::fabs(nearest) < 9e15 && std::fabs(x - nearest) <= 1e-9 * std::max(1.0, std::fabs(x)))
         return static_cast<std::int64_t>(nearest);

@@ -1,5 +1,5 @@
-// Parameter channel: checks against the catalogue before anything goes to the line; a single stands for its shortest decimal number.
-// In: register writes, results. Out: commands, registers. Never shows a read value that does not fit the value register: it is refused.
+// Checks requests against the catalogue before anything is sent to the line. A value of type single stands for its shortest decimal number.
+// A read value that does not fit the value register is refused and never shown.
 #include "gateway/registers/parameter_channel.hpp"
 
 #include <fmt/core.h>
@@ -23,7 +23,7 @@ Point point_of(std::uint32_t selector) noexcept {
 }
 bool is_text(ValueType type) noexcept { return type == ValueType::text || type == ValueType::bytes; }
 
-/// The number that people would write for a single: 0.1, not 0.10000000149011612.
+/// The decimal number that people would write for a single: 0.1, not 0.10000000149011612.
 double shortest(float single) noexcept {
     char text[32];
     const auto [end, error] = std::to_chars(text, text + sizeof text, single);
@@ -97,8 +97,8 @@ void ParameterChannel::finish(const Result& result, const Catalogue* catalogue) 
     }
     const Parameter* parameter = catalogue ? catalogue->parameter(point_of(selector_)) : nullptr;
     const bool shown = parameter && take(result.value, parameter->type);
-    // A read value that does not fit is refused: nothing true could be shown. A write has happened, whatever came back with it: then
-    // the value register keeps what was written.
+    // A read value that does not fit is refused, because nothing correct could be shown. A write has taken place whatever its answer
+    // contains: the value register then keeps the written value.
     if (!shown && request_ == request_read) {
         refuse(Reason::out_of_range,
                (selector_ & float_form) != 0
@@ -114,12 +114,12 @@ void ParameterChannel::refuse(Reason reason, std::string why, std::int32_t code)
     state_ = State::refused;
     reason_ = reason;
     why_ = std::move(why);
-    // A drive's code of 0x10000 or more would show as 0 in its low half if that is 0; then the reason says more.
+    // If the low half of a drive's code of 0x10000 or more is 0, it would look like no error; the number of the reason is shown instead.
     const auto own = static_cast<std::uint16_t>(code);
     error_ = own != 0 ? own : static_cast<std::uint16_t>(reason);
 }
 
-/// What the value register means. No number and infinity stay what they are: the catalogue refuses them by name.
+/// The value in the value register. NaN and infinity stay what they are: the catalogue refuses them by name.
 Value ParameterChannel::given(ValueType type) const noexcept {
     if ((selector_ & float_form) == 0)
         return type == ValueType::u32 ? std::int64_t{value_} : std::int64_t{static_cast<std::int32_t>(value_)};

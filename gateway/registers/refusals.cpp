@@ -1,5 +1,4 @@
-// Refusals: the words of a refusal and of the request that it answers.
-// In: refusals. Out: events, through the rows.
+// Composes the text of a refusal and of the request that it answers.
 #include "gateway/registers/refusals.hpp"
 
 #include <fmt/core.h>

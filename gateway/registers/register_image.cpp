@@ -1,5 +1,5 @@
-// Register image: a site's mappings become user maps; readings that the maps ask for have tickets of the image's own.
-// In: sites, requests, results. Out: maps, bytes. What a map asks for never takes a place that a client's write needs.
+// Makes user maps and profiles from the mappings of a site. Parameter reads that the maps request have tickets of the image's own and never
+// take the place that a client's write needs.
 #include "gateway/registers/register_image.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void RegisterImage::set_mappings(std::vector<PlacedMapping> mappings, const std:
         map->begin(port_.now());
         made.emplace(unit, std::move(map));
     }
-    user_maps_ = std::move(made);  // those of before stand behind no unit any more
+    user_maps_ = std::move(made);  // the former maps are now unused
 }
 
 void RegisterImage::on_site(const SiteState& state) {
@@ -61,11 +61,11 @@ void RegisterImage::on_site(const SiteState& state) {
 }
 
 namespace {
-/// Counts of a language for one unit of the axis, where the site does not say.
+/// Counts of a language for one unit of the axis, if the site does not state them.
 double own_counts(ProfileLanguage language, const AxisSpec& axis) {
     if (language == ProfileLanguage::pacontrol) return 1;
     if (language != ProfileLanguage::linmot) return axis.increments_per_unit;
-    return axis.unit == "m" ? 1e7 : axis.unit == "um" ? 10 : 1e4;  // 0.1 um, of an axis in mm unless it says otherwise
+    return axis.unit == "m" ? 1e7 : axis.unit == "um" ? 10 : 1e4;  // 0.1 um, for an axis in mm unless its unit is another one
 }
 
 PlacedProfileAxis placed_axis(const ProfileAxis& given, ProfileLanguage language, const AxisSpec& axis, AxisId id) {
@@ -100,7 +100,7 @@ void RegisterImage::set_profiles(const SiteState& state) {
         }
         axes.insert(axes.end(), list.begin(), list.end());
     }
-    // Modes, toggles and kept registers outlive a change of the site that does not concern them.
+    // Modes, toggles and kept registers survive a change of the site that does not concern them.
     if (state.site.profiles == profile_specs_ && axes == profile_axes_ && state.site.gaps == profile_gaps_) return;
     std::map<std::uint8_t, std::unique_ptr<UnitMap>> made;
     for (const auto& [unit, map] : profiles_) {
@@ -144,7 +144,7 @@ RegisterRead RegisterImage::read(std::uint8_t unit, Table table, std::uint16_t a
         r.bytes.resize(2 * std::size_t{count});
         r.verdict = map->read_registers(table, address, count, port_.now(), r.bytes.data());
     }
-    (void)map->take_refused();  // there is no client whose refusals are told
+    (void)map->take_refused();  // there is no client to which refusals could be reported
     if (r.verdict != Verdict::good) r.bytes.clear();
     return r;
 }

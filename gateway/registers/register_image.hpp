@@ -1,6 +1,5 @@
-// Register image: every unit of registers that the gateway has: the standard map and the user maps of the site in force.
-// In: sites, samples, requests of any door. Out: the map behind a unit id; reads answered at once.
-// Never belongs to a protocol: it is there without any door that serves registers, and all of them see the same one.
+// All units of registers of the gateway: the standard map, and the user maps and profiles of the site in force. It belongs to no protocol,
+// exists without any door, and is shared by all doors.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@
 
 namespace axisgate::registers {
 
-/// Told when a map is about to go: nobody may ask it any more.
+/// Is informed before a map is destroyed, so that it drops its pointers.
 struct MapUser {
     virtual void forget(const UnitMap& map) noexcept = 0;
     virtual ~MapUser() = default;
@@ -30,38 +29,38 @@ public:
         MapGaps gaps = MapGaps::zero;                  ///< of units that the site does not name
         Languages languages{};                         ///< of the site's profiles; one whose page is absent is not served
     };
-    /// Readings of mapped parameters on their way at once, of all units; what is beyond waits for the next request.
+    /// Limit of outstanding reads of mapped parameters, of all units; further ones wait for the next request.
     static constexpr std::size_t most_readings = 2048;
-    static constexpr Duration reading_limit = std::chrono::seconds(30);  ///< then it counts as without an answer
+    static constexpr Duration reading_limit = std::chrono::seconds(30);  ///< after this time a read counts as not answered
 
     RegisterImage(DoorPort& port, Settings settings);
     ~RegisterImage() override;
     RegisterImage(const RegisterImage&) = delete;
     RegisterImage& operator=(const RegisterImage&) = delete;
 
-    /// nullptr: nothing stands behind this unit.
+    /// nullptr if the unit has no map.
     [[nodiscard]] UnitMap* unit(std::uint8_t id) noexcept { return maps_[id]; }
     [[nodiscard]] bool is_standard(std::uint8_t id) const noexcept { return maps_[id] == &standard_; }
     [[nodiscard]] StandardMap& standard() noexcept { return standard_; }
     [[nodiscard]] WordOrder word_order() const noexcept { return settings_.word_order; }
     [[nodiscard]] const Languages& languages() const noexcept { return settings_.languages; }
 
-    /// For a reader that is no door of its own. 1..2000 bits or 1..125 registers from `address` on, which end at 65535 at the latest.
+    /// For readers that are not doors: 1..2000 bits or 1..125 registers from `address` on, which end at 65535 at the latest.
     [[nodiscard]] RegisterRead read(std::uint8_t unit, Table table, std::uint16_t address, std::uint16_t count);
 
-    /// Puts a map behind a unit id (2..254), or takes it away (nullptr). The map outlives its being there.
+    /// Assigns a map to a unit id (2..254), or removes it (nullptr). The map must outlive its assignment.
     void set_map(std::uint8_t unit, UnitMap* map);
-    /// The user maps of a site, instead of those of before.
+    /// Replaces the user maps by those of a site.
     void set_mappings(std::vector<PlacedMapping> mappings, const std::map<std::uint8_t, MapGaps>& gaps);
-    /// The profiles of a site, instead of those of before; they go on as they were where nothing of them has changed.
+    /// Replaces the profiles by those of a site; unchanged ones keep their state.
     void set_profiles(const SiteState& site);
-    /// A command that a map gives by itself; its result comes to map.on_own_result(note). False: no place is free.
+    /// Gives a command of a map to the gateway; its result goes to map.on_own_result(note). Returns false if there is no free place.
     [[nodiscard]] bool ask_for(UnitMap& map, PlannedCommand command);
-    /// Who keeps pointers to maps. It must be removed before it ends.
+    /// Registers a keeper of pointers to maps. It must be removed before its destruction.
     void add_user(MapUser& user) { users_.push_back(&user); }
     void remove_user(MapUser& user) { std::erase(users_, &user); }
 
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return {}; }  // doors of registers have theirs
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return {}; }  // the doors with registers have their own
     [[nodiscard]] std::string_view name() const override { return "registers"; }
     void on_result(const Result& result) override;
     void on_site(const SiteState& site) override;
@@ -76,9 +75,9 @@ private:
     std::array<UnitMap*, 256> maps_{};
     std::map<std::uint8_t, std::unique_ptr<UserMap>> user_maps_;
     std::map<std::uint8_t, std::unique_ptr<UnitMap>> profiles_;
-    std::vector<ProfileSpec> profile_specs_;  ///< those that profiles_ was made of ...
+    std::vector<ProfileSpec> profile_specs_;  ///< the specifications from which profiles_ was made
     std::map<std::uint8_t, MapGaps> profile_gaps_;
-    std::vector<PlacedProfileAxis> profile_axes_;  ///< ... and their axes, one after another
+    std::vector<PlacedProfileAxis> profile_axes_;  ///< their axes, one after the other
     TicketTable readings_{most_readings};
     std::vector<MapUser*> users_;
 };

@@ -1,5 +1,5 @@
-// Register lists: names become identifiers of IEC 61131-3; truth values and texts become words: BOOL and STRING would move what follows.
-// In: mappings. Out: CSV, a page, structured text. Never lets a comment or a name end what it stands in.
+// Names become identifiers of IEC 61131-3. Booleans and texts become words, because BOOL and STRING would move the following members. No
+// comment or name can end the construct that contains it.
 #include "gateway/registers/register_lists.hpp"
 
 #include <fmt/core.h>
@@ -55,8 +55,8 @@ std::string st_name(std::string_view text) {
     if (out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0) out.insert(0, "v_");
     return out;
 }
-/// The type of a member that is exactly as long as the mapping's registers. A BOOL is a byte or a bit, a STRING has an end mark that the
-/// registers have not: both would move what comes after them.
+/// The type of a member that is exactly as long as the mapping's registers. A BOOL is a byte or a bit, and a STRING has an end mark that
+/// the registers do not have: both would move the following members.
 std::string st_type(const Mapping& m) {
     if (is_bits(m.table)) return "BOOL";
     switch (m.type) {
@@ -89,7 +89,7 @@ std::string st_note(const Mapping& m) {
     if (m.type == MapType::string) return fmt::format("text of {} characters, two in a register, the first in its high byte", 2 * m.length);
     return fmt::format("{}, {}", name_of(m.type), name_of(m.word_order));
 }
-/// No end of comment inside a comment.
+/// Removes the end of a comment from a text inside a comment.
 std::string st_comment(std::string_view text) {
     std::string out;
     for (const char c : text)

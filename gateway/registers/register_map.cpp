@@ -1,5 +1,5 @@
-// Register map: which half of a 32-bit value an offset is, and whether it can be written, is worked out from the one table at compile time.
-// In: a picture, register data. Out: big-endian registers, a ProcessData. Positions keep their low 32 bits. Never lets a velocity wrap.
+// Which half of a 32-bit value an offset is, and whether it can be written, is derived from the one table at compile time. Positions keep
+// their low 32 bits; velocities never wrap.
 #include "gateway/registers/register_map.hpp"
 
 #include <algorithm>

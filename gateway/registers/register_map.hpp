@@ -1,6 +1,5 @@
-// Register map: the 64 registers that one axis has in the standard map: their names, types, and how they are made and read.
-// In: an AxisPicture; register data of a write. Out: big-endian registers in either word order; a ProcessData; verdicts on addresses.
-// Never knows which axis it serves, and never judges values: that is the engine's.
+// The 64 registers of one axis in the standard map: their names and types, and the conversion from an AxisPicture and to a ProcessData. It
+// does not know which axis it serves, and does not check values; the engine does that.
 #pragma once
 
 #include <array>
@@ -34,34 +33,33 @@ struct RegisterRow {
     std::uint16_t offset;
     MapType type;
     bool writable;
-    std::string_view point;  ///< the name under which it is mapped and shown; empty: the parameter channel's
+    std::string_view point;  ///< the name for mappings and display; empty: a register of the parameter channel
     std::string_view name;   ///< for people
     [[nodiscard]] constexpr std::uint16_t width() const noexcept { return type == MapType::u32 || type == MapType::i32 ? 2 : 1; }
 };
 /// 0, 1 and 255 are the standard map.
 [[nodiscard]] constexpr bool is_standard_unit(std::int64_t unit) noexcept { return unit == 0 || unit == 1 || unit == 255; }
-/// Every register of an axis that means something, in ascending order. Offsets that are not here read 0 and cannot be written.
+/// Every register of an axis with a meaning, in ascending order. Offsets that are not listed read 0 and cannot be written.
 [[nodiscard]] std::span<const RegisterRow> standard_registers() noexcept;
 
-/// Makes registers 0..47 of `block` (block_size bytes) but for age and heartbeat, which depend on the moment of the request, and for what
-/// the door itself counts (20, 21); they stay 0.
-/// Position and position demand show the low 32 bits of the increments, so that differences stay right when a count passes 2^31.
-/// Velocity stops at the limits of i32. Registers 48..63 are not touched.
+/// Writes registers 0..47 of `block` (block_size bytes), except age and heartbeat, which depend on the instant of the request, and the
+/// counters of the door (20, 21); these stay 0. Position and position demand show the low 32 bits of the increments, so that differences
+/// stay correct when a count passes 2^31. The velocity stops at the limits of i32. Registers 48..63 are not written.
 void render(const AxisPicture& picture, std::uint32_t mapping_revision, WordOrder order, std::uint8_t* block) noexcept;
 
-/// Register 12: milliseconds since the drive said it; 0xFFFFFFFF if it never did, or if it was longer ago than that.
+/// Register 12: age of the drive's last report in ms; 0xFFFFFFFF if there was none, or if it is older than that.
 [[nodiscard]] std::uint32_t age_ms(const AxisPicture& picture, Instant now) noexcept;
 /// Register 14: whole seconds of the gateway's time line, modulo 65536.
 [[nodiscard]] std::uint16_t heartbeat(Instant now) noexcept;
 
 [[nodiscard]] bool is_writable(std::uint16_t offset) noexcept;
-/// Name of the value that a register is or belongs to; empty: none.
+/// Name of the value to which a register belongs; empty: none.
 [[nodiscard]] std::string_view name_at(std::uint16_t offset) noexcept;
-/// Whether `count` registers from `offset` (both within one axis) may be written: illegal_address if one of them is not writable,
+/// Checks whether `count` registers from `offset` (both within one axis) may be written: illegal_address if one of them is not writable,
 /// illegal_value if the write begins or ends in the middle of a 32-bit value.
 [[nodiscard]] Verdict check_write_offsets(std::uint16_t offset, std::uint16_t count) noexcept;
 
-/// Set-points (offsets 32..44) of a write that check_write_offsets has passed. `data`: 2 * count bytes.
+/// The set-points (offsets 32..44) of a write that check_write_offsets has accepted. `data` has 2 * count bytes.
 [[nodiscard]] ProcessData process_data(std::uint16_t offset, std::uint16_t count, const std::uint8_t* data, WordOrder order) noexcept;
 
 /// The 64 bits of coils and discrete inputs: flags in bits 0..15, the status word in 16..31, the rest 0.

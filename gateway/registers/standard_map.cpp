@@ -1,5 +1,5 @@
-// Standard map: a block is valid while its axis' cell has the revision it was rendered from; age and heartbeat are put in at each read.
-// In: requests by address. Out: registers, commands. Never takes a result of a parameter exchange for an axis that has been replaced.
+// A rendered block is valid as long as its axis' cell has the same revision; age and heartbeat are inserted at each read. The result of a
+// parameter exchange is not used for an axis that has been replaced.
 #include "gateway/registers/standard_map.hpp"
 
 #include <fmt/core.h>
@@ -87,7 +87,7 @@ Verdict StandardMap::read_registers(Table, std::uint16_t address, std::uint16_t 
     std::memcpy(out, blocks_.data() + 2 * std::size_t{begin}, 2 * std::size_t{count});
     for (std::uint32_t i = first; i <= last; ++i) {
         const std::uint32_t base = i * registers_per_axis;
-        // Age and heartbeat belong to this moment. A read may begin or end in the middle of the age.
+        // Age and heartbeat belong to the instant of the request. A read may begin or end in the middle of the age.
         if (base + reg::heartbeat < begin || base + reg::age >= end) continue;
         std::uint8_t words[6];
         put32(words, age_ms(port_.image().picture(rows_[i].id), now), order_);
@@ -110,7 +110,7 @@ Verdict StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t count
         const std::uint32_t n = std::min<std::uint32_t>(registers_per_axis - skip, end - at);
         std::uint64_t bits = bits_of(port_.image().picture(id)) >> skip;
         if (n < 64) bits &= (std::uint64_t{1} << n) - 1;
-        for (std::uint32_t to = at - begin; bits != 0;) {  // to: the bit of `out` where the lowest of `bits` belongs
+        for (std::uint32_t to = at - begin; bits != 0;) {  // to: the bit of `out` for the lowest of `bits`
             const std::uint32_t shift = to % 8;
             out[to / 8] = static_cast<std::uint8_t>(out[to / 8] | (bits << shift));
             bits >>= 8 - shift;
@@ -122,7 +122,7 @@ Verdict StandardMap::read_bits(Table, std::uint16_t address, std::uint16_t count
 }
 
 Verdict StandardMap::check_write(Table table, std::uint16_t address, std::uint16_t count) {
-    // Coils show what is; what shall be is written as a control word. No range that is writable goes across two axes.
+    // Coils show the state; orders are written as a control word. No writable range spans two axes.
     const AxisId axis = axis_at(index_at(address));
     if (is_bits(table) || table == Table::input_registers)
         return refuse(Verdict::no_address, axis, Reason::not_writable,
@@ -187,7 +187,7 @@ void StandardMap::on_own_result(std::uint32_t note, const Result& result) {
     const std::uint32_t index = note & 0xFFFFu;
     if (index >= rows_.size()) return;
     Row& row = rows_[index];
-    // The axis may have been removed or replaced since: its channel went with it.
+    // The axis may have been removed or replaced since, together with its channel.
     if (!row.channel || row.exchange != (note >> 16)) return;
     row.channel->finish(result, port_.catalogue(row.id));
     if (const auto& c = *row.channel; c.state() == ParameterChannel::State::refused)

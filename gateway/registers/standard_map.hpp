@@ -1,6 +1,6 @@
-// Standard map: units 0, 1 and 255. Axis number n owns 64 registers and 64 bits from (n-1)*64; holding and input registers are the same.
-// In: checked requests. Out: registers copied from one rendered block per axis; ProcessData commands; parameter channel exchanges.
-// Never renders an axis whose picture has not changed, and never allocates in a read once an axis number has been seen.
+// Units 0, 1 and 255. Axis number n has 64 registers and 64 bits from (n-1)*64; holding and input registers are the same. Each axis has one
+// rendered block, which is rendered again only if its picture has changed; after the first read of an axis number, reads allocate no
+// memory.
 #pragma once
 
 #include <cstdint>
@@ -23,28 +23,29 @@ public:
     Verdict read_bits(Table table, std::uint16_t address, std::uint16_t count, std::uint8_t* out) override;
     Verdict check_write(Table table, std::uint16_t address, std::uint16_t count) override;
     Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override;
-    /// `note`: the axis number whose parameter channel asked, and which of its exchanges it was.
+    /// `note` contains the axis number whose parameter channel started the exchange, and the number of the exchange.
     void on_own_result(std::uint32_t note, const Result& result) override;
 
-    /// Registers 20 and 21: the reason of the axis' last refused write, and how many there were.
+    /// Sets registers 20 and 21: the reason of the axis' last refused write, and the number of refusals.
     void note_refusal(AxisId axis, Reason reason);
 
     [[nodiscard]] WordOrder word_order() const noexcept { return order_; }
     [[nodiscard]] AxisId axis_numbered(std::uint16_t number) const noexcept { return axis_at(number - 1u); }
 
-    /// How many times a block was rendered anew (for tests: unchanged axes cost nothing).
+    /// Number of renderings, for tests that unchanged axes cost nothing.
     [[nodiscard]] std::uint64_t renders() const noexcept { return renders_; }
 
 private:
     struct Row {
-        AxisId id = no_axis;         // whom the block shows; no_axis: nobody yet
+        AxisId id = no_axis;         // the axis that the block shows; no_axis: none yet
         std::uint64_t revision = 0;  // of the axis' cell when the block was rendered
-        std::uint16_t exchange = 0;  // counts the channel's exchanges: an answer to an older one is not taken for a newer one's
+        std::uint16_t exchange = 0;  // number of the channel's exchange, so that the answer to an older exchange is not taken for that of a
+                                     // newer one
         std::unique_ptr<ParameterChannel> channel;  // made at the first write
         std::uint16_t refusals = 0;                 // modulo 65536
         Reason refused = Reason::none;
 
-        void belong_to(AxisId axis) {  // another axis, or none: its channel went with it; `exchange` goes on counting
+        void belong_to(AxisId axis) {  // the channel is lost with the former axis; `exchange` continues to count
             id = axis;
             revision = 0;
             channel.reset();
@@ -53,7 +54,7 @@ private:
         }
     };
 
-    /// Brings the block of the axis with this index (number - 1) up to date; nullptr: not configured.
+    /// Updates the block of the axis with this index (number - 1) and returns it; nullptr if it is not configured.
     [[nodiscard]] std::uint8_t* block(std::uint32_t index);
     [[nodiscard]] AxisId axis_at(std::uint32_t index) const noexcept { return port_.image().by_number(index + 1); }
     static void put_refusals(const Row& row, std::uint8_t* block) noexcept;
@@ -65,7 +66,7 @@ private:
     WordOrder order_;
     std::uint32_t mapping_revision_ = 0;
     std::uint64_t renders_ = 0;
-    std::vector<Row> rows_;             // by axis number - 1; grows to the highest number asked for, at most 1024
+    std::vector<Row> rows_;             // by axis number - 1; grows to the highest requested number, at most 1024
     std::vector<std::uint8_t> blocks_;  // block_size bytes per row, so that a read across axes is one copy
 };
 

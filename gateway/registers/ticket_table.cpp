@@ -1,5 +1,5 @@
-// Ticket table: used places form a list by age, free ones a stack; a ticket is place and generation.
-// In: waiting requests. Out: tickets, and who waited. Never searches to open or close one; only forgetting a client walks the list.
+// Used places form a list by age, free ones a stack; a ticket consists of place and generation. Opening and closing never search; only
+// forget() walks the list.
 #include "gateway/registers/ticket_table.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Unit map: what a map does for clients that carry images, unless it knows better: value by value, set-points of an axis together.
-// In: values of a range. Out: registers, one plan. Never lets a value that is refused take another one with it.
+// The default for clients that renew images: value by value, with the set-points of an axis together. A refused value never prevents
+// another one.
 #include "gateway/registers/unit_map.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace axisgate::registers {
 namespace {
-/// Set-points of one axis in one image act together, the control word last, as those of one request do.
+/// Set-points of one axis in one image act together, the control word last, like those of one request.
 void add(WritePlan& plan, PlannedCommand&& command) {
     const auto* const d = std::get_if<ProcessData>(&command.body);
     const auto same = !d ? plan.commands.end() : std::ranges::find_if(plan.commands, [&](const PlannedCommand& c) {

@@ -1,6 +1,5 @@
-// User map: entries lie in order of their addresses and do not overlap, so a request is one search and a walk.
-// In: the image, mappings. Out: registers, planned commands; registers 32..44 of an axis in one request act together, control word last.
-// Never allocates in a read of points that are not texts.
+// Entries are in order of their addresses and do not overlap, so a request is one search and a walk. Registers 32..44 of an axis in one
+// request act together, the control word last. A read of points that are not texts allocates no memory.
 #include "gateway/registers/user_map.hpp"
 
 #include <fmt/core.h>
@@ -141,7 +140,7 @@ Verdict UserMap::value_of(const Place& place, Instant now, Value& value) {
     if ((picture.flags & flag_online) == 0) return Verdict::no_answer;
     want(place.value, now);
     value = values_[place.value].value;
-    return known(value) ? Verdict::good : Verdict::busy;  // asked for just now: come again
+    return known(value) ? Verdict::good : Verdict::busy;  // the read was just requested; the client must try again
 }
 
 Verdict UserMap::check_read(Table table, std::uint16_t address, std::uint16_t count) {
@@ -157,7 +156,7 @@ Verdict UserMap::read_registers(Table table, std::uint16_t address, std::uint16_
         Value value;
         if (const Verdict e = value_of(p, now, value); e != Verdict::good) return e;
         std::uint8_t bytes[widest];
-        (void)encode(m, value, bytes);  // a value that does not fit spoils itself alone: it shows its mark, or the end of its type
+        (void)encode(m, value, bytes);  // a value that does not fit affects only itself: it shows its mark, or the end of its type
         const std::uint32_t from = std::max<std::uint32_t>(begin, m.address), to = std::min(end, m.end());
         std::memcpy(out + 2 * std::size_t{from - begin}, bytes + 2 * std::size_t{from - m.address}, 2 * std::size_t{to - from});
         return Verdict::good;

@@ -1,7 +1,6 @@
-// User map: the registers and bits of one unit id 2..254 as the site's mappings have them.
-// In: checked mappings with their axes; requests; results of its readings. Out: register bytes, bits, the commands of a write.
-// Parameters are read from the drive when a client asks for them: what is answered is the last value known, at most one reading old, and a
-// new reading is asked for. Never holds up a request for a drive, and never shows a parameter of an axis that does not answer.
+// The registers and bits of one unit id 2..254, as the site's mappings define them. Parameters are read from the drive when a client
+// requests them: the answer is the last known value, at most one read old, and a new read is started. A request never waits for a drive,
+// and a parameter of an axis that does not answer is not shown.
 #pragma once
 
 #include <array>
@@ -18,24 +17,24 @@
 
 namespace axisgate::registers {
 
-/// A mapping whose axis has been found in the running site.
+/// A mapping whose axis was found in the site in force.
 struct PlacedMapping {
     Mapping mapping;
     AxisId axis = no_axis;
     double increments_per_unit = 1;
 };
 
-/// What a register shows of an axis, before scale and offset. What no picture says is told here: the age, the heartbeat, the mapping.
+/// The value of an axis in a register, before scale and offset. Values that are not in the picture are arguments: age, heartbeat, mapping.
 [[nodiscard]] Value axis_value(const AxisPointRow& row, const Image& image, const AxisPicture& picture, double increments_per_unit,
                                Instant now);
 
 class UserMap final : public UnitMap {
 public:
-    /// Gives a command of the map's own to the gateway; false: too many wait. Its result comes to on_own_result.
+    /// Gives a command of the map to the gateway; false if too many are waiting. Its result goes to on_own_result.
     using Ask = std::function<bool(UnitMap&, PlannedCommand)>;
-    /// A parameter is asked for again when a client wants it and the value is this old.
+    /// A parameter is read again when a client requests it and the value is this old.
     static constexpr Duration fresh_for = std::chrono::milliseconds(250);
-    /// Readings on their way at once, per unit.
+    /// Limit of outstanding reads per unit.
     static constexpr std::size_t most_readings = 16;
 
     UserMap(const DoorPort& port, std::vector<PlacedMapping> mappings, MapGaps gaps, Ask ask);
@@ -49,9 +48,9 @@ public:
     void on_own_result(std::uint32_t note, const Result& result) override;
     std::vector<MapValue> values(Table table, std::uint16_t address, std::uint16_t count, bool written) override;
     void show(Table table, std::uint16_t address, std::uint16_t count, Instant now, std::uint8_t* out) override;
-    /// A value that a drive reported, whoever had asked: a write of another door is seen here at once.
+    /// Stores a value that a drive reported for any reason, so that a write of another door is visible at once.
     void on_sample(const Sample& sample);
-    /// Asks for every parameter that has not been read yet, so that the first client finds values.
+    /// Reads every parameter that has not been read yet, so that the first client finds values.
     void begin(Instant now);
 
 private:
@@ -70,14 +69,14 @@ private:
     using Places = std::vector<Place>;
 
     [[nodiscard]] const Places& places(Table table) const noexcept { return tables_[static_cast<std::size_t>(table)]; }
-    /// First entry that ends behind `address`.
+    /// The first entry that ends behind `address`.
     [[nodiscard]] Places::const_iterator first_at(const Places& list, std::uint32_t address) const noexcept;
     /// Calls `f` for each entry of the range in order; illegal_address if an address of it belongs to none.
     template <class F>
     [[nodiscard]] Verdict each_written(Table table, std::uint16_t address, std::uint16_t count, F&& f);
-    /// The same for a read. What can only be written is as if it were not there. With MapGaps::zero addresses without an entry are passed
-    /// over, as long as the range touches one that has: a client that reads in blocks asks for at least one value in each of them, and one
-    /// that asks for none has the wrong table or counts its addresses from 1.
+    /// The same for a read; write-only entries are left out. With MapGaps::zero, addresses without an entry are skipped if the range
+    /// includes at least one entry: a client that reads in blocks reads at least one value in each, and a range without any entry is in the
+    /// wrong table or is counted from 1.
     template <class F>
     [[nodiscard]] Verdict each_read(Table table, std::uint16_t address, std::uint16_t count, F&& f);
     [[nodiscard]] Verdict refuse_gap(Table table, std::uint32_t address, bool nothing_at_all);

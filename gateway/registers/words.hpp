@@ -1,5 +1,4 @@
-// Words: 16-bit registers as bytes, and 32-bit values as two of them in either order.
-// In: big-endian bytes. Out: numbers, and back. Never holds state.
+// 16-bit registers as bytes, and 32-bit values as two registers in either order.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +7,7 @@
 
 namespace axisgate::registers {
 
-/// Which of the two registers of a 32-bit value comes first. Bytes within a register are always big-endian.
+/// The order of the two registers of a 32-bit value. Bytes within a register are always big-endian.
 using WordOrder = MapWordOrder;
 
 [[nodiscard]] constexpr std::uint16_t get16(const std::uint8_t* p) noexcept {

@@ -1,12 +1,12 @@
-// Register writer: a write becomes as many tickets as it has commands; what a map takes itself is no outstanding result.
-// In: writes, results. Out: commands, verdicts. Faults of address and state go before "busy", so that one fault is told in one way.
+// A write becomes one ticket per command; results that a map gets itself are not waited for. Faults of address and state are reported
+// before "busy", so that a fault always has the same answer.
 #include "gateway/registers/writer.hpp"
 
 #include <utility>
 
 namespace axisgate::registers {
 namespace {
-/// What is answered when it is done may take as long as the machine does.
+/// A command that is answered when it is done may take as long as the machine takes.
 constexpr Duration task_timeout = std::chrono::hours(24);
 }  // namespace
 
@@ -79,7 +79,7 @@ void RegisterWriter::refused(const std::string& who, Refused why, const RequestN
 void RegisterWriter::on_result(const Result& result) {
     auto waiting = tickets_.close(result.ticket);
     if (waiting && waiting->map && !waiting->own) waiting->map->on_own_result(waiting->note, result);
-    if (waiting && waiting->who && !waiting->own && !good(result)) {  // also where the client has gone meanwhile
+    if (waiting && waiting->who && !waiting->own && !good(result)) {  // also if the client has gone meanwhile
         const Verdict verdict = verdict_of(result);
         std::string text = !result.text.empty()            ? result.text
                            : verdict == Verdict::no_answer ? std::string("the drive did not answer in time")
@@ -102,7 +102,7 @@ void RegisterWriter::on_result(const Result& result) {
 void RegisterWriter::own_result(const TicketTable::Waiting& waiting, const Result& result) {
     waiting.map->on_own_result(waiting.note, result);
     Refused why = waiting.map->take_refused();
-    // A language shows it in a register of its own; people read events.
+    // A language shows the refusal in a register of its own; people need an event.
     if (why.reason == Reason::none && result.outcome == Outcome::refused)
         why = {waiting.axis, result.reason == Reason::none ? Reason::internal : result.reason, result.text, {}, {}};
     if (waiting.who && why.reason != Reason::none) refused(*waiting.who, std::move(why), waiting.request, {}, port_.now());

@@ -1,5 +1,4 @@
-// Access service: a queue of hashes and one thread that is started with the first of them.
-// In and out: passwords in, hashes and records out. Never logs a password, a token or a code.
+// A queue of password hashes, and one thread that starts with the first of them. Passwords, tokens and codes are never logged.
 #include "gateway/runtime/access_service.hpp"
 
 #include <fmt/core.h>
@@ -53,7 +52,7 @@ std::string AccessService::load(Store& store, bool new_code, std::string& code) 
     if (!first) return "the users cannot be read: " + first.error().text;
     for (const auto& d : *users) {
         auto u = user_of(d.text);
-        // A user who cannot be read must not make room for a first sign-in.
+        // A user whose record cannot be read must not open the way to a first sign-in.
         if (!u) return fmt::format("the record of the user {} cannot be read: restore a backup", d.name);
         accounts_.load(std::move(*u));
     }
@@ -78,7 +77,7 @@ bool AccessService::code_is_kept() {
     if (std::exchange(keeping_code_, true)) return false;
     const bool queued = changes->run(
         [this](std::function<void()> done) {
-            if (accounts_.has_users()) {  // it was used already
+            if (accounts_.has_users()) {  // the code was used already
                 new_code_.reset();
                 return done();
             }

@@ -1,6 +1,6 @@
-// Access service: the HTTP door's AccessPort: users and tokens from the store, hashes on a thread of their own, records to the cold thread.
-// In: calls on the warm thread. Out: callbacks on the warm executor. Never computes a hash on the warm or the hot thread.
-// Bound: 8 hashes wait or run; one more is refused. The thread begins with the first hash: a gateway without sign-ins has none.
+// The HTTP door's AccessPort: users and tokens from the store, hashes on a thread of their own, records to the storage thread. Called on
+// the service thread, which also runs the callbacks. Bound: 8 hashes wait or run; further ones are refused. The thread starts with the
+// first hash, so a gateway without sign-ins has none.
 #pragma once
 
 #include <atomic>
@@ -17,8 +17,8 @@
 
 namespace axisgate {
 
-/// The session's cookie of the gateway whose data lie here: "axisgate_session_" and eight digits, the same after a restart, another one for
-/// every other gateway that a browser may reach under the same host name.
+/// The name of the session cookie for the gateway with this data directory: "axisgate_session_" and eight digits, the same after a restart,
+/// and different for every other gateway that a browser may reach under the same host name.
 [[nodiscard]] std::string session_cookie_of(const std::string& data_dir);
 
 class AccessService final : public AccessPort {
@@ -27,12 +27,12 @@ public:
     AccessService(boost::asio::io_context& warm, Cold& cold, AccessSettings settings, Note note);
     ~AccessService() override;
 
-    /// Reads what the store has; called before the threads run. Without users: makes the code of the first sign-in, if there is none yet
-    /// or `new_code`, and gives it in `code`, which is the only time it can be read. Empty: good; else what is wrong.
+    /// Reads the stored accounts; called before the threads run. Without users it makes the code of the first sign-in, if there is none yet
+    /// or `new_code` is set, and returns it in `code`, which is the only time at which it can be read. Empty if good, otherwise the fault.
     [[nodiscard]] std::string load(Store& store, bool new_code, std::string& code);
 
-    /// Whether the code of load() is on the disk, if it made one; asked until it is. Before that it is not used up: a start that does not
-    /// come so far leaves the next one to make and show another.
+    /// True if the code that load() made is on the disk; called until it is. Before that it is not valid: a start that fails earlier leaves
+    /// the next one to make and show another.
     [[nodiscard]] bool code_is_kept();
 
     [[nodiscard]] AccessRegister& accounts() override { return accounts_; }
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] bool compare(std::string password, std::string hash, std::function<void(bool)> then) override;
     void keep(std::vector<AccessRecord> records, std::string who, std::function<void(std::string)> then) override;
     void note(Event event) override { note_(std::move(event)); }
-    /// Waits for the hash that is being computed; the others are not begun.
+    /// Waits for the hash that is being computed; waiting ones are not started.
     void stop();
 
 private:

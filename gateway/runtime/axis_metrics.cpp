@@ -1,5 +1,5 @@
-// Axis metrics: one metric after the other, one line for each axis of which its value is known; the state has a line for each that there
-// is, the age is counted in seconds. In: pictures. Out: text. Never asks a drive.
+// One metric after the other, with one line for each axis whose value is known. The state has a line for each possible state; the age is in
+// seconds.
 #include "gateway/runtime/axis_metrics.hpp"
 
 #include <fmt/core.h>
@@ -11,7 +11,7 @@
 
 namespace axisgate {
 namespace {
-/// A label's value: quotes, backslashes and line ends would end it.
+/// Escapes a label's value: quotes, backslashes and line ends would end it.
 std::string label(std::string_view text) {
     std::string s;
     for (const char c : text) {
@@ -25,7 +25,7 @@ std::string label(std::string_view text) {
     return s;
 }
 
-/// Empty: it is no number.
+/// Empty if it is not a number.
 std::string number_text(const PointValue& value) {
     if (const auto* b = std::get_if<bool>(&value)) return *b ? "1" : "0";
     if (const auto* n = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *n);

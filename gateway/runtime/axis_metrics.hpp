@@ -1,5 +1,4 @@
-// Axis metrics: what the axes are doing, for /metrics.
-// In: the site, the pictures of its axes, the moment. Out: Prometheus text. Never invents a number: what is not known has no line.
+// The values of the axes for /metrics. An unknown value has no line.
 #pragma once
 
 #include <span>
@@ -11,7 +10,7 @@
 
 namespace axisgate {
 
-/// `pictures`: by index in site.site.axes. Positions and speeds are in the axis' unit, as over the API.
+/// `pictures` by index in site.site.axes. Positions and speeds are in the axis' unit, as in the API.
 [[nodiscard]] std::string axis_metrics(const SiteState& site, std::span<const AxisPicture> pictures, Instant now,
                                        AxisPointRows rows = axis_point_table);
 

@@ -1,6 +1,6 @@
-// Backup command: `axisgate backup` and `axisgate restore`: the whole gateway as one file, and back into its places on this host.
-// In: arguments. Out: what was made or replaced, on standard output; faults on standard error. Never replaces anything before all of the
-// backup was found good and every file that takes a place lies beside it; never takes a path from a backup without --with-config.
+// The commands `axisgate backup` and `axisgate restore`: the whole gateway as one file, and back to its places on this host. A restore
+// replaces nothing before the whole backup was checked and every new file lies beside its place, and uses paths of a backup only with
+// --with-config.
 #include <fmt/core.h>
 #include <pwd.h>
 #include <sys/stat.h>
@@ -27,7 +27,7 @@ namespace axisgate {
 namespace {
 namespace fs = std::filesystem;
 
-/// What --passphrase-file holds, without the end of its line; nothing: it was said why.
+/// The content of --passphrase-file, without its line end; empty: the fault was reported.
 std::optional<std::string> passphrase_in(const std::string& file) {
     if (file.empty()) return std::string();
     std::string fault;
@@ -43,7 +43,7 @@ std::optional<std::string> passphrase_in(const std::string& file) {
     return std::nullopt;
 }
 
-/// `what` has not happened.
+/// Reports that `what` has failed.
 int failed(const BackupFault& f, const std::string& what) {
     switch (f.kind) {
         case BackupFault::Kind::cannot_read:
@@ -63,7 +63,7 @@ int failed(const BackupFault& f, const std::string& what) {
     return exit_failed;
 }
 
-/// A folder in which a backup is spread out, gone with this.
+/// A temporary folder with the content of a backup, removed by the destructor.
 class Spread {
 public:
     explicit Spread(const std::string& data_dir) : folder_(fmt::format("{}/restore-check-{}", data_dir, ::getpid())) { clear(); }
@@ -80,7 +80,7 @@ private:
     std::string folder_;
 };
 
-/// Files of the host that take their places together: first each beside its place, then all of them.
+/// Files of the host that are replaced together: first each is put beside its place, then all are moved.
 class Places {
 public:
     ~Places() {
@@ -88,7 +88,7 @@ public:
         for (const auto& w : waiting_)
             fs::remove(w.beside, ec);
     }
-    /// Empty, or why it cannot be. What is there already with the same bytes stays.
+    /// Empty, or the reason why it is impossible. An identical existing file is kept.
     [[nodiscard]] std::string prepare(const std::string& from, const std::string& place, const std::string& owner_of) {
         std::string fault, ignored;
         const auto bytes = read_file(from, fault, most_file_bytes);
@@ -109,14 +109,14 @@ public:
             give(beside, owner_of);
             return {};
         }
-        // As the file that was there: the configuration is for all to read, a key is not.
+        // The mode of the existing file is kept: the configuration is readable by all, a key is not.
         if (::chmod(beside.c_str(), st.st_mode & 07777) != 0) return fmt::format("cannot set the mode of {}", beside);
         if (::geteuid() == 0) {
             [[maybe_unused]] const int r = ::chown(beside.c_str(), st.st_uid, st.st_gid);
         }
         return {};
     }
-    /// Each into its place, what was there beside it under the first free number. What could not be done is told.
+    /// Moves each file into its place; an existing file is kept beside it under the first free number. Failures are reported.
     [[nodiscard]] bool take() {
         bool good = true;
         for (const auto& w : waiting_) {
@@ -141,7 +141,7 @@ private:
     struct Waiting {
         std::string beside, place;
     };
-    /// A new file is the service's, as the data directory is: `sudo axisgate restore` must not lock it out.
+    /// A new file belongs to the service like the data directory, so that `sudo axisgate restore` does not lock it out.
     static void give(const std::string& path, const std::string& owner_of) {
         struct stat st {};
         if (::geteuid() == 0 && ::stat(owner_of.c_str(), &st) == 0) {
@@ -151,7 +151,7 @@ private:
     std::vector<Waiting> waiting_;
 };
 
-/// Who restores: the person behind sudo, or the user of this process.
+/// The name of the person who restores: the user behind sudo, or the user of this process.
 std::string who_restores() {
     const char* name = std::getenv("SUDO_USER");
     if (!name || !*name) {
@@ -161,7 +161,7 @@ std::string who_restores() {
     return fmt::format("axisgate restore {}", *name ? std::string(name) : fmt::format("uid {}", ::getuid()));
 }
 
-/// Where links lead is what counts.
+/// Links are followed.
 bool lies_below(const fs::path& place, const fs::path& folder) {
     std::error_code ec;
     const auto real = fs::weakly_canonical(fs::absolute(place, ec), ec), base = fs::weakly_canonical(fs::absolute(folder, ec), ec);
@@ -170,8 +170,7 @@ bool lies_below(const fs::path& place, const fs::path& folder) {
     return in_base == base.end() && in_real != real.end();
 }
 
-/// Empty, or why these bytes are not what the member is called: certificates, keys and signed documents are text in the form of PEM or
-/// MIME.
+/// Empty, or the reason why the bytes do not fit the member's name: certificates, keys and signed documents are text in PEM or MIME form.
 std::string wrong_form(std::string_view member, const std::string& bytes) {
     const bool text =
         std::ranges::all_of(bytes, [](unsigned char c) { return (c >= 0x20 && c < 0x7F) || c == '\n' || c == '\r' || c == '\t'; });
@@ -181,7 +180,7 @@ std::string wrong_form(std::string_view member, const std::string& bytes) {
     return {};
 }
 
-/// `shown`: the name of the file for the person who restores.
+/// `shown` is the name of the file for messages.
 int put_database(const std::string& file, const std::string& shown, const Config& config, std::string& kept) {
     StoreOptions options;
     options.directory = config.data_dir;
@@ -210,7 +209,7 @@ void print_restored(const Config& config, const std::string& kept) {
     fmt::print("{}\n", restore_warning);
 }
 
-/// The configuration that holds from now on: this host's, or the one of the backup read as this host would.
+/// The configuration that applies from now on: this host's, or that of the backup as this host would read it.
 bool configuration_of(const RestoreOptions& options, const ConfigSources& sources, const std::string& folder, Config& config) {
     if (!options.with_config) return true;
     std::string fault;
@@ -229,8 +228,8 @@ bool configuration_of(const RestoreOptions& options, const ConfigSources& source
     return faults.empty();
 }
 
-/// Whoever made the backup says with its configuration where files go, and this may run as root: places outside the folder of the
-/// configuration are shown, and taken only when they are confirmed.
+/// The configuration of a backup determines where files are written, possibly as root. Places outside the folder of the configuration are
+/// shown, and used only after a confirmation.
 bool may_take_places(const RestoreOptions& options, const ConfigSources& sources, const BackupContents& contents, const Config& config,
                      const std::string& own_data) {
     std::error_code ec;
@@ -256,7 +255,7 @@ bool may_take_places(const RestoreOptions& options, const ConfigSources& sources
     return false;
 }
 
-/// Everything but the database, beside its place; empty, or what is wrong.
+/// Puts everything except the database beside its place; empty, or the fault.
 std::string prepare_files(const BackupContents& contents, const std::string& folder, const BackupPlan& plan, const Config& config,
                           Places& places, std::vector<std::string>& not_taken) {
     for (const auto& member : contents.members) {
@@ -302,7 +301,7 @@ int command_restore(Config config, const ConfigSources& sources, const RestoreOp
     std::error_code ec;
     std::string kept;
     if (!fs::exists(file, ec) || backup_form_of_file(file) == BackupForm::database || backup_form_of_file(file) == BackupForm::none) {
-        // A plain database, or what the store has the better words for.
+        // A plain database, or a file for which the store has the better message.
         if (options.with_config) {
             complain(fmt::format("{} is a database alone: there is no configuration in it", file));
             return exit_usage;

@@ -1,5 +1,5 @@
-// Backup file: contents first, so that a newer form is told at once; checksums last, in the form of sha256sum, so that people without this
-// program can unpack and check it. In: members, streams. Out: streams, files. Never reads a size that the contents did not name.
+// The contents list comes first, so that a newer form is recognized at once; the checksums come last, in the form of sha256sum, so that
+// people can unpack and check a backup without this program. Only sizes that the contents list names are read.
 #include "gateway/runtime/backup_file.hpp"
 
 #include <fmt/core.h>
@@ -75,7 +75,7 @@ BackupResult<> write_text(ByteSink& to, std::string_view name, std::string_view 
 tl::unexpected<BackupFault> damaged(std::string text) { return backup_fault(Kind::damaged, std::move(text)); }
 constexpr std::string_view cut_short = "it is cut short";
 
-/// One archive that is read, from its beginning to its end.
+/// Reads one archive from its beginning to its end.
 class Reader {
 public:
     Reader(ByteSource& from, std::string folder) : from_(from), folder_(std::move(folder)) {}
@@ -232,7 +232,7 @@ private:
     std::vector<std::pair<std::string, std::string>> sums_;
 };
 
-/// What a sealed one holds, in the open.
+/// Copies the decrypted content of a sealed one.
 BackupResult<> copy_all(ByteSource& from, FileSink& to) {
     std::string part(copied_at_once, '\0');
     for (;;) {
@@ -269,7 +269,7 @@ BackupResult<> write_backup(ByteSink& to, BackupContents contents, const std::ve
         if (auto r = to.write(tar_header(members[i].name, sizes[i], at)); !r) return r;
         Sum sum;
         std::uint64_t done = 0;
-        while (done <= sizes[i]) {  // one read more than needed: it finds the end, or that the file has grown
+        while (done <= sizes[i]) {  // one more read than necessary finds the end, or that the file has grown
             const auto n = files[i]->read(part);
             if (!n) return tl::unexpected(n.error());
             if (*n == 0) break;

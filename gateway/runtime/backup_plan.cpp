@@ -1,5 +1,5 @@
-// Backup plan: a copy of the database first, then the archive of it and the host's files, then the check of the archive, then its name.
-// In: the configuration's paths. Out: the file. Never takes a member's place on the host from a backup: it is this host's own.
+// Makes a copy of the database, then the archive with it and the host's files, then checks the archive, then renames it. The places of
+// members are those of this host, never those in a backup.
 #include "gateway/runtime/backup_plan.hpp"
 
 #include <fmt/core.h>
@@ -65,7 +65,7 @@ BackupResult<BackupContents> make_backup(const BackupPlan& plan, const BackupOrd
         if (std::string fault = passphrase_fault(order.passphrase); !fault.empty())
             return backup_fault(Kind::passphrase_unfit, std::move(fault));
     }
-    static std::atomic<unsigned> count{0};  // two backups to one name at once must not share their unfinished files
+    static std::atomic<unsigned> count{0};  // two simultaneous backups to one name must not share their unfinished files
     const std::string part = fmt::format("{}.{}-{}", target, ::getpid(), ++count);
     const std::string database = part + ".db.part", archive = part + ".part";
 
@@ -77,7 +77,7 @@ BackupResult<BackupContents> make_backup(const BackupPlan& plan, const BackupOrd
     for (const auto name : backup_members) {
         const auto place = place_of(name, plan);
         if (!place) continue;
-        if (name.starts_with("http-") && !std::filesystem::exists(*place, ec)) continue;  // none was made
+        if (name.starts_with("http-") && !std::filesystem::exists(*place, ec)) continue;  // there is no such certificate
         if (name.ends_with("key.pem") && !order.keys) {
             contents.left_out.emplace_back(name,
                                            "private keys go into a backup that is sealed with a passphrase, or made by `axisgate backup`");

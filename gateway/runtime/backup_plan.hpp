@@ -1,6 +1,5 @@
-// Backup plan: which files of this host belong into a backup, where each is, and the backup itself.
-// In: the configuration. Out: a file that was read back and found good, or why not. Never leaves a half-made file behind, and never says
-// that a backup is good which lacks a file that the configuration names.
+// The files of this host that belong to a backup, and the making of the backup. It is read back and checked; no unfinished file is left,
+// and a backup without a file that the configuration names does not count as good.
 #pragma once
 
 #include <optional>
@@ -14,17 +13,17 @@ namespace axisgate {
 
 struct BackupPlan {
     std::string data_dir;
-    std::string config_file;        ///< empty: it was started without one
-    std::string tls_cert, tls_key;  ///< empty: none of its own
+    std::string config_file;        ///< empty: the program was started without one
+    std::string tls_cert, tls_key;  ///< empty: not configured
     std::string dds_dir;            ///< of [dds] security; empty: off
 };
 [[nodiscard]] BackupPlan backup_plan(const Config& config, const std::string& config_file);
-/// The path of a member on the host of this plan; nothing: this host has no place for it. The database's is the store's alone.
+/// The path of a member on this host; empty if the host has no place for it. The database belongs to the store.
 [[nodiscard]] std::optional<std::string> place_of(std::string_view member, const BackupPlan& plan);
 
 struct BackupOrder {
     std::string passphrase;  ///< empty: not sealed
-    bool keys = true;        ///< private keys too
+    bool keys = true;        ///< include private keys
 };
 /// Makes `target` (mode 0600, replacing an older one). Works while the gateway runs. A crash leaves files `target.*.part`.
 [[nodiscard]] BackupResult<BackupContents> make_backup(const BackupPlan& plan, const BackupOrder& order, const std::string& target);

@@ -1,5 +1,4 @@
-// Backup stream: the system's calls, each repeated when a signal came between.
-// In: paths, bytes. Out: bytes, faults with the system's reason. Never follows a link where a file is to be made.
+// The system's calls, repeated when a signal interrupts them. Links are not followed where a file is made.
 #include "gateway/runtime/backup_stream.hpp"
 
 #include <fcntl.h>

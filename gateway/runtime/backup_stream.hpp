@@ -1,6 +1,5 @@
-// Backup stream: bytes of a backup in their order, from and to a file or a text, with one kind of fault for all that is done with them.
-// In: paths, texts. Out: bytes, or a BackupFault. Never holds more of a file than it is asked for; a file that is made is readable by this
-// user alone from its first moment.
+// The bytes of a backup in order, from and to a file or a text, with one kind of fault for all operations. Only the requested part of a
+// file is in memory; a new file is readable only by this user from its first moment.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +13,17 @@ namespace axisgate {
 
 struct BackupFault {
     enum class Kind : std::uint8_t {
-        damaged,            ///< cut short, altered, or not what its checksums say
-        not_ours,           ///< no backup at all
+        damaged,            ///< truncated, altered, or different from its checksums
+        not_ours,           ///< not a backup
         newer,              ///< of a form that this program does not know
-        passphrase_needed,  ///< it is sealed, and none was given
+        passphrase_needed,  ///< it is sealed, and no passphrase was given
         passphrase_wrong,
-        passphrase_unfit,  ///< to seal with: too easily guessed
-        cannot_read,       ///< a file that belongs into it, or the backup itself
-        cannot_write       ///< no room, no right, a disk that fails
+        passphrase_unfit,  ///< too easy to guess
+        cannot_read,       ///< a member, or the backup itself
+        cannot_write       ///< no space, no permission, a failing disk
     };
     Kind kind = Kind::damaged;
-    std::string text;  ///< what is wrong and with what; may name files of this machine if the kind is cannot_read or cannot_write
+    std::string text;  ///< the fault and its object; may name files of this machine if the kind is cannot_read or cannot_write
 };
 template <class T = void>
 using BackupResult = tl::expected<T, BackupFault>;
@@ -35,7 +34,7 @@ using BackupResult = tl::expected<T, BackupFault>;
 class ByteSource {
 public:
     virtual ~ByteSource() = default;
-    /// Fills `into`; fewer bytes are the end.
+    /// Fills `into`; fewer bytes mean the end.
     [[nodiscard]] virtual BackupResult<std::size_t> read(std::span<char> into) = 0;
 };
 class ByteSink {
@@ -55,7 +54,7 @@ private:
 
 class FileSource final : public ByteSource {
 public:
-    /// A regular file; a pipe is not waited for.
+    /// A regular file; pipes are refused.
     [[nodiscard]] static BackupResult<std::unique_ptr<FileSource>> open(const std::string& path);
     ~FileSource() override;
     FileSource(const FileSource&) = delete;
@@ -72,13 +71,13 @@ private:
 
 class FileSink final : public ByteSink {
 public:
-    /// Makes the file in the place of an older one, mode 0600; when root makes it, it belongs to the owner of the folder that it is in.
+    /// Makes the file, replacing an older one, mode 0600; if root makes it, it belongs to the owner of its folder.
     [[nodiscard]] static BackupResult<std::unique_ptr<FileSink>> create(const std::string& path);
     ~FileSink() override;
     FileSink(const FileSink&) = delete;
     FileSink& operator=(const FileSink&) = delete;
     [[nodiscard]] BackupResult<> write(std::string_view bytes) override;
-    /// On the disk.
+    /// Makes the file durable.
     [[nodiscard]] BackupResult<> finish();
 
 private:

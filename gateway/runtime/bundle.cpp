@@ -1,5 +1,5 @@
-// Bundle: what a supporter asks for, in one archive, without secrets. In: files, the database read-only, HTTP on this machine. Out: a tar.
-// Bounds: 10,000 events, the last 1 MiB of the log; of pages those of own_page.hpp.
+// Collects the data for support in one archive without secrets: files, the database (read-only), pages of the gateway on this machine.
+// Bounds: 10,000 events, the last 1 MiB of the log; for pages those of own_page.hpp.
 #include "gateway/runtime/bundle.hpp"
 
 #include <fmt/core.h>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_events = 10'000, most_log = 1u << 20;
 
-/// The last bytes of a file; files of /proc have no length and are read from their beginning.
+/// The last bytes of a file; files of /proc have no length and are read from the beginning.
 std::string tail_of_file(const std::string& path, std::size_t most = most_log) {
     std::ifstream file(path, std::ios::binary);
     file.seekg(0, std::ios::end);

@@ -1,6 +1,5 @@
-// Bundle: what somebody needs who is to help from afar, as one tar, without anything that opens a door.
-// In: the configuration's sources, the data directory, the gateway's own pages where it runs. Out: the archive.
-// Never holds users, tokens, sessions, certificates or keys; every text goes through scrub(). Never changes anything.
+// The data for remote support as one tar: configuration, database, and the gateway's own pages if it runs. It never contains users, tokens,
+// sessions, certificates or keys, and every text passes scrub().
 #pragma once
 
 #include <string>
@@ -9,7 +8,8 @@
 
 namespace axisgate {
 
-/// The archive's bytes. What cannot be had is named in its README.txt, and is no fault: a gateway that does not start needs help most.
+/// The archive's bytes. Missing parts are listed in its README.txt and are no fault, because a gateway that does not start needs support
+/// most.
 [[nodiscard]] std::string make_bundle(const ConfigSources& sources, const Config& config);
 
 }  // namespace axisgate

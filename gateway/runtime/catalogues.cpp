@@ -1,5 +1,4 @@
-// Catalogues: parses schema/families/<family>.json as it was built in; a family whose page has a fault is left out, and the fault is told.
-// In: assets. Out: families with their catalogues, faults in words. Never reads twice.
+// Parses schema/families/<family>.json as embedded in the program. A family whose page has a fault is left out, and the fault is reported.
 #include "gateway/runtime/catalogues.hpp"
 
 #include <memory>

@@ -1,5 +1,5 @@
-// Clock: the one place where the time of this machine is read.
-// In: nothing. Out: instants on the monotonic line, and their wall-clock time. Never goes backwards; wall-clock jumps are followed.
+// The only place where the time of this machine is read: instants on the monotonic line, which never decrease, and their wall-clock time,
+// which follows changes of the wall clock.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace axisgate {
 [[nodiscard]] inline std::int64_t unix_now_ns() noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
-/// Wall-clock time of a monotonic instant, by the difference of the two clocks now.
+/// Wall-clock time of a monotonic instant, by the present difference of the two clocks.
 [[nodiscard]] inline std::int64_t unix_ns_of(Instant t) noexcept { return unix_now_ns() + (t - monotonic_now()).count(); }
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Cold: gathers what came in since the last write into one transaction, writes it, and says so.
-// In: orders of two threads. Out: what was stored, faults. Never holds more than its mailboxes' bounds plus one batch.
+// Collects the rows since the last write into one transaction, writes it, and reports the result. It never holds more than its mailboxes'
+// bounds plus one batch.
 #include "gateway/runtime/cold.hpp"
 
 #include "gateway/runtime/clock.hpp"
@@ -7,10 +7,10 @@
 
 namespace axisgate {
 namespace {
-// At 64 commands per axis and 64 axes this is more than can be on the way; beyond it the write fails with a reason.
+// With 64 commands per axis and 64 axes this is more than the possible number of outstanding writes; beyond it a write fails with a reason.
 constexpr std::size_t hot_ring = 8192;
-constexpr std::size_t service_ring = 1024;  // events alone
-// A batch of this many rows is not gathered any longer.
+constexpr std::size_t service_ring = 1024;  // only events
+// A batch of this many rows is written without further waiting.
 constexpr std::size_t gathered_at_most = 1024;
 }  // namespace
 
@@ -27,20 +27,20 @@ Cold::~Cold() { stop(); }
 void Cold::start() {
     thread_ = std::thread([this] {
         enter_thread("axisgate-cold", cold_stands_back);
-        take_short_turns(cold_turn_ns);  // to give way costs the rest of a turn
+        take_short_turns(cold_turn_ns);  // giving way costs the rest of a turn
         io_.run();
     });
 }
 
 void Cold::stop() {
     if (!thread_.joinable()) return;
-    boost::asio::post(io_, [this] {  // what is gathered is not waited for any longer
+    boost::asio::post(io_, [this] {  // collected rows are written at once
         stopping_ = true;
         bell_.answer();
         bell_.end();
         if (write_at_ != never) write_at(monotonic_now());
     });
-    work_.reset();  // what is posted already is still done
+    work_.reset();  // jobs that were posted already are still carried out
     thread_.join();
 }
 
@@ -66,20 +66,20 @@ void Cold::take(ColdJob&& job) {
     }
     if (auto* s = std::get_if<ParameterSeen>(&job)) seen_.push_back(std::move(*s));
     if (auto* t = std::get_if<TwinMemory>(&job)) twins_.push_back(std::move(*t));
-    // Somebody waits for a parameter; a twin's memory is a drive's EEPROM; a warning is for the page: they go at once, and what was
-    // gathered goes with them.
+    // A client waits for a parameter; a twin's memory is a drive's EEPROM; a warning is for the page: these are written at once, together
+    // with the collected rows.
     urgent = urgent || !orders_.empty() || !twins_.empty() || events_.size() + seen_.size() >= gathered_at_most;
     write_at(urgent ? Instant{} : written_ + cold_gathers);
 }
 
-/// Sets the one timer, or brings it forward: everything that the mailbox hands over in one go is one batch even when it is due at once.
+/// Sets the one timer, or advances it: everything that the mailbox delivers at once is one batch even if it is due at once.
 void Cold::write_at(Instant when) {
     if (write_at_ <= when) return;
     write_at_ = when;
     timer_.expires_at(
         std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(when.time_since_epoch())));
     timer_.async_wait([this](const boost::system::error_code& moved) {
-        if (!moved && write_at_ <= monotonic_now()) write_batch();  // else it had rung already when it was moved
+        if (!moved && write_at_ <= monotonic_now()) write_batch();  // otherwise the timer had expired already when it was moved
     });
 }
 
@@ -114,7 +114,7 @@ void Cold::write_batch() {
         healthy_.store(false, std::memory_order_relaxed);
         if (answers_.fault) answers_.fault(e.text);
     };
-    // Parameter writes are what a client waits for: events and values seen may be lost on a full disk, these must be reported.
+    // A client waits for parameter writes, so their failure must be reported; events and reported values may be lost on a full disk.
     bool good = true;
     if (const auto done = store_.commit(StoreBatch{writes, events, seen}); done) {
         if (!events.empty()) next_event_id_ = *done;
@@ -132,7 +132,7 @@ void Cold::write_batch() {
     if (good) healthy_.store(true, std::memory_order_relaxed);
     for (auto it = events.rbegin(); it != events.rend(); ++it) {
         const auto back = static_cast<std::uint64_t>(it - events.rbegin());
-        it->id = fault.empty() ? next_event_id_ - back : 0;  // 0: streamed, but not kept
+        it->id = fault.empty() ? next_event_id_ - back : 0;  // 0: streamed, but not stored
     }
     batches_.fetch_add(1, std::memory_order_relaxed);
     const Duration took = monotonic_now() - begun;

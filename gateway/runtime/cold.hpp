@@ -1,8 +1,7 @@
-// Cold: the thread that waits for the disk, so that nobody else has to.
-// In: store orders, events, twin memories, sites, from the hot and the warm thread. Out: what was stored, or why not.
-// Never called back from inside another room: answers go through mailboxes. Never writes oftener than it must: what nobody waits for is
-// gathered, so that a controller that sets a target every few milliseconds does not wear the disk with a transaction each. Never gathers
-// what somebody should see: a warning goes at once, and who reads events has them written first (`flush`).
+// The thread that waits for the disk: it stores parameter writes, events, twin memories and sites for the hot and the service thread, and
+// reports the result through mailboxes. Rows for which nobody waits are collected, so that a controller that sets a target every few
+// milliseconds does not wear out the disk with a transaction each. Warnings are written at once, and a reader of events has them written
+// first (`flush`).
 #pragma once
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -34,17 +33,18 @@ using ColdJob = std::variant<StoreOrder, EventAt, TwinMemory, ParameterSeen>;
 
 struct Stored {
     Ticket order = no_ticket;
-    std::string fault;  ///< empty: on disk
+    std::string fault;  ///< empty: on the disk
 };
 
-/// Between two transactions that hold only what nobody waits for (events, values seen): the first of a quiet time is written at once.
+/// The time between two transactions that contain only rows for which nobody waits (events, reported values); the first one after a quiet
+/// time is written at once.
 inline constexpr Duration cold_gathers = std::chrono::milliseconds(50);
 
 class Cold {
 public:
     struct Answers {
-        std::function<void(std::vector<Stored>)> stored;  ///< called on the cold thread, once per batch
-        std::function<void(std::vector<Event>)> events;   ///< with ids, on disk or not
+        std::function<void(std::vector<Stored>)> stored;  ///< called on the storage thread, once per batch
+        std::function<void(std::vector<Event>)> events;   ///< with ids, whether they are on the disk or not
         std::function<void(std::string)> fault;           ///< the store failed: for the log
     };
     Cold(Store& store, Answers answers);
@@ -54,17 +54,17 @@ public:
     [[nodiscard]] Mailbox<ColdJob>& from_hot() noexcept { return from_hot_; }
     [[nodiscard]] Mailbox<ColdJob>& from_service() noexcept { return from_service_; }
     [[nodiscard]] boost::asio::io_context& context() noexcept { return io_; }
-    /// Runs a function on the cold thread (from the warm thread: sites, backups).
+    /// Runs a function on the storage thread (called from the service thread: sites, backups).
     void run(std::function<void(Store&)> job);
-    /// Writes what was pushed before, gathered or not, then calls `then` on the cold thread. From any thread.
+    /// Writes all earlier rows, collected or not, then calls `then` on the storage thread. From any thread.
     void flush(std::function<void()> then);
     void start();
-    /// Writes what is there and ends the thread.
+    /// Writes the remaining rows and ends the thread.
     void stop();
     [[nodiscard]] std::uint64_t batches() const noexcept { return batches_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t faults() const noexcept { return faults_.load(std::memory_order_relaxed); }
     [[nodiscard]] std::uint64_t write_ns() const noexcept { return write_ns_.load(std::memory_order_relaxed); }
-    /// Of each transaction. Any thread.
+    /// Durations of the transactions. Any thread.
     [[nodiscard]] const Histogram& batch_times() const noexcept { return batch_times_; }
     [[nodiscard]] bool healthy() const noexcept { return healthy_.load(std::memory_order_relaxed); }
 
@@ -84,8 +84,8 @@ private:
     std::vector<ParameterSeen> seen_;
     std::vector<TwinMemory> twins_;
     boost::asio::steady_timer timer_{io_};
-    Instant write_at_ = never;  ///< when the batch that is gathered is written
-    Instant written_{};         ///< when the last one was
+    Instant write_at_ = never;  ///< when the collected batch will be written
+    Instant written_{};         ///< when the last one was written
     bool stopping_ = false;
     std::uint64_t next_event_id_ = 1;
     std::atomic<std::uint64_t> batches_{0}, faults_{0}, write_ns_{0};

@@ -1,5 +1,4 @@
-// Commands: families, catalogue, check, health, bundle, pki.
-// In: arguments. Out: tables, CSV or JSON on standard output, faults on standard error, the exit code. Never starts a thread.
+// The commands families, catalogue, check, health, bundle and pki. No thread is started.
 #include "gateway/runtime/commands.hpp"
 
 #include <fmt/core.h>
@@ -96,7 +95,7 @@ std::optional<Families> families_or_complain() {
 constexpr std::string_view parameter_fields[] = {"id",      "name",   "group",   "type",        "unit",       "min",  "max",
                                                  "default", "access", "storage", "description", "addressing", "live", "allowed"};
 
-/// {"0": "off", "1": "on"} as "0 = off, 1 = on"; everything else as it stands.
+/// {"0": "off", "1": "on"} as "0 = off, 1 = on"; other values unchanged.
 std::string cell(std::string_view field, const json::value* v) {
     if (field != "allowed" || !v || !v->is_object()) return plain(v);
     std::string s;

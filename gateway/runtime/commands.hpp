@@ -1,6 +1,5 @@
-// Commands: the parts of `axisgate` that are not the service: tables, decoding, checking, backup, single twins.
-// In: arguments. Out: text on standard output, faults on standard error, an exit code (0 good, 1 failed, 2 wrong usage).
-// Never prints anything but what was asked for on standard output.
+// The commands of `axisgate` other than the service: tables, decoding, checking, backup, single twins. The result goes to standard output
+// and nothing else does; faults go to standard error. Exit code: 0 good, 1 failed, 2 wrong usage.
 #pragma once
 
 #include <string>
@@ -15,34 +14,34 @@ inline constexpr int exit_good = 0, exit_failed = 1, exit_usage = 2;
 
 struct ServeOptions {
     Config config;
-    std::string site_file;    ///< replaces the stored site when it is given
-    std::string config_file;  ///< that `config` was read from; goes into backups
+    std::string site_file;    ///< replaces the stored site if given
+    std::string config_file;  ///< the file from which `config` was read; included in backups
 };
 [[nodiscard]] int command_serve(const ServeOptions& options);
 
 [[nodiscard]] int command_families(const std::string& format);
 [[nodiscard]] int command_catalogue(const std::string& family, const std::string& what, const std::string& format);
 [[nodiscard]] int command_decode(const std::string& family, const std::string& format, const std::string& file);
-/// Plays a recording (.axr) again and prints where this program does otherwise.
+/// Plays a recording (.axr) again and prints the differences of this program.
 [[nodiscard]] int command_replay(const std::string& file);
-/// Reads configuration and site as `serve` would; prints every fault with file, line and remedy. `all_read` false: a file of the sources
-/// could not be read, which has been said already.
+/// Reads configuration and site as `serve` would, and prints every fault with file, line and remedy. `all_read` false: a file of the
+/// sources could not be read, which was reported already.
 [[nodiscard]] int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read = true);
 /// `passphrase_file` empty: not sealed.
 [[nodiscard]] int command_backup(const Config& config, const std::string& config_file, const std::string& file,
                                  const std::string& passphrase_file);
-/// Asks the gateway of this configuration whether it is well: its word on standard output, and the exit code.
+/// Asks the gateway of this configuration for its readiness: its text on standard output, and the exit code.
 [[nodiscard]] int command_health(const Config& config);
-/// Writes a support bundle; `sources` are those that `config` was read from.
+/// Writes a support bundle; `config` was read from `sources`.
 [[nodiscard]] int command_bundle(const ConfigSources& sources, const Config& config, const std::string& file);
-/// Makes the certificates of a DDS domain; prints the folders that were made.
+/// Makes the certificates of a DDS domain and prints the new folders.
 [[nodiscard]] int command_pki(const PkiOptions& options);
 struct RestoreOptions {
     std::string file, passphrase_file;
-    bool with_config = false;     ///< the configuration of the backup takes the place of this host's, and its paths hold
-    bool confirm_places = false;  ///< with_config: places outside the folder of the configuration are taken, too
+    bool with_config = false;     ///< the configuration of the backup replaces that of this host, and its paths apply
+    bool confirm_places = false;  ///< with_config: places outside the folder of the configuration are used, too
 };
-/// `sources` are those that `config` was read from.
+/// `config` was read from `sources`.
 [[nodiscard]] int command_restore(Config config, const ConfigSources& sources, const RestoreOptions& options);
 
 struct TwinOptions {
@@ -58,7 +57,7 @@ struct TwinOptions {
 
 /// "axisgate: TEXT" on standard error.
 void complain(const std::string& text);
-/// "PLACE: what is wrong; what to do", with "warning: " in front of what goes on without it.
+/// "PLACE: the fault; the remedy", with "warning: " before faults that `serve` tolerates.
 void complain(const ConfigFault& fault);
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Configuration against this host: tries what rights alone do not tell (a full or read-only disk, /proc).
-// In: a Config. Out: faults. A log file or folder that is not there yet is made and taken away again. Never leaves a file behind.
+// Tries operations whose success permissions do not show (a full or read-only disk, /proc). A log file or folder that does not exist is
+// made and removed again.
 #include "gateway/runtime/config_host.hpp"
 
 #include <fcntl.h>
@@ -17,8 +17,8 @@ namespace axisgate {
 namespace {
 namespace fs = std::filesystem;
 
-/// Why a file cannot be opened for writing; empty: it can. Folders that are missing are made by the log itself: then the one above must
-/// take them.
+/// The reason why a file cannot be opened for writing; empty: it can. The log makes missing folders itself, so the existing one above them
+/// must be writable.
 std::string why_not_writable(const fs::path& file) {
     std::error_code ec;
     if (fs::is_directory(file, ec)) return "it is a folder";
@@ -49,7 +49,7 @@ std::string processors(const cpu_set_t& set) {
     return s;
 }
 
-/// A door that others reach and that lets everybody in.
+/// Warns of a door that other machines can reach and that requires no sign-in.
 void warn_of_open_doors(const Config& c, std::vector<ConfigFault>& out) {
     const auto warn = [&out](std::string place, std::string text, std::string remedy) {
         ConfigFault f{std::move(place), std::move(text), std::move(remedy)};

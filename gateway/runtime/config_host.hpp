@@ -1,6 +1,5 @@
-// Configuration against this host: what the text of the configuration does not show: a log file that cannot be opened, a processor that is
-// not there. In: a Config. Out: faults, and warnings for what `serve` goes on without. Leaves no file behind.
-// Never starts anything: `serve` and `axisgate check` say the same by it.
+// Checks the configuration against this host: a log file that cannot be opened, a processor that does not exist. There are faults, and
+// warnings that `serve` tolerates; `serve` and `axisgate check` report the same. No file is left behind.
 #pragma once
 
 #include <vector>

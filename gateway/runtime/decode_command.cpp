@@ -1,6 +1,5 @@
-// Decode: turns a recorded line into readable exchanges, one line per message.
-// In: a candump log, hex lines, or a trace as JSON; from a file or standard input. Out: text. Never drops a line silently: what cannot be
-// read is said with its place.
+// Converts a recorded line to readable exchanges, one line per message: a candump log, hex lines, or a trace as JSON; from a file or
+// standard input. Lines that cannot be read are reported with their place.
 #include <fmt/core.h>
 
 #include <cstdio>

@@ -1,5 +1,4 @@
-// Descriptor limits: shares in proportion to what was wanted.
-// In: numbers. Out: numbers.
+// Divides the available descriptors in proportion to the configured numbers.
 #include "gateway/runtime/descriptor_limits.hpp"
 
 #include <fmt/core.h>
@@ -32,7 +31,7 @@ FittedShares fit_to_descriptors(const DoorShares& wanted, std::uint64_t hard_lim
 }
 
 namespace {
-/// To the hard one; how many there are now.
+/// Raises the limit to the hard one; returns the present number.
 std::uint64_t raise_descriptor_limit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return UINT64_MAX;

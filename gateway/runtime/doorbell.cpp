@@ -1,5 +1,4 @@
-// Doorbell: an eventfd that the receiver's io_context reads.
-// In: rings. Out: answers. Never blocks either side.
+// An eventfd that the receiver's io_context reads. Neither side blocks.
 #include "gateway/runtime/doorbell.hpp"
 
 #include <sys/eventfd.h>
@@ -41,7 +40,7 @@ void Doorbell::listen() {
 }
 
 void Doorbell::answer() {
-    // By index: an answer may make another call.
+    // By index, because an answer may make another call.
     for (std::size_t i = 0; i < calls_.size(); ++i) {
         Call& c = *calls_[i];
         if (c.rung_.load(std::memory_order_relaxed) && c.rung_.exchange(false, std::memory_order_acq_rel)) c.answer_();

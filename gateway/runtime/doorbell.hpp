@@ -1,8 +1,6 @@
-// Doorbell: how other threads wake the one of an io_context.
-// In: calls that are rung, from any thread. Out: the answer of each that was rung, on the receiver's thread.
-// Why not asio::post: it wakes the receiver while it holds the io_context's mutex. A receiver that goes first takes the processor from
-// whoever woke it, and then waits for that mutex until the other one has its turn again: on a busy machine for milliseconds. Here nobody
-// holds anything: a word that both write, and a descriptor of the kernel's.
+// Wakes the thread of an io_context from other threads. asio::post is not used, because it wakes the receiver while it holds the
+// io_context's mutex: a receiver of higher priority takes the processor from the sender and then waits for that mutex until the sender runs
+// again, on a busy machine for milliseconds. Here no lock is held: both sides write one word, and the kernel provides the descriptor.
 #pragma once
 
 #include <atomic>
@@ -16,20 +14,20 @@ namespace axisgate {
 
 class Doorbell {
 public:
-    /// Throws std::system_error where the process has no descriptor left, as the io_context itself does.
+    /// Throws std::system_error if the process has no descriptor left, like the io_context itself.
     explicit Doorbell(boost::asio::io_context& receiver);
     Doorbell(const Doorbell&) = delete;
     Doorbell& operator=(const Doorbell&) = delete;
     ~Doorbell();
 
-    /// One reason to be woken. Made and ended on the receiver's thread, or while that does not run; it does not outlive its bell.
+    /// One reason for waking. Made and destroyed on the receiver's thread, or while that does not run; it must not outlive its bell.
     class Call {
     public:
         Call(Doorbell& bell, std::function<void()> answer);
         ~Call();
         Call(const Call&) = delete;
         Call& operator=(const Call&) = delete;
-        /// Any thread. What is rung again before it was answered is answered once, and sees all that was done before either.
+        /// Any thread. If it is rung again before it was answered, it is answered once, after everything that was done before either call.
         void ring() noexcept {
             if (!rung_.exchange(true, std::memory_order_acq_rel)) bell_.wake();
         }
@@ -41,9 +39,9 @@ public:
         std::atomic<bool> rung_{false};
     };
 
-    /// Receiver's thread: what has been rung is answered now.
+    /// Receiver's thread: answers the calls that have been rung.
     void answer();
-    /// Receiver's thread: nothing is answered by itself any more, and the io_context need not wait for it.
+    /// Receiver's thread: ends the automatic answers, so that the io_context need not wait for them.
     void end();
 
 private:
@@ -52,9 +50,9 @@ private:
 
     boost::asio::posix::stream_descriptor descriptor_;
     int fd_;
-    std::uint64_t rings_ = 0;  ///< what the kernel has counted; nobody looks at it
+    std::uint64_t rings_ = 0;  ///< the kernel's count, which is not used
     bool ended_ = false;
-    std::vector<Call*> calls_;  ///< few: a mailbox each
+    std::vector<Call*> calls_;  ///< few: one per mailbox
 };
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Event outlet: the gap goes before the event that follows it.
-// In: events. Out: jobs for the storage thread. Never tells the same gap twice.
+// A gap is reported once, before the event that follows it.
 #include "gateway/runtime/event_outlet.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Event outlet: one thread's way to the storage for what happened; each thread has its own, so that no event crosses another one.
-// In: events with their instant. Out: pushed into that thread's ring. Full: counted; the next one that finds a place tells how many are
-// missing. Never waits.
+// The way of one thread's events to the storage; each thread has its own, so that their events need no lock. If the ring is full, events
+// are counted, and the next one that finds a place reports the number of missing ones.
 #pragma once
 
 #include <atomic>
@@ -11,11 +10,11 @@ namespace axisgate {
 
 class EventOutlet {
 public:
-    /// Before the first send(); without a ring events go nowhere.
+    /// Before the first send(); without a ring events are dropped.
     void connect(Mailbox<ColdJob>* ring) noexcept { ring_ = ring; }
-    /// The one thread that this outlet is of. The caller announces the ring.
+    /// Only on the thread of this outlet. The caller announces the ring.
     void send(Event event, Instant at);
-    /// Any thread: events that found the ring full, since the start.
+    /// Any thread: number of events that found the ring full, since the start.
     [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
 
 private:

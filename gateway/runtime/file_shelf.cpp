@@ -1,5 +1,4 @@
-// File shelf: what it does to the disk.
-// In: paths, bytes. Out: nothing half done; faults in words. Never throws.
+// The operations on the disk. They are complete or have no effect; faults are texts, and nothing throws.
 #include "gateway/runtime/file_shelf.hpp"
 
 #include <cerrno>
@@ -66,7 +65,7 @@ std::vector<std::string> names_in(const std::string& directory, std::string_view
     std::vector<std::string> names;
     std::error_code ec;
     for (const auto& entry : fs::directory_iterator(directory, ec)) {
-        if (entry.path().extension() == ".new") delete_from_disk(entry.path().string());  // a writing that was cut off
+        if (entry.path().extension() == ".new") delete_from_disk(entry.path().string());  // an interrupted write
         if (entry.path().extension() != suffix || !check_recording_name(entry.path().stem().string()).empty()) continue;
         if (names.size() < most) names.push_back(entry.path().stem().string());
     }

@@ -1,6 +1,6 @@
-// File shelf: a folder of named files of one kind, with what is known of each: looked through at the start, checked, written, handed out,
-// renamed, deleted on the disk's own thread. In: wishes of the service thread. Out: answers there, later. Never writes over a file that is
-// there, and never leaves half of one. Bounded: `most` files; how many bytes they may take is for who writes.
+// A folder of named files of one kind with their properties: scanned at the start; written, read, renamed and deleted on the disk's own
+// thread, with answers on the service thread. An existing file is never overwritten, and no incomplete file is left. Bounded by `most`
+// files; the caller limits the bytes.
 #pragma once
 
 #include <fmt/format.h>
@@ -22,14 +22,14 @@
 
 namespace axisgate {
 
-/// Empty, or why it is not on the disk; then nothing of it is.
+/// Empty, or the reason why it is not on the disk; then no part of it is.
 [[nodiscard]] std::string put_on_disk(const std::string& path, const std::string& directory, const std::string& bytes);
 [[nodiscard]] std::string rename_on_disk(const std::string& from, const std::string& to, const std::string& directory);
 [[nodiscard]] std::optional<std::string> read_whole(const std::string& path);
 /// The first megabyte.
 [[nodiscard]] std::string read_beginning(const std::string& path);
 void delete_from_disk(const std::string& path);
-/// Names of the files with this suffix, without it; writings that were cut off are deleted.
+/// Names of the files with this suffix, without it; interrupted writes are deleted.
 [[nodiscard]] std::vector<std::string> names_in(const std::string& directory, std::string_view suffix, std::size_t most);
 
 /// `Info` has `name`, `bytes`, `at_unix_ns` and `fault`.
@@ -39,12 +39,12 @@ public:
     using Then = std::function<void(RecordingFault)>;
     static constexpr std::size_t most = 100;
 
-    /// `kind`: what one is called, "recording".
+    /// `kind` is the name of one file, such as "recording".
     FileShelf(const WarmThreads& threads, boost::asio::thread_pool& disk, std::string kind, std::string suffix)
         : threads_(threads), disk_(disk), kind_(std::move(kind)), suffix_(std::move(suffix)) {}
 
-    /// What is known at once is of the beginning of each file. Then each is read whole, one after the other: one that is damaged behind it
-    /// says so.
+    /// The properties that are known at once come from the beginning of each file. Then each file is read completely, one after the other,
+    /// and damage is reported.
     void open(std::string directory, const std::function<Info(const std::string& path, std::string name)>& look) {
         directory_ = std::move(directory);
         for (auto& name : names_in(directory_, suffix_, most)) {
@@ -97,7 +97,7 @@ public:
         read<std::string>(
             name, [](std::string&& bytes) { return std::move(bytes); }, std::move(then));
     }
-    /// What `make` makes of its bytes, on the disk's thread; nothing: there is none.
+    /// The result of `make` from its bytes, on the disk's thread; empty if the file does not exist.
     template <class T, class Make>
     void read(const std::string& name, Make make, std::function<void(std::optional<T>)> then) {
         if (!kept_.contains(name)) return then(std::nullopt);
@@ -107,7 +107,7 @@ public:
             threads_.answer([then = std::move(then), made = std::move(made)]() mutable { then(std::move(made)); });
         });
     }
-    /// `change`: what else becomes of one that somebody has named.
+    /// `change` updates the properties of a renamed file.
     void rename(const std::string& name, const std::string& to, const std::function<void(Info&)>& change, Then then) {
         if (!kept_.contains(name)) return then({RecordingFault::Kind::no_such, ""});
         if (name == to) return then({});

@@ -1,5 +1,5 @@
-// Files: a file is written beside its place, flushed to disk, and moved over what was there; "-" reads standard input.
-// In: paths, text. Out: text, or a sentence with the system's reason. Never throws, and never reads beyond the limit that is given.
+// A file is written beside its place, flushed to the disk, and moved over an existing one; "-" reads standard input. Faults are texts with
+// the system's reason, and reads are limited.
 #include "gateway/runtime/files.hpp"
 
 #include <fcntl.h>

@@ -1,6 +1,4 @@
-// HotTurns: the timer, the sleep, and what they are measured by.
-// In: deadlines. Out: a loop that wakes, times of turns without the time that it slept.
-// Never counts a wait as work.
+// The timer and the sleep of the hot loop, and the measurement of turns without the time of the sleep.
 #include "gateway/runtime/hot_turns.hpp"
 
 #include <chrono>
@@ -33,8 +31,8 @@ void HotTurns::arm(Instant deadline) {
     });
 }
 
-/// The handler runs within the wait, and the turn begins with its first look at the time: the thread's processor time would say it more
-/// exactly, but asking for it costs two system calls for each sleep.
+/// The handler runs inside the wait, and the turn begins with its first reading of the time. The thread's processor time would be more
+/// exact, but costs two system calls for each sleep.
 void HotTurns::sleep() {
     asleep_ = true;
     io_.run_one();

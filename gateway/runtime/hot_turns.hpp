@@ -1,6 +1,5 @@
-// HotTurns: when the hot loop wakes, how long its turns take, how late its timer rings.
-// In: the loop's deadlines, beginnings and ends of turns. Out: one timer that rings in time, what others read of the turns.
-// Never decides what a turn does.
+// When the hot loop wakes, how long its turns take, and how late its timer is. It has one timer for the loop's deadlines, and the
+// measurements can be read by any thread.
 #pragma once
 
 #include <atomic>
@@ -18,7 +17,7 @@ public:
     HotTurns(boost::asio::io_context& io, Instant (*clock)() noexcept) : io_(io), clock_(clock) {}
 
     // --- the loop's thread ---
-    /// The time. The first look at it after a sleep is where the turn begins: all that a handler does begins with one.
+    // The time. The first reading after a sleep is the begin of the turn, because every handler begins with one.
     [[nodiscard]] Instant now() const noexcept {
         const Instant t = clock_();
         if (asleep_) {
@@ -27,27 +26,27 @@ public:
         }
         return t;
     }
-    /// Work begins, or went on until now without a sleep.
+    /// Work begins, or has continued until now without a sleep.
     void begin(Instant now) noexcept { began_ = now; }
     /// The work since then is a turn; the next one begins at once, unless the loop sleeps first.
     void end(Instant now) noexcept;
-    /// Everything that was ready at this instant has been done.
+    /// All work that was ready at this instant has been done.
     void count(Instant now) noexcept;
-    /// The loop lives: `last` counts from here.
+    /// The loop is alive: `last` counts from here.
     void live(Instant now) noexcept { last_ns_.store(ns_of(now), std::memory_order_relaxed); }
-    /// Sets the loop's one timer. One that rings too early costs a turn; so it is only moved forward in time when it must be.
+    /// Sets the loop's one timer. An early timer costs only a turn, so it is set anew only when it must be earlier.
     void arm(Instant deadline);
     [[nodiscard]] Instant armed() const noexcept { return armed_; }
     /// Waits for the next handler and runs it.
     void sleep();
 
     // --- any thread ---
-    /// Instant of the last turn: the watchdog looks at it.
+    // Instant of the last turn, for the watchdog.
     [[nodiscard]] Instant last() const noexcept { return at_ns(last_ns_.load(std::memory_order_relaxed)); }
     [[nodiscard]] std::uint64_t counted() const noexcept { return count_.load(std::memory_order_relaxed); }
     /// Work between two sleeps.
     [[nodiscard]] const Histogram& times() const noexcept { return times_; }
-    /// How long after its time the timer rang.
+    /// Delay of the timer.
     [[nodiscard]] const Histogram& wake_delays() const noexcept { return wake_delays_; }
 
 private:

@@ -1,5 +1,4 @@
-// Journal: systemd's socket in its own protocol. In: texts. Out: datagrams; values with line ends go with their length in front.
-// Never sends more than 64 KiB at once: a message is cut.
+// The socket of systemd's journal in its own protocol: values with line ends are preceded by their length. A message is cut at 64 KiB.
 #include "gateway/runtime/journal.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// Log: one line of text, or one datagram of the journal, for each event. In: lines and events. Out: text with time and level, or journal
-// fields. Two loggers share one end: the default one, whose lines are limited by their text, and one for events, limited by their cause.
+// One line of text, or one datagram of the journal, for each event. Two loggers share one sink: the default one, whose lines are limited by
+// their text, and one for events, which are limited by their cause.
 #include "gateway/runtime/log.hpp"
 
 #include <fmt/core.h>
@@ -48,7 +48,7 @@ class JournalSink final : public spdlog::sinks::base_sink<std::mutex> {
     void flush_() override {}
 };
 
-/// Every line goes through here: names and texts of strangers stay on their line and move no cursor.
+/// Every line passes this sink: names and texts of unknown origin stay on their line and cannot move the cursor.
 class PlainSink final : public spdlog::sinks::base_sink<std::mutex> {
 public:
     explicit PlainSink(spdlog::sink_ptr end) : end_(std::move(end)) {}
@@ -67,7 +67,7 @@ private:
     spdlog::sink_ptr end_;
 };
 
-/// Hands on what the limit allows.
+/// Passes on the lines that the limit allows.
 class LimitedSink final : public spdlog::sinks::base_sink<std::mutex> {
 public:
     explicit LimitedSink(spdlog::sink_ptr end) : end_(std::move(end)) {}

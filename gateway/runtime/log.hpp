@@ -1,5 +1,5 @@
-// Log: where the program's lines and its events go: standard error, a file, or systemd's journal with a field for each part of an event.
-// In: the configuration, events. Out: lines. Never lets one cause fill the log: see LogLimit.
+// The destination of the program's lines and events: standard error, a file, or systemd's journal with a field for each part of an event.
+// LogLimit prevents that one cause fills the log.
 #pragma once
 
 #include "gateway/core/event.hpp"
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-/// Makes spdlog's default logger. False: the file cannot be opened, which has been said.
+/// Makes spdlog's default logger. Returns false if the file cannot be opened, which was reported.
 [[nodiscard]] bool open_log(const Config& config);
 
 /// Writes events into the log.

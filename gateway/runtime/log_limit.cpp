@@ -1,5 +1,4 @@
-// Log limit: how often one cause is written in a period. In: causes. Out: verdicts. A cause is forgotten when its period is over.
-// Looks at all causes once a second at most. Never has a clock.
+// Counts the lines of each cause in a period. A cause is forgotten when its period is over; all causes are checked once a second at most.
 #include "gateway/runtime/log_limit.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Log limit: how often one cause may write into the log.
-// In: causes and instants. Out: whether to write, and what to tell of those that were held back. Never holds more than `most_causes`.
+// Limits the number of log lines per cause, and reports how many were suppressed. Bounded by `most_causes`; the time is an argument.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +13,17 @@ namespace axisgate {
 
 class LogLimit {
 public:
-    static constexpr std::size_t most_causes = 512;  ///< those beyond share one
-    static constexpr std::uint64_t at_once = 20;     ///< lines of one cause within `period`; the rest is counted
+    static constexpr std::size_t most_causes = 512;  ///< causes beyond this number share one entry
+    static constexpr std::uint64_t at_once = 20;     ///< lines of one cause within `period`; the others are counted
     static constexpr Duration period = std::chrono::seconds(10);
 
     struct HeldBack {
         std::string cause;
         std::uint64_t lines = 0;
     };
-    /// Whether this line is written.
+    /// True if this line is to be written.
     [[nodiscard]] bool allows(std::string_view cause, Instant now);
-    /// Causes whose period has ended and that held lines back: told once. To be called with each line.
+    /// Causes whose period has ended and that suppressed lines, each once. Must be called with each line.
     [[nodiscard]] std::vector<HeldBack> ended(Instant now);
 
 private:

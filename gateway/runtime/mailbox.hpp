@@ -1,6 +1,6 @@
-// Mailbox: a bounded ring from one thread to another, emptied by the receiver in batches when its doorbell rings.
-// In: items, pushed by one thread and announced once per turn. Out: one call of the receiver's handler with each, on its thread.
-// Never blocks and never grows: a full ring says so to the sender, who decides what that means.
+// A bounded ring from one thread to another. The sender announces new items once per turn, and the receiver's handler is called with each
+// on its own thread when the doorbell wakes it. It never blocks and never grows: the sender is informed of a full ring and decides what to
+// do.
 #pragma once
 
 #include <atomic>
@@ -18,11 +18,11 @@ namespace axisgate {
 template <class T>
 class Mailbox {
 public:
-    /// `handler` runs on the receiver's thread. The owner stops that before it ends the mailbox.
+    /// `handler` runs on the receiver's thread, which must be stopped before the mailbox is destroyed.
     Mailbox(std::size_t capacity, Doorbell& receiver, std::function<void(T&&)> handler)
         : ring_(capacity), spare_(capacity), handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
 
-    /// Sender's thread. False: full; the item is left as it was.
+    /// Sender's thread. False: full; the item is unchanged.
     [[nodiscard]] bool push(T&& item) {
         // spsc_queue moves only on success when the write is available.
         if (ring_.write_available() == 0) {
@@ -39,19 +39,19 @@ public:
         unannounced_ = true;
         return true;
     }
-    /// Sender's thread: something was pushed since the last announcement.
+    /// Sender's thread: an item was pushed since the last announcement.
     [[nodiscard]] bool unannounced() const noexcept { return unannounced_; }
-    /// Sender's thread, once per turn: wakes the receiver if something new is there and no wake-up is on its way.
+    /// Sender's thread, once per turn: wakes the receiver if there are new items and no wake-up is on its way.
     void announce() {
         if (!unannounced_) return;
         unannounced_ = false;
         call_.ring();
     }
-    /// Receiver's thread: the handler is called with each item that is there now. Done by itself after an announcement; called by the owner
-    /// where what was pushed must be seen although its announcement is still on its way.
+    /// Receiver's thread: calls the handler with each present item. This happens automatically after an announcement; the owner calls it
+    /// where items must be seen although their announcement is still on its way.
     void empty() {
         T* item = nullptr;
-        // Bounded: what arrives meanwhile is announced anew.
+        // Bounded: items that arrive meanwhile are announced again.
         for (std::size_t n = ring_.read_available(); n > 0 && ring_.pop(item); --n) {
             std::unique_ptr<T> place(item);
             T owned(std::move(*place));
@@ -61,7 +61,7 @@ public:
         if (ring_.read_available() > 0) call_.ring();
     }
 
-    /// Items that found the ring full, since the start.
+    /// Number of items that found the ring full, since the start.
     [[nodiscard]] std::uint64_t full() const noexcept { return full_.load(std::memory_order_relaxed); }
 
     ~Mailbox() {
@@ -74,7 +74,7 @@ public:
 
 private:
     boost::lockfree::spsc_queue<T*> ring_;
-    boost::lockfree::spsc_queue<T*> spare_;  ///< the other way: places that were emptied, so that no thread waits for another one's memory
+    boost::lockfree::spsc_queue<T*> spare_;  ///< the other direction: emptied places, so that no thread waits for another one's memory
     std::function<void(T&&)> handler_;
     std::atomic<std::uint64_t> full_{0};
     bool unannounced_ = false;

@@ -1,5 +1,4 @@
-// Memory file: an empty text is no memories; a number that does not fit is a fault and not the nearest one.
-// In: memories or text. Out: the other, or a sentence. Never throws.
+// An empty text means no memories; a number that does not fit is a fault and is not rounded.
 #include "gateway/runtime/memory_file.hpp"
 
 #include <fmt/core.h>

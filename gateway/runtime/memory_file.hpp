@@ -1,5 +1,4 @@
-// Memory file: twins' non-volatile memories as JSON, by address: {"5": {"AC": 5000, ...}}.
-// In: memories or text. Out: the other. Never guesses types: numbers, truth values and texts are kept as they are.
+// Twins' non-volatile memories as JSON, by address: {"5": {"AC": 5000, ...}}. Numbers, booleans and texts keep their types.
 #pragma once
 
 #include <map>
@@ -11,7 +10,7 @@
 namespace axisgate {
 
 [[nodiscard]] std::string memories_to_json(const std::map<std::string, NonVolatile>& memories);
-/// Empty: read. Else what is wrong with the text.
+/// Empty if read, otherwise the fault in the text.
 [[nodiscard]] std::string memories_from_json(std::string_view text, std::map<std::string, NonVolatile>& memories);
 
 }  // namespace axisgate

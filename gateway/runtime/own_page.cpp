@@ -1,5 +1,4 @@
-// Own page: the connection, with or without TLS, under one deadline.
-// In: an address of this machine. Out: the body. Never follows, decodes or keeps anything.
+// One connection, with or without TLS, under one deadline.
 #include "gateway/runtime/own_page.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +16,7 @@ namespace {
 constexpr std::size_t most_page_bytes = 4u << 20;
 constexpr auto page_deadline = std::chrono::seconds(1);
 
-/// What goes over the stream once it is open.
+/// The exchange over the open stream.
 template <class Stream, class End>
 void ask_page(Stream& stream, const std::string& request, std::string& answer, End end) {
     boost::asio::async_write(stream, boost::asio::buffer(request), [&stream, &answer, end](boost::system::error_code sent, std::size_t) {

@@ -1,6 +1,5 @@
-// Own page: one GET at the HTTP door of the gateway on this machine, for those of its commands that ask it something.
-// In: the configuration, a path. Out: the answer's body, or why there is none. Never signs in, waits for at most a second, and takes at
-// most 4 MiB.
+// One GET at the HTTP door of the gateway on this machine, for commands of the program. It does not sign in, waits for at most a second,
+// and reads at most 4 MiB.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@
 namespace axisgate {
 
 struct OwnPage {
-    std::string body;   ///< of a good answer, or of one with 503, which says what is missing
+    std::string body;   ///< of a good answer, or of a 503, which contains the reasons
     std::string fault;  ///< empty: good
-    int status = 0;     ///< 0: there was none
+    int status = 0;     ///< 0: there was no answer
 };
-/// With TLS as the door has it; the certificate is not looked at, because nothing is told to who answers.
+/// Uses TLS if the door does; the certificate is not checked, because no secret is sent.
 [[nodiscard]] OwnPage own_page(const Config& config, std::string_view path);
 
 }  // namespace axisgate

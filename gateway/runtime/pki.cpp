@@ -1,5 +1,5 @@
-// PKI: elliptic keys (P-256), X.509 certificates, documents signed in S/MIME, all by OpenSSL. A member's folder is made under another name
-// and put in place when it is whole. In: options, the time. Out: files. Never asks for a passphrase: gateways start alone.
+// Elliptic keys (P-256), X.509 certificates, documents signed in S/MIME, all by OpenSSL. A member's folder is made under another name and
+// renamed when it is complete. There is no passphrase, because gateways start unattended.
 #include "gateway/runtime/pki.hpp"
 
 #include <fmt/chrono.h>
@@ -70,7 +70,7 @@ bool add_extension(X509* c, X509* issuer, int nid, const char* value) {
     return e && X509_add_ext(c, e.get(), -1) == 1;
 }
 
-/// `issuer` null: it signs itself, and others.
+/// `issuer` null: a self-signed authority.
 Holder make_holder(const std::string& name, const Holder* issuer, Validity v) {
     Holder h;
     h.key.reset(EVP_EC_gen("P-256"));
@@ -135,7 +135,7 @@ std::string make_member(const PkiOptions& o, const std::string& name, const Hold
     const fs::path place = fs::path(o.dir) / name, beside = fs::path(o.dir) / (name + ".new");
     std::error_code ec;
     if (fs::exists(place, ec)) return fmt::format("{} is there already; move it away to make another one", place.string());
-    // No member outlives its authority: what it says would not be believed.
+    // No certificate of a member is valid longer than that of its authority, because it would not be accepted.
     std::tm end{};
     if (ASN1_TIME_to_tm(X509_get0_notAfter(authority.certificate.get()), &end) == 1) v.to = std::min<std::int64_t>(v.to, timegm(&end));
     if (v.to <= now) return fmt::format("the authority in {} has expired; make a new one in another folder", o.dir);

@@ -1,5 +1,4 @@
-// Process metrics: memory, threads and descriptors as Prometheus text. In: /proc/self. Out: text.
-// Never keeps anything between two calls.
+// Reads memory, threads and descriptors from /proc/self at each call.
 #include "gateway/runtime/process_metrics.hpp"
 
 #include <dirent.h>
@@ -18,7 +17,7 @@ namespace axisgate {
 namespace {
 double seconds_of(const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; }
 
-/// Entries of /proc/self/fd, without the one that counting needs; nothing: it cannot be read.
+/// Entries of /proc/self/fd, without the one that counting needs; empty if it cannot be read.
 std::uint64_t open_descriptors() {
     DIR* folder = ::opendir("/proc/self/fd");
     if (!folder) return 0;

@@ -1,5 +1,4 @@
-// Process metrics: what the process itself uses, under the names that Prometheus' own clients give them.
-// In: /proc/self and the kernel's account of it. Out: Prometheus text. Never waits for a disk; what cannot be read has no line.
+// The resources of the process, under the names that Prometheus' own clients use. A value that cannot be read has no line.
 #pragma once
 
 #include <string>

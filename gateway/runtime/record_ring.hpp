@@ -1,5 +1,5 @@
-// Record ring: records of the hot thread on their way to the service thread, as bytes in one ring that never grows.
-// In: records, from one thread. Out: the same, to another one. A record that finds no room is counted and lost. Never waits.
+// Records of the hot thread on their way to the service thread, as bytes in one ring that never grows. A record that finds no space is lost
+// and counted. Neither side waits.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ public:
     /// `size`: bytes, a power of two.
     explicit RecordRing(std::size_t size) : size_(size), bytes_(std::make_unique_for_overwrite<char[]>(size)) {}
 
-    /// Sender's thread. False: it is lost.
+    /// Sender's thread. Returns false if the record is lost.
     bool push(const FlightRecord& r) noexcept {
         const Head head{static_cast<std::uint32_t>(r.payload.size()), r.index, r.kind, ns_of(r.at)};
         const std::size_t need = sizeof head + r.payload.size();
@@ -32,7 +32,8 @@ public:
         end_.store(end + need, std::memory_order_release);
         return true;
     }
-    /// Receiver's thread: each record that is there now, at most so many; its payload holds for the call. True: that was all.
+    /// Receiver's thread: calls `f` with each present record, up to this number; its payload is valid during the call. Returns true if no
+    /// record is left.
     template <class F>
     bool empty(F&& f, std::size_t most = SIZE_MAX) {
         std::size_t begin = begin_.load(std::memory_order_relaxed);

@@ -1,5 +1,5 @@
-// Recording: within the format that is named each line is taken in every form of it: candump's log and screen, hex, the trace's text.
-// In: text of any origin. Out: frames, and what could not be read with its place. Never throws, whatever the text is.
+// Reads each line in every variant of the given format: candump's log and screen, hex, the text of a trace. The text may have any origin;
+// nothing throws.
 #include "gateway/runtime/recording.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +17,7 @@ namespace json = boost::json;
 
 constexpr std::string_view blanks = " \t";
 
-/// Takes the next word off the front; empty at the end.
+/// Removes the next word from the front; empty at the end.
 std::string_view take_word(std::string_view& rest) {
     const auto begin = std::min(rest.find_first_not_of(blanks), rest.size());
     const auto end = std::min(rest.find_first_of(blanks, begin), rest.size());
@@ -33,7 +33,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// Pairs of hex digits; between pairs blanks and : , . may stand.
+/// Pairs of hex digits, which may be separated by blanks and : , .
 std::optional<std::vector<std::uint8_t>> hex_bytes(std::string_view text) {
     std::vector<std::uint8_t> out;
     int high = -1;
@@ -97,7 +97,7 @@ bool read_frames(std::string_view text, RecordedFrame& r, const RecordingEvents&
     return true;
 }
 
-/// "(...)" at the front, which may have blanks in it.
+/// "(...)" at the front, which may contain blanks.
 bool take_stamp(std::string_view& rest, RecordedFrame& r) {
     if (!rest.starts_with('(')) return true;
     const auto close = rest.find(')');
@@ -107,7 +107,7 @@ bool take_stamp(std::string_view& rest, RecordedFrame& r) {
     return true;
 }
 
-/// `device > AA 05`, `twin < 04280095#01` behind stamp and line: trace_text's form.
+/// `device > AA 05`, `twin < 04280095#01` behind stamp and line: the form of trace_text.
 std::optional<bool> read_trace_text(std::string_view rest, RecordedFrame& r, const RecordingEvents& events) {
     const auto side = take_word(rest);
     if (side != "device" && side != "twin") return std::nullopt;

@@ -1,6 +1,5 @@
-// Replay command: `axisgate replay FILE`: a recording played again by this program, in virtual time.
-// In: a file of any origin. Out: a summary and each difference on standard output; exit code 0 if there is none. Never opens a line, and
-// never plays a file that is cut off, altered or of another version.
+// `axisgate replay FILE` plays a recording again with this program, in virtual time, and prints a summary and each difference; exit code 0
+// if there is none. No line is opened, and a file that is truncated, altered or of another version is refused.
 #include <fmt/core.h>
 
 #include <boost/json/parse.hpp>

@@ -1,4 +1,4 @@
-// Restore note: a small JSON document in the data directory. In: a note. Out: the file; later the event. What cannot be read is no note.
+// A small JSON document in the data directory. An unreadable one is ignored.
 #include "gateway/runtime/restore_note.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Scrub: one walk over the text; what looks like a secret is judged by its name, its form or its length.
-// In: text. Out: text. Never remembers anything between two texts.
+// One pass over the text; a secret is recognized by its name, its form or its length.
 #include "gateway/runtime/scrub.hpp"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace {
 constexpr std::string_view removed = "(removed)";
 constexpr std::array<std::string_view, 9> secret_words{"password", "passphrase",    "secret",     "token", "cookie",
                                                        "session",  "authorization", "credential", "psk"};
-constexpr std::size_t longest_run = 40;  // of what may be a key; identifiers of this program are shorter
+constexpr std::size_t longest_run = 40;  // of a possible key; identifiers of this program are shorter
 
 constexpr bool in_name(char c) { return is_letter(c) || is_digit(c) || c == '_' || c == '-' || c == '.'; }
 constexpr bool in_run(char c) { return is_letter(c) || is_digit(c) || c == '+' || c == '=' || c == '_' || c == '-'; }
@@ -28,7 +27,7 @@ bool is_code(std::string_view s) {
     return true;
 }
 
-/// Base64 of something random has letters of both kinds and few of its two signs; names of metrics and of adapters are not like that.
+/// Base64 of random data has letters of both cases and few of its two signs; names of metrics and adapters differ from this.
 bool is_key(std::string_view run) {
     constexpr std::ptrdiff_t most_signs = 6;
     if (std::ranges::count_if(run, [](char c) { return c == '_' || c == '-'; }) > most_signs) return false;
@@ -39,14 +38,14 @@ bool is_key(std::string_view run) {
 
 bool is_secret_name(std::string_view name) {
     const std::string low = lower(name);
-    // A time-out of sessions and a file's path are no secrets; what stands in the file is not in the text.
+    // A time-out of sessions and a file's path are no secrets.
     if (low.ends_with("_min") || low.ends_with("_max_h") || low.ends_with("_s") || low.ends_with("_key") || low.ends_with("_cert"))
         return false;
     return std::ranges::any_of(secret_words, [&](std::string_view w) { return low.find(w) != std::string::npos; });
 }
 
-/// Length of the value that begins here: a quoted text with its quotes, or up to the end of the word; behind "Bearer" and the like also the
-/// next.
+/// Length of the value that begins here: a quoted text with its quotes, or up to the end of the word; behind "Bearer" and the like
+/// including the next word.
 std::size_t value_length(std::string_view s) {
     if (s.empty() || s[0] == '\n') return 0;
     if (s[0] == '"' || s[0] == '\'') {
@@ -55,7 +54,7 @@ std::size_t value_length(std::string_view s) {
             i += s[i] == '\\' && i + 1 < s.size() && s[i + 1] != '\n' ? 2 : 1;
         return std::min(i + 1, s.size());
     }
-    if (s[0] == '{' || s[0] == '[') return 0;  // what is in it has names of its own
+    if (s[0] == '{' || s[0] == '[') return 0;  // its members have names of their own
     if (s.starts_with(removed)) return removed.size();
     for (const std::string_view scheme : {"bearer ", "basic "}) {
         if (lower(s.substr(0, scheme.size())) == scheme) return scheme.size() + value_length(s.substr(scheme.size()));

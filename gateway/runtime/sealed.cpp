@@ -1,5 +1,5 @@
-// Sealed: header, key, chunks. The key and the tag that knows it are two halves of what argon2id gives, so that trying passphrases costs
-// the same with either. In: bytes, passphrase. Out: bytes, faults. Keys are wiped when they are no longer needed.
+// Header, key, chunks. The key and the tag that identifies it are two halves of the output of argon2id, so that trying passphrases has the
+// same cost with either. Keys are wiped when they are not needed any more.
 #include "gateway/runtime/sealed.hpp"
 
 #include <fmt/core.h>
@@ -27,7 +27,7 @@ constexpr unsigned char this_version = 1, most_passes = 10;
 constexpr std::uint32_t least_memory_kib = 8, most_memory_kib = 262144;
 using SealHeader = std::array<unsigned char, header_bytes>;
 
-/// libsodium must be told to choose its implementations once; the call is safe from several threads.
+/// libsodium must be initialized once to choose its implementations; the call is safe from several threads.
 void sodium_ready() { [[maybe_unused]] static const bool good = sodium_init() >= 0; }
 
 struct SealKey {
@@ -37,7 +37,7 @@ struct SealKey {
     SealKey(const SealKey&) = delete;
     SealKey& operator=(const SealKey&) = delete;
     ~SealKey() { sodium_memzero(key.data(), key.size()); }
-    /// False: there is no memory for it.
+    /// Returns false if there is not enough memory.
     [[nodiscard]] bool derive(const std::string& passphrase, const SealHeader& h) {
         std::uint32_t kib = 0;
         for (std::size_t i = 4; i-- > 0;)
@@ -116,7 +116,7 @@ BackupResult<> Sealer::push(std::string_view chunk, bool last) {
 
 BackupResult<> Sealer::write(std::string_view bytes) {
     while (!bytes.empty()) {
-        if (waiting_.size() == chunk_bytes) {  // more follows, so it is not the last one
+        if (waiting_.size() == chunk_bytes) {  // more data follow, so this is not the last one
             if (auto r = push(waiting_, false); !r) return r;
             waiting_.clear();
         }

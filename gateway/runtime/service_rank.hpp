@@ -1,8 +1,7 @@
-// Service rank: how the service thread goes before other programs when it is woken, and never keeps a processor from them.
-// In: the clock, what the thread has used of its processor. Out: whether it may have a real-time rank. Pure.
-// Why: the kernel lets a waking thread of the normal policy wait behind whoever has had less than its share, and its own threads hold a
-// processor for a millisecond and more. Of commands over HTTP one in five thousand took longer than that, of Modbus writes, which the hot
-// thread answers, one in twenty-five thousand.
+// Decides when the service thread may have a real-time rank: it runs before other programs when it is woken, and never occupies a processor
+// permanently. Reason: the kernel lets a waking thread of the normal policy wait behind threads that have used less than their share, and
+// the program's own threads keep a processor for a millisecond and more. One in five thousand commands over HTTP took longer than that; of
+// Modbus writes, which the hot thread answers, one in twenty-five thousand.
 #pragma once
 
 #include "gateway/core/instant.hpp"
@@ -11,9 +10,9 @@ namespace axisgate {
 
 class ServiceRank {
 public:
-    /// In each `window` the rank is kept for at most `most` of the processor's time; the rest is left for all others.
+    /// In each `window` the rank is kept for at most `most` of processor time; the rest is left for other threads.
     static constexpr Duration window = std::chrono::milliseconds(50), most = std::chrono::milliseconds(30);
-    /// `used`: by the thread since it began.
+    /// `used` is the thread's processor time since it began.
     [[nodiscard]] bool may_go_first(Instant now, Duration used) noexcept {
         if (now - begun_ >= window) {
             begun_ = now;

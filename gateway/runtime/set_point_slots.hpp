@@ -1,6 +1,6 @@
-// SetPointSlots: streamed set-points on their way from other threads to the hot one: a place per axis, in which the newest counts.
-// In: set-points, from any thread. Out: one call of the handler per axis that has a new one, on the receiver's thread.
-// Never blocks, never grows, never queues: what was not taken when the next one comes is forgotten.
+// Streamed set-points on their way from other threads to the hot one: one place per axis, in which the newest one counts. The handler is
+// called once per axis with a new set-point, on the receiver's thread. It never blocks, grows or queues: a set-point that was not taken
+// when the next one comes is lost.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace axisgate {
 
 class SetPointSlots {
 public:
-    /// The owner stops the receiver before it ends the slots.
+    /// The receiver must be stopped before the slots are destroyed.
     SetPointSlots(Doorbell& receiver, std::function<void(const SetPoint&)> handler)
         : handler_(std::move(handler)), call_(receiver, [this] { empty(); }) {}
     ~SetPointSlots() {
@@ -28,7 +28,7 @@ public:
     SetPointSlots(const SetPointSlots&) = delete;
     SetPointSlots& operator=(const SetPointSlots&) = delete;
 
-    /// Any thread. An axis that cannot exist is no axis' set-point.
+    /// Any thread. An impossible axis is ignored.
     void put(SetPoint p) {
         const std::size_t i = index_of(p.axis);
         if (i >= Image::max_ids) return;

@@ -1,5 +1,4 @@
-// Site file: a fault's line is found by the JSON pointer of the place that is wrong.
-// In: a path. Out: a site or all its faults; JSON that is none has only one. Never stops at the first fault.
+// The line of a fault is found by the JSON pointer of its place. All faults are reported together.
 #include "gateway/runtime/site_file.hpp"
 
 #include <fmt/core.h>
@@ -15,7 +14,7 @@ namespace axisgate {
 
 namespace {
 
-/// Names in /drives/N/description; what is no name is told when the site is read.
+/// Names in /drives/N/description; other values are reported when the site is read.
 std::vector<std::string> named_descriptions(const boost::json::value& document) {
     std::vector<std::string> names;
     const auto* object = document.if_object();

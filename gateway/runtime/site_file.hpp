@@ -1,5 +1,4 @@
-// Site file: a site document read from disk, with faults that name file and line.
-// In: a path. Out: a checked site, or every fault as one line for standard error. Never changes the file.
+// Reads a site document from the disk. Every fault is one line for standard error that names file and line.
 #pragma once
 
 #include <optional>
@@ -14,13 +13,13 @@ namespace axisgate {
 
 struct SiteFile {
     std::optional<Site> site;
-    std::vector<std::string> faults;        ///< "site.json:12: ... (/axes/0/number); what to do"
-    std::vector<Description> descriptions;  ///< that were not on the shelf and lay beside the file: on the shelf now, nowhere else
+    std::vector<std::string> faults;        ///< "site.json:12: ... (/axes/0/number); the remedy"
+    std::vector<Description> descriptions;  ///< that were not on the shelf and lay beside the file; now on the shelf, but not stored
 };
-/// Descriptions that drives of the site name and the shelf has not are read from files of their name in the site file's folder.
+/// Descriptions that drives of the site name and the shelf lacks are read from files of their name in the folder of the site file.
 [[nodiscard]] SiteFile read_site_file(const std::string& path, const Families& families);
 
-/// What twins and axes of a site had before, from the store.
+/// The stored memories of a site's twins and values of its axes.
 [[nodiscard]] SiteMemory read_site_memory(StoreReader& store, const Site& site);
 
 }  // namespace axisgate

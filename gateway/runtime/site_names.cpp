@@ -1,5 +1,5 @@
-// Site names: an entry is known by where it stands: a drive by line and address, an axis by drive and channel.
-// In: two documents. Out: what is there and what was renamed. Never takes one former name for two new ones.
+// An entry is identified by its place: a drive by line and address, an axis by drive and channel. One former name is never assigned to two
+// new ones.
 #include "gateway/runtime/site_names.hpp"
 
 #include <boost/json/serialize.hpp>
@@ -8,7 +8,7 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// An entry by what stays when it is renamed: where it is, in words.
+/// An entry by the part that a renaming does not change: its place, as text.
 struct Entry {
     std::string name, place, family;
 };
@@ -30,7 +30,7 @@ void each(const json::value& document, std::string_view list, Take take) {
 struct Names {
     std::vector<Entry> drives, axes;
 };
-/// `former`: drives by their name of now, so that an axis stands where it stood although its drive has another name.
+/// `former` has drives by their present name, so that an axis keeps its place although its drive has another name.
 Names named_in(const json::value& document, const std::map<std::string, std::string>& former) {
     Names out;
     std::map<std::string, std::string> family_of_line, family_of_drive;
@@ -53,7 +53,7 @@ std::vector<NameChange> renamed(const std::vector<Entry>& before, const std::vec
     std::map<std::string, const Entry*> here;
     for (const Entry& e : after)
         here[e.name] = &e;
-    std::map<std::string, const Entry*> gone, there;  // by place: of several that stood there, the last
+    std::map<std::string, const Entry*> gone, there;  // by place; if several had the same place, the last one
     for (const Entry& e : before) {
         there[e.name] = &e;
         if (!here.contains(e.name)) gone[e.place] = &e;

@@ -1,7 +1,6 @@
-// Site names: what a new site means for everything that the store keeps by name: which axes and drives are there, and which of them are
-// those of before under another name.
-// In: documents as the store keeps them. Out: SiteChange. Never asks who meant what: a site may come as a whole, from the history, or back
-// after a trial, and an axis that stands where another one stood and whose name is gone is that one.
+// Finds which axes and drives of a new site exist in the store under the same name, and which are former ones under another name. The
+// intention of the user is not needed: a site may come as a whole, from the history, or after a rolled-back trial. An axis at the place of
+// a former one whose name does not exist any more is that axis.
 #pragma once
 
 #include <boost/json/value.hpp>
@@ -12,7 +11,7 @@
 namespace axisgate {
 
 [[nodiscard]] SiteChange names_between(const boost::json::value& before, const boost::json::value& after);
-/// Of a site that stays as it is.
+/// For a site that stays as it is.
 [[nodiscard]] SiteChange names_of(const Site& site);
 
 }  // namespace axisgate

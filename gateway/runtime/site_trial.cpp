@@ -1,6 +1,5 @@
-// Site trial: the mark is on disk before the site is: a mark without a newer site means that nothing was applied.
-// In: the store. Out: the former site as the newest revision, or, where that is not kept any more, an event that says so.
-// Never leaves the mark behind when it has succeeded.
+// The mark is on the disk before the site is: a mark without a newer site means that nothing was applied. The former site becomes the
+// newest revision, or, if it is not stored any more, an event says so.
 #include "gateway/runtime/site_trial.hpp"
 
 #include <fmt/core.h>
@@ -42,7 +41,7 @@ std::string end_trial(Store& store, bool roll_back) {
     if (n && n->is_number()) to = n->to_number<std::uint64_t>(ec);
     const auto now = store.load_site();
     if (!now) return now.error().text;
-    // The mark is on disk before the site is: without a newer site, nothing was applied.
+    // The mark is on the disk before the site is: without a newer site, nothing was applied.
     if (roll_back && n && *now && (*now)->revision != to) {
         std::string text;
         if (to == 0) {

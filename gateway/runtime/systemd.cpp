@@ -1,5 +1,4 @@
-// systemd: sd_notify(3)'s protocol is one datagram, which spares the library.
-// In: texts like "READY=1". Out: datagrams; the watchdog's interval from the environment. Never blocks: it sends without waiting.
+// The protocol of sd_notify(3) is one datagram, so the library is not needed. Sending never waits.
 #include "gateway/runtime/systemd.hpp"
 
 #include <sys/socket.h>

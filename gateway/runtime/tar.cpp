@@ -1,5 +1,4 @@
-// Tar: one header of 512 bytes per file, contents filled up to whole blocks. (POSIX.1-1988, ustar)
-// In: names and contents. Out: bytes. Never compresses.
+// One header of 512 bytes per file, contents padded to whole blocks (POSIX.1-1988, ustar), without compression.
 #include "gateway/runtime/tar.hpp"
 
 #include <fmt/core.h>
@@ -27,7 +26,7 @@ std::string tar_header(std::string_view name, std::uint64_t bytes, std::int64_t 
     put(116, "0000000");
     put(124, fmt::format("{:011o}", bytes));
     put(136, fmt::format("{:011o}", std::max<std::int64_t>(0, at_unix_s)));
-    put(148, "        ");  // the checksum counts itself as blanks
+    put(148, "        ");  // the checksum counts its own field as blanks
     put(156, "0");
     put(257, std::string_view("ustar\00000", 8));
     unsigned sum = 0;

@@ -1,5 +1,5 @@
-// TLS files: of a pair of our own the key is written first: a cut between the two leaves a pair that does not fit, and the next
-// start makes one. In: the configuration, the time. Out: an identity or faults. Never reads more than 1 MiB of a file.
+// Of a pair that the gateway makes, the key is written first: an interruption leaves a pair that does not fit, and the next start makes a
+// new one.
 #include "gateway/runtime/tls_files.hpp"
 
 #include <fmt/core.h>
@@ -58,7 +58,7 @@ std::optional<http::TlsPem> own_pair(const Config& config, std::int64_t now_unix
         faults.push_back({"http.tls", "no certificate could be made", "give http.tls_cert and http.tls_key instead"});
         return std::nullopt;
     }
-    // The key first: a cut between the two leaves a pair that does not fit, and the next start makes a new one.
+    // The key first: an interruption leaves a pair that does not fit, and the next start makes a new one.
     std::string fault = write_secret(key, pem->key);
     if (fault.empty()) fault = write_file(certificate, pem->certificate);
     if (!fault.empty()) {

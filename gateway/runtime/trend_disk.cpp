@@ -1,5 +1,5 @@
-// Trend disk: a file is named by the time at which it was written, in milliseconds, so that their names are their order.
-// In: rows. Out: files (.axt), each a container with its hashes. Never keeps the service thread waiting for the disk but at its end.
+// A file (.axt) is named by the time at which it was written, in milliseconds, so that the order of names is that of time. The service
+// thread waits for the disk only at its end.
 #include "gateway/runtime/trend_disk.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ void put_u32(std::string& out, std::size_t v) {
     for (unsigned i = 0; i < 4; ++i)
         out.push_back(static_cast<char>(v >> (8 * i)));
 }
-/// Nothing: the end, or damage.
+/// Empty at the end, or if damaged.
 std::optional<std::span<const char>> take_part(std::span<const char>& in) {
     if (in.size() < 4) return std::nullopt;
     std::size_t size = 0;
@@ -42,7 +42,7 @@ std::vector<std::string> trend_files(const std::string& directory) {
     return names;
 }
 
-/// Writes one, then lets the oldest go.
+/// Writes one file, then deletes the oldest ones.
 void put_trends(const std::string& directory, const std::string& name, const std::string& bytes, std::uint64_t bound) {
     if (!put_on_disk(directory + "/" + name + std::string(trend_suffix), directory, bytes).empty()) return;  // the next one may fit
     auto names = trend_files(directory);
@@ -93,7 +93,7 @@ void TrendDisk::bring_back(AxisId axis, Trends& trends, const SiteState& site) {
     const auto it = old_.find(site.site.axes[static_cast<std::size_t>(i)].name);
     if (it == old_.end()) return;
     if (!it->second.empty()) {
-        TrendRow gone = it->second.back();  // from here on nobody knew anything
+        TrendRow gone = it->second.back();  // from here on all values are unknown
         gone.demand_known = false;
         gone.flags = flag_stale;
         gone.statusword = 0;

@@ -1,7 +1,6 @@
-// Trend disk: trends that survive a restart: once a minute what is new goes into a file of its own; at the start the files are read.
-// In: trends of the service thread; which axes, and their names, by the site in force. Out: files, written on the disk's thread; rows of
-// before, given to an axis when it is heard first. Bounded: the oldest files go where they take more than `bound`. A file that is damaged
-// is passed over and said.
+// Trends that survive a restart: once a minute new rows are written to a file of their own on the disk's thread; at the start the files are
+// read, and each axis gets its earlier rows at its first report. Bounded: the oldest files are deleted when all take more than `bound`. A
+// damaged file is skipped and reported.
 #pragma once
 
 #include <boost/asio/thread_pool.hpp>
@@ -18,27 +17,28 @@ class TrendDisk {
 public:
     static constexpr Duration period = std::chrono::minutes(1);
 
-    /// `unmarked`: where the site marks no axis (AxisSpec::trend_on_disk), all of them are kept, and else none.
+    /// `unmarked`: if the site marks no axis (AxisSpec::trend_on_disk), all axes are kept, otherwise none.
     TrendDisk(boost::asio::thread_pool& disk, std::string directory, std::uint64_t bound, bool unmarked)
         : disk_(disk), directory_(std::move(directory)), bound_(bound), unmarked_(unmarked) {}
-    /// Reads what is not older than `keep`. `unix_offset_ns`: what makes an instant of this run a time. Empty, or what could not be read.
+    /// Reads rows that are not older than `keep`. `unix_offset_ns` converts an instant of this run to a time. Empty, or the data that could
+    /// not be read.
     [[nodiscard]] std::string open(std::int64_t now_unix_ns, std::int64_t unix_offset_ns, Duration keep);
-    /// Before the first row of an axis: what was known of it goes first.
+    /// Before the first row of an axis: adds its earlier rows.
     void bring_back(AxisId axis, Trends& trends, const SiteState& site);
     /// Writes if it is time.
     void keep(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns);
-    /// Writes what is left, on this thread.
+    /// Writes the rest on this thread.
     void end(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns);
 
 private:
-    /// Empty: there is nothing to keep.
+    /// Empty if there is nothing to keep.
     [[nodiscard]] std::string packed(const Trends& trends, const SiteState& site, Instant now, std::int64_t unix_offset_ns) const;
     boost::asio::thread_pool& disk_;
     std::string directory_;
     std::uint64_t bound_;
     bool unmarked_;
     std::map<std::string, std::vector<TrendRow>> old_;  ///< by name of the axis
-    Instant written_{};                                 ///< up to here; what comes before open() is in older files
+    Instant written_{};                                 ///< up to this instant; earlier rows are in older files
 };
 
 }  // namespace axisgate

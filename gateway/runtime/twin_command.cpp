@@ -1,5 +1,5 @@
-// Twin: embedded drives by themselves on a line that anything can open: a maker's tool, a terminal, a test.
-// In: a line URI, addresses, a memory file, the tester's hand over HTTP. Out: the drives' frames. Never runs an adapter.
+// Embedded drives by themselves on a line that any program can open: a maker's tool, a terminal, a test. There is no adapter; the tester's
+// conditions are set over HTTP.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 
 namespace axisgate {
 namespace {
-/// The drives' own time: real time since the start, stretched.
+/// The drives' own time: real time since the start, scaled.
 class ScaledClock {
 public:
     explicit ScaledClock(double scale) : scale_(scale), begun_(monotonic_now()) {}
@@ -72,7 +72,7 @@ public:
         arm();
     }
     void on_frame(const Frame& frame) override {
-        // At the wire's own time: what comes in one turn after a pause of this process has not come to the drives at one instant.
+        // At the time of the wire: frames that this process receives together after a pause did not reach the drives at one instant.
         Frame f = frame;
         f.at = passed_ = std::max(passed_, clock_.at(frame.at));
         for (auto& d : drives) {
@@ -89,7 +89,7 @@ public:
     }
     void on_sent(const Frame&) override {}
 
-    /// As it is now: a drive that nobody has asked may have moved on since.
+    /// As of now: a drive that was not asked may have moved since.
     std::vector<HandItem> hand(std::size_t index) {
         const Instant now = passed_ = std::max(passed_, clock_.now());
         pass_until(drives[index], now);
@@ -114,18 +114,17 @@ public:
     }
 
 private:
-    /// Deadlines that one late turn meets, each at its own instant; what is left is met at the next.
+    /// Limit of deadlines that one late turn handles, each at its own instant; the rest follow in the next turn.
     static constexpr int events_per_turn = 10'000;
-    /// Real time that one turn of the timer passes: bytes that have crossed meanwhile, and are read by a timer of the line, come in
-    /// between.
+    /// Real time of one turn of the timer, so that bytes that a timer of the line reads meanwhile are handled in between.
     static constexpr Duration slice = std::chrono::milliseconds(1);
 
-    /// However late this process runs, a drive reacts at the instant of the cause.
+    /// A drive reacts at the instant of the cause, however late this process runs.
     void pass_until(Drive& d, Instant now) {
         Instant last{};
         for (int i = 0; i < events_per_turn && d.twin->deadline() <= now; ++i) {
             Out out;
-            last = std::max(d.twin->deadline(), last + std::chrono::microseconds(1));  // one that stays due must not hold up time
+            last = std::max(d.twin->deadline(), last + std::chrono::microseconds(1));  // a drive that stays due must not stop the time
             if (last > now) return;
             d.twin->on_deadline(last, out);
             send(out);
@@ -164,7 +163,7 @@ private:
         timer_.expires_at(std::chrono::steady_clock::time_point(
             std::chrono::duration_cast<std::chrono::steady_clock::duration>(real.time_since_epoch())));
         timer_.async_wait([this, real](const boost::system::error_code& ec) {
-            // One whose time had come when it was cancelled arrives all the same, without an error: another is armed, or none.
+            // A timer whose time had come when it was cancelled calls back without an error: another one is set, or none.
             if (ec || real != armed_) return;
             armed_ = never;
             passed_ = std::max(passed_ + std::chrono::microseconds(1), clock_.at(std::min(real + slice, monotonic_now())));
@@ -176,13 +175,13 @@ private:
     }
 
     ScaledClock clock_;
-    Instant passed_{};  ///< the drives' time as far as it has come: it lags behind the clock while a late process catches up
+    Instant passed_{};  ///< the time of the drives; it is behind the clock while a late process catches up
     boost::asio::steady_timer timer_;
     Instant armed_ = never;
     std::string state_file_;
 };
 
-/// What the command line asks for, once it makes sense.
+/// The checked request of the command line.
 struct TwinPlan {
     LineUri uri;
     std::vector<std::string> addresses;
@@ -190,7 +189,7 @@ struct TwinPlan {
     std::map<std::string, NonVolatile> memories;
 };
 
-/// Nothing: something makes no sense, and all of that has been said.
+/// Empty if something is wrong, which was reported.
 std::optional<TwinPlan> plan_of(const TwinOptions& o, const FamilyEntry& entry) {
     const Family& family = *entry.family;
     TwinPlan plan;
@@ -244,7 +243,7 @@ void connect_drives(TwinHost& host, boost::asio::io_context& io, const TwinOptio
         const bool rated = plan.uri.kind == LineUri::Kind::serial || plan.uri.kind == LineUri::Kind::pty;
         t.bit_rate = rated ? plan.uri.serial.baud : 0;
         t.options = plan.options;
-        t.axes = 16;  // as many channels as the family has; it takes fewer if it has fewer
+        t.axes = 16;  // as many channels as the family has
         host.drives.push_back({a, family.make_twin(*entry.catalogue, t), 0});
     }
     LineSetup setup;

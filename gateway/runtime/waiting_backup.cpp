@@ -1,6 +1,5 @@
-// Waiting backup: tried in a folder of its own first: what is laid down is a database that this program opens.
-// In: bytes. Out: the file; who laid it down stands beside it in a small text, which may be missing.
-// Never leaves a text that tells of another file.
+// A backup is tried in a folder of its own first, so that only a database that this program can open is stored for the next start. The name
+// of the sender is in a small text beside it, which may be missing, and never belongs to another file.
 #include "gateway/runtime/waiting_backup.hpp"
 
 #include <fcntl.h>
@@ -29,13 +28,13 @@ constexpr std::size_t most_note_bytes = 65536;
 
 constexpr std::string_view check_name = "restore-check";
 
-/// A plain database, or an archive in the open: what was sealed waits as open as the database itself lies here.
+/// A plain database, or an unsealed archive: a sealed backup waits as readable as the database itself.
 std::string file_in(const std::string& directory) { return directory + "/restore-at-start.db"; }
-/// A second gateway that is started on the same directory must not meet the folder of the first.
+/// A second gateway that is started on the same directory must not use the folder of the first.
 std::string check_folder_in(const std::string& directory) { return fmt::format("{}/{}-{}", directory, check_name, ::getpid()); }
 std::string note_in(const std::string& directory) { return directory + "/restore-at-start.json"; }
 
-/// With rights for this user alone from its first moment: a backup has the users and their hashes in it.
+/// Readable only by this user from the first moment, because a backup contains users and their hashes.
 bool write_durably(const std::string& file, std::string_view bytes) {
     (void)::unlink(file.c_str());
     const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
@@ -50,7 +49,7 @@ bool write_durably(const std::string& file, std::string_view bytes) {
     return good;
 }
 
-/// The store's own words name files of this machine; who sends a backup over the network needs only to know what is wrong with it.
+/// The store's own texts name files of this machine; the sender of a backup over the network needs to know only its fault.
 std::string words_for(const StoreError& e) {
     switch (e.kind) {
         case StoreError::Kind::corrupt:
@@ -73,12 +72,12 @@ BackupOutcome refused(const StoreError& e) {
     return {words_for(e), !theirs, {}};
 }
 BackupOutcome refused(const BackupFault& f) {
-    if (f.kind == BackupFault::Kind::cannot_read || f.kind == BackupFault::Kind::cannot_write)  // its words name files
+    if (f.kind == BackupFault::Kind::cannot_read || f.kind == BackupFault::Kind::cannot_write)  // its text names files
         return {"there is no room for it on the gateway's disk, or its data directory cannot be written", true, {}};
     return {f.text, false, {}};
 }
 
-/// The file in which what was sent lies in the open, and the database in it as one that can be tried.
+/// The file with the decrypted content, and the database in it as one that can be tried.
 tl::expected<std::string, BackupOutcome> spread_out(const std::string& bytes, const std::string& passphrase, const std::string& part,
                                                     const std::string& folder, std::string& note) {
     const auto form = backup_form_of(bytes);
@@ -102,7 +101,7 @@ tl::expected<std::string, BackupOutcome> spread_out(const std::string& bytes, co
 
 BackupOutcome lay_down_backup(const std::string& bytes, const std::string& passphrase, const std::string& who, std::int64_t at_unix_ns,
                               const StoreOptions& options) {
-    // Tried in a folder of its own first: what is laid down is a database that this program opens.
+    // Tried in a folder of its own first, so that only a database that this program can open is stored.
     const std::string folder = check_folder_in(options.directory), part = options.directory + "/restore-at-start.part";
     std::error_code ec;
     fs::remove_all(folder, ec);
@@ -122,7 +121,7 @@ BackupOutcome lay_down_backup(const std::string& bytes, const std::string& passp
     }
     fs::remove_all(folder, ec);
     if (outcome.fault.empty()) {
-        // The text first: beside a backup of before it would tell of the wrong one, so that one goes before.
+        // The text is written first. Beside an earlier backup it would name the wrong sender, so that backup is removed before.
         fs::remove(file_in(options.directory), ec);
         (void)write_durably(note_in(options.directory), json::serialize(note));
         fs::rename(part, file_in(options.directory), ec);
@@ -202,7 +201,7 @@ std::string take_waiting_backup(const StoreOptions& options) {
         }
     }
     if (fault.empty() && fs::exists(folder + "/http-key.pem", ec) && fs::exists(folder + "/http-cert.pem", ec)) {
-        // The key first, as where the pair is made: a cut between the two leaves a pair that does not fit, and the door makes another.
+        // The key first, as where the pair is made: an interruption leaves a pair that does not fit, and the door makes a new one.
         for (const auto* name : {"/http-key.pem", "/http-cert.pem"})
             fs::rename(folder + name, options.directory + name, ec);
     }

@@ -1,6 +1,5 @@
-// Waiting backup: a backup that was checked and laid down in the data directory, to take the database's place at the next start.
-// In: the file's bytes, who sent it. Out: what waits; the backup in the database's place; faults in words.
-// Never lays down what this program would not open, and never names a path of the machine to who sent the file.
+// A checked backup in the data directory that replaces the database at the next start. A backup that this program cannot open is refused,
+// and the sender of a file never sees a path of this machine.
 #pragma once
 
 #include <optional>
@@ -12,20 +11,20 @@
 
 namespace axisgate {
 
-/// Checks the bytes (a backup file of either form, or a plain database) and lays them down in `options.directory`, in the place of what
-/// waited there.
+/// Checks the bytes (a backup file of either form, or a plain database) and stores them in `options.directory`, replacing an earlier one.
 [[nodiscard]] BackupOutcome lay_down_backup(const std::string& bytes, const std::string& passphrase, const std::string& who,
                                             std::int64_t at_unix_ns, const StoreOptions& options);
 [[nodiscard]] std::optional<WaitingBackup> waiting_backup(const std::string& directory);
-/// Empty, or a fault; "none" if nothing waits.
+/// Empty, or a fault; "none" if there is no stored backup.
 [[nodiscard]] std::string cancel_waiting_backup(const std::string& directory);
-/// At start, before the database is opened: the database, and the certificate of the gateway's own making. Empty, or a fault; the file is
-/// then kept aside, so that the next start goes on without it, unless another gateway serves the directory.
+/// At the start, before the database is opened: restores the database, and the certificate that the gateway has made. Empty, or a fault;
+/// the file is then renamed, so that the next start continues without it, unless another gateway serves the directory.
 [[nodiscard]] std::string take_waiting_backup(const StoreOptions& options);
 
-/// Name under which a backup is made for a download, in the data directory; more may follow it.
+/// Name of a backup that is made for a download, in the data directory; more may follow it.
 inline constexpr std::string_view download_name = "backup-for-download.tmp";
-/// At start, with the directory locked: what a killed gateway left of backups that it was making, taking or checking. What waits stays.
+/// At the start, with the directory locked: removes files of backups that a killed gateway was making, restoring or checking. A stored
+/// backup stays.
 void remove_backup_leftovers(const std::string& directory);
 
 }  // namespace axisgate

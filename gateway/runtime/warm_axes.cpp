@@ -1,12 +1,12 @@
-// Warm axes: tickets, and who waits for which; a result whose ticket nobody waits for any more is dropped.
-// In: commands, the hot thread's results. Out: results. Never answers from inside submit.
+// The tickets of the service thread and their callbacks; a result for which nobody waits any more is dropped. No result is delivered from
+// inside submit.
 #include "gateway/runtime/warm_axes.hpp"
 
 #include <fmt/core.h>
 
 namespace axisgate {
 namespace {
-constexpr std::size_t max_waiting = 1024;  // commands without an answer, all clients of this thread together
+constexpr std::size_t max_waiting = 1024;  // commands without an answer, of all clients of this thread
 }  // namespace
 
 WarmAxes::WarmAxes(const WarmThreads& threads)
@@ -44,7 +44,7 @@ Ticket WarmAxes::submit(Command command, std::function<void(const Result&)> then
 }
 
 void WarmAxes::client_lost(const AuthorityClient& who, LossCause cause) {
-    // A full ring: the axes' watchdogs see the silence.
+    // If the ring is full, the watchdogs of the axes notice the silence.
     (void)threads_.on_hot([who, cause](Engine& engine, Instant now) { engine.on_client_lost(who, cause, now); });
 }
 

@@ -1,6 +1,5 @@
-// Warm axes: the axis port: pictures from the hot thread's image, commands through its mailbox, each result back to who asked.
-// In: commands, set-points. Out: results on the service thread.
-// Bounded: 1024 commands wait at most; the next is told to come again. Never used on another thread.
+// The axis port: pictures from the hot thread's image, commands through its mailbox, each result back to its sender. Service thread only.
+// Bounded: at most 1024 commands wait; further ones are answered busy.
 #pragma once
 
 #include <unordered_map>
@@ -13,7 +12,7 @@ namespace axisgate {
 class WarmAxes final : public AxisPort {
 public:
     explicit WarmAxes(const WarmThreads& threads);
-    /// Where the hot thread puts the results of this thread's commands.
+    /// The mailbox for the results of this thread's commands.
     [[nodiscard]] Mailbox<Result>& results() noexcept { return results_; }
 
     [[nodiscard]] AxisPicture picture(AxisId axis) const override;

@@ -1,5 +1,5 @@
-// Warm backup: each job of the cold thread is answered on the service thread; what was laid down is told as an event.
-// In: bytes, who sent them. Out: answers. The file that a download is made in is taken away before the answer leaves.
+// Jobs of the storage thread are answered on the service thread; a stored backup causes an event. The file of a download is deleted before
+// the answer is sent.
 #include "gateway/runtime/warm_backup.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Warm backup: the backup port: copies of the database made, checked and laid down on the cold thread.
-// In: bytes. Out: bytes, or why not. A copy of more than 64 MiB is not sent: `axisgate backup` makes it.
-// Never names a path to who asked.
+// The backup port: copies of the database made, checked and stored on the storage thread. A copy of more than 64 MiB is not sent; `axisgate
+// backup` makes it. Answers never contain a path.
 #pragma once
 
 #include "gateway/runtime/backup_plan.hpp"
@@ -13,7 +12,7 @@ namespace axisgate {
 class WarmBackup final : public BackupPort {
 public:
     WarmBackup(const WarmThreads& threads, WarmEvents& events) : threads_(threads), events_(events) {}
-    /// Which files belong into a backup; before the first one is asked for.
+    /// The files that belong to a backup; must be set before the first request.
     void use(BackupPlan plan) { plan_ = std::move(plan); }
     void backup(std::string passphrase, std::function<void(std::optional<std::string> bytes, BackupOutcome)> then) override;
     void restore(std::string bytes, std::string passphrase, Origin origin, std::function<void(BackupOutcome)> then) override;

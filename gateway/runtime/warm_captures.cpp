@@ -1,5 +1,4 @@
-// Warm captures: who is armed, who is over, what is written.
-// In: records on the service thread. Out: files, documents. Never writes from the service thread.
+// Fast captures: armed, running, being written. Files are never written by the service thread.
 #include "gateway/runtime/warm_captures.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ CaptureInfo known_of(const std::string& path, std::string name) {
     return i;
 }
 
-/// What makes an axis move, or may.
+/// True for commands that move an axis, or may.
 bool may_move(const CommandBody& body) {
     return std::holds_alternative<Move>(body) || std::holds_alternative<Home>(body) || std::holds_alternative<StartTogether>(body) ||
            std::holds_alternative<ProcessData>(body) || std::holds_alternative<Action>(body);
@@ -124,7 +123,7 @@ void WarmCaptures::arm(CaptureOrder order, std::function<void(RecordingFault, Ca
     then({RecordingFault::Kind::busy, too_much_asked}, {});
 }
 
-/// What was given up is shown for a while, and no longer than there is room.
+/// Captures that were given up are shown for a while, in a limited number.
 void WarmCaptures::forget_oldest() {
     std::size_t given_up = 0;
     std::erase_if(running_, [&](const auto& r) { return r->capture.state() == Capture::State::cancelled && ++given_up > most_given_up; });
@@ -142,7 +141,7 @@ void WarmCaptures::on_command(const Command& command, Instant at) {
 }
 
 void WarmCaptures::on_time(Instant now) {
-    const auto all = running_;  // one that is kept leaves it
+    const auto all = running_;  // a finished capture leaves the list
     for (const auto& r : all) {
         r->capture.on_time(now, records_late);
         if (r->capture.over() && !r->ended) end(*r);
@@ -150,7 +149,7 @@ void WarmCaptures::on_time(Instant now) {
     }
 }
 
-/// The line goes on in its own rhythm. If the hot thread has no time to hear it, it ends by itself.
+/// The line returns to its own poll period. If the hot thread is too busy to accept this, the fast polling ends by itself.
 void WarmCaptures::end(Running& r) {
     r.ended = true;
     (void)threads_.on_hot([axes = r.order.wish.axes](Engine& engine, Instant now) { (void)engine.look_closely(axes, {}, {}, now); });

@@ -1,6 +1,5 @@
-// Warm captures: fast captures that run, fed by the recorder's records, and those that are kept as files.
-// In: wishes, records. Out: the capture port; the hot thread is asked to look closely, and told when it is enough.
-// Never leaves a line hurried: the engine ends a look by itself, whatever becomes of this.
+// The capture port: running captures, fed by the recorder's records, and those that are stored as files. The hot thread is asked to poll
+// faster; the engine ends this by itself in any case.
 #pragma once
 
 #include <deque>
@@ -17,8 +16,8 @@ namespace axisgate {
 
 class WarmCaptures final : public CapturePort, RecordListener {
 public:
-    static constexpr std::size_t most_given_up = 8;  ///< shown until their names are used again; then the oldest goes
-    static constexpr Duration records_late = std::chrono::milliseconds(600);  ///< how far records may be behind the time
+    static constexpr std::size_t most_given_up = 8;  ///< shown until their names are used again; beyond this number the oldest is removed
+    static constexpr Duration records_late = std::chrono::milliseconds(600);  ///< delay of records behind the time
 
     WarmCaptures(const WarmThreads& threads, WarmRecorder& recorder, EventPort& events)
         : threads_(threads), recorder_(recorder), events_(events), shelf_(threads, recorder.disk(), "capture", ".axc") {}
@@ -26,7 +25,7 @@ public:
     WarmCaptures(const WarmCaptures&) = delete;
     WarmCaptures& operator=(const WarmCaptures&) = delete;
 
-    /// Behind the recorder's begin().
+    /// Must follow the recorder's begin().
     void begin(const RecorderSettings& settings);
 
     [[nodiscard]] CaptureRoom capture_room() const override { return {shelf_.bytes(), bound_, shelf_.disk_fault()}; }
@@ -37,11 +36,11 @@ public:
     void remove_capture(const std::string& name, std::function<void(RecordingFault)> then) override;
 
 private:
-    /// One that is not on the disk.
+    /// A capture that is not on the disk.
     struct Running {
         CaptureOrder order;
         Capture capture;
-        bool ended = false;    ///< the line was told that it is enough
+        bool ended = false;    ///< the line was told to end the fast polling
         bool written = false;  ///< on its way to the disk
     };
     void on_picture(AxisId axis, const PictureRecord& picture, Instant at) override;
@@ -57,7 +56,7 @@ private:
     WarmRecorder& recorder_;
     EventPort& events_;
     std::uint64_t bound_ = 0;
-    std::deque<std::shared_ptr<Running>> running_;  ///< with those that were given up
+    std::deque<std::shared_ptr<Running>> running_;  ///< including those that were given up
     FileShelf<CaptureInfo> shelf_;
 };
 

@@ -1,4 +1,4 @@
-// Warm connections: an id is the door's name and a number of that door's own.
+// An id consists of the door's name and the number of the connection in that door.
 #include "gateway/runtime/warm_connections.hpp"
 
 #include <fmt/core.h>
@@ -12,7 +12,7 @@ namespace axisgate {
 namespace {
 std::string id_of(const HotDoor& door, const DoorConnection& c) { return fmt::format("{}-{}", door.name(), c.number); }
 
-/// `wanted`: of those alone that this site would close.
+/// `wanted`: only those that this site would close.
 std::vector<ClientConnection> all_of(const Hot& hot, const SiteState& site, const SiteState* wanted = nullptr) {
     std::vector<ClientConnection> list;
     for (const HotDoor* door : hot.doors()) {
@@ -35,7 +35,7 @@ std::vector<ClientConnection> all_of(const Hot& hot, const SiteState& site, cons
     return list;
 }
 
-/// The text of what was closed; nothing: there is none of this id.
+/// The text of the closed connection; empty if the id does not exist.
 std::optional<std::string> close_one(const Hot& hot, const std::string& id) {
     const auto dash = id.rfind('-');
     std::uint64_t number = 0;

@@ -1,5 +1,5 @@
-// Warm connections: the connection port: asks the doors of the hot thread, in its turn, and notes who has closed what.
-// In: wishes. Out: lists; events. Never knows a door but by its interface.
+// The connection port: asks the doors of the hot thread on that thread, and reports by an event who has closed a connection. It knows doors
+// only by their interface.
 #pragma once
 
 #include "gateway/runtime/warm_events.hpp"

@@ -1,5 +1,4 @@
-// Warm descriptions: on the shelf when they are on the disk, and off it before they leave the disk.
-// In: calls on the service thread. Out: callbacks there. Never blocks.
+// A description is put on the shelf when it is on the disk, and removed from the shelf before it is deleted on the disk.
 #include "gateway/runtime/warm_descriptions.hpp"
 
 #include "gateway/services/descriptions/description.hpp"

@@ -1,5 +1,4 @@
-// Warm descriptions: the description port: the shelf that sites are read with, and the table of the database behind it.
-// In: checked files. Out: the shelf; "it is on disk" by callbacks. Never writes by itself: the cold thread does.
+// The description port: the shelf from which sites are read, and the table of the database behind it, which the storage thread writes.
 #pragma once
 
 #include <memory>
@@ -9,7 +8,7 @@
 
 namespace axisgate {
 
-/// What the database holds, on a shelf; `fault`: why it could not be read.
+/// Puts the descriptions of the database on a shelf; `fault` is the reason if they could not be read.
 void fill_shelf(StoreReader& reader, DescriptionShelf& shelf, std::string& fault);
 
 class WarmDescriptions final : public DescriptionPort {

@@ -1,6 +1,4 @@
-// Warm documents: read where they are asked for, changed on the cold thread.
-// In: calls on the service thread. Out: what is stored; callbacks there when it is on disk. Never blocks but for a local read of the
-// database.
+// Reads come from this thread's own reader of the database, changes go to the storage thread.
 #include "gateway/runtime/warm_documents.hpp"
 
 namespace axisgate {

@@ -1,6 +1,5 @@
-// Warm documents: the document and the snapshot port: small named texts and numbered sets of values, in the database.
-// In: texts, snapshots. Out: them again by this thread's reader; "it is on disk" by callbacks.
-// Never writes by itself: the cold thread does.
+// The document and the snapshot port: small named texts and numbered sets of values in the database. The storage thread writes them and
+// calls back when they are on the disk.
 #pragma once
 
 #include "gateway/runtime/warm_threads.hpp"

@@ -1,5 +1,4 @@
-// Warm events: listeners are told in the order of the numbers that the storage gave.
-// In: events, queries. Out: events. Reads of the database are local and short; nothing is written here.
+// Listeners get events in the order of the numbers that the storage assigned. Reads of the database are local and short.
 #include "gateway/runtime/warm_events.hpp"
 
 #include <algorithm>
@@ -7,9 +6,9 @@
 
 namespace axisgate {
 namespace {
-/// In one go, some 5 us each: a whole commit's are half a millisecond, in which no command would be answered.
+/// At once, some 5 us each: those of a whole commit take half a millisecond, during which no command would be answered.
 constexpr std::size_t events_per_slice = 4;
-/// And a part of those that wait, so that more than this thread has time for do not heap up: the more wait, the sooner they are told.
+/// A part of the waiting ones in addition, so that they do not accumulate: the more are waiting, the faster they are delivered.
 constexpr std::size_t waiting_per_slice = 64;
 }  // namespace
 
@@ -48,7 +47,7 @@ void WarmEvents::tell(std::size_t most) {
 
 void WarmEvents::tell_some() {
     tell(std::max(events_per_slice, numbered_.size() / waiting_per_slice));
-    if (!numbered_.empty()) threads_.answer([this] { tell_some(); });  // behind what has come for others meanwhile
+    if (!numbered_.empty()) threads_.answer([this] { tell_some(); });  // behind work that has arrived for others meanwhile
 }
 
 std::vector<Event> WarmEvents::events(const EventQuery& query) const {
@@ -56,7 +55,7 @@ std::vector<Event> WarmEvents::events(const EventQuery& query) const {
     return rows ? std::move(*rows) : std::vector<Event>{};
 }
 
-/// By way of the hot thread, behind everything that it was asked to do, and then behind everything that it has handed to the cold one.
+/// Goes through the hot thread, behind all of its earlier requests, and then behind everything that it has given to the storage thread.
 void WarmEvents::events_settled(std::function<void()> then) {
     const auto back = [this, then] { threads_.answer(then); };
     if (!threads_.on_hot([this, back](Engine&, Instant) { threads_.cold.flush(back); })) back();

@@ -1,6 +1,5 @@
-// Warm events: the event port: what services and doors note goes straight to the storage, and comes back numbered, for who listens.
-// In: events, queries; numbered events from the cold thread. Out: events on the service thread.
-// Bounded: the ring to the storage; an event that finds it full is counted. Never by way of the hot thread.
+// The event port: events of services and doors go directly to the storage and return with numbers for the listeners. Bounded by the ring to
+// the storage; an event that finds it full is counted.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +16,10 @@ namespace axisgate {
 class WarmEvents final : public EventPort {
 public:
     explicit WarmEvents(const WarmThreads& threads) : threads_(threads) { outlet_.connect(&threads.cold.from_service()); }
-    /// Events that the cold thread has numbered; called on the cold thread.
+    /// Events with their numbers; called on the storage thread.
     void written(std::vector<Event> events);
     [[nodiscard]] std::uint64_t lost() const noexcept { return outlet_.lost(); }
-    /// An event about what somebody did.
+    /// Reports an event about an action of a client.
     void note(std::string kind, std::string text, const Origin& origin, Severity severity = Severity::info);
 
     [[nodiscard]] std::vector<Event> events(const EventQuery& query) const override;
@@ -28,7 +27,7 @@ public:
     void note(Event event) override;
     void listen(EventListener* listener) override { listeners_.push_back(listener); }
     void unlisten(EventListener* listener) override { std::erase(listeners_, listener); }
-    /// At the end, when the service thread does not turn any more: listeners are told of what has been numbered.
+    /// At the end, when the service thread does not run any more: delivers the numbered events to the listeners.
     void tell_all() { tell(SIZE_MAX); }
 
 private:
@@ -38,7 +37,7 @@ private:
     const WarmThreads& threads_;
     EventOutlet outlet_;
     std::vector<EventListener*> listeners_;
-    std::deque<Event> numbered_;  ///< listeners are to be told of them
+    std::deque<Event> numbered_;  ///< not delivered to the listeners yet
 };
 
 }  // namespace axisgate

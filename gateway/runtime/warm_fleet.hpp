@@ -1,5 +1,4 @@
-// Warm fleet: the fleet port: the DDS door, where there is one.
-// In: the door. Out: what it knows of the domain; commands to axes of others. Without a door there is no fleet, and that is said.
+// The fleet port is the DDS door, if there is one. Without it there is no fleet, and requests say so.
 #pragma once
 
 #include "gateway/services/ports/fleet.hpp"
@@ -8,7 +7,7 @@ namespace axisgate {
 
 class WarmFleet final : public FleetPort {
 public:
-    /// Before start; it outlives every call.
+    /// Before the start; the door must outlive every call.
     void use(FleetPort& door) { door_ = &door; }
     [[nodiscard]] std::vector<FleetGateway> fleet() const override { return door_ ? door_->fleet() : std::vector<FleetGateway>{}; }
     void command(FleetOrder order, std::function<void(const Result&)> then) override {

@@ -1,5 +1,5 @@
-// Warm lines: reports are copied from the hot thread's newest ones; searches and hands are jobs that it does between two frames.
-// In: questions. Out: answers on the service thread, one for each question. Never waits for the hot thread.
+// Reports are copied from the hot thread's newest ones; scans and conditions are jobs that it carries out between two frames. The hot
+// thread is never waited for.
 #include "gateway/runtime/warm_lines.hpp"
 
 #include <fmt/core.h>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 namespace {
-/// A report that could not be had now.
+/// A report that is not available now.
 ScanReport no_report() {
     ScanReport r;
     r.state = ScanReport::State::failed;

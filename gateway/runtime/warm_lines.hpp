@@ -1,6 +1,5 @@
-// Warm lines: the line and the drive port: the hot thread's newest reports and records, its searches and the hands of its twins.
-// In: questions. Out: reports at once; what only the hot thread knows, by callbacks.
-// Bounded by the hot thread's ring of jobs: one more is answered with "come again".
+// The line and the drive port: the hot thread's newest reports and records, its scans and the conditions of its twins. Bounded by the hot
+// thread's ring of jobs; further requests are answered busy.
 #pragma once
 
 #include "gateway/runtime/warm_events.hpp"
@@ -26,8 +25,8 @@ private:
     WarmEvents& events_;
 };
 
-/// Who serves the drive, as a picture of one of its axes says it. Reports of drives are up to 200 ms old, and pictures are not: without
-/// this, figures that are told together would contradict each other.
+/// Sets the serving side of the drive from a picture of one of its axes. Reports of drives are up to 200 ms old and pictures are not;
+/// without this, values in one answer could contradict each other.
 void show_presence(DriveStatus& status, const AxisPicture& axis);
 
 class WarmDrives final : public DrivePort {

@@ -1,5 +1,5 @@
-// Warm Modbus: the lock walks from the service thread to the storage and to the door.
-// In: wishes. Out: an event about who switched it. Stored first, so that a lock that was seen to be on is on after a restart.
+// The lock is stored before it is given to the door, so that a lock that was seen as set is still set after a restart. An event names the
+// client that has changed it.
 #include "gateway/runtime/warm_modbus.hpp"
 
 #include "gateway/runtime/clock.hpp"

@@ -1,6 +1,5 @@
-// Warm Modbus: the Modbus port: asks the door, which lives on the hot thread, and keeps the lock that is switched while it runs.
-// In: the door's two functions, wishes. Out: reports; the lock, stored before it is in force.
-// Never knows the door itself: without its functions there is none.
+// The Modbus port: reports of the door, which runs on the hot thread, and its read-only lock, which is stored. The door is known only by
+// two functions; without them there is none.
 #pragma once
 
 #include "gateway/runtime/warm_events.hpp"
@@ -17,7 +16,7 @@ public:
         std::function<ModbusReport()> report;
         std::function<void(bool)> set_read_only;
     };
-    /// Before start.
+    /// Before the start.
     void use(Door door) { door_ = std::move(door); }
     void modbus_report(std::function<void(std::optional<ModbusReport>)> then) override;
     void set_modbus_read_only(bool on, Origin origin, std::function<void(std::string fault, bool not_stored)> then) override;

@@ -1,5 +1,5 @@
-// Warm parameters: a sample counts if the drive that gave it is the one that serves the axis now, and nothing newer is known.
-// In: samples, sites, questions. Out: values. Reads of the database are local and short.
+// A sample counts if it comes from the side that serves the axis now and is not older than the present one. Reads of the database are local
+// and short.
 #include "gateway/runtime/warm_parameters.hpp"
 
 #include "gateway/runtime/clock.hpp"
@@ -21,7 +21,7 @@ void WarmParameters::on_site(const std::shared_ptr<const SiteState>&) {
     std::erase_if(live_, [this](const auto& entry) { return axes_.picture(axis_of(entry.first)).source != entry.second.source; });
 }
 
-/// What a former drive of the axis said may still be on its way here when another one speaks for it.
+/// Reports of a former drive of the axis may still be on their way here when another one serves it.
 void WarmParameters::take(Sample&& s) {
     if (axes_.picture(s.axis).source != s.source) return;
     Reported& known = live_[live_key(s.axis, s.point)];
@@ -38,7 +38,7 @@ LiveParameter WarmParameters::live(AxisId axis, Point point) const {
     const AxisPicture now = axes_.picture(axis);
     if (now.source != it->second.source) return {};
     LiveParameter out = it->second.what;
-    // Said once, and nobody is there to say it again.
+    // The value was reported as good, but the axis is offline now.
     if (out.quality == Quality::good && (now.flags & flag_online) == 0) out.quality = Quality::stale;
     return out;
 }

@@ -1,6 +1,5 @@
-// Warm parameters: the parameter port: the newest value of each that a drive reported, and what the storage has of written ones.
-// In: samples from the hot thread, sites. Out: values with their age.
-// Bounded: one value per parameter of the site's axes. Never shows what a former drive of an axis said.
+// The parameter port: the newest reported value of each parameter, and the stored writes. Bounded: one value per parameter of the site's
+// axes. Values of a former drive of an axis are not shown.
 #pragma once
 
 #include <unordered_map>
@@ -16,7 +15,7 @@ namespace axisgate {
 class WarmParameters final : public ParameterPort, public SiteListener {
 public:
     WarmParameters(const WarmThreads& threads, const AxisPort& axes);
-    /// Where the hot thread puts what drives report.
+    /// The mailbox for the reports of drives.
     [[nodiscard]] Mailbox<Sample>& samples() noexcept { return samples_; }
     void on_site(const std::shared_ptr<const SiteState>& site) override;
 
@@ -28,7 +27,7 @@ public:
     void unlisten(SampleListener* listener) override { std::erase(listeners_, listener); }
 
 private:
-    /// What was reported, by whom (AxisPicture::source) and when.
+    /// The value with its origin (AxisPicture::source) and time.
     struct Reported {
         LiveParameter what;
         std::uint32_t source = 0;

@@ -1,6 +1,4 @@
-// Warm ports: the owners of all ports of the service thread, put together.
-// In: the three threads, the families, this thread's reader of the database. Out: the ports.
-// Never used on another thread, but for the mailboxes and WarmEvents::written.
+// The owners of all ports of the service thread. Service thread only, except for the mailboxes and WarmEvents::written.
 #pragma once
 
 #include <memory>
@@ -50,9 +48,9 @@ public:
         return {axes,  backup, captures,   clock,    connections, descriptions, documents, drives,    events, fleet,
                 lines, modbus, parameters, recorder, registers,   rehearsal,    site,      snapshots, stage,  status};
     }
-    /// By which other threads wake this one.
+    /// The bell by which other threads wake this one.
     [[nodiscard]] Doorbell& bell() noexcept { return bell_; }
-    /// Where the hot thread puts what is for this one.
+    /// The mailboxes for the output of the hot thread to this one.
     [[nodiscard]] Hot::Outlets outlets() { return {&axes.results(), &parameters.samples(), &threads_.cold.from_hot()}; }
 
     WarmClock clock;

@@ -1,5 +1,4 @@
-// Warm recorder: records are sorted as they come; a file is put together and written on the disk's own thread from shared chunks.
-// In: records. Out: trends, files. Never writes from the service thread.
+// Records are distributed as they come; a file is composed and written on the disk's own thread from shared chunks.
 #include "gateway/runtime/warm_recorder.hpp"
 
 #include <fmt/chrono.h>
@@ -23,17 +22,17 @@ namespace {
 namespace json = boost::json;
 namespace fs = std::filesystem;
 constexpr auto look_often = std::chrono::milliseconds(100), look_seldom = std::chrono::milliseconds(500);
-/// In one go, some 10 us: all that a busy site writes in 100 ms is half a millisecond, in which no command would be answered.
+/// At once, some 10 us: the records of a busy site in 100 ms take half a millisecond, during which no command would be answered.
 constexpr std::size_t records_per_slice = 64;
 
-/// All that goes into one file, taken on the service thread.
+/// The content of one file, taken on the service thread.
 struct Frozen {
     RecordingInfo info;
     FlightLog::Chunks stretch, inputs;
     std::uint64_t outcomes_before = 0, lost = 0, gone = 0;
     std::int64_t unix_offset_ns = 0;
     std::shared_ptr<const SiteState> site;
-    std::map<std::string, std::shared_ptr<const Description>> descriptions{};  ///< that its drives name
+    std::map<std::string, std::shared_ptr<const Description>> descriptions{};  ///< the descriptions that its drives name
 };
 
 json::object meta_of(const Frozen& f) {
@@ -137,7 +136,7 @@ RecordingInfo info_of(const std::string& path, std::string name) {
     i.automatic = a && a->is_bool() && a->get_bool();
     return i;
 }
-/// "fault, limit" taken apart.
+/// Splits "fault, limit".
 std::vector<std::string> words_of(std::string_view list) {
     std::vector<std::string> words(1);
     for (const char c : list) {
@@ -178,14 +177,14 @@ WarmRecorder::Tap::~Tap() {
     });
 }
 
-/// The site goes as it is: to write it down takes longer than the hot thread has.
+/// The site is passed on as it is, because encoding it takes longer than the hot thread may.
 void WarmRecorder::Tap::take_site(std::shared_ptr<const SiteInput> input, Instant now) {
     auto* owned = new std::shared_ptr<const SiteInput>(std::move(input));
     if (!ring.push({FlightKind::site, 0xFFFF, now, {reinterpret_cast<const char*>(&owned), sizeof owned}})) delete owned;
 }
 
 WarmRecorder::~WarmRecorder() {
-    if (trends_) threads_.hot.engine().set_tap(nullptr);  // its thread has ended, or was never begun
+    if (trends_) threads_.hot.engine().set_tap(nullptr);  // its thread has ended, or was never started
     events_.unlisten(this);
     if (const auto site = sites_.site(); trend_disk_ && site) trend_disk_->end(*trends_, *site, monotonic_now(), unix_ns_of(at_ns(0)));
     end_disk();
@@ -218,7 +217,7 @@ void WarmRecorder::wait(std::chrono::milliseconds pause) {
     timer_->expires_after(pause);
     timer_->async_wait([this](const boost::system::error_code& ec) {
         if (ec) return;
-        if (!take(records_per_slice)) return wait({});  // behind what has come for others meanwhile
+        if (!take(records_per_slice)) return wait({});  // behind work that has arrived for others meanwhile
         end_look();
         wait(std::exchange(found_, false) ? look_often : look_seldom);
     });
@@ -353,7 +352,7 @@ void WarmRecorder::freeze_this(std::string name, std::string why, std::string wh
         f->info, [f] { return packed(*f); }, std::move(then));
 }
 
-/// The oldest that nobody asked for make room; what somebody has asked for stays.
+/// Deletes the oldest automatic recordings; requested ones stay.
 void WarmRecorder::make_room_for_automatic() {
     while (shelf_.full(settings_.disk_bytes) || shelf_.bytes() + settings_.stretch_bytes + settings_.inputs_bytes > settings_.disk_bytes) {
         const RecordingInfo* oldest = nullptr;
@@ -388,7 +387,7 @@ void WarmRecorder::on_event(const Event& e) {
 
 void WarmRecorder::play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, json::object)> then) {
     Families families = sites_.families();
-    families.descriptions = std::make_shared<DescriptionShelf>();  // what the recording has shelved is for this alone
+    families.descriptions = std::make_shared<DescriptionShelf>();  // descriptions in the recording are valid for it only
     shelf_.read<std::pair<std::string, json::object>>(
         name,
         [families = std::move(families), wish](const std::string& bytes) {

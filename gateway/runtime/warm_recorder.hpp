@@ -1,6 +1,5 @@
-// Warm recorder: keeps trends and the last stretch of records, and freezes it into files on a thread of its own.
-// In: records of the hot thread, alarms. Out: the recorder port. A full disk is told and stops nothing but the recording.
-// Never makes the hot thread wait: what it cannot take in time is counted as lost.
+// The recorder port: keeps trends and the last period of records, and writes files on a thread of its own. A full disk is reported and
+// stops only the recording. The hot thread never waits: records that cannot be taken in time are lost and counted.
 #pragma once
 
 #include <boost/asio/steady_timer.hpp>
@@ -22,13 +21,13 @@
 
 namespace axisgate {
 
-/// What the recorder may use, and when it freezes by itself ([recorder] of the configuration).
+/// The limits of the recorder, and the alarms that cause a recording ([recorder] of the configuration).
 struct RecorderSettings {
     std::string directory;               ///< of the recordings
     std::string captures;                ///< folder of the captures
     std::string trends;                  ///< folder of the trends
-    std::uint64_t trend_disk_bytes = 0;  ///< 0: they are in memory alone
-    bool trend_disk_unmarked = false;    ///< those of all axes, where the site marks none
+    std::uint64_t trend_disk_bytes = 0;  ///< 0: they are only in memory
+    bool trend_disk_unmarked = false;    ///< all axes, if the site marks none
     Duration trend_length = std::chrono::minutes(10);
     std::size_t trend_bytes = 48u << 20, stretch_bytes = 32u << 20, inputs_bytes = 32u << 20;
     std::uint64_t disk_bytes = 512u << 20, captures_bytes = 64u << 20;
@@ -37,11 +36,11 @@ struct RecorderSettings {
 
 [[nodiscard]] RecorderSettings recorder_settings(const Config& config);
 
-/// Who looks at records as they come.
+/// Receives records as they come.
 struct RecordListener {
     virtual void on_picture(AxisId axis, const PictureRecord& picture, Instant at) = 0;
     virtual void on_command(const Command& command, Instant at) = 0;
-    /// All that had come by then was told.
+    /// All records up to this instant have been delivered.
     virtual void on_time(Instant now) = 0;
     virtual ~RecordListener() = default;
 };
@@ -49,8 +48,8 @@ struct RecordListener {
 class WarmRecorder final : public RecorderPort, EventListener {
 public:
     static constexpr std::size_t ring_bytes = 4u << 20;
-    static constexpr Duration after_alarm = std::chrono::seconds(2);      ///< how much is recorded behind it
-    static constexpr Duration between_alarms = std::chrono::seconds(60);  ///< that freeze
+    static constexpr Duration after_alarm = std::chrono::seconds(2);      ///< duration of the recording behind it
+    static constexpr Duration between_alarms = std::chrono::seconds(60);  ///< that cause a recording
 
     WarmRecorder(const WarmThreads& threads, EventPort& events, const SitePort& sites)
         : threads_(threads), events_(events), sites_(sites) {}
@@ -58,7 +57,7 @@ public:
     WarmRecorder(const WarmRecorder&) = delete;
     WarmRecorder& operator=(const WarmRecorder&) = delete;
 
-    /// Before the first site; the hot thread's engine is listened to from now on.
+    /// Before the first site; the tap of the hot thread's engine is set.
     void begin(RecorderSettings settings);
 
     [[nodiscard]] TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) override;
@@ -72,24 +71,24 @@ public:
     void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) override;
     void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) override {
         shelf_.rename(
-            name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // who names it wants to keep it
+            name, to, [](RecordingInfo& i) { i.automatic = false; }, std::move(then));  // a person who names it wants to keep it
     }
     void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) override {
         shelf_.remove(name, std::move(then));
     }
-    /// One at most; it outlives this.
+    /// One listener at most; it must outlive this object.
     void listen(RecordListener* listener) { listener_ = listener; }
     [[nodiscard]] boost::asio::thread_pool& disk() noexcept { return disk_; }
-    /// What waits for the disk is given up, and what it does is waited for.
+    /// Drops jobs that wait for the disk, and waits for the running one.
     void end_disk() {
         disk_.stop();
         disk_.join();
     }
-    /// Takes what has come up to now.
+    /// Takes the records up to now.
     void look() { empty(); }
 
 private:
-    /// The hot thread's end.
+    /// The side on the hot thread.
     struct Tap final : FlightTap {
         RecordRing ring{ring_bytes};
         ~Tap() override;
@@ -98,7 +97,7 @@ private:
     };
     void on_event(const Event& event) override;
     void empty();
-    /// The next records, at most so many. True: that was all.
+    /// Takes the next records, at most this number. Returns true if no record is left.
     [[nodiscard]] bool take(std::size_t most);
     void end_look();
     void wait(std::chrono::milliseconds pause);

@@ -1,6 +1,5 @@
-// Warm registers: the register port: reads of the hot thread's register image, as jobs of that thread.
-// In: unit, table, address, count. Out: what a client of a register door would be answered now.
-// Bounded by the hot thread's ring of jobs: one more is answered with nothing.
+// The register port: reads of the register image as jobs of the hot thread, with the answer that a client of a register door would get now.
+// Bounded by the hot thread's ring of jobs; further requests get an empty answer.
 #pragma once
 
 #include "gateway/registers/register_image.hpp"
@@ -12,7 +11,7 @@ namespace axisgate {
 class WarmRegisters final : public RegisterPort {
 public:
     explicit WarmRegisters(const WarmThreads& threads) : threads_(threads) {}
-    /// The hot thread's register image; before start.
+    /// The hot thread's register image; must be set before the start.
     void use(registers::RegisterImage& image) { image_ = &image; }
     void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
                         std::function<void(std::optional<registers::RegisterRead>)> then) override {

@@ -1,5 +1,4 @@
-// Warm rehearsal: one cell is one job. In: the site and what the storage knows of its twins. Out: the cell.
-// Never shares anything with the gateway's own engine: the job has copies.
+// One cell is one job with copies of the site and of the twins' memories; nothing is shared with the gateway's own engine.
 #include "gateway/runtime/warm_rehearsal.hpp"
 
 #include <sched.h>
@@ -11,7 +10,7 @@
 
 namespace axisgate {
 namespace {
-/// Whatever else wants the processor has it. Refused, it is played all the same.
+/// Lowers the priority below that of all other threads. If this is refused, the rehearsal is played all the same.
 void stand_back() {
     const sched_param none{};
     (void)sched_setscheduler(0, SCHED_IDLE, &none);

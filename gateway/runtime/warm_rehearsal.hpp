@@ -1,5 +1,5 @@
-// Warm rehearsal: the rehearsal port: plays each cell on a thread of its own, which gives way to all others.
-// In: cells that are wished for. Out: cells, on the service thread. Never holds up the service: at its end it waits for one cell at most.
+// The rehearsal port: plays each cell on a thread of its own, which gives way to all others. At its end the service waits for one cell at
+// most.
 #pragma once
 
 #include <boost/asio/thread_pool.hpp>
@@ -17,7 +17,7 @@ public:
     WarmRehearsal(const WarmRehearsal&) = delete;
     WarmRehearsal& operator=(const WarmRehearsal&) = delete;
 
-    /// As the gateway's configuration has them.
+    /// The values of the gateway's configuration.
     void set_times(Duration watchdog, Duration lease) {
         watchdog_ = watchdog;
         lease_ = lease;

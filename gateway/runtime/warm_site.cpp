@@ -1,5 +1,5 @@
-// Warm site: a change walks from the service thread to the storage, to the hot thread, and back: put_in_force, store, start, finish.
-// In: checked sites. Out: events about what changed, the site in force. A change that comes meanwhile is refused.
+// A change passes from the service thread to the storage, to the hot thread, and back: put_in_force, store, start, finish. A second change
+// meanwhile is refused. Events report the changes.
 #include "gateway/runtime/warm_site.hpp"
 
 #include <fmt/core.h>
@@ -54,7 +54,7 @@ void WarmSite::put_in_force(Site site, std::uint64_t expected_revision, const Si
     threads_.on_cold([this, c = std::move(c)](Store& s) mutable { store(std::move(c), s); });
 }
 
-/// On the cold thread.
+/// On the storage thread.
 void WarmSite::store(Change c, Store& store) {
     for (const auto& known : store.axes().value_or(std::vector<AxisRecord>())) {
         if (known.removed_unix_ns && std::ranges::find(*c.names.axes, known.name, &SiteAxis::name) != c.names.axes->end())
@@ -71,7 +71,7 @@ void WarmSite::store(Change c, Store& store) {
 }
 
 void WarmSite::start(Change c) {
-    events_.note("site", std::move(c.text), c.origin);  // on its way before those that the change brings
+    events_.note("site", std::move(c.text), c.origin);  // reported before the events that the change causes
     auto job = [this, site = std::move(c.site), memory = std::move(c.memory), revision = c.revision, then = c.then](Engine& engine,
                                                                                                                     Instant now) mutable {
         engine.change_site(std::move(site), std::move(memory), revision, now,

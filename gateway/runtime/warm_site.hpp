@@ -1,6 +1,5 @@
-// Warm site: the site port: stores a site, has the hot thread put it in force, and tells who listens.
-// In: checked sites. Out: what became of them; the site in force. One change at a time.
-// Never puts in force what could not be stored.
+// The site port: stores a site, has the hot thread put it in force, and informs the listeners. One change at a time; a site that could not
+// be stored is not put in force.
 #pragma once
 
 #include <memory>
@@ -16,12 +15,12 @@ class WarmSite final : public SitePort {
 public:
     WarmSite(const WarmThreads& threads, WarmEvents& events, Families families)
         : threads_(threads), events_(events), families_(std::move(families)) {}
-    /// Before start, and when the hot thread has one in force.
+    /// Before the start, and when the hot thread has put one in force.
     void set_site(std::shared_ptr<const SiteState> site);
     /// A change is being put in force.
     [[nodiscard]] bool applying() const noexcept { return applying_; }
-    /// As apply_site. `kept`: what the storage knows under this site's names stays, too, although the new one has them no more: it may be
-    /// taken back.
+    /// As apply_site. `kept`: data that are stored under this site's names stay, too, although the new site lacks the names, because it may
+    /// be rolled back.
     void put_in_force(Site site, std::uint64_t expected_revision, const Site* kept, const Origin& origin,
                       std::function<void(SiteAnswer)> then);
 

@@ -1,6 +1,5 @@
-// Warm stage: a trial is marked in the storage before its site is put in force, so that a restart takes it back, too.
-// In: calls, the end of a trial. Out: sites in force, marks in the storage, events.
-// Never leaves a mark behind a site that is there for good.
+// A trial is marked in the storage before its site is put in force, so that a restart rolls it back, too. The mark is removed from a site
+// that becomes permanent.
 #include "gateway/runtime/warm_stage.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +12,7 @@
 
 namespace axisgate {
 namespace {
-constexpr std::int64_t try_again_s = 5;  // a roll back that could not be stored is tried again
+constexpr std::int64_t try_again_s = 5;  // a roll back that could not be stored is repeated after this time
 std::string actor_of(const Origin& origin) { return origin.who ? *origin.who : origin.text(); }
 }  // namespace
 
@@ -74,10 +73,10 @@ void WarmStage::confirm_stage(Origin origin, std::function<void(std::string faul
         return;
     }
     confirming_ = true;
-    trial_.cancel();  // from here on it is the disk that decides, and its answer comes
+    trial_.cancel();  // from here on the disk decides, and its answer follows
     threads_.on_cold([this, site = site_.site()->site, origin = std::move(origin), then = std::move(then)](Store& store) {
         const auto done = unmark_trial(store);
-        // The same text is not stored again; what the store knew of names that are gone now goes.
+        // The same text is not stored again; data of names that do not exist any more are removed.
         if (done) (void)store.save_site(boost::json::serialize(to_json(site)), origin.text(), unix_now_ns(), names_of(site));
         threads_.answer([this, origin, then, good = bool(done), fault = done ? std::string() : done.error().text] {
             confirming_ = false;
@@ -106,9 +105,8 @@ void WarmStage::take_back(Origin origin, std::string why, std::function<void(Sit
     site_.put_in_force(trial_base_, 0, nullptr, origin, [this, origin, why = std::move(why), then = std::move(then)](SiteAnswer answer) {
         stage_.rolled_back(answer.good, unix_now_ns() + try_again_s * 1'000'000'000);
         if (answer.good) {
-            threads_.on_cold([](Store& store) {
-                (void)unmark_trial(store);
-            });  // left there by a crash or a full disk, it names a site equal to this one
+            threads_.on_cold(
+                [](Store& store) { (void)unmark_trial(store); });  // left by a crash or a full disk, it names a site equal to this one
             events_.note("site", why, origin, Severity::warning);
         } else {
             events_.note("site", fmt::format("{}, but it could not be: {}; it will be tried again", why, answer.fault), origin,

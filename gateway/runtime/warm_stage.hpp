@@ -1,6 +1,5 @@
-// Warm stage: the stage port: one staged site, its trial, and the way back.
-// In: sites, who wants what, the end of a trial. Out: sites put in force by the site's owner; events.
-// Never rolls back while the disk is asked to confirm; a roll back that fails is tried again.
+// The stage port: one staged site, its trial, and the roll back. Nothing is rolled back while the disk is asked to confirm; a roll back
+// that fails is repeated.
 #pragma once
 
 #include <boost/asio/steady_timer.hpp>
@@ -34,8 +33,8 @@ private:
     WarmSite& site_;
     SiteStage stage_;
     boost::asio::steady_timer trial_;
-    Site trial_base_;          // what an applied stage is taken back to
-    bool confirming_ = false;  // the disk is asked; until it has answered nothing is rolled back
+    Site trial_base_;          // the site to which an applied stage is rolled back
+    bool confirming_ = false;  // the disk is being asked; until it has answered nothing is rolled back
 };
 
 }  // namespace axisgate

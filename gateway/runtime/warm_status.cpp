@@ -1,5 +1,4 @@
-// Warm status: metrics are written topic by topic: the program, lines, drives, axes, doors.
-// In: reports, counters. Out: text. Never waits.
+// Metrics are written topic by topic: the program, lines, drives, axes, doors.
 #include "gateway/runtime/warm_status.hpp"
 
 #include <fmt/core.h>
@@ -163,7 +162,7 @@ std::string WarmStatus::metrics() const {
         s += fmt::format("axisgate_fail_safe_total{{cause=\"{}\"}} {}\n", name_of(cause), reports->losses[static_cast<std::size_t>(cause)]);
     const auto& site = *site_.site();
     s += line_metrics(site, *reports);
-    // Read once: the figures of one answer agree with each other.
+    // Read once, so that the values of one answer fit together.
     std::vector<AxisPicture> pictures;
     pictures.reserve(site.axis_ids.size());
     for (const AxisId id : site.axis_ids)

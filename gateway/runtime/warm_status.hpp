@@ -1,5 +1,4 @@
-// Warm status: the status port: doors, readiness and metrics, gathered from the other owners and threads.
-// In: what doors and owners count. Out: sentences and Prometheus text. Never waits.
+// The status port: doors, readiness and metrics, collected from the other owners and threads.
 #pragma once
 
 #include <functional>
@@ -18,11 +17,11 @@ public:
     WarmStatus(const WarmThreads& threads, const WarmEvents& events, const WarmSite& site, const AxisPort& axes, const DrivePort& drives)
         : threads_(threads), events_(events), site_(site), axes_(axes), drives_(drives) {}
     void set_doors(std::vector<DoorInfo> doors) { doors_ = std::move(doors); }
-    /// More lines for metrics, of the doors of the hot thread.
+    /// Further lines for metrics, of the doors of the hot thread.
     std::function<std::string()> door_metrics;
     /// Doors that wait for their address or interface, one sentence each.
     std::function<std::vector<std::string>()> doors_waiting;
-    /// Of the EtherNet/IP door, where it is open.
+    /// Of the EtherNet/IP door, if it is open.
     std::function<std::string()> door_eds;
 
     [[nodiscard]] std::vector<DoorInfo> doors() const override { return doors_; }

@@ -1,6 +1,5 @@
-// Warm threads: what the owners of the service's ports share: their own executor, and the ways to the hot and the cold thread.
-// In: jobs for other threads. Out: answers, later, on the service thread. Never waits.
-// Bounded: the hot thread takes so many jobs at once; the next one is refused.
+// The common parts of the owners of the service's ports: their executor, and the ways to the hot and the storage thread. Nothing waits.
+// Bounded: the hot thread accepts a limited number of jobs; further ones are refused.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -14,7 +13,7 @@
 
 namespace axisgate {
 
-/// Said where the hot thread takes no more jobs.
+/// The text if the hot thread accepts no more jobs.
 inline constexpr const char* too_much_asked = "too much is asked at once; come again in a moment";
 
 struct WarmThreads {
@@ -29,7 +28,7 @@ struct WarmThreads {
     void answer(Then then) const {
         boost::asio::post(warm, std::move(then));
     }
-    /// False: it takes no more now, and `job` will not be called. Service thread.
+    /// Returns false if it accepts no more jobs now; `job` is not called then. Service thread.
     [[nodiscard]] bool on_hot(Hot::Job job) const {
         if (!hot.jobs().push(std::move(job))) return false;
         hot.jobs().announce();

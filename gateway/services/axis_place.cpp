@@ -1,5 +1,4 @@
-// Axis place: looked up in the site in force.
-// In: a name. Out: the place, or nothing. Never keeps anything from call to call.
+// Looks up an axis by name in the site in force.
 #include "gateway/services/axis_place.hpp"
 
 #include <fmt/core.h>
@@ -34,7 +33,7 @@ std::optional<AxisPlace> find_axis(const SitePort& sites, std::string_view name)
 void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer,
                     std::vector<Fault>& faults) {
     const CatalogueCommand* command = place.catalogue ? place.catalogue->command(action.name) : nullptr;
-    if (!command) {  // the adapter says what it knows; without an entry nothing can be given by name
+    if (!command) {  // the adapter refuses an unknown command; without a catalogue entry no argument can be given by name
         if (by_name && !by_name->empty())
             faults.push_back({pointer + std::string(by_name->begin()->key()),
                               fmt::format("a {} lists no command {}", place.family, action.name),

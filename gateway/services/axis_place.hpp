@@ -1,5 +1,4 @@
-// Axis place: an axis of the site in force, with what it hangs on.
-// In: the site port, a name or an index. Out: names, id, catalogue. Keeps the site alive that it was found in. Never asks a drive.
+// An axis of the site in force with its drive, line, id and catalogue. It keeps the site alive in which it was found.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -25,8 +24,8 @@ struct AxisPlace {
 };
 [[nodiscard]] std::optional<AxisPlace> find_axis(const SitePort& sites, std::string_view name);
 [[nodiscard]] AxisPlace axis_at(const SitePort& sites, std::shared_ptr<const SiteState> site, std::size_t index);
-/// Brings the arguments of a family's action into Action::values: `by_name`, or else the action's text as "name=value ...". A command
-/// without typed arguments keeps its text. Faults: one per argument, with `pointer` before its name.
+/// Puts the arguments of a family's action into Action::values: from `by_name`, or from the action's text as "name=value ...". A command
+/// without typed arguments keeps its text. There is one fault per argument, with `pointer` before its name.
 void read_arguments(const AxisPlace& place, Action& action, const boost::json::object* by_name, const std::string& pointer,
                     std::vector<Fault>& faults);
 /// Index by name in one of the site's lists.

@@ -1,5 +1,5 @@
-// Axis texts: a text is made anew when its picture has another revision, or when the machine's clock has been set since.
-// In: pictures. Out: text. Never reads the picture before its revision: a newer picture is then at worst rendered twice.
+// A text is made anew when the revision of its picture has changed, or when the wall clock was set. The revision is read before the
+// picture, so that at worst a newer picture is rendered twice.
 #include "gateway/services/axis_texts.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 namespace axisgate {
 namespace {
-/// A text says when its picture was taken. If the machine's clock has been set by more than this since, the text is made anew.
+/// A text contains the time of its picture. If the wall clock has been set by more than this since, the text is made anew.
 constexpr std::int64_t clock_step_ns = 1'000'000;
 }  // namespace
 
@@ -47,7 +47,7 @@ std::string AxisTexts::text(const Needs& ports, const std::shared_ptr<const Site
 
 void AxisTexts::make(Kept& k, const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index, AxisId id) {
     const auto& axes = ports.get<AxisPort>();
-    // The revision first: a picture that comes in between is then taken for a new one next time, and not the other way round.
+    // The revision is read first: a picture that arrives in between is then rendered again next time, and never missed.
     k.revision = id == no_axis ? 0 : axes.picture_revision(id);
     const AxisPicture picture = id == no_axis ? AxisPicture{} : axes.picture(id);
     k.at = picture.at;

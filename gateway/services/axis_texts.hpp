@@ -1,6 +1,5 @@
-// Axis texts: the documents of axes as JSON text, made once per picture and not once per request.
-// In: pictures. Out: what GET /axes/{name} answers. Warm thread only.
-// Bound: one text per axis of the site in force; another site empties all.
+// The documents of axes as JSON text (the answer of GET /axes/{name}), made once per picture and not once per request. Service thread only.
+// Bound: one text per axis of the site in force; another site clears all.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +14,20 @@
 
 namespace axisgate {
 
-/// Ends an axis' text, of which the closing brace has been taken off, with `age_ms`; null if it was never seen.
+/// Completes an axis' text, whose closing brace was removed, with `age_ms`; null if there was no feedback yet.
 void put_age(bool ever_seen, std::int64_t at_unix_ns, std::int64_t now_unix_ns, std::string& text);
 
 class AxisTexts {
 public:
     using Needs = PortSet<AxisPort, ClockPort, SitePort>;
-    /// The axis with this index in `site`, with its age now.
+    /// The text of the axis with this index in `site`, with its present age.
     [[nodiscard]] std::string text(const Needs& ports, const std::shared_ptr<const SiteState>& site, std::size_t index);
-    /// How many texts were made anew so far.
+    /// Number of texts made so far.
     [[nodiscard]] std::uint64_t made() const noexcept { return made_; }
 
 private:
     struct Kept {
-        std::uint64_t revision = 0;  ///< of the picture it was made from, or of one before
+        std::uint64_t revision = 0;  ///< of the picture from which it was made, or of an earlier one
         std::int64_t at_unix_ns = 0;
         bool ever_seen = false;
         Instant at{};

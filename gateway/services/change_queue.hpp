@@ -1,7 +1,6 @@
-// Change queue: changes of one thing (the site, the recipes, the users) one after the other, so that two clients who change it at once do
-// not hinder one another. In: jobs, each with its own end. Out: they are run in order, the next when the one before has ended: has said so,
-// has thrown, or has been let go without a word. Bound: 64 wait; one more is refused. Never runs two at a time, and never recurses however
-// many end at once.
+// Runs changes of one object (the site, the recipes, the users) one after the other, so that two clients that change it at once do not
+// disturb each other. A job ends when it calls `done`, throws, or destroys `done` without calling it. Bound: 64 jobs wait; further ones are
+// refused. Two jobs never run at a time, and many that end at once cause no recursion.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +16,12 @@ namespace axisgate {
 class ChangeQueue : public std::enable_shared_from_this<ChangeQueue> {
 public:
     static constexpr std::size_t most_waiting = 64;
-    /// Calls `done` once, at once or later. A job that keeps it and never does holds up all that come after it.
+    /// Calls `done` once, at once or later. A job that keeps `done` and never calls it blocks all later ones.
     using Job = std::function<void(std::function<void()> done)>;
-    /// Told what a job threw, so that whoever waits for its answer hears of it.
+    /// Gets the text of an exception that a job threw, for the client that waits for its answer.
     using Failed = std::function<void(const std::string& what)>;
 
-    /// False: too many wait already; the job is not taken.
+    /// Returns false if too many wait; the job is not accepted then.
     [[nodiscard]] bool run(Job job, Failed failed) {
         if (waiting_.size() >= most_waiting) return false;
         waiting_.emplace_back(std::move(job), std::move(failed));
@@ -31,7 +30,7 @@ public:
     }
 
 private:
-    /// A job's turn: over when `done` was called, or when nobody is left who could.
+    /// The turn of a job: it ends when `done` was called, or when no copy of it exists any more.
     struct Turn {
         std::shared_ptr<ChangeQueue> queue;
         explicit Turn(std::shared_ptr<ChangeQueue> q) : queue(std::move(q)) {}
@@ -69,7 +68,7 @@ private:
     static void report(const Failed& failed, const std::string& what) noexcept {
         try {
             if (failed) failed(what);
-        } catch (...) {  // nobody is left to be told
+        } catch (...) {  // no client is left to be informed
         }
     }
 

@@ -1,5 +1,4 @@
-// Command reader: members of a body into members of a wish.
-// In: JSON. Out: wishes.
+// Converts the members of a body to those of a wish.
 #include "gateway/services/command_reader.hpp"
 
 #include "gateway/core/text.hpp"

@@ -1,5 +1,4 @@
-// Command wish: one table of the commands with the members that each may have; whole increments stay exact below 2^53.
-// In: wishes. Out: a CommandBody, a SetPoint, or all faults.
+// Makes commands of wishes by one table of the commands with their members. Whole increments are exact below 2^53.
 #include "gateway/services/command_wish.hpp"
 
 #include <fmt/format.h>
@@ -10,13 +9,13 @@
 
 namespace axisgate {
 namespace {
-/// Whole increments stay exact as a double, as JSON number and as int64 below this.
+/// Below this value whole increments are exact as a double, as a JSON number and as int64.
 constexpr double largest_increments = 9007199254740992.0;  // 2^53
 
 struct Shape {
     CommandWord word;
     std::string_view command;
-    std::array<std::string_view, 6> fields;  ///< beside "command"; empty ones are none
+    std::array<std::string_view, 6> fields;  ///< in addition to "command"; empty entries are unused
 };
 constexpr std::array shapes{
     Shape{CommandWord::enable, "enable", {}},
@@ -38,7 +37,7 @@ const Shape* shape_of(CommandWord word) noexcept {
 }
 
 bool given(const WishedNumber& n) noexcept { return n.index() != 0; }
-/// What is no number is no whole one either.
+/// A value that is not a number is not a whole number either.
 double number_in(const WishedNumber& n) noexcept {
     const auto* d = std::get_if<double>(&n);
     return d ? *d : std::nan("");
@@ -107,7 +106,7 @@ public:
         }
         return static_cast<std::int16_t>(d);
     }
-    /// Milliseconds after which the axis is halted unless the same comes again.
+    /// Milliseconds after which the axis is halted unless the same command is repeated.
     std::optional<std::int64_t> hold(std::string_view key, const WishedNumber& wished, std::int64_t least) {
         if (!given(wished)) return std::nullopt;
         const double d = number_in(wished);
@@ -160,7 +159,7 @@ std::string known_commands() {
     return s;
 }
 
-/// Members that the command does not take: those that no wish has a place for, and those of a wish that was not made by them.
+/// Refuses members that the command does not have: unknown ones, and known ones of other commands.
 void refuse_others(Maker& make, const CommandWish& wish, const Shape& shape) {
     const auto refuse = [&](std::string_view key) {
         std::string list;

@@ -1,6 +1,6 @@
-// Command wish: what a client asks of an axis, in the axis' unit and as it was asked: the members of POST /axes/{name}/commands and of a
-// streamed set-point as values. A door makes it once, of what has come to it; whoever knows the axis makes a command of it. A value that
-// is none stays in it, so that all faults are told at once, and by whoever knows the axis' unit.
+// A client's request for an axis, in the axis' unit and as it was given: the members of POST /axes/{name}/commands and of a streamed
+// set-point as values. A door makes it once from its input; a command is made of it where the axis is known. Wrong values remain in it, so
+// that all faults are reported together, by the code that knows the axis' unit.
 #pragma once
 
 #include <cstdint>
@@ -30,18 +30,18 @@ enum class CommandWord : std::uint8_t {
     move_relative,
     move_velocity
 };
-/// `unknown` for a text that is no command.
+/// `unknown` for a text that is not a command.
 [[nodiscard]] CommandWord command_word_named(std::string_view name) noexcept;
 
-/// A word of POST /axes/{name}/commands that stops an axis and leaves it powered. Every door lets whoever it lets in give one.
+/// True for commands that stop an axis and leave it powered. Every door lets each of its clients give them.
 [[nodiscard]] constexpr bool is_stop(CommandWord word) noexcept { return word == CommandWord::halt || word == CommandWord::quick_stop; }
 [[nodiscard]] constexpr bool is_stop(std::string_view command) noexcept { return command == "halt" || command == "quick_stop"; }
 
-/// What stands in the place of a number and is none.
+/// A value in the place of a number that is not a number.
 struct NoNumber {
     std::string written;  ///< as the client wrote it, for the message: "\"12\""
 };
-/// monostate: it was not given.
+/// monostate: absent.
 using WishedNumber = std::variant<std::monostate, double, NoNumber>;
 enum class WishedFlag : std::uint8_t { no, yes, no_flag };
 
@@ -51,7 +51,7 @@ struct CommandWish {
     WishedNumber position{}, velocity{}, acceleration{}, deceleration{};
     WishedNumber method{}, hold_ms{};
     WishedFlag prepare = WishedFlag::no, renew = WishedFlag::no;
-    std::vector<std::string> unknown{};  ///< members that were given and that the command does not take
+    std::vector<std::string> unknown{};  ///< given members that the command does not have
 
     [[nodiscard]] static CommandWish named(std::string_view name) {
         CommandWish wish;
@@ -62,33 +62,33 @@ struct CommandWish {
 };
 
 struct SetPointWish {
-    std::optional<SetPoint::Mode> mode{};  ///< nothing: it was not given, or is no mode
+    std::optional<SetPoint::Mode> mode{};  ///< empty: absent, or not a mode
     WishedNumber value{}, velocity{}, acceleration{}, deceleration{};
     WishedNumber good_for_ms{};
     std::vector<std::string> unknown{};
 };
 
-/// Whether a command takes the member beside "command".
+/// True if a command has this member in addition to "command".
 [[nodiscard]] bool takes(CommandWord word, std::string_view member) noexcept;
 /// Members of a set-point.
 [[nodiscard]] bool is_set_point_member(std::string_view member) noexcept;
 
 struct ReadCommand {
     std::optional<CommandBody> body;  ///< only if there are no faults
-    std::string name;                 ///< the command's word, as far as it was given
+    std::string name;                 ///< the command's word, if it was given
     std::vector<Fault> faults;
     bool range_only = false;  ///< every fault is a value outside its range
 };
-/// `increments_per_unit` > 0. Positions are in the axis' unit, velocities in unit/s, accelerations in unit/s^2; each becomes the nearest
-/// whole number of increments. Velocities and accelerations that would become 0 increments are refused. Nothing is clipped or guessed: what
-/// is missing, unknown, not finite or too large is a fault.
+/// Requires `increments_per_unit` > 0. Positions are in the axis' unit, velocities in unit/s, accelerations in unit/s^2; each becomes the
+/// nearest whole number of increments. Velocities and accelerations that would become 0 increments are refused. Nothing is clipped or
+/// guessed: missing, unknown, infinite and too large values are faults.
 [[nodiscard]] ReadCommand make_command(const CommandWish& wish, double increments_per_unit, std::string_view unit);
 
 struct ReadSetPoint {
-    std::optional<SetPoint> set_point;  ///< axis, instant and origin are the caller's; only if there are no faults
+    std::optional<SetPoint> set_point;  ///< the caller sets axis, instant and origin; only if there are no faults
     std::vector<Fault> faults;
 };
-/// The value of a set-point for torque is in 1/1000 of the rated torque, and no unit counts.
+/// The value of a set-point for torque is in 1/1000 of the rated torque, without a unit.
 [[nodiscard]] ReadSetPoint make_set_point(const SetPointWish& wish, double increments_per_unit, std::string_view unit);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Documents: schema/openapi.yaml names every member; a test compares both ways.
-// In: values of the core. Out: JSON. What was never told by a drive is null here, not 0. Never asks the gateway.
+// The members are those of schema/openapi.yaml; a test compares both. Values that a drive never reported are null, not 0.
 #include "gateway/services/documents.hpp"
 
 #include <fmt/core.h>
@@ -69,7 +68,7 @@ json::value json_of(const PointValue& value) {
     return nullptr;
 }
 
-/// Whose stop holds the axis, and what moves it again; null: none does.
+/// The client whose stop holds the axis, and what moves the axis again; null if there is none.
 json::value stop_latch_text(const AxisPicture& p) {
     constexpr std::uint16_t latched = 1u << 0, by_client = 1u << 2, by_safe_input = 1u << 3;  // register 23
     constexpr std::string_view fresh =
@@ -125,7 +124,7 @@ json::value age_of(const AxisView& v) {
     return std::max<std::int64_t>(0, (*v.now_unix_ns - v.at_unix_ns) / 1'000'000);
 }
 
-/// Rows that are made of more than their value in the picture.
+/// Rows that need more than their value in the picture.
 struct Composed {
     std::string_view name;
     json::value (*make)(const AxisView&);
@@ -140,7 +139,7 @@ constexpr auto composed = std::to_array<Composed>({
     {"authority_until", authority_until},
     {"at", [](const AxisView& v) { return v.picture.ever_seen ? json::value(format_time(v.at_unix_ns)) : json::value(nullptr); }},
     {"age_ms", age_of},
-    {"number", [](const AxisView& v) { return json::value(v.spec.number); }},  // as the site has it: a picture may not have been made yet
+    {"number", [](const AxisView& v) { return json::value(v.spec.number); }},  // from the site, because there may be no picture yet
 });
 static_assert(std::ranges::all_of(axis_point_table,
                                   [](const AxisPointRow& row) {
@@ -149,7 +148,7 @@ static_assert(std::ranges::all_of(axis_point_table,
                                   }),
               "what the table calls composed is made here");
 
-/// What the document shows of one row; null while it is not known.
+/// The document's value of one row; null while it is unknown.
 json::value axis_member(const AxisView& v, const AxisPointRow& row) {
     const auto c = std::ranges::find(composed, row.name, &Composed::name);
     return c != composed.end() ? c->make(v) : json_of(said(row, v.picture, v.spec.increments_per_unit));
@@ -262,7 +261,7 @@ json::value allowed_document(const std::vector<std::pair<std::int64_t, std::stri
     return list;
 }
 
-/// What the number means: its bit fields, ranges of values, and the form that it has while another parameter has a certain value.
+/// The meaning of the number: its bit fields, ranges of values, and its form while another parameter has a certain value.
 void put_forms(json::object& o, const Catalogue& catalogue, Point point) {
     json::array fields, meanings;
     for (const auto& f : fields_of(catalogue, point))

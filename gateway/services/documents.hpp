@@ -1,6 +1,5 @@
-// Documents: the JSON that this door shows of axes, drives, lines, frames, events and catalogues.
-// In: values of the core. Out: JSON objects with exactly the members that schema/openapi.yaml describes.
-// Never asks the gateway: what is to be shown is handed in.
+// The JSON of axes, drives, lines, frames, events and catalogues, with exactly the members that schema/openapi.yaml describes. All data are
+// arguments; the gateway is not asked.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -26,7 +25,7 @@ namespace axisgate {
 [[nodiscard]] std::string_view name_of(Quality quality) noexcept;
 [[nodiscard]] std::string_view name_of(Access access) noexcept;  ///< "R", "W", "RW"
 
-/// A value as JSON; null if it is not known.
+/// A value as JSON; null if it is unknown.
 [[nodiscard]] boost::json::value to_json(const Value& value);
 
 struct AxisView {
@@ -45,20 +44,20 @@ struct AxisView {
 [[nodiscard]] boost::json::object event_document(const Event& event);
 [[nodiscard]] boost::json::object frame_document(const TraceEntry& entry, const std::vector<std::string>& decoded = {});
 
-/// A parameter of the catalogue; of an array `point` is the element that is meant, or the first, and `id` says which: `N[17]`, or `N`.
+/// A parameter of the catalogue. For an array `point` is the element, or the first one, and `id` says which: `N[17]`, or `N`.
 [[nodiscard]] boost::json::object parameter_document(const Catalogue& catalogue, Point point, std::string_view id);
-/// A command of this catalogue, with what a person is asked before it is sent (`confirm` of the catalogue's document).
+/// A command of this catalogue, with the question for a person before it is sent (`confirm` of the catalogue's document).
 [[nodiscard]] boost::json::object command_document(const Catalogue& catalogue, const CatalogueCommand& command);
 [[nodiscard]] boost::json::object error_document(const ErrorCode& error);
-/// A family, with whatever its catalogue says beside the three lists.
+/// A family, with all members of its catalogue except the three lists.
 [[nodiscard]] boost::json::object family_document(const FamilyEntry& entry);
 
-/// Members of the documents above that only tell the state: requests may carry them, and they are ignored there. Of an axis:
+/// Members of the documents above that only show the state: requests may contain them, and they are ignored. For an axis use
 /// is_document_member.
 [[nodiscard]] bool is_read_only_drive_member(std::string_view name) noexcept;
 [[nodiscard]] bool is_read_only_line_member(std::string_view name) noexcept;
 
-/// Parameter of an axis: the catalogue's, the live value, and the last write through the gateway.
+/// A parameter of an axis: the catalogue's entry, the live value, and the last write through the gateway.
 [[nodiscard]] boost::json::object axis_parameter_document(const Catalogue& catalogue, Point point, std::string_view id,
                                                           const LiveParameter& live, const StoredParameter* stored, std::string_view text);
 

@@ -1,7 +1,5 @@
-// Service door: a protocol server on the service thread, one among several.
-// In: what the gateway and the services tell. Out: an open door at an address. Commands go through the axis port, with the door's name as
-// origin; each gets its one result by the function that was given along.
-// Never used on the hot thread: doors there are HotDoor.
+// A protocol server on the service thread. Commands go through the axis port with the door's name as origin; each gets its one result
+// through the function that was passed with it. Doors on the hot thread implement HotDoor instead.
 #pragma once
 
 #include <functional>
@@ -16,15 +14,16 @@ namespace axisgate {
 class ServiceDoor {
 public:
     virtual ~ServiceDoor() = default;
-    /// As the log and `ready` call it: "http".
+    /// Name in the log and in `ready`, such as "http".
     [[nodiscard]] virtual std::string_view name() const = 0;
-    /// By which somebody can set an axis in motion here, each with the losses that end it; none: it only shows.
+    /// The ways in which a client can set an axis in motion over this door, each with the causes of loss that end such a motion. Empty if
+    /// the door only shows values.
     [[nodiscard]] virtual std::span<const WayIn> ways_in() const = 0;
-    /// Opens it. Empty: it is open; else what is wrong and what to do.
+    /// Opens the door. Empty if it is open; otherwise the fault and the remedy.
     [[nodiscard]] virtual std::string start() = 0;
-    /// Where it is open; empty while it is closed.
+    /// The address at which it is open; empty while it is closed.
     [[nodiscard]] virtual std::string address() const = 0;
-    /// Takes nobody more in, lets what is under way end within its bound, then calls `done`, not from inside this call.
+    /// Accepts no new clients, lets running work end within its bound, then calls `done`, but not from inside this call.
     virtual void stop(std::function<void()> done) = 0;
 };
 

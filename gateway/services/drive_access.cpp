@@ -1,5 +1,4 @@
-// Drive access: what is wrong with a wish is told before anything of it is done.
-// In: bodies, what the hand has. Out: documents, refusals. Keeps nothing.
+// Checks a request completely before any part of it is carried out.
 #include "gateway/services/drive_access.hpp"
 
 #include <fmt/core.h>
@@ -23,7 +22,7 @@ ServiceRefusal not_simulated(const DrivePort& drives, DriveId id, std::string_vi
     return {ServiceRefusal::Why::not_simulated, fmt::format("drive {} is not simulated now: {}", name, why)};
 }
 
-/// The twin says in words what it does not take; the place is the one member there is, or the one that its words name.
+/// The twin reports in words what it refuses; the pointer is that of the only member, or of the one that the words name.
 Fault hand_fault(const std::vector<std::string>& asked, std::string text) {
     if (asked.size() == 1) return {"/" + asked.front(), std::move(text), "nothing was set; see GET with ?describe=1"};
     const auto is_named = [&text](const std::string& name) {
@@ -137,7 +136,7 @@ void get_hand(DrivePort& drives, const DrivePlace& drive, std::function<void(Ref
 }
 
 void set_hand(DrivePort& drives, const DrivePlace& drive, HandWish wanted, Origin origin, std::function<void(Refusable<HandItems>)> then) {
-    // Asked first: whether the drive is simulated, and which names there are, is told better before anything is set.
+    // The conditions are read first, because a drive that is not simulated and an unknown name can then be reported better.
     get_hand(drives, drive,
              [&drives, drive, wanted = std::move(wanted), origin = std::move(origin),
               then = std::move(then)](Refusable<HandItems> answer) mutable {

@@ -1,5 +1,4 @@
-// Drive access: one exchange in a drive's own language, and the tester's hand of simulated drives. In: names, bodies, who wants it.
-// Out: commands, the outside conditions as they are, refusals. Never sets anything at a real drive: only a twin has a hand.
+// One exchange in a drive's own language, and the tester's conditions of simulated drives. Conditions are never set at a real drive.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -28,9 +27,9 @@ struct DrivePlace {
 };
 [[nodiscard]] std::optional<DrivePlace> find_drive(const SitePort& sites, std::string_view name);
 
-/// The bytes to send, or what is wrong with the body.
+/// The bytes to send, or the faults of the body.
 [[nodiscard]] std::optional<Native> read_native(const boost::json::object& body, std::vector<Fault>& faults);
-/// An exchange belongs to the drive, but every command names an axis: the one with the lowest channel stands for the drive.
+/// An exchange belongs to the drive, but every command names an axis: the axis with the lowest channel represents the drive.
 [[nodiscard]] Refusable<std::size_t> axis_for(const DrivePlace& drive);
 
 using HandItems = std::vector<HandItem>;

@@ -1,5 +1,4 @@
-// Event lists: one line, or one row, per event.
-// In: events. Out: text. Keeps nothing.
+// One line, or one row, per event.
 #include "gateway/services/event_lists.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Fault: one wrong place of a document that somebody sent, in words.
-// In: made by whoever reads the document. Out: shown by the door that it came through. Never says only that something is wrong.
+// One wrong place of a document that a client sent: the fault and the remedy as text.
 #pragma once
 
 #include <string>
@@ -8,9 +7,9 @@ namespace axisgate {
 
 struct Fault {
     std::string pointer;  ///< JSON pointer
-    std::string text;     ///< what is wrong
-    std::string remedy;   ///< what to do
-    bool in_body = true;  ///< the pointer points into the request's body; false: into the site that would result
+    std::string text;     ///< the fault
+    std::string remedy;   ///< the remedy
+    bool in_body = true;  ///< the pointer refers to the request's body; false: to the resulting site
 };
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Frame decoder: a reader of its own for the cable and for the twin bus, since an answer is read by the request that went before it.
-// In: recorded frames. Out: sentences; none for a line or family that is not known. Never mixes the two.
+// The cable and the twin bus each have a decoder of their own, because an answer is interpreted by the request before it. Frames of an
+// unknown line or family have no sentences.
 #include "gateway/services/frame_decoder.hpp"
 
 #include <algorithm>

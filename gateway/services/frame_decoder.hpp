@@ -1,6 +1,5 @@
-// Frame decoder: the frames of one line as sentences, in the order in which they crossed it.
-// In: recorded frames. Out: the family's reading of each (none where a message is not whole yet). Cable and twin bus are kept apart.
-// Never keeps a frame; after a gap in the recording it must be made anew.
+// Frames of one line as sentences of the family's decoder, in their order; no sentence while a message is incomplete. Cable and twin bus
+// are kept apart. After a gap in the recording a new decoder must be made.
 #pragma once
 
 #include <array>
@@ -17,10 +16,10 @@ namespace axisgate {
 
 class FrameDecoder {
 public:
-    /// For the line of that name in the site; reads nothing if there is none, or if its families have no readers.
+    /// For the line of that name in the site; decodes nothing if there is none, or if its families have no decoders.
     FrameDecoder(const Families& families, const Site& site, std::string_view line);
-    /// On a line of several families each sentence begins with the family that claims the frame. What none claims (a broadcast of the
-    /// gateway) is read by those that know it.
+    /// On a line of several families each sentence begins with the family to which the frame belongs. A frame that belongs to none (a
+    /// broadcast of the gateway) is decoded by those families that know it.
     [[nodiscard]] std::vector<std::string> read(const TraceEntry& entry);
 
 private:
@@ -28,7 +27,7 @@ private:
         FamilyEntry family;
         bool receives_all = true;
         std::vector<CanIdentifiers> identifiers{};
-        std::array<std::unique_ptr<Decoder>, 4> decoders{};  ///< cable and twin bus, CAN and bytes; made when they are needed
+        std::array<std::unique_ptr<Decoder>, 4> decoders{};  ///< cable and twin bus, CAN and bytes; made when needed
     };
     [[nodiscard]] static std::vector<std::string> read_as(Reader& reader, const TraceEntry& entry);
 

@@ -1,5 +1,4 @@
-// Line scan: every fault of a wish is told at once.
-// In: JSON, reports. Out: wishes, JSON. Keeps nothing.
+// Reads requests for scans and makes their documents; all faults are reported together.
 #include "gateway/services/line_scan.hpp"
 
 #include <fmt/core.h>
@@ -26,7 +25,7 @@ std::string address_in(const json::value& v, std::string_view key, std::vector<F
     return {};
 }
 
-/// Whether a line of the site is at this port, by whichever of its names.
+/// True if a line of the site uses this port, under any of its names.
 bool is_at(const LineSpec& line, const SystemPort& port) {
     const auto u = parse_line_uri(line.uri);
     if (!u.good()) return false;

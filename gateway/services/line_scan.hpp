@@ -1,5 +1,5 @@
-// Line scan: a search for drives on a line as it is wished for and as it is told; where on this machine a line can be.
-// In: bodies, reports, the system's ports, the site. Out: wishes, documents. Never begins a search.
+// The request for a scan of a line, its document, and the ports of this machine at which a line can be. The scan itself is started
+// elsewhere.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -24,7 +24,7 @@ struct LinePlace {
 
 [[nodiscard]] ScanWish read_scan_wish(const boost::json::object& body, std::vector<Fault>& faults);
 [[nodiscard]] boost::json::object scan_document(const ScanReport& report, std::string_view line);
-/// The system's ports as they are now, with the line of the site that is there.
+/// The present ports of the system, each with the line of the site that uses it.
 [[nodiscard]] boost::json::array host_ports_document(const LinePort& lines, const Site& site);
 
 }  // namespace axisgate

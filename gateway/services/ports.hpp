@@ -1,6 +1,6 @@
-// Ports: what services and doors of the service thread see of everything else, a small interface for each topic.
-// In: an owner of each. Out: each by its type. Whoever puts services and doors together holds all of them; a service or a handler takes
-// those that it uses, and no more. All are called on the service thread and call back there.
+// The interfaces through which services and doors of the service thread see the rest of the program, one small interface for each topic.
+// The code that composes services and doors holds all of them; a service or a handler takes only those that it uses. All are called on the
+// service thread and call back there.
 #pragma once
 
 #include "gateway/services/ports/axes.hpp"
@@ -27,7 +27,7 @@
 
 namespace axisgate {
 
-/// All of them: for whoever puts services and doors together.
+/// All ports, for the code that composes services and doors.
 using Ports =
     PortSet<AxisPort, BackupPort, CapturePort, ClockPort, ConnectionPort, DescriptionPort, DocumentPort, DrivePort, EventPort, FleetPort,
             LinePort, ModbusPort, ParameterPort, RecorderPort, RegisterPort, RehearsalPort, SitePort, SnapshotPort, StagePort, StatusPort>;

@@ -1,5 +1,4 @@
-// Service refusal: the words that several services share.
-// In: names, faults. Out: refusals. Never decides whether something is refused.
+// The texts of refusals that several services share.
 #include "gateway/services/refusal.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Services: put together, and given one deadline.
-// In: time. Out: each service's own turn. Never tells anybody after it has begun to end.
+// Composes the services and gives them one deadline. After the end has begun, no listener is called.
 #include "gateway/services/services.hpp"
 
 #include <algorithm>
@@ -41,7 +40,7 @@ Services::~Services() {
 Instant Services::deadline() const { return std::min(recipes->deadline(), alarms->deadline()); }
 
 void Services::on_deadline(Instant now) {
-    // Each looks for itself what is due: the alarms' deadline hangs on the wall clock, and is not what it was a moment ago.
+    // Each checks itself what is due: the alarms' deadline depends on the wall clock, and may have changed meanwhile.
     recipes->on_deadline(now);
     alarms->on_deadline(now);
 }

@@ -1,6 +1,5 @@
-// Services: what outlives a request and belongs to no door: alarms, recipes, jobs on parameters, whose the staged site is, who may come in.
-// In: the ports, the clock it is given, time. Out: the services, and what they tell to whoever listens.
-// Never used off the service thread, and never sleeps: whoever owns it calls on_deadline. They are there with any doors, or with none.
+// The services that outlive a request and belong to no door: alarms, recipes, jobs on parameters, the owner of the staged site, access.
+// They exist with any doors, or with none. Service thread only; the owner calls on_deadline.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -23,7 +22,7 @@
 
 namespace axisgate {
 
-/// What the services tell, on the service thread.
+/// The reports of the services, on the service thread.
 struct ServiceListener {
     /// The list of alarms has changed.
     virtual void on_alarms(const boost::json::object& /*list*/) {}
@@ -32,12 +31,12 @@ struct ServiceListener {
     virtual ~ServiceListener() = default;
 };
 
-/// Parameters that are being written, (axis, parameter): how often.
+/// Parameters that are being written, (axis, parameter): number of writes.
 using WritesUnderWay = std::map<std::pair<std::string, std::string>, int>;
 
 class Services {
 public:
-    /// `access`: users; without it only local access is known.
+    /// `access` provides users; without it there is only local access.
     Services(const Ports& ports, std::function<Instant()> clock, std::shared_ptr<AccessPort> access = nullptr);
     ~Services();
     Services(const Services&) = delete;
@@ -50,7 +49,7 @@ public:
     const std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();  ///< many parameters of one axis, one after the other
     const std::shared_ptr<BootCheck> boot_check;                          ///< of stored parameters, when a drive answers
     const std::shared_ptr<ChangeQueue> site_changes = std::make_shared<ChangeQueue>();
-    const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();  ///< whose the staged site is
+    const std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();  ///< the owner of the staged site
     const std::shared_ptr<WritesUnderWay> writes =
         std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
 
@@ -59,7 +58,7 @@ public:
 
     [[nodiscard]] Instant deadline() const;
     void on_deadline(Instant now);
-    /// Called when deadline() may have changed by another cause than on_deadline.
+    /// Called when deadline() may have changed for another reason than on_deadline.
     std::function<void()> rearm;
 
 private:

@@ -1,5 +1,4 @@
-// State tag: FNV-1a of what makes a state.
-// In: parts. Out: a tag. Keeps nothing.
+// FNV-1a of the parts of a state.
 #include "gateway/services/state_tag.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// State tag: a short text that names one state of something that is kept (a recipe, a user), so that a change can say which state it means.
-// In: what makes a state; what a client has named. Out: tags; whether another state was meant. Nothing depends on a tag's being hard to
-// forge. The site has its revision.
+// A short text that identifies one state of a stored object (a recipe, a user), so that a change can name the state to which it refers. It
+// need not be hard to forge. The site has its revision instead.
 #pragma once
 
 #include <initializer_list>
@@ -9,15 +8,15 @@
 
 namespace axisgate {
 
-/// With quotes, as HTTP writes it: other parts, or parts divided otherwise, are another tag. Gives no part away.
+/// With quotes, as HTTP writes it. Other parts, or the same text divided otherwise, give another tag; the parts cannot be derived from it.
 [[nodiscard]] std::string tag_over(std::initializer_list<std::string_view> parts);
 
-/// The states that a client means, in the words of its door.
+/// The states to which a client refers, in the words of its door.
 struct MeantState {
     using Lists = bool (*)(std::string_view text, std::string_view tag, bool weak) noexcept;
-    std::string text{};     ///< the state must be one of these; empty: it may be any
-    std::string absent{};   ///< it must be none of these; empty: it may be any
-    Lists lists = nullptr;  ///< whether the door's text names a tag
+    std::string text{};     ///< the state must be one of these; empty: any
+    std::string absent{};   ///< it must be none of these; empty: any
+    Lists lists = nullptr;  ///< true if the door's text contains a tag
     [[nodiscard]] bool another(std::string_view tag) const { return !text.empty() && !lists(text, tag, false); }
     [[nodiscard]] bool excluded(std::string_view tag) const { return !absent.empty() && lists(absent, tag, true); }
 };

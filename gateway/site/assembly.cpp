@@ -1,5 +1,5 @@
-// Assemblies, reading and writing. An instance belongs to one thing; a range never cuts a value in two.
-// In: JSON, a site. Out: entries, faults. Never moves an entry to a free instance by itself.
+// Assemblies: reads, checks and writes the entries. An instance has one user only, and a range never splits a value.
+// An entry is never moved to a free instance automatically.
 #include "gateway/site/assembly.hpp"
 
 #include <array>
@@ -67,7 +67,7 @@ const ProfileSpec* profile_at(const Site& site, std::uint8_t unit) {
     return it == site.profiles.end() ? nullptr : &*it;
 }
 
-/// The image of a language: what its master writes, and what it reads. gateway/registers/profiles says what stands there.
+/// The image of a profile: the part that its master writes, and the part that it reads. Its content is in gateway/registers/profiles.
 AssemblySpec image_of(const ProfileSpec& p, AssemblyDirection direction) {
     AssemblySpec a;
     a.unit = p.unit;
@@ -152,7 +152,7 @@ void read_assemblies(const boost::json::value* list, Site& site, std::vector<Sit
 void check_assemblies(const Site& site, std::vector<SiteFault>& faults, const std::function<std::string(std::size_t)>& called) {
     std::map<std::uint16_t, std::string> held;
     const auto take = [&](std::uint16_t instance, const std::string& pointer, std::string by) {
-        if (instance == 0) return;  // it was not read, and its fault is told
+        if (instance == 0) return;  // it could not be read, and its fault is already reported
         std::string holder = fixed_assembly(instance);
         if (const auto it = held.find(instance); it != held.end()) holder = it->second;
         if (!holder.empty())
@@ -219,7 +219,7 @@ std::vector<SiteAssembly> assemblies_of(const Site& site) {
         if (p.output_assembly) add(image_of(p, output), what);
     }
     std::ranges::sort(all, {}, [](const SiteAssembly& a) { return a.spec.instance; });
-    // Who renews an output reads what it shows of the same unit, or else of the same axes.
+    // An originator that renews an output reads the input of the same unit, or else of the same axes.
     for (SiteAssembly& out : all) {
         if (out.spec.direction != output) continue;
         const auto reads = [&](auto&& fits) {

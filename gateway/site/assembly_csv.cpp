@@ -1,5 +1,5 @@
-// Assembly, CSV: the site's own assemblies for a spreadsheet and back, by the table reader of gateway/core.
-// In: assemblies, or text. Out: text, or JSON entries as a site has them and every faulty line. Those of profiles are not among them.
+// Assembly, CSV: writes the site's own assemblies as a table and reads them back, with the table reader of gateway/core.
+// Reading gives JSON entries in the form of a site, and every faulty line. Assemblies of profiles are not included.
 #include <fmt/core.h>
 
 #include <array>

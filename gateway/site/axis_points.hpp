@@ -1,6 +1,5 @@
-// Axis points: the words by which a mapping names a value that every axis has beside its drive's parameters.
-// A site names them, so they stand below the axis: what a value is and who else shows it, gateway/axis/points.hpp says.
-// In: a word. Out: a point, and back. Never a value.
+// Axis points: the names by which a mapping refers to a value that every axis has in addition to its drive's parameters.
+// They are part of the site's document and therefore below the axis in the layers; gateway/axis/points.hpp defines the values.
 #pragma once
 
 #include <algorithm>
@@ -55,10 +54,10 @@ enum class AxisPoint : std::uint8_t {
 struct AxisPointInfo {
     AxisPoint point;
     std::string_view name;
-    ValueType type;  ///< of registers that hold all of it; those of the standard map are its own
+    ValueType type;  ///< type of the registers that hold the whole value; those of the standard map have their own
     bool writable;   ///< registers 32..44 of the standard map
     std::string_view description;
-    std::array<std::string_view, 2> also{};  ///< longer names, known too
+    std::array<std::string_view, 2> also{};  ///< longer names that are accepted, too
 };
 
 namespace axis_point_list_detail {
@@ -122,7 +121,7 @@ static_assert([] {
 [[nodiscard]] constexpr const AxisPointInfo& info_of(AxisPoint point) noexcept { return axis_point_list[static_cast<std::size_t>(point)]; }
 [[nodiscard]] constexpr std::string_view name_of(AxisPoint point) noexcept { return info_of(point).name; }
 [[nodiscard]] constexpr bool writable(AxisPoint point) noexcept { return info_of(point).writable; }
-/// By its name or one of its longer ones.
+/// Finds a point by its name or by one of its longer names.
 [[nodiscard]] constexpr std::optional<AxisPoint> axis_point_named(std::string_view name,
                                                                   std::span<const AxisPointInfo> list = axis_point_list) noexcept {
     if (name.empty()) return std::nullopt;

@@ -1,6 +1,6 @@
-// Descriptions: the makers' files (EDS, DCF) by which drives of a site may be described, by name.
-// In: texts that were checked. Out: the same, shared. Never changes a text: a name stands for one text until it is removed.
-// Used by one thread at a time: filled before the site is read, then the service thread's.
+// Descriptions: the manufacturers' files (EDS, DCF) that describe drives of a site, by name.
+// The texts have been checked and are shared. A text never changes: its name belongs to it until it is removed. Used by one thread at a
+// time: filled before the site is read, afterwards used by the service thread.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -19,18 +19,18 @@ namespace axisgate {
 struct Description : DescriptionText {
     std::string who;
     std::int64_t at_unix_ns = 0;
-    std::shared_ptr<const boost::json::object> facts{};  ///< what is in it, for people; null: it cannot be read
+    std::shared_ptr<const boost::json::object> facts{};  ///< summary for the user; null: the file cannot be read
 };
 
 class DescriptionShelf {
 public:
     using Options = std::map<std::string, std::string>;
-    /// nullptr: there is none.
+    /// Returns nullptr if there is none.
     [[nodiscard]] std::shared_ptr<const Description> find(std::string_view name) const {
         const auto it = all_.find(name);
         return it == all_.end() ? nullptr : it->second;
     }
-    /// False: there is one of that name, and it stays.
+    /// Returns false and changes nothing if the name is in use.
     bool put(Description d) {
         std::string name = d.name;
         return all_.emplace(std::move(name), std::make_shared<const Description>(std::move(d))).second;

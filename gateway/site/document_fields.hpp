@@ -1,6 +1,5 @@
-// Document fields: one object of a site's document, read member by member.
-// In: a JSON value and its place. Out: texts, numbers, options; every fault with its place and what would be right; unknown members named.
-// Never stops at the first fault.
+// Document fields: reads one object of a site's document, member by member.
+// Texts, numbers and options are returned; every fault is collected with its place and a correct example. Unknown members are reported.
 #pragma once
 
 #include <fmt/core.h>
@@ -21,7 +20,7 @@
 
 namespace axisgate {
 
-/// Collects faults; remembers which keys were asked for, so that unknown ones can be named.
+/// Collects faults, and remembers the keys that were read, so that unknown ones can be reported.
 class DocumentFields {
 public:
     DocumentFields(const boost::json::value& v, std::string pointer, std::vector<SiteFault>& faults)

@@ -1,5 +1,4 @@
-// Fail-safe: names, and the choice of an action: the site's for that axis and cause, else its default.
-// In: a cause and what the axis does. Out: the action. Never acts by itself.
+// Fail-safe: the names, and the choice of an action: the site's choice for the axis and cause, otherwise the default.
 #include "gateway/site/fail_safe.hpp"
 
 #include <algorithm>

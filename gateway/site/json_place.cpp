@@ -1,12 +1,12 @@
-// JSON place: on which line of a text a JSON pointer's value stands, so that a fault can name it.
-// In: the text (well formed or not) and a pointer. Out: a 1-based line number. Never fails: the nearest place that exists is told.
+// JSON place: finds the line of a JSON pointer's value in a text, so that a fault can name it.
+// The text need not be well formed. If the value does not exist, the line of the nearest existing place is returned.
 #include <cctype>
 
 #include "gateway/site/site.hpp"
 
 namespace axisgate {
 namespace {
-/// A forgiving walker over JSON text that only follows structure.
+/// Walks through JSON text and follows its structure only, without checking it.
 class Walker {
 public:
     explicit Walker(std::string_view text) : s_(text) {}
@@ -90,7 +90,7 @@ private:
                 skip_space();
             }
             if (key == token) {
-                // A member's line is its key's: that is where a reader looks.
+                // The line of a member is the line of its key, where a reader looks for it.
                 if (open == '{' && i_ < s_.size() && s_[i_] != '{' && s_[i_] != '[') i_ = place;
                 return true;
             }

@@ -1,5 +1,4 @@
-// Mapping: one entry of a user map, read and written. In: JSON objects. Out: checked entries.
-// Never reads a value: only what may stand where.
+// Mapping: reads and writes the entries of a user map. Only the form of an entry is checked here; no value is read.
 #include "gateway/site/mapping.hpp"
 
 #include <fmt/core.h>
@@ -37,7 +36,7 @@ constexpr std::array table_names{std::pair{std::string_view("coils"), MapTable::
                                  std::pair{std::string_view("discrete_inputs"), MapTable::discrete_inputs},
                                  std::pair{std::string_view("holding_registers"), MapTable::holding_registers},
                                  std::pair{std::string_view("input_registers"), MapTable::input_registers}};
-// What people write for them as well.
+// Common short names that are accepted, too.
 constexpr std::array table_short_names{std::pair{std::string_view("coil"), MapTable::coils},
                                        std::pair{std::string_view("discrete"), MapTable::discrete_inputs},
                                        std::pair{std::string_view("discrete_input"), MapTable::discrete_inputs},
@@ -66,7 +65,7 @@ constexpr std::array overflow_names{std::pair{std::string_view("mark"), MapOverf
 
 constexpr bool is_bits(MapTable t) noexcept { return t == MapTable::coils || t == MapTable::discrete_inputs; }
 
-/// Reads one entry's members; each fault gets its pointer.
+/// Reads the members of one entry; each fault has its pointer.
 class Entry {
 public:
     Entry(const json::object& o, std::size_t index, std::vector<SiteFault>& faults)
@@ -132,7 +131,7 @@ public:
         }
         return n;
     }
-    /// One of a few words, `names` or what people write for them as well; nothing where it is left out, or is none of them.
+    /// One of the words in `names` or of their short forms; nothing if the member is missing or is none of them.
     template <class E, std::size_t N, std::size_t M = 0>
     std::optional<E> word(std::string_view key, const std::array<std::pair<std::string_view, E>, N>& names,
                           const std::array<std::pair<std::string_view, E>, M>& others = {}) {
@@ -162,7 +161,7 @@ private:
     std::size_t faults_before_;
 };
 
-/// The ids of a list: those that are written in it, and new ones for entries without.
+/// The ids of a list: those that are given, and new ones for entries without an id.
 class Ids {
 public:
     explicit Ids(const json::array& entries) {
@@ -197,7 +196,7 @@ private:
     std::size_t next_ = 1;
 };
 
-/// "feeder.position", "feeder/position", "feeder:AC": an axis in front of its point, if no axis is named apart.
+/// "feeder.position", "feeder/position", "feeder:AC": an axis in front of its point, if the entry has no separate axis.
 void split_axis(std::string& axis, std::string& point, const Site& site) {
     if (!axis.empty()) return;
     const AxisSpec* best = nullptr;
@@ -220,7 +219,7 @@ std::shared_ptr<const Catalogue> catalogue_of_axis(const Site& site, const Famil
     return d ? catalogue_of(site, *d, families) : nullptr;
 }
 
-/// What a mapping's point allows: of a point that is not there, what an entry is checked against as far as it can be.
+/// The properties of a mapping's point. If the point does not exist, they permit the remaining checks of the entry.
 struct PointTraits {
     bool writable = false, readable = true, is_text = false, is_bit = false;
 };
@@ -380,7 +379,7 @@ std::optional<std::vector<Mapping>> parse_mappings(const json::array& entries, c
     }
     Ids ids(entries);
     std::vector<Mapping> out;
-    std::vector<std::size_t> index_of;  // place in `entries` of each good one
+    std::vector<std::size_t> index_of;  // index in `entries` of each valid one
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto* o = entries[i].if_object();
         if (!o) {

@@ -1,6 +1,6 @@
-// Mapping: one entry of a site's own register maps: which point of which axis stands at which address, and how it is written there.
-// In: the JSON objects of a site's `mappings`. Out: checked entries, all faults at once with a remedy, conflicts between entries.
-// Never knows a protocol or a value: the doors read and write what stands behind an entry.
+// Mapping: one entry of a site's own register maps: the point of an axis, its address, and its form in the registers.
+// The JSON objects of `mappings` are read and checked; all faults are reported at once, each with a remedy, also conflicts between entries.
+// The doors read and write the values.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -26,8 +26,8 @@ enum class MapTable : std::uint8_t { coils, discrete_inputs, holding_registers, 
 enum class MapType : std::uint8_t { boolean, u16, i16, u32, i32, f32, u64, i64, f64, string };
 enum class MapAccess : std::uint8_t { read, write, read_write };
 enum class MapWordOrder : std::uint8_t { high_first, low_first };
-/// What registers show of a value that does not fit their type. mark: a number that says so (see encode). clamp: the nearest end of the
-/// type.
+/// The content of registers for a value that does not fit their type. mark: a reserved number (see encode). clamp: the nearest end of
+/// the type.
 enum class MapOverflow : std::uint8_t { mark, clamp };
 
 [[nodiscard]] std::string_view name_of(MapTable table) noexcept;
@@ -43,7 +43,7 @@ struct Mapping {
     MapTable table = MapTable::holding_registers;
     std::uint16_t address = 0;  ///< 0-based
     std::string axis;           ///< name of the site's axis
-    std::string point;          ///< as written: an AxisPoint's name, or a parameter's id or name, also with its element ("N[17]")
+    std::string point;          ///< as written: the name of an AxisPoint, or the id or name of a parameter, also with its element ("N[17]")
     std::variant<AxisPoint, Point> what;
     MapType type = MapType::i32;
     MapWordOrder word_order = MapWordOrder::high_first;
@@ -52,9 +52,9 @@ struct Mapping {
     MapAccess access = MapAccess::read;
     std::uint16_t length = 16;  ///< type string: registers, 1..64; two characters each
     MapOverflow on_overflow = MapOverflow::mark;
-    std::string comment;  ///< up to 256 bytes, for people
+    std::string comment;  ///< comment for the user, up to 256 bytes
 
-    /// Registers, or bits, that it takes.
+    /// The number of registers, or of bits, that it occupies.
     [[nodiscard]] std::uint16_t size() const noexcept;
     [[nodiscard]] std::uint32_t end() const noexcept { return std::uint32_t{address} + size(); }
 };
@@ -66,9 +66,9 @@ inline constexpr std::size_t most_mappings = 4096;
 [[nodiscard]] std::optional<std::vector<Mapping>> parse_mappings(const boost::json::array& entries, const Site& site,
                                                                  const Families& families, std::vector<SiteFault>& faults,
                                                                  const std::function<std::string(std::size_t index)>& called = {});
-/// The entry in its full form; parse_mappings of it gives the same.
+/// The entry in its full form, which parse_mappings reads back unchanged.
 [[nodiscard]] boost::json::object to_json(const Mapping& mapping);
-/// The list as a site's document has it.
+/// The list in the form of a site's document.
 [[nodiscard]] boost::json::array to_json(std::span<const Mapping> mappings);
 
 /// The whole list as CSV with a header line, and back, as rows_from_csv says.
@@ -81,7 +81,7 @@ inline constexpr std::size_t most_mappings = 4096;
 /// with MapOverflow::clamp the end of the type that is nearest to it; else, and where no end is nearer, 0x8000... for signed numbers,
 /// 0xFFFF... for unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
 bool encode(const Mapping& mapping, const Value& value, std::uint8_t* out) noexcept;
-/// What registers of a mapping mean; whole numbers stay whole. Unknown for a floating-point register that is no number.
+/// The value in the registers of a mapping; whole numbers stay whole. Unknown for a floating-point register that is not a number.
 [[nodiscard]] Value decode(const Mapping& mapping, const std::uint8_t* in);
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Mapping, CSV: the whole list for a spreadsheet and back, by the table reader of gateway/core.
-// In: mappings, or text. Out: text, or JSON entries for parse_mappings and every faulty line.
+// Mapping, CSV: writes the list as a table and reads it back, with the table reader of gateway/core.
+// Reading gives JSON entries for parse_mappings, and every faulty line.
 #include <fmt/core.h>
 
 #include <array>

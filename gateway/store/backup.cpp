@@ -1,6 +1,5 @@
-// Backup (VACUUM INTO a temporary file, check, rename) and restore (copy, check, take the place).
-// In: paths. Out: done or why not.
-// Never trusts a copy that was not read back: the check is part of both.
+// Backup (VACUUM INTO a temporary file, check, rename) and restore (copy, check, replace). A copy is always read back and checked before it
+// is used.
 #include "gateway/store/backup.hpp"
 
 #include <fmt/core.h>
@@ -39,7 +38,7 @@ StoreResult<Target> target_of(const std::string& target, const StoreFiles& files
     return t;
 }
 
-/// Where the database goes that is about to be replaced.
+/// The path to which the database that is about to be replaced is moved.
 StoreResult<std::string> place_aside(const StoreFiles& files) {
     for (int number = 1; number <= 99; ++number) {
         if (!files::exists(files.replaced(number))) return files.replaced(number);
@@ -48,10 +47,10 @@ StoreResult<std::string> place_aside(const StoreFiles& files) {
                 fmt::format("{} and 98 more replaced databases are still kept. Remove those that are no longer needed", files.replaced(1)));
 }
 
-/// Opens a copy that nobody else knows and looks whether it is a whole database of ours.
+/// Opens a copy that no other program knows and checks whether it is a complete database of axisgate.
 StoreResult<int> check_copy(const std::string& file, std::span<const Migration> migrations, int newest) {
     if (files::size(file) == 0) return fail(Kind::corrupt, fmt::format("{} is empty. Name a backup that holds a database", file));
-    // Read-write: a copy of a live file may bring its log along, which is taken in here.
+    // Read-write, because a copy of a live file may have its log beside it, which is merged here.
     auto db = Db::open(file, Db::Mode::read_write);
     if (!db) return fail(db);
     if (auto r = check_identity(**db, newest); !r) return fail(r);
@@ -78,12 +77,12 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
     }
     const auto to = target_of(target, files);
     if (!to) return fail(to, "no backup made");
-    static std::atomic<unsigned> count{0};  // two backups to one name at once must not share their unfinished file
+    static std::atomic<unsigned> count{0};  // two simultaneous backups to one name must not share their unfinished file
     const std::string part = fmt::format("{}.{}-{}.part", to->file, ::getpid(), ++count);
     const std::string copied = part + ".source.part";
     const auto made = [&]() -> StoreResult<> {
-        // On a file system that cannot be written SQLite opens no database with a log. Nobody writes there, so a copy of its files is
-        // whole.
+        // On a read-only file system SQLite cannot open a database with a log. No program writes there, so a copy of its files is
+        // consistent.
         const bool frozen = files::is_read_only(files.directory) && !files::same(files.directory, to->directory);
         if (frozen) {
             for (const char* suffix : {"", "-wal"}) {
@@ -95,7 +94,7 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
         if (!db) return fail(db);
         const auto version = version_of(**db);
         if (!version) return fail(version);
-        if (auto r = check_identity(**db, *version); !r) return r;  // any version can be backed up, but only a database of ours
+        if (auto r = check_identity(**db, *version); !r) return r;  // any version can be backed up, but only a database of axisgate
         if (auto r = files::create(part, to->directory); !r) return r;
         {
             Query vacuum(**db, "VACUUM INTO ?");
@@ -113,7 +112,7 @@ StoreResult<> backup_database(const std::string& directory, const std::string& t
     return {};
 }
 
-/// Of the site in force in a database that is about to be replaced; 0: there is none, or it cannot be read. A look leaves no files behind.
+/// The site revision in a database that is about to be replaced; 0: none, or it cannot be read. Leaves no files behind.
 static std::uint64_t revision_in(const std::string& database) {
     if (!files::exists(database)) return 0;
     const bool had_log = files::exists(database + "-wal");
@@ -146,21 +145,21 @@ StoreResult<RestoreReport> restore_database(const std::string& source, const Sto
     std::uint64_t site_revision = 0;
     const auto checked = [&]() -> StoreResult<int> {
         if (auto r = files::copy(source, files.incoming, files.directory); !r) return fail(r);
-        // A copy that was taken of a live database by hand has its newest rows in the log beside it.
+        // A copy that was taken by hand of a live database has its newest rows in the log beside it.
         if (files::size(source + "-wal") > 0) {
             if (auto r = files::copy(source + "-wal", files.incoming + "-wal", files.directory); !r) return fail(r);
         }
         const int newest = static_cast<int>(options.migrations.size());
         auto version = check_copy(files.incoming, options.migrations, newest);
         if (!version) {
-            // The message speaks of the copy, which is about to go; the user knows the source.
+            // The message concerns the copy, which is about to be deleted; the user knows the source.
             StoreError e = version.error();
             for (std::size_t at = e.text.find(files.incoming); at != std::string::npos; at = e.text.find(files.incoming)) {
                 e.text.replace(at, files.incoming.size(), source);
             }
             return fail(std::move(e));
         }
-        // Everything into the one file: from here on it stands alone.
+        // Everything is merged into one file, which needs no other file from here on.
         auto db = Db::open(files.incoming, Db::Mode::read_write);
         if (!db) return fail(db);
         if (auto r = (*db)->exec("PRAGMA journal_mode=DELETE"); !r) return fail(r);
@@ -185,8 +184,8 @@ StoreResult<std::string> finish_restore(const StoreFiles& files) {
     files::remove_database(files.fresh);
     files::remove_database(files.incoming);
     if (!files::exists(files.restored)) return std::string();
-    // Each step can be the last before a crash: the log goes aside before its database, so that the same number is found again, and
-    // the restored file takes the place only when nothing of the old one is in it.
+    // Each step can be the last before a crash: the log is moved before its database, so that the same number is found again, and the
+    // restored file replaces the database only when no file of the old one is left.
     auto place = place_aside(files);
     if (!place) return place;
     const std::string& aside = *place;

@@ -1,6 +1,5 @@
-// Wording of the store's errors: one place, so that a full disk reads the same wherever it strikes.
-// In: codes. Out: sentences: the cause, then the remedy.
-// Never depends on the locale: the texts of errno come from the C library's table as it is.
+// The texts of the store's errors in one place, so that a full disk has the same text in every function: the cause, then the remedy. They
+// do not depend on the locale: the texts of errno are those of the C library's table.
 #include "gateway/store/error.hpp"
 
 #include <fmt/core.h>
@@ -71,7 +70,7 @@ Kind kind_of_sqlite(int extended, int system) {
     }
 }
 
-/// The cause in plain words and what to do about it.
+/// The cause in plain words, and the remedy.
 std::string sentence(Kind kind, const StorePlace& place) {
     switch (kind) {
         case Kind::disk_full:

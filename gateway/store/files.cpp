@@ -1,6 +1,5 @@
-// Files of the data directory, through the system's calls: what matters here (mode, owner, fsync, flock) has no portable form.
-// In: paths. Out: done, or why not.
-// Never leaves a descriptor open but the lock's.
+// The files of the data directory, through the system's calls, because mode, owner, fsync and flock have no portable form. No descriptor
+// stays open except that of the lock.
 #include "gateway/store/files.hpp"
 
 #include <fcntl.h>
@@ -41,7 +40,7 @@ StoreFailure system_fail(std::string_view doing, const std::string& file, const 
     return fail(system_failure(fmt::format("{} {}", doing, file), e, directory));
 }
 
-/// Best effort: a file system without owners (FAT) is no reason to fail.
+/// An attempt only: a file system without owners (FAT) is no reason to fail.
 void give_to_owner_of(int fd, const std::string& directory) noexcept {
     struct stat st {};
     if (::geteuid() == 0 && ::stat(directory.c_str(), &st) == 0 && (st.st_uid != 0 || st.st_gid != 0)) {
@@ -75,7 +74,7 @@ std::string absolute(const std::string& dir) {
     auto p = std::filesystem::absolute(dir.empty() ? "." : dir, ec);
     if (ec) return dir;
     p = p.lexically_normal();
-    // "x/" and "x" are one directory; keep the form without the slash.
+    // "x/" and "x" are one directory; the form without the slash is kept.
     if (!p.has_filename() && p.has_relative_path()) p = p.parent_path();
     return p.string();
 }
@@ -107,7 +106,7 @@ StoreResult<DirectoryLock> DirectoryLock::take(const StoreFiles& files) {
                                 "(--data DIR)",
                                 files.directory, pid.empty() ? "" : " (process " + pid.substr(0, pid.find('\n')) + ")"));
     }
-    // The number is for people alone: the lock is the flock, so a stale number after a crash does no harm and a full disk neither.
+    // The number is only for people: the lock is the flock, so a stale number after a crash does no harm, and neither does a full disk.
     const std::string pid = fmt::format("{}\n", ::getpid());
     if (::ftruncate(fd.get(), 0) == 0) [[maybe_unused]]
         const bool written = write_all(fd.get(), pid.data(), pid.size());
@@ -127,7 +126,7 @@ StoreResult<> make_directory(const std::string& directory) {
         at = directory.find('/', at + 1);
         made = directory.substr(0, at);
         if (::mkdir(made.c_str(), 0750) != 0 && errno != EEXIST) {
-            // A parent that may not be written but is there answers EEXIST; EROFS and EACCES come for missing ones.
+            // A read-only parent that exists causes EEXIST; EROFS and EACCES occur for missing ones.
             const int e = errno;
             if (!exists(made)) {
                 errno = e;
@@ -148,7 +147,7 @@ StoreResult<> create(const std::string& file, const std::string& directory) {
     if (::unlink(file.c_str()) != 0 && errno != ENOENT) return system_fail("cannot replace", file, directory);
     const Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640));
     if (fd.get() < 0) return system_fail("cannot create", file, directory);
-    if (::fchmod(fd.get(), 0640) != 0) return system_fail("cannot set the mode of", file, directory);  // whatever the umask says
+    if (::fchmod(fd.get(), 0640) != 0) return system_fail("cannot set the mode of", file, directory);  // independent of the umask
     give_to_owner_of(fd.get(), directory);
     return {};
 }
@@ -162,7 +161,7 @@ StoreResult<> copy(const std::string& from, const std::string& to, const std::st
             return fail(StoreError::Kind::cannot_open, fmt::format("there is no file {}. Name a backup that is there", from));
         return system_fail("cannot read", from, folder);
     }
-    if (!S_ISREG(st.st_mode)) {  // looked at first: to open a pipe would wait for ever
+    if (!S_ISREG(st.st_mode)) {  // checked first, because opening a pipe would wait for ever
         return fail(StoreError::Kind::cannot_open, fmt::format("{} is not a file. Name the backup file itself", from));
     }
     const Descriptor in(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
@@ -191,7 +190,7 @@ StoreResult<> sync(const std::string& file, const std::string& directory) {
 StoreResult<> sync_directory(const std::string& directory) {
     const Descriptor fd(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (fd.get() < 0) return system_fail("cannot open", directory, directory);
-    // Some file systems (FAT, some network ones) know no fsync of a directory; there is nothing better to do on them.
+    // Some file systems (FAT, some network ones) have no fsync of a directory; there is no alternative on them.
     if (fsync_retry(fd.get()) != 0 && errno != EINVAL && errno != EROFS) return system_fail("cannot write", directory, directory);
     return {};
 }

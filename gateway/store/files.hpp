@@ -1,6 +1,5 @@
-// Files of the data directory: making, locking, copying, renaming, each made durable (fsync) before it returns.
-// In: paths. Out: done, or a StoreError with the system's reason.
-// Never opens the live database: closing a second descriptor of it would drop SQLite's locks (POSIX).
+// Makes, locks, copies and renames files of the data directory; each operation is durable (fsync) when it returns. The live database is
+// never opened here: closing a second descriptor of it would drop SQLite's locks (POSIX).
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,14 @@ struct StoreFiles {
     std::string directory;  ///< absolute
     std::string database;   ///< axisgate.db
     std::string lock;       ///< axisgate.lock
-    std::string fresh;      ///< axisgate.db.new: a first database before it is whole
-    std::string incoming;   ///< axisgate.db.incoming: a backup that is being looked at by restore
-    std::string restored;   ///< axisgate.db.restored: found good, takes the database's place (also after a crash, at the next start)
-    [[nodiscard]] std::string before(int version) const;   ///< copy made before the upgrade to `version`
-    [[nodiscard]] std::string replaced(int number) const;  ///< what a restore put aside, 1..99
+    std::string fresh;      ///< axisgate.db.new: a first database before it is complete
+    std::string incoming;   ///< axisgate.db.incoming: a backup that a restore is checking
+    std::string restored;   ///< axisgate.db.restored: checked, replaces the database (also after a crash, at the next start)
+    [[nodiscard]] std::string before(int version) const;   ///< the copy made before the upgrade to `version`
+    [[nodiscard]] std::string replaced(int number) const;  ///< a database that a restore replaced, 1..99
 };
 
-/// Holds the data directory for this process; let go when it ends, also by a crash.
+/// Holds the data directory for this process; released when it ends, also by a crash.
 class DirectoryLock {
 public:
     [[nodiscard]] static StoreResult<DirectoryLock> take(const StoreFiles& files);
@@ -40,26 +39,26 @@ private:
 
 namespace files {
 
-/// Makes the directory and what is missing above it, mode 0750. An existing one is left as it is.
+/// Makes the directory and its missing parents, mode 0750. An existing one is not changed.
 [[nodiscard]] StoreResult<> make_directory(const std::string& directory);
-/// Makes an empty file, mode 0640, in the place of an older one of that name. When root makes it, it belongs to the directory's owner:
-/// `sudo axisgate restore` must not lock the service out.
+/// Makes an empty file, mode 0640, replacing an older one of that name. If root makes it, it belongs to the directory's owner, so that
+/// `sudo axisgate restore` does not lock the service out.
 [[nodiscard]] StoreResult<> create(const std::string& file, const std::string& directory);
 [[nodiscard]] StoreResult<> copy(const std::string& from, const std::string& to, const std::string& directory);
 [[nodiscard]] StoreResult<> sync(const std::string& file, const std::string& directory);
 /// Renames within one directory and makes the new name durable.
 [[nodiscard]] StoreResult<> rename(const std::string& from, const std::string& to, const std::string& directory);
 [[nodiscard]] StoreResult<> sync_directory(const std::string& directory);
-/// Removes a database's file together with its -wal, -shm and -journal; missing ones are passed over.
+/// Removes a database's file together with its -wal, -shm and -journal; missing ones are ignored.
 void remove_database(const std::string& file) noexcept;
 [[nodiscard]] bool exists(const std::string& file) noexcept;
-/// -1: there is none.
+/// -1: the file does not exist.
 [[nodiscard]] std::int64_t size(const std::string& file) noexcept;
-/// Whether it begins as every SQLite file does that is not empty.
+/// True if it begins like every SQLite file that is not empty.
 [[nodiscard]] bool has_sqlite_header(const std::string& file) noexcept;
-/// Whether the file system that it is on was mounted so that nobody can write.
+/// True if its file system is mounted read-only.
 [[nodiscard]] bool is_read_only(const std::string& path) noexcept;
-/// The same file under any name (links, "..").
+/// True if both names are the same file (links, "..").
 [[nodiscard]] bool same(const std::string& a, const std::string& b) noexcept;
 
 }  // namespace files

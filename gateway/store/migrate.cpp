@@ -1,6 +1,4 @@
-// Migrations and the checks of a file before it is trusted.
-// In: a connection and the list of steps. Out: a file at the newest version, or what is wrong with it.
-// Never writes before the checks have passed.
+// Migrates a file, and checks a file before it is used. Nothing is written before the checks have passed.
 #include "gateway/store/migrate.hpp"
 
 #include <fmt/core.h>
@@ -14,7 +12,7 @@ namespace axisgate {
 namespace {
 using Kind = StoreError::Kind;
 
-/// One line per table's column and per index: what must be there.
+/// One line per column of a table and per index: the required structure.
 StoreResult<std::vector<std::string>> structure(Db& db) {
     std::vector<std::string> lines;
     Query columns(db,
@@ -69,7 +67,7 @@ StoreResult<> check_identity(Db& db, int newest) {
     const auto id = db.integer("PRAGMA application_id");
     if (!id) return fail(id);
     if (*id != application_id) {
-        // SQLite takes a file of fewer bytes than a page for a database in which nothing is yet.
+        // SQLite takes a file that is shorter than a page for an empty database.
         if (!files::has_sqlite_header(db.file())) {
             return fail(
                 Kind::corrupt,

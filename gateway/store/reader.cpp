@@ -1,6 +1,4 @@
-// StoreReader: opening, site, twins, documents, the file itself.
-// In: names. Out: rows as values.
-// Never reads without a bound: each list is bounded by its table's own bound.
+// StoreReader: opening, site, twins, documents, the file itself. Each list is bounded by its table's own bound.
 #include "gateway/store/reader.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// StoreReader: everything that can be read from the parameter database, over a connection of its own.
-// In: names. Out: values with who, when and from where; errors as values.
-// Never writes. Readers do not wait for the writer, nor it for them (write-ahead log). One thread at a time per reader.
+// Reads from the database over a connection of its own. Readers and the writer do not wait for each other (write-ahead log). One thread at
+// a time per reader.
 #pragma once
 
 #include <cstdint>
@@ -27,38 +26,39 @@ public:
     StoreReader& operator=(const StoreReader&) = delete;
 
     // --- site --------------------------------------------------------------------------------------------------------------
-    /// The document in force; nothing if none was ever saved.
+    // The document in force; empty if none was ever saved.
     [[nodiscard]] StoreResult<std::optional<SiteRevision>> load_site();
     [[nodiscard]] StoreResult<std::optional<SiteRevision>> site(std::uint64_t revision);
-    /// Newest first, without the texts. `limit`: 1..max_answer_rows (clamped). `before`: smaller numbers, for the next page; 0: from the
-    /// newest.
+    /// Newest first, without the texts. `limit`: 1..max_answer_rows (clamped). `before`: only smaller numbers, for the next page; 0: from
+    /// the newest.
     [[nodiscard]] StoreResult<std::vector<SiteRevision>> site_history(std::size_t limit = max_answer_rows, std::uint64_t before = 0);
 
     // --- parameters --------------------------------------------------------------------------------------------------------
-    /// Every axis that the store knows, in order of name; removed ones too.
+    // Every axis that the store knows, in order of name, including removed ones.
     [[nodiscard]] StoreResult<std::vector<AxisRecord>> axes();
-    /// Newest acknowledged write of each parameter under the family that the axis has, in order of parameter id; none for removed axes.
+    /// The newest acknowledged write of each parameter under the present family of the axis, in order of parameter id; none for removed
+    /// axes.
     [[nodiscard]] StoreResult<std::vector<ParameterRecord>> stored(std::string_view axis);
     [[nodiscard]] StoreResult<std::optional<ParameterRecord>> stored(std::string_view axis, std::string_view parameter);
-    /// Writes under the family that the axis has (had), newest first, also of removed axes. `parameter` empty: all of the axis.
+    /// Writes under the present (or last) family of the axis, newest first, also of removed axes. `parameter` empty: all of the axis.
     /// `limit`: 1..max_answer_rows (clamped). `before_id`: rows with a smaller id, for the next page; 0: from the newest.
     [[nodiscard]] StoreResult<std::vector<ParameterRecord>> history(std::string_view axis, std::string_view parameter, std::size_t limit,
                                                                     std::uint64_t before_id = 0);
-    /// What the drive last said, in order of parameter id; none for removed axes.
+    /// The last reports of the drive, in order of parameter id; none for removed axes.
     [[nodiscard]] StoreResult<std::vector<ParameterSeen>> seen(std::string_view axis);
 
     // --- snapshots ---------------------------------------------------------------------------------------------------------
-    /// In order of n, of every family. Those of a removed axis stay and are there again when an axis of that name is made.
+    // In order of n, of every family. Those of a removed axis are kept and available again when an axis of that name is made.
     [[nodiscard]] StoreResult<std::vector<SnapshotInfo>> snapshots(std::string_view axis);
     [[nodiscard]] StoreResult<std::optional<AxisSnapshot>> snapshot(std::string_view axis, std::uint32_t n);
 
     // --- twins -------------------------------------------------------------------------------------------------------------
-    /// Empty if nothing was saved: factory state.
+    // Empty if nothing was saved: factory state.
     [[nodiscard]] StoreResult<NonVolatile> load_twin(std::string_view drive);
 
     // --- events ------------------------------------------------------------------------------------------------------------
     [[nodiscard]] StoreResult<std::vector<Event>> events(const EventFilter& filter);
-    /// Highest id ever given, 0 if none; also when that event is gone.
+    /// The highest id that was ever used, 0 if none; also if that event was deleted.
     [[nodiscard]] StoreResult<std::uint64_t> last_event_id();
 
     // --- documents ---------------------------------------------------------------------------------------------------------
@@ -71,10 +71,10 @@ public:
     [[nodiscard]] StoreResult<std::vector<StoredDescription>> descriptions();
 
     // --- the file ----------------------------------------------------------------------------------------------------------
-    /// SQLite's integrity check, references between tables, structure. Good, or `corrupt` with what was found. Reads the whole file.
+    // SQLite's integrity check, references between tables, structure. Good, or `corrupt` with the findings. Reads the whole file.
     [[nodiscard]] StoreResult<> check();
     [[nodiscard]] StoreResult<StoreFacts> facts();
-    /// See backup_database (gateway/store/backup.hpp). Does not use this reader's connection.
+    /// As backup_database (gateway/store/backup.hpp). Does not use this reader's connection.
     [[nodiscard]] StoreResult<> backup(const std::string& target);
     [[nodiscard]] const StoreOptions& options() const noexcept { return options_; }
     [[nodiscard]] const std::string& directory() const noexcept { return files_.directory; }
@@ -84,7 +84,7 @@ protected:
 
     StoreOptions options_;
     StoreFiles files_;
-    std::optional<DirectoryLock> lock_;  // before db_: the database is closed before another process is let in
+    std::optional<DirectoryLock> lock_;  // before db_, so that the database is closed before another process can get the lock
     std::unique_ptr<Db> db_;
 };
 

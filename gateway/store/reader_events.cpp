@@ -1,6 +1,5 @@
-// StoreReader: events, by any mix of filters.
-// In: an EventFilter. Out: events in order of id, at most the filter's limit.
-// Never puts a filter's text into SQL: the mixes are a fixed table of statements, their values are bound.
+// Reads events by any combination of filters, in order of id. The text of a filter is never put into SQL: the combinations are a fixed
+// table of statements whose values are bound.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,13 +21,13 @@ std::string sql_of(const Mix& m) {
     std::string sql =
         "SELECT id, at_unix_ns, severity, kind, axis, drive, line, code, text, who, door, parameter, old_value, new_value FROM event "
         "WHERE ";
-    // Ids and times run together but for steps of the clock: the first id of that time bounds the walk, the time itself decides. One
-    // lower bound alone, because SQLite would walk from the first of two.
+    // Ids and times increase together except for steps of the clock: the first id of that time limits the search, the time itself decides.
+    // There is only one lower bound, because SQLite would start from the first of two.
     sql += m.time ? "id > max(?1, ifnull((SELECT min(+id) - 1 FROM event INDEXED BY event_by_time WHERE at_unix_ns >= ?5), ?2)) AND "
                     "at_unix_ns >= ?5"
                   : "id > ?1";
     sql += " AND id < ?2";
-    // The literal lets SQLite use the index of serious events, and the non-empty axis that of the axes.
+    // The literal lets SQLite use the index of serious events, and the non-empty axis the index of axes.
     if (m.severity != 0) sql += " AND severity >= 1";
     if (m.severity == 2) sql += " AND severity >= 2";
     if (m.axis) sql += " AND axis = ?3 AND axis <> ''";

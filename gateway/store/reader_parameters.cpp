@@ -1,6 +1,5 @@
-// StoreReader: axes, stored values, their history, values last seen, snapshots.
-// In: axis and parameter names. Out: rows as values.
-// Never shows a removed axis' values as stored, nor those of another family than the axis has: the same word is another parameter there.
+// Reads axes, stored values, their history, reported values and snapshots. Stored values of a removed axis, or of another family than the
+// present one, are not shown, because the same id is another parameter there.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -140,7 +139,7 @@ StoreResult<std::vector<SnapshotInfo>> StoreReader::snapshots(std::string_view a
 
 StoreResult<std::optional<AxisSnapshot>> StoreReader::snapshot(std::string_view axis, std::uint32_t n) {
     const auto what = [&] { return fmt::format("snapshot {} of axis {} could not be read", n, axis); };
-    // One statement, so that a snapshot deleted meanwhile is seen whole or not at all.
+    // One statement, so that a snapshot that is deleted meanwhile is seen completely or not at all.
     Query q(*db_,
             "SELECT s.n, s.name, s.comment, s.who, s.at_unix_ns, 0, s.family, v.parameter, v.value_type, v.value FROM axis a "
             "JOIN snapshot s ON s.axis_id = a.id LEFT JOIN snapshot_value v ON v.axis_id = s.axis_id AND v.n = s.n "

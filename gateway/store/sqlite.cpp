@@ -1,6 +1,5 @@
-// SQLite's C interface: opening, statements, transactions, values in pairs of columns.
-// In: SQL literals and values. Out: rows or StoreErrors.
-// Never leaves a transaction open after an error: a failed write must not keep the next one from working.
+// Opening, statements, transactions and values in pairs of columns, over SQLite's C interface. After an error no transaction stays open, so
+// that a failed write does not prevent the next one.
 #include "gateway/store/sqlite.hpp"
 
 #include <fmt/core.h>
@@ -12,9 +11,9 @@
 
 namespace axisgate {
 namespace {
-constexpr int busy_timeout_ms = 2000;  // other programs (an sqlite3 shell) may hold the file for a moment; readers never do
+constexpr int busy_timeout_ms = 2000;  // other programs (an sqlite3 shell) may lock the file for a moment; readers never do
 
-/// Settings that make a file from outside harmless and mistakes visible.
+/// Settings that make a foreign file harmless and mistakes visible.
 void harden(sqlite3* db) {
     sqlite3_extended_result_codes(db, 1);
     sqlite3_busy_timeout(db, busy_timeout_ms);
@@ -23,7 +22,7 @@ void harden(sqlite3* db) {
     sqlite3_db_config(db, SQLITE_DBCONFIG_DQS_DML, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_DQS_DDL, 0, nullptr);
     sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, nullptr);
-    // Nothing is written into a file that has not been found good yet, not even when it is closed.
+    // Nothing is written to a file before it was checked, not even when it is closed.
     sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
 }  // namespace
@@ -40,7 +39,7 @@ StoreResult<std::unique_ptr<Db>> Db::open(const std::string& file, Mode mode, co
         sqlite3_open_v2(mode == Mode::memory ? ":memory:" : file.c_str(), &db->handle_, flags, vfs.empty() ? nullptr : vfs.c_str());
     if (rc != SQLITE_OK) return fail(db->error(rc));
     harden(db->handle_);
-    // Read-only connections read as strictly; a foreign key or a synchronous setting has no meaning for them.
+    // Read-only connections use the same strict reading; foreign keys and the synchronous setting have no meaning for them.
     if (auto r = db->exec("PRAGMA foreign_keys=ON; PRAGMA temp_store=MEMORY; PRAGMA cell_size_check=ON; PRAGMA secure_delete=OFF"); !r) {
         return fail(r);
     }
@@ -76,9 +75,9 @@ StoreError Db::error(int rc, int system) {
     const std::string message = sqlite3_errmsg(handle_);
     StorePlace place = place_;
     if (primary == SQLITE_FULL && place_.max_bytes != 0) {
-        // SQLite says "full" for the disk and for max_page_count alike. What failed may be rolled back by now, so that the count is
-        // only near the limit.
-        place_.max_bytes = 0;  // an error of these two must not ask them again
+        // SQLite reports "full" both for the disk and for max_page_count. The failed statement may be rolled back by now, so the count is
+        // only close to the limit.
+        place_.max_bytes = 0;  // an error of these two must not call them again
         const auto pages = integer("PRAGMA page_count");
         const auto most = integer("PRAGMA max_page_count");
         place_.max_bytes = place.max_bytes;
@@ -120,7 +119,7 @@ StoreResult<> Db::commit() {
 }
 
 void Db::rollback() noexcept {
-    // SQLite has already rolled back after some errors (disk full, I/O); a second ROLLBACK would only be an error of its own.
+    // After some errors (disk full, I/O) SQLite has already rolled back; a second ROLLBACK would only cause an error of its own.
     if (in_transaction()) sqlite3_exec(handle_, "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
@@ -141,7 +140,7 @@ Query::Query(Db& db, const char* sql) : db_(db) { statement_ = db_.statement(sql
 Query::~Query() {
     if (statement_ == nullptr) return;
     sqlite3_reset(statement_);
-    sqlite3_clear_bindings(statement_);  // lets go of copies of large texts
+    sqlite3_clear_bindings(statement_);  // releases copies of large texts
 }
 
 Query& Query::bind(std::int64_t v) {
@@ -150,7 +149,7 @@ Query& Query::bind(std::int64_t v) {
 }
 
 Query& Query::bind(std::string_view v) {
-    // A view without data would bind NULL, which is another thing than the empty text.
+    // A view without data would bind NULL, which is not the empty text.
     if (rc_ == SQLITE_OK) {
         rc_ = sqlite3_bind_text64(statement_, next_++, v.data() == nullptr ? "" : v.data(), v.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
     }
@@ -166,7 +165,7 @@ Query& Query::bind_value(const Value& v) {
     if (const auto* b = std::get_if<bool>(&v)) return bind(std::string_view("b")).bind(std::int64_t{*b});
     if (const auto* i = std::get_if<std::int64_t>(&v)) return bind(std::string_view("i")).bind(*i);
     if (const auto* d = std::get_if<double>(&v)) {
-        bind(std::string_view("f"));  // SQLite stores NaN as NULL: read back as NaN by the letter
+        bind(std::string_view("f"));  // SQLite stores NaN as NULL; the type letter restores NaN
         if (rc_ == SQLITE_OK) rc_ = sqlite3_bind_double(statement_, next_++, *d);
         return *this;
     }

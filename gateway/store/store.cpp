@@ -1,6 +1,5 @@
-// Store: opening: directory, lock, first database, checks, upgrade, settings.
-// In: StoreOptions. Out: a store that may be written to, or why not and what to do.
-// Never writes into a database before it has been found ours, not newer, sound and whole.
+// Opens a store: directory, lock, first database, checks, upgrade, settings. Nothing is written to a database before it was found to be
+// axisgate's, not newer, sound and complete.
 #include "gateway/store/store.hpp"
 
 #include <fmt/core.h>
@@ -12,7 +11,7 @@
 namespace axisgate {
 namespace {
 using Kind = StoreError::Kind;
-constexpr const char* journal_bound = "PRAGMA journal_size_limit=16777216";  // the log shrinks back to this after a burst
+constexpr const char* journal_bound = "PRAGMA journal_size_limit=16777216";  // the log shrinks to this size after a burst
 }  // namespace
 
 StoreResult<std::unique_ptr<Store>> Store::open(const StoreOptions& options) {
@@ -43,7 +42,8 @@ StoreResult<std::unique_ptr<Store>> Store::open(const StoreOptions& options) {
 Store::~Store() = default;
 
 StoreResult<> Store::create_database() {
-    // Under another name until it is whole: an empty axisgate.db is never ours, so that one can be told from a lost one.
+    // Under another name until it is complete: an empty axisgate.db is never made by axisgate, so that it can be distinguished from a lost
+    // one.
     auto made = [&]() -> StoreResult<> {
         if (auto r = files::create(files_.fresh, files_.directory); !r) return r;
         auto db = Db::open(files_.fresh, Db::Mode::read_write, options_.vfs);
@@ -69,7 +69,7 @@ StoreResult<> Store::open_database() {
     if (!db) return fail(db);
     db_ = std::move(*db);
     if (options_.between) db_->between(steps_between, options_.between);
-    if (sqlite3_db_readonly(db_->handle(), "main") == 1) {  // SQLite falls back to reading where it may not write
+    if (sqlite3_db_readonly(db_->handle(), "main") == 1) {  // SQLite opens the file for reading if it may not write
         return fail(Kind::read_only,
                     fmt::format("{} cannot be written. Give the service's user the right to write it, or mount its file system for "
                                 "writing",
@@ -126,13 +126,13 @@ StoreResult<> Store::settle() {
         if (auto r = db_->exec(fmt::format("PRAGMA max_page_count={}", std::min(pages, most)).c_str()); !r) return r;
         db_->set_max_bytes(options_.limits.max_bytes);
     }
-    // Found good: from now on it may be tidied when it is closed.
+    // The checks have passed: from now on the log may be merged when it is closed.
     sqlite3_db_config(db_->handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
     return {};
 }
 
 StoreResult<> Store::forget_empty_axes() {
-    // A full disk must not keep the gateway from starting: this is upkeep, the next start tries again.
+    // A full disk must not prevent the start of the gateway: this is maintenance, and the next start tries again.
     auto done = db_->transaction([&] {
         return Query(*db_,
                      "DELETE FROM axis WHERE removed_unix_ns IS NOT NULL AND NOT EXISTS (SELECT 1 FROM parameter_write w WHERE w.axis_id = "
@@ -153,7 +153,8 @@ StoreResult<> Store::tidy() {
 }
 
 StoreResult<> Store::prune(std::size_t writes_added, std::size_t events_added) {
-    // Ids have no gaps that matter, so that their range bounds the count. As many go as came, and one piece more while over the bound.
+    // Ids have no relevant gaps, so their range is the count. As many rows are deleted as were added, and one piece more while over the
+    // bound.
     const auto piece = options_.limits.piece;
     if (auto r = Query(*db_,
                        "DELETE FROM parameter_write WHERE id <= min((SELECT max(id) FROM parameter_write) - ?, "

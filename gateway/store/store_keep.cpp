@@ -1,6 +1,5 @@
-// Store: snapshots of an axis' parameters, the twins' non-volatile memory, small documents, descriptions of drives.
-// In: named values and texts. Out: one transaction each.
-// Never writes what is already there: flash wears out by writing.
+// Stores snapshots of an axis' parameters, the twins' non-volatile memory, small documents and descriptions of drives, one transaction
+// each. Unchanged data are not written, because writing wears out flash memory.
 #include <fmt/core.h>
 
 #include <unordered_set>
@@ -43,7 +42,7 @@ StoreResult<std::uint32_t> Store::save_snapshot(std::string_view axis, std::stri
     }
     auto done = db_->transaction([&]() -> StoreResult<std::uint32_t> {
         {
-            // An axis comes back with a site that has it, not with a snapshot that was still on its way when it went.
+            // A removed axis returns with a site that contains it, not with a snapshot that was still on its way when it was removed.
             Query removed(*db_, "SELECT 1 FROM axis WHERE name = ? AND removed_unix_ns IS NOT NULL");
             const auto row = removed.bind(axis).row();
             if (!row) return fail(row);
@@ -93,7 +92,8 @@ StoreResult<std::uint32_t> Store::save_snapshot(std::string_view axis, std::stri
 
 StoreResult<> Store::delete_snapshot(std::string_view axis, std::uint32_t n) {
     auto done = db_->transaction([&]() -> StoreResult<> {
-        Query q(*db_, "DELETE FROM snapshot WHERE axis_id = (SELECT id FROM axis WHERE name = ?) AND n = ?");  // its values go with it
+        // its values are deleted with it
+        Query q(*db_, "DELETE FROM snapshot WHERE axis_id = (SELECT id FROM axis WHERE name = ?) AND n = ?");
         if (auto r = q.bind(axis).bind(std::int64_t{n}).run(); !r) return r;
         if (db_->changes() == 0) return fail(Kind::not_found, "there is none of this number");
         return {};

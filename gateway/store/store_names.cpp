@@ -1,6 +1,5 @@
-// Store: the site document, and what a new site means for everything that is kept by name.
-// In: the document, renamed and removed axes and drives. Out: one transaction.
-// Never leaves a value under a name that the site no longer has: document and names change together.
+// Stores the site document together with its consequences for all data that are stored by name, in one transaction, so that no value stays
+// under a name that the site does not have any more.
 #include <fmt/core.h>
 
 #include <unordered_set>
@@ -54,7 +53,7 @@ StoreResult<std::uint64_t> Store::save_site(std::string_view text, std::string_v
             return fail(r);
         }
         const std::int64_t id = db_->last_id();
-        // The oldest go: beyond the number, and beyond the length of all together (the newest alone may be as long as it likes).
+        // Deletes the oldest revisions beyond the number, and beyond the total length (the newest one may have any length).
         if (auto r = Query(*db_,
                            "DELETE FROM site_revision WHERE id <= ?1 - ?2 OR id < ?1 AND id IN (SELECT id FROM (SELECT id, "
                            "sum(bytes) OVER (ORDER BY id DESC) AS together FROM site_revision) WHERE together > ?3)")
@@ -114,7 +113,7 @@ StoreResult<> Store::set_aside(std::string_view name, std::int64_t at_unix_ns, b
     if (live && !site_decides) {
         return fail(Kind::conflict, fmt::format("another axis has the name {}. Rename or remove that one first", name));
     }
-    // With a site: who has the new name and is not renamed itself is no longer there, whatever the store was told before.
+    // With a site: an axis that has the new name and is not renamed itself does not exist any more, whatever the store was told before.
     if (live) {
         if (auto r = mark_removed(id, at_unix_ns); !r) return r;
     }
@@ -122,7 +121,7 @@ StoreResult<> Store::set_aside(std::string_view name, std::int64_t at_unix_ns, b
 }
 
 StoreResult<> Store::rename_axes(std::span<const NameChange> changes, std::int64_t at_unix_ns, bool site_decides) {
-    // In two rounds, so that names can be exchanged: first all go to names that no axis can have, then each to its new one.
+    // In two rounds, so that names can be exchanged: first all get names that no axis can have, then each its new one.
     std::vector<std::int64_t> ids;
     for (const auto& c : changes) {
         Query q(*db_, "UPDATE axis SET name = char(31) || id WHERE name = ? AND removed_unix_ns IS NULL RETURNING id");
@@ -134,9 +133,9 @@ StoreResult<> Store::rename_axes(std::span<const NameChange> changes, std::int64
         }
     }
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        // Also for an axis that the store does not know yet: it must not find a former axis' history under its new name.
+        // Also for an axis that the store does not know yet, so that it does not find the history of a former axis under its new name.
         if (auto r = set_aside(changes[i].to, at_unix_ns, site_decides); !r) return r;
-        if (ids[i] == 0) {  // so that the name is taken, and what stepped aside does not come back by it
+        if (ids[i] == 0) {  // so that the name is taken, and the renamed removed axis does not return under it
             if (!site_decides) continue;
             if (auto r = Query(*db_, "INSERT INTO axis (name) VALUES (?)").bind(changes[i].to).run(); !r) return r;
             continue;
@@ -159,7 +158,7 @@ StoreResult<> Store::rename_drives(std::span<const NameChange> changes) {
     return {};
 }
 
-/// The axis' row, made, or taken back from removal; what is written from now on is written under its family.
+/// The axis' row, made, or restored after its removal; later writes are stored under its family.
 StoreResult<> Store::bring_in(const SiteAxis& axis) {
     if (auto r = check_name("axis", axis.name); !r) return r;
     const auto find = [&](std::int64_t& id, std::string& family, bool& removed) -> StoreResult<> {
@@ -190,19 +189,19 @@ StoreResult<> Store::bring_in(const SiteAxis& axis) {
         if (auto r = Query(*db_, "UPDATE axis SET removed_unix_ns = NULL WHERE id = ?").bind(id).run(); !r) return r;
     }
     if (axis.family.empty() || axis.family == family) return {};
-    // Rows from before families were told: they are of the family that the axis is first seen with. Snapshots stay of unknown family.
+    // Rows from before families were stored belong to the family with which the axis is first seen. Snapshots keep an unknown family.
     for (const char* table : {"parameter_stored", "parameter_write"}) {
         if (!family.empty()) break;
         const std::string sql = fmt::format("UPDATE {} SET family = ? WHERE axis_id = ? AND family = ''", table);
         if (auto r = Query(*db_, sql.c_str()).bind(axis.family).bind(id).run(); !r) return r;
     }
-    if (!family.empty()) {  // what the drive before said is no news of this one
+    if (!family.empty()) {  // reports of the former drive are not valid for this one
         if (auto r = Query(*db_, "DELETE FROM parameter_seen WHERE axis_id = ?").bind(id).run(); !r) return r;
     }
     return Query(*db_, "UPDATE axis SET family = ? WHERE id = ?").bind(axis.family).bind(id).run();
 }
 
-/// Removed axes beyond their bound go with everything, those first that were removed first.
+/// Removed axes beyond their bound are deleted with all data, the earliest removed first.
 StoreResult<> Store::forget_oldest_axes() {
     std::vector<std::int64_t> gone;
     {

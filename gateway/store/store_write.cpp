@@ -1,6 +1,5 @@
-// Store: batches: acknowledged writes, events, values last seen.
-// In: StoreBatch. Out: one transaction, on the disk when it returns.
-// Never half a batch: what is wrong with it is found before the transaction begins.
+// Stores batches of acknowledged writes, events and reported values in one transaction. Faults of a batch are found before the transaction
+// begins, so that half a batch is never stored.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -38,7 +37,7 @@ StoreResult<> check_batch(const StoreBatch& batch) {
     return {};
 }
 
-/// What was not stored, for the error's beginning.
+/// The name of the data that were not stored, for the beginning of the error.
 std::string name_of_batch(const StoreBatch& b) {
     if (!b.writes.empty()) {
         const auto& w = b.writes.front();
@@ -58,7 +57,7 @@ StoreResult<std::int64_t> Store::axis_id(std::string_view axis) {
         if (!row) return fail(row);
         if (*row && known.integer(1) != 0) return known.integer(0);
     }
-    // Unknown, or made again under the name of a removed one: history and snapshots go on.
+    // Unknown, or made again under the name of a removed one: history and snapshots continue.
     Query made(*db_, "INSERT INTO axis (name) VALUES (?) ON CONFLICT (name) DO UPDATE SET removed_unix_ns = NULL RETURNING id");
     const auto row = made.bind(axis).row();
     if (!row) return fail(row);

@@ -1,5 +1,4 @@
-// Texts within bounds.
-// In: texts. Out: texts. Never allocates more than the bound and a mark.
+// Limits texts without allocating more than the bound and the mark.
 #include "gateway/store/texts.hpp"
 
 #include <fmt/core.h>
@@ -14,7 +13,7 @@ std::string cut(std::string_view text, std::size_t most) {
     constexpr std::string_view mark = " [...]";
     if (text.size() <= most) return std::string(text);
     std::size_t n = most > mark.size() ? most - mark.size() : 0;
-    // Back to the beginning of a character, but not further than a character is long: the text may be no UTF-8 at all.
+    // Goes back to the beginning of a character, but not further than the length of one, because the text may not be UTF-8.
     for (int i = 0; i < 3 && n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0u) == 0x80u; ++i)
         --n;
     return std::string(text.substr(0, n)) + std::string(mark);

@@ -1,5 +1,5 @@
-// FaultLine: loses, doubles, delays and spoils by a seed. In: frames of both directions. Out: spoiled ones, in order, at instants that are
-// a function of the seed. Never touches reports of a CAN controller: those belong to the line itself.
+// Loses, doubles, delays and corrupts frames; the faults and their instants are a function of the seed. Reports of a CAN controller are not
+// touched, because they belong to the line itself.
 #include "gateway/wire/fault_line.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace axisgate {
 namespace {
 
-/// SplitMix64: small, good enough, and the same on every machine (the standard's distributions are not).
+/// SplitMix64: small, sufficient, and the same on every machine (the distributions of the standard library are not).
 std::uint64_t next_random(std::uint64_t& state) noexcept {
     state += 0x9E3779B97F4A7C15ull;
     std::uint64_t z = state;
@@ -22,10 +22,10 @@ bool chance(std::uint64_t& state, double probability) noexcept {
     return static_cast<double>(next_random(state) >> 11) * 0x1.0p-53 < probability;
 }
 
-/// 0..bound-1; bound > 0.
+/// A number in 0..bound-1; bound > 0.
 std::uint64_t below(std::uint64_t& state, std::uint64_t bound) noexcept { return next_random(state) % bound; }
 
-/// One bit of the content; a CAN frame without data has its identifier.
+/// Inverts one bit of the content; for a CAN frame without data, of its identifier.
 void flip_bit(std::uint64_t& state, Frame& f) noexcept {
     if (f.size > 0) {
         const std::uint64_t bit = below(state, std::uint64_t{f.size} * 8);
@@ -128,7 +128,7 @@ Instant FaultLine::deadline() const {
     return t;
 }
 
-/// Event by event, so that what is late and what the inner line does come in the order of time, however late the call is.
+/// Handles one event after the other, so that delayed frames and events of the inner line come in order of time, however late the call is.
 void FaultLine::on_deadline(Instant now) {
     constexpr int max_events_per_call = 10'000;
     for (int i = 0; i < max_events_per_call && events_ != nullptr; ++i) {
@@ -187,7 +187,7 @@ bool FaultLine::spoil(Direction& d, const Frame& frame, Priority priority, Insta
     if (frame.kind == Frame::Kind::can_error) return give(d, frame, priority, now);
     if (chance(d.random, d.rates.loss)) {
         ++counters_.lost;
-        return true;  // a sender does not learn that its frame never came to the other end
+        return true;  // a sender is not informed that its frame did not arrive
     }
     Frame f = frame;
     if (f.size > 0 && chance(d.random, d.rates.truncate)) {
@@ -221,7 +221,7 @@ bool FaultLine::spoil(Direction& d, const Frame& frame, Priority priority, Insta
     return good;
 }
 
-/// Foreign bytes at some place of the run; what no longer fits one frame goes into a second.
+/// Inserts foreign bytes somewhere in the run; bytes that do not fit into one frame go into a second one.
 bool FaultLine::spoil_bytes(Direction& d, Frame frame, Priority priority, Instant now) {
     std::array<std::uint8_t, Frame::capacity + 8> all{};
     const std::size_t foreign = 1 + below(d.random, 8), place = below(d.random, std::uint64_t{frame.size} + 1);
@@ -287,10 +287,10 @@ void FaultLine::release(Direction& d) {
     Late late = d.late.front();
     d.late.pop_front();
     if (!d.to_drive) late.frame.at = late.due;
-    (void)pass(d, late.frame, late.priority);  // a refusal is counted by the inner line
+    (void)pass(d, late.frame, late.priority);  // the inner line counts a refusal
 }
 
-/// Nobody came to overtake it.
+/// No other frame has overtaken it.
 void FaultLine::release_held(Direction& d) {
     d.late.push_back(*d.held);
     d.held.reset();

@@ -1,6 +1,5 @@
-// FaultLine: a line that goes wrong on purpose: loses, doubles, garbles, shortens, delays, swaps and invents frames, and can be cut.
-// In: a line to wrap, a seed, what shall go wrong how often. Out: the same events as a line, spoiled; how often what was done.
-// Never takes randomness from elsewhere: the same seed and the same calls spoil the same frames in the same way.
+// A line with deliberate faults around another line: it loses, doubles, corrupts, shortens, delays, swaps and inserts frames, and can be
+// cut. All randomness comes from the seed: the same seed and the same calls cause the same faults.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +12,20 @@
 
 namespace axisgate {
 
-/// What goes wrong in one direction. Probabilities are per frame, 0..1, and independent of each other.
+/// The faults of one direction. Probabilities are per frame, 0..1, and independent of each other.
 struct FaultRates {
     double loss = 0;
-    double duplicate = 0;  ///< it comes twice
-    double flip = 0;       ///< one bit of its content is turned over
-    double truncate = 0;   ///< it ends early
-    double insert = 0;     ///< bytes: 1..8 foreign bytes somewhere in it; CAN: a foreign frame before it
-    double delay = 0;      ///< it is late, and everything behind it waits: a wire does not overtake
+    double duplicate = 0;  ///< the frame is sent twice
+    double flip = 0;       ///< one bit of its content is inverted
+    double truncate = 0;   ///< the frame is truncated
+    double insert = 0;     ///< bytes: 1..8 foreign bytes in the frame; CAN: a foreign frame before it
+    double delay = 0;      ///< the frame is late, and so are all frames behind it, because the order on a wire is kept
     Duration delay_max{};  ///< by more than zero and at most this
-    /// CAN alone: it is overtaken by the next one of its direction, as between two mailboxes of a controller; if none comes within
-    /// FaultLine::overtaken_at_most, it goes by itself. Bytes keep their order on every wire.
+    /// CAN only: the next frame of the same direction overtakes it, as between two mailboxes of a controller. If none comes within
+    /// FaultLine::overtaken_at_most, it is sent. Bytes keep their order on every wire.
     double reorder = 0;
-    Duration drift{};      ///< a line that gets slower: all are later by this for every second since the rates were set ...
-    Duration drift_max{};  ///< ... but by no more than this
+    Duration drift{};      ///< a line that becomes slower: all frames are later by this for every second since the rates were set
+    Duration drift_max{};  ///< but by no more than this
 };
 
 struct FaultPlan {
@@ -37,7 +36,7 @@ struct FaultPlan {
 
 struct FaultCounters {
     std::uint64_t lost = 0, duplicated = 0, flipped = 0, truncated = 0, inserted = 0, delayed = 0, reordered = 0;
-    std::uint64_t swallowed = 0;   ///< while the line was cut
+    std::uint64_t swallowed = 0;   ///< lost while the line was cut
     std::uint64_t overflowed = 0;  ///< more than FaultLine::max_delayed frames were late in one direction
 };
 
@@ -48,14 +47,14 @@ public:
 
     FaultLine(std::unique_ptr<Line> inner, const FaultPlan& plan);
 
-    /// New rates from the next frame on; the random sequence goes on.
+    /// New rates from the next frame on; the random sequence continues.
     void set_rates(const FaultRates& to_drive, const FaultRates& from_drive) noexcept;
-    /// Pulls the cable: the owner hears it at the next on_deadline. Frames of both directions vanish, also those that are late; what the
-    /// inner line has taken already still leaves, unheard.
+    /// Cuts the cable; the owner is informed at the next on_deadline. Frames of both directions are lost, including delayed ones. Frames
+    /// that the inner line has accepted already are still sent, and not reported.
     void cut(Instant now, std::string why = "cut on purpose");
-    /// CAN: the controller has seen too many errors and leaves the bus: it reports so, the line is down, and comes back by itself.
+    /// CAN: the controller has seen too many errors and leaves the bus. It reports this, the line is down, and returns by itself.
     void bus_off(Instant now, Duration pause);
-    /// Plugs it in again; up as soon as the inner line is.
+    /// Connects the cable again; the line is up as soon as the inner line is.
     void heal(Instant now);
     [[nodiscard]] bool is_cut() const noexcept { return cut_; }
 
@@ -67,7 +66,7 @@ public:
     bool send(const Frame& frame, Priority priority, Instant now) override;
     [[nodiscard]] Instant deadline() const override;
     void on_deadline(Instant now) override;
-    /// The inner line's, with this line's own state and losses.
+    /// The status of the inner line, with this line's own state and losses.
     [[nodiscard]] LineStatus status(Instant now) const override;
 
 private:
@@ -78,11 +77,11 @@ private:
     };
     struct Direction {
         FaultRates rates;
-        std::uint64_t random = 0;  // each direction has its own sequence: more traffic in one leaves the other as it was
+        std::uint64_t random = 0;  // each direction has its own sequence, so that more traffic in one does not change the other
         bool to_drive = true;
         std::deque<Late> late;     // in order of `due`
         std::optional<Late> held;  // waits to be overtaken
-        Instant since = never;     // of the rates: the first frame after they were set
+        Instant since = never;     // instant of the first frame after the rates were set
     };
 
     void on_frame(const Frame& frame) override;
@@ -111,7 +110,7 @@ private:
     bool published_up_ = false;
     std::string inner_why_ = "not opened yet";
     std::string cut_why_;
-    std::uint64_t refused_ = 0;  // frames that send() did not take because the line is cut or too many are late
+    std::uint64_t refused_ = 0;  // frames that send() refused because the line is cut or too many are late
 };
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Frame export: candump logs, pcapng captures, and lines for people. In: TraceEntry values. Out: text or bytes.
-// Never reads a clock: what a capture says about time is what the entries say.
+// Writes candump logs, pcapng captures, and lines for people. Times are those of the entries; no clock is read.
 #include "gateway/wire/frame_export.hpp"
 
 #include <fmt/format.h>
@@ -48,8 +47,8 @@ public:
     }
     void end_of_options() { u32(0); }
 
-    /// A block: its length stands before and behind what `fill` writes. Blocks are multiples of four bytes, so pad() may count from the
-    /// beginning of the file.
+    /// Writes a block: its length precedes and follows the content of `fill`. Blocks are multiples of four bytes, so pad() may count from
+    /// the beginning of the file.
     template <class F>
     void block(std::uint32_t type, F&& fill) {
         const std::size_t begin = bytes.size();
@@ -148,7 +147,7 @@ Pcapng::Pcapng(std::string_view line) : line_(line) {
         b.u32(0x1A2B3C4D);
         b.u16(1);
         b.u16(0);
-        b.u32(0xFFFFFFFF);  // length of the section: not said
+        b.u32(0xFFFFFFFF);  // length of the section: not stated
         b.u32(0xFFFFFFFF);
         b.option(option_user_application, "axisgate");
         b.end_of_options();

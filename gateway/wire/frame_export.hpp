@@ -1,6 +1,5 @@
-// Frame export: recorded frames as files that other tools read: candump logs, pcapng captures, and lines for people.
-// In: TraceEntry values (frame_log.hpp), whose wall-clock time is already set. Out: text or bytes, as one string.
-// Never interprets what a frame means: that is `axisgate decode`.
+// Recorded frames as files for other tools: candump logs, pcapng captures, and lines for people. The entries (frame_log.hpp) contain the
+// wall-clock time already. The meaning of a frame is not interpreted here; `axisgate decode` does that.
 #pragma once
 
 #include <array>
@@ -24,13 +23,13 @@ namespace axisgate {
 inline constexpr std::uint16_t linktype_can_socketcan = 227;
 inline constexpr std::uint16_t linktype_user0 = 147;  ///< runs of bytes as they are
 
-/// A pcapng section, little endian, times in nanoseconds, direction in epb_flags (inbound: from the drive). What crossed the cable and what
-/// crossed the twin bus are two interfaces, "LINE" and "LINE (twin)".
+/// A pcapng section, little endian, times in nanoseconds, direction in epb_flags (inbound: from the drive). The cable and the twin bus are
+/// two interfaces, "LINE" and "LINE (twin)".
 class Pcapng {
 public:
     explicit Pcapng(std::string_view line);
     void add(std::span<const TraceEntry> entries);
-    /// Of all that was added. Nothing may be added behind it.
+    /// Returns the bytes of all added entries. Nothing may be added afterwards.
     [[nodiscard]] std::string take() { return std::move(bytes_); }
 
 private:

@@ -1,5 +1,4 @@
-// FrameLog: a ring that is written without a lock. In: frames, from one thread. Out: copies, to any.
-// Never waits, on either side.
+// A ring that one thread writes without a lock and any thread can copy. Neither side ever waits.
 #include "gateway/wire/frame_log.hpp"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace {
 constexpr unsigned size_shift = 32, kind_shift = 48;
 constexpr std::uint64_t extended_bit = 1ull << 52, remote_bit = 1ull << 53, to_drive_bit = 1ull << 54, simulated_bit = 1ull << 55;
 
-// A slot's version while it is being written, and when it is whole.
+// The version of a slot while it is being written, and when it is complete.
 constexpr std::uint64_t writing(std::uint64_t sequence) noexcept { return sequence << 1 | 1; }
 constexpr std::uint64_t whole(std::uint64_t sequence) noexcept { return sequence << 1; }
 
@@ -28,7 +27,7 @@ void FrameLog::record(const Frame& frame, bool to_drive, bool simulated) noexcep
                                  (frame.extended ? extended_bit : 0) | (frame.remote ? remote_bit : 0) | (to_drive ? to_drive_bit : 0) |
                                  (simulated ? simulated_bit : 0);
     auto data = frame.data();
-    // A remote frame carries a length but no bytes: its storage was never set.
+    // A remote frame has a length but no bytes, so its storage was never initialized.
     if (frame.remote) {
         const std::array<std::uint8_t, 8> nothing{};
         write(std::span(nothing).first(std::min<std::size_t>({data.size(), nothing.size(), max_bytes_})), header, frame.at);
@@ -45,7 +44,7 @@ void FrameLog::write(std::span<const std::uint8_t> data, std::uint64_t header, I
     const std::uint64_t sequence = next_.load(std::memory_order_relaxed);
     Word* w = slot(sequence);
     w[0].store(writing(sequence), std::memory_order_relaxed);
-    // Release, each of them: a reader that sees any of these words then also sees that the version has changed.
+    // Each store is a release: a reader that sees any of these words then also sees that the version has changed.
     w[1].store(static_cast<std::uint64_t>(ns_of(at)), std::memory_order_release);
     w[2].store(header | std::uint64_t{data.size()} << size_shift, std::memory_order_release);
     for (std::size_t i = 0; i < data.size(); i += 8) {
@@ -94,7 +93,7 @@ FrameLog::Reading FrameLog::read(std::uint64_t since, std::size_t limit, std::in
         TraceEntry& entry = r.entries.emplace_back();
         if (copy(sequence, entry)) {
             entry.at_unix_ns = ns_of(entry.frame.at) + unix_offset_ns;
-        } else {  // the writer has come round meanwhile
+        } else {  // the writer has overwritten the slot meanwhile
             r.entries.pop_back();
             ++r.missed;
         }

@@ -1,6 +1,5 @@
-// LoadMeter: which share of the last second something was busy.
-// In: durations of work, with the instant at which they ended. Out: 0..1.
-// Never has a clock and never allocates: the second is kept in slices of 100 ms.
+// The fraction of the last second for which something was busy. The second is divided into slices of 100 ms, so that no clock and no
+// allocation is needed.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace axisgate {
 
 class LoadMeter {
 public:
-    /// Work that ended at `at`. Instants may repeat; one older than a second counts no more.
+    /// Adds work that ended at `at`. Instants may repeat; work older than a second has no effect.
     void add(Instant at, Duration busy) noexcept {
         const std::int64_t slice = ns_of(at) / slice_ns;
         Slice& s = slices_[index(slice)];
@@ -21,7 +20,7 @@ public:
         if (s.number < slice) s = {slice, 0};
         s.busy_ns += busy.count();
     }
-    /// Share of the second before `now`. The oldest slice counts in proportion to what of it is inside that second.
+    /// The fraction of the second before `now`. The oldest slice counts in proportion to its part inside that second.
     [[nodiscard]] double share(Instant now) const noexcept {
         const std::int64_t current = ns_of(now) / slice_ns;
         const double oldest_part = 1.0 - static_cast<double>(ns_of(now) % slice_ns) / static_cast<double>(slice_ns);

@@ -1,5 +1,4 @@
-// SendQueue: slots in one vector, chained into one list per priority and sender, and one of free slots.
-// In and out: frames. Never moves a waiting frame.
+// The slots are in one vector, linked into one list per priority and sender, and one of free slots. A waiting frame is never moved.
 #include "gateway/wire/send_queue.hpp"
 
 #include <algorithm>
@@ -39,7 +38,7 @@ bool SendQueue::push(const Frame& frame, Priority priority, Instant now) {
 
 std::size_t SendQueue::sender_of(const Frame& frame) noexcept { return std::min<std::size_t>(frame.sender, most_senders - 1); }
 
-/// A stop must not be refused because polls wait, nor one sender because another has filled the queue.
+/// A stop must not be refused because polls wait, nor the frame of one sender because another sender has filled the queue.
 bool SendQueue::make_room(Priority priority, std::size_t sender) noexcept {
     const std::size_t most = static_cast<std::size_t>(std::ranges::max_element(waiting_) - waiting_.begin());
     if (most != sender && waiting_[sender] < capacity_ / senders_ && push_out(most)) return true;
@@ -51,7 +50,7 @@ bool SendQueue::make_room(Priority priority, std::size_t sender) noexcept {
     return false;
 }
 
-/// The youngest of a sender's least urgent frames; none of its stops.
+/// Removes the youngest of a sender's least urgent frames, but none of its stops.
 bool SendQueue::push_out(std::size_t sender) noexcept {
     for (const Priority p : {Priority::poll, Priority::command}) {
         const Index victim = lists_[static_cast<std::size_t>(p)][sender].tail;
@@ -103,7 +102,7 @@ void SendQueue::take(Frame& to, Instant t) noexcept {
     remove(i);
 }
 
-/// Has had its turn.
+/// Removes a frame that has had its turn.
 void SendQueue::remove(Index i) noexcept {
     const Entry& e = slots_[i].entry;
     const std::size_t next = sender_of(e.frame) + 1;

@@ -1,7 +1,6 @@
-// SendQueue: the bounded queue of frames that wait for their line.
-// In: frames with a priority, a sender and the instant at which they came. Out: the next one to send: urgent before command before poll,
-// the senders' in turn. Never grows past its bound: a full queue refuses, except that an urgent frame pushes out the youngest of the least
-// urgent ones, and a sender with less than its share the youngest of who has most.
+// The bounded queue of frames that wait for their line. Urgent frames are sent before commands, commands before polls, and senders take
+// turns. A full queue refuses a frame, with two exceptions: an urgent frame replaces the youngest of the least urgent ones, and a sender
+// with less than its share replaces the youngest frame of the sender that has most.
 #pragma once
 
 #include <array>
@@ -18,10 +17,10 @@ class SendQueue {
 public:
     /// 256 frames of at most 256 bytes: 64 KiB.
     static constexpr std::size_t default_capacity = 256;
-    /// Frame::sender beyond it counts as the last one.
+    /// A Frame::sender beyond this counts as the last one.
     static constexpr std::size_t most_senders = 8;
 
-    struct Entry {  // the frame last: what is read of a short one lies together
+    struct Entry {  // the frame is last, so that the bytes of a short one are close to the other members
         Instant queued_at{};
         Priority priority = Priority::command;
         Frame frame;
@@ -29,25 +28,25 @@ public:
 
     explicit SendQueue(std::size_t capacity = default_capacity) noexcept : capacity_(capacity) {}
 
-    /// False: full, the frame is not taken. `now` must not go backwards. Room is allocated as it is first needed and then kept.
+    /// Returns false if the queue is full. `now` must not decrease. Memory is allocated when it is first needed and then kept.
     bool push(const Frame& frame, Priority priority, Instant now);
     /// The next frame to send among those that came at or before `t`; nullptr if there is none. Valid until the next push.
     [[nodiscard]] const Entry* front(Instant t = never) const noexcept;
-    /// Removes what front(t) shows.
+    /// Removes the frame that front(t) returns.
     void pop(Instant t = never) noexcept;
-    /// Removes it, and `to` is its frame; there must be one.
+    /// Removes it and copies it to `to`; there must be one.
     void take(Frame& to, Instant t) noexcept;
-    /// The frames as they would leave, at most as many as `to` holds; returns how many. Valid until the next push.
+    /// The frames in the order of sending, at most as many as `to` holds; returns their number. Valid until the next push.
     [[nodiscard]] std::size_t collect(std::span<const Entry*> to) const noexcept;
     /// When the first of the waiting frames came; `never` if none waits.
     [[nodiscard]] Instant earliest() const noexcept;
-    /// Throws away what came before `t`, and returns how many that were.
+    /// Removes frames that came before `t` and returns their number.
     std::size_t drop_older_than(Instant t) noexcept;
     void clear() noexcept;
 
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
-    /// Frames pushed out by urgent ones, or by other senders', ever.
+    /// Total number of frames replaced by urgent ones, or by those of other senders.
     [[nodiscard]] std::uint64_t displaced() const noexcept { return displaced_; }
 
 private:
@@ -65,9 +64,9 @@ private:
     };
 
     [[nodiscard]] static std::size_t sender_of(const Frame& frame) noexcept;
-    /// The sender of a priority from which to take at this turn of the senders.
+    /// The sender of a priority whose turn it is.
     [[nodiscard]] std::size_t in_turn(std::size_t priority, std::size_t k) const noexcept {
-        const std::size_t place = turn_[priority] + k;  // both below the number of senders
+        const std::size_t place = turn_[priority] + k;  // both are below the number of senders
         return place < senders_ ? place : place - senders_;
     }
     [[nodiscard]] Index best(Instant t) const noexcept;
@@ -78,9 +77,9 @@ private:
 
     std::vector<Slot> slots_;
     std::size_t size_ = 0;
-    std::size_t senders_ = 1;                              // seen so far
-    std::array<std::uint32_t, priorities> of_priority_{};  // frames that wait
-    std::array<std::uint32_t, priorities> turn_{};         // whose turn it is
+    std::size_t senders_ = 1;                              // number of senders so far
+    std::array<std::uint32_t, priorities> of_priority_{};  // number of waiting frames
+    std::array<std::uint32_t, priorities> turn_{};         // the sender whose turn it is
     std::array<std::array<List, most_senders>, priorities> lists_;
     std::array<std::size_t, most_senders> waiting_{};  // by sender
     Index free_ = none;

@@ -1,6 +1,5 @@
-// TwinBus: an event loop over three kinds of event: a transmission ends, a twin's deadline, a transmission starts.
-// In: frames, twins, time. Out: LineEvents, from on_deadline alone.
-// Never allocates per frame once its queues have grown to what the traffic needs.
+// An event loop over three kinds of event: a transmission ends, a twin's deadline passes, a transmission starts. When its queues have grown
+// to the size of the traffic, a frame allocates no memory.
 #include "gateway/wire/twin_bus.hpp"
 
 #include <fmt/core.h>
@@ -101,7 +100,7 @@ void TwinBus::restart(DriveId key, const NonVolatile& memory, Instant now) {
     take(number, processed_);
 }
 
-/// After every call to a twin: its frames go into its queue, its deadline into the heap, its filters to the ears.
+/// Must follow every call of a twin: moves its frames into its queue, its deadline into the heap, its filters into ears_.
 void TwinBus::take(Number number, Instant t, Duration at_least) {
     next_known_ = false;
     Node& node = *nodes_[number];
@@ -125,7 +124,7 @@ void TwinBus::take(Number number, Instant t, Duration at_least) {
     place(number, due == never ? never : std::max(due, t + at_least));
 }
 
-/// After a change of a node's queue.
+/// Must follow a change of a node's queue.
 void TwinBus::note_sender(Number number) {
     const SendQueue& queue = nodes_[number]->queue;
     const SendQueue::Entry* e = queue.front();
@@ -143,7 +142,7 @@ void TwinBus::drop_sender(Number number) noexcept {
     std::erase_if(senders_, [number](const Sender& s) { return s.number == number; });
 }
 
-// --- deadlines: a binary heap in which every node knows its place ----------------------------------------------------
+// --- deadlines: a binary heap in which every node knows its index ----------------------------------------------------
 
 void TwinBus::place(Number number, Instant due) {
     Node& node = *nodes_[number];
@@ -236,7 +235,7 @@ bool TwinBus::sending(Number sender) const noexcept {
     return std::ranges::any_of(wire_, [sender](const Transmission& t) { return t.sender == sender; });
 }
 
-/// Whether a twin that has something to say on a byte line would begin now.
+/// True if a twin with a waiting frame on a byte line would begin now.
 bool TwinBus::may_start(Number twin) const noexcept {
     if (!options_.converter) return !sending(twin);
     return std::ranges::none_of(wire_, [](const Transmission& t) { return t.sender != host; });
@@ -249,14 +248,14 @@ Instant TwinBus::first_end() const noexcept {
     return t;
 }
 
-/// How many of its bytes the host has when the next run has crossed.
+/// The number of its bytes that the host has after the next run.
 std::uint16_t TwinBus::run_end(const Transmission& x) const noexcept {
     if (options_.kind == LineKind::can || x.sender == host || x.end == x.start) return x.frame.size;
     const auto each = std::max<std::int64_t>(1, run_time * x.frame.size / (x.end - x.start));
     return static_cast<std::uint16_t>(std::min<std::int64_t>(x.frame.size, x.given + each));
 }
 
-/// When the next transmission may start, as far as is known now.
+/// When the next transmission may start, as far as it is known now.
 Instant TwinBus::next_start() const noexcept {
     const bool can = options_.kind == LineKind::can;
     if (can && !wire_.empty()) return never;
@@ -305,7 +304,7 @@ void TwinBus::step(Event e) {
     if (e.kind == Event::Kind::start) return start(e.at);
     const Number number = heap_.front().number;
     nodes_[number]->twin->on_deadline(e.at, scratch_);
-    take(number, e.at, std::chrono::microseconds(1));  // one that stays due must not hold up time for everybody else
+    take(number, e.at, std::chrono::microseconds(1));  // a twin that stays due must not stop the time for all others
 }
 
 void TwinBus::start(Instant t) {
@@ -313,12 +312,12 @@ void TwinBus::start(Instant t) {
         start_can(t);
         return;
     }
-    // All that are ready now begin now: nobody listens before talking on a byte line.
+    // All that are ready begin now: on a byte line a sender does not listen before it sends.
     if (host_queue_.front(t) != nullptr && !sending(host)) begin(host, host_queue_, t);
     for (std::size_t i = 0; i < senders_.size();) {
         const Number n = senders_[i].number;
         if (may_start(n)) begin(n, nodes_[n]->queue, t);
-        if (i < senders_.size() && senders_[i].number == n) ++i;  // else it has nothing more to send and has left the list
+        if (i < senders_.size() && senders_[i].number == n) ++i;  // otherwise it has nothing more to send and has left the list
     }
 }
 
@@ -329,7 +328,7 @@ void TwinBus::start_can(Instant t) {
         winner = host;
         best = can_arbitration(e->frame);
     }
-    for (const Sender& s : senders_) {  // what a twin has said, it has said by now
+    for (const Sender& s : senders_) {  // the frames of this twin are in its queue by now
         if (winner != gone && s.arbitration >= best) continue;
         winner = s.number;
         best = s.arbitration;
@@ -355,7 +354,7 @@ void TwinBus::begin(Number sender, SendQueue& queue, Instant t) {
     }
 }
 
-/// Both drivers push against each other from the start of the later to the end of the earlier: the bytes under it come out as others.
+/// Both drivers are active from the start of the later transmission to the end of the earlier: the bytes in this time are corrupted.
 void TwinBus::garble_overlap(Transmission& a, Transmission& b) noexcept {
     const Instant from = std::max(a.start, b.start), to = std::min(a.end, b.end);
     for (Transmission* x : {&a, &b}) {
@@ -376,7 +375,7 @@ void TwinBus::finish_one() {
     if (first->next < first->end) return give_run(*first);
     done_ = *first;
     wire_.erase(first);
-    const Instant t = processed_;  // the end itself, unless a hand or a new twin has moved time on
+    const Instant t = processed_;  // the end itself, unless set_hand() or a new twin has advanced the time
     const bool can = options_.kind == LineKind::can;
     done_.frame.at = done_.end;
     load_.add(done_.end, done_.end - done_.start);
@@ -410,7 +409,7 @@ void TwinBus::give_run(Transmission& x) {
     events_->on_frame(run);
 }
 
-/// A change of a twin's own filters while a frame is delivered concerns later frames.
+/// If a twin changes its own filters while a frame is delivered, the change applies to later frames.
 std::span<const TwinBus::Number> TwinBus::who_receives(std::uint32_t id) {
     auto& set = hearers_[(id * 2654435761u) >> 25];
     const auto known = std::ranges::find(set, id, &Hearer::id);
@@ -430,7 +429,7 @@ std::span<const TwinBus::Number> TwinBus::who_receives(std::uint32_t id) {
 }
 
 void TwinBus::deliver_to_twins(Instant t) {
-    for (const Number number : who_receives(done_.frame.id)) {  // twins cannot reach the bus, so the list stays as it is
+    for (const Number number : who_receives(done_.frame.id)) {  // twins cannot reach the bus, so the list does not change
         if (number == done_.sender) continue;
         nodes_[number]->twin->on_frame(done_.frame, t, scratch_);
         take(number, t);

@@ -1,5 +1,5 @@
-// TwinBusEnd: one end of a bus of twins that outlives it, as a cable that is pulled out of a gateway leaves the drives behind it as they
-// are. In: a bus. Out: the same line. Never keeps the bus alive by itself: an owner of the bus may be handed over to be kept.
+// One end of a twin bus that outlives it: a cable can be disconnected from a gateway while the drives behind it continue. It does not keep
+// the bus alive by itself; an owner of the bus may be passed to it.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace axisgate {
 
 class TwinBusEnd final : public Line {
 public:
-    /// `keeps`: lives as long as this end, such as the owner of the bus.
+    /// `keeps` lives as long as this end, for example the owner of the bus.
     explicit TwinBusEnd(TwinBus& bus, std::shared_ptr<void> keeps = {}) : bus_(bus), keeps_(std::move(keeps)) {}
     ~TwinBusEnd() override { bus_.close(); }
     TwinBusEnd(const TwinBusEnd&) = delete;

@@ -1,6 +1,6 @@
-// bench_cia402: one SDO round trip against the simulated CiA 402 drive, in process: the client, the node and its dictionary.
-// In: a client and a twin side by side, reads and writes, real time. Out: what a round trip costs beyond its time on the wire, median and
-// p99; the limit is 20 microseconds. The wire's own time is computed for the frames that were sent and only shown.
+// bench_cia402 measures one SDO round trip against the simulated CiA 402 drive in this process: the client, the node and its dictionary. It
+// prints median and p99 of the cost beyond the time on the wire; the limit is 20 microseconds. The time on the wire is computed from the
+// sent frames and only shown.
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -26,7 +26,7 @@ struct Trips {
     }
 };
 
-/// Each trip at another instant, so that the twin shows what is measured anew.
+/// Each round trip is at another instant, so that the twin computes its measured values anew.
 Trips trips(Twin& twin, bool writes) {
     canopen::SdoClient client(5);
     Trips t;

@@ -1,6 +1,6 @@
-// DDS benchmark: what 256 axes at 50 Hz cost the gateway that tells of them and one that listens; and how long a frame on a line of the
-// real program takes to be a sample at another gateway, beside a bare round trip of Cyclone DDS with the same types in the same run. In:
-// the program's path. Out: shares of a core, distributions, the limits; exit 1 if one is not kept. Uses the loopback alone.
+// The DDS benchmark measures the cost of 256 axes at 50 Hz for the gateway that publishes them and for one that reads them, and the time
+// from a frame on a line of the real program to the sample at another gateway, beside a bare round trip of Cyclone DDS with the same types
+// in the same run. It uses the loopback only; exit 1 if a limit is exceeded.
 #include <poll.h>
 #include <signal.h>
 #include <sys/eventfd.h>
@@ -43,7 +43,7 @@ double processor_s() {
     return s(u.ru_utime) + s(u.ru_stime);
 }
 
-/// A process of its own that ends with this one, and what it wrote to its pipe.
+/// A process that ends with this one, and the text that it wrote to its pipe.
 class Child {
 public:
     explicit Child(const std::function<void(int)>& work) {
@@ -90,8 +90,8 @@ std::string site_of(int count) {
     return R"({"lines":[)" + lines + R"(],"drives":[)" + drives + R"(],"axes":[)" + all + "]}";
 }
 
-/// A gateway with so many axes, all of which change `rate_hz` times a second: the share of a core that its process uses, in percent.
-/// `seen`: the axes that it must know of the others before it begins to count.
+/// The share of a core, in percent, of a gateway with this number of axes, all of which change `rate_hz` times a second. Counting begins
+/// when it knows `seen` axes of other gateways.
 double share_of(const char* name, std::uint64_t instance, int count, bool moving, std::size_t seen, double seconds) {
     boost::asio::io_context context{1};
     FakeGateway gateway(site_of(count));
@@ -139,7 +139,7 @@ double share_of(const char* name, std::uint64_t instance, int count, bool moving
     return 100 * (processor_s() - before) / (static_cast<double>(clock_ns() - begun) * 1e-9);
 }
 
-/// A bus that wakes whoever polls `fd`.
+/// A bus that wakes the thread that polls `fd`.
 struct Listening {
     int fd = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     dds::Bus bus{[this] {
@@ -163,7 +163,7 @@ dds::BusSettings settings_of(const char* partition) {
     return s;
 }
 
-/// The other end of the bare round trip: a state comes, a result goes.
+/// The other end of the bare round trip: it answers a state with a result.
 void echo(int) {
     Listening here;
     if (const auto fault = here.bus.open(settings_of("bare"), {dds::Topic::command_result}, {dds::Topic::axis_state}); !fault.empty())
@@ -202,13 +202,13 @@ Distribution round_trips(int count) {
         }
         if (came != 0) all.us.push_back(static_cast<double>(came - begun) * 1e-3);
         if (clock_ns() > limit) give_up("the bare round trip takes too long");
-        // As far apart as the changes of an axis are: who is asked without a pause never sleeps.
+        // The same distance as between the changes of an axis, because a process that is asked without a pause never sleeps.
         ::usleep(20'000);
     }
     return all;
 }
 
-/// From the frame that tells a new position to the sample that has it.
+/// The time from the frame with a new position to the sample with it.
 Distribution frames_to_samples(const std::string& program_path, int count) {
     char folder[] = "/tmp/axisgate-bench-XXXXXX";
     if (!::mkdtemp(folder)) give_up("no temporary folder");
@@ -257,7 +257,7 @@ Distribution frames_to_samples(const std::string& program_path, int count) {
         }
         if (came != 0 && drive.left_at() > 1 && found) d.us.push_back(static_cast<double>(came - drive.left_at()) * 1e-3);
         found = found || came != 0;
-        // States of one axis are at least a turn apart: what is measured is the way, and not the waiting for it.
+        // States of one axis are at least one turn apart, so that the waiting for a turn is not measured.
         const std::int64_t next = clock_ns() + 45'000'000;
         while (clock_ns() < next) {
             wait_for({drive.fd()}, std::min(drive.timeout_ms(), 5));
@@ -267,7 +267,7 @@ Distribution frames_to_samples(const std::string& program_path, int count) {
     return d;
 }
 
-/// So many gateways with 64 axes each, all at rest: the share of a core of each, in percent.
+/// The share of a core, in percent, of each of this number of gateways with 64 axes each, all at rest.
 double share_of_member(int members) {
     constexpr int each = 64;
     std::vector<std::unique_ptr<Child>> fleet;
@@ -288,7 +288,7 @@ double share_of_member(int members) {
 
 int run(const std::string& program) {
     bool kept = true;
-    // Children first: nobody forks with the library's threads.
+    // The children are forked first, because the library's threads do not survive a fork.
     {
         const Child other([](int out) {
             const double share = share_of("there", 2, axes, true, 0, 8);

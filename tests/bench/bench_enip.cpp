@@ -1,7 +1,7 @@
-// EtherNet/IP benchmark: explicit messages against a plain echo of the same sizes, implicit data's jitter, the way of an output to the
-// drive's line, the stop when an owner falls silent. In: where the program listens, and which part. Out: per figure the ratio, its limit
-// and both figures; exit 1 if a limit is not kept. Everything is plain sockets. When data came is what the kernel noted, so that this
-// program's own waking up is not measured.
+// The EtherNet/IP benchmark measures explicit messages against a plain echo of the same sizes, the jitter of implicit data, the time from
+// an output to the drive's line, and the stop when an owner falls silent. For each figure it prints the ratio, its limit and both figures;
+// exit 1 if a limit is exceeded. It uses plain sockets, and the kernel's time stamps of received data, so that its own wake-up time is not
+// measured.
 #include <netinet/tcp.h>
 #include <signal.h>
 #include <sys/epoll.h>
@@ -29,8 +29,8 @@ namespace axisgate::bench {
 namespace {
 // --- explicit messages
 
-/// epoll, recv, one send of so many bytes for each request of its size, on the processor and with the rank of the gateway's hot thread:
-/// nothing that still answers is faster.
+/// epoll, recv and one send per request, on the processor and with the rank of the gateway's hot thread: the fastest possible server that
+/// still answers.
 class Echo {
 public:
     Echo(std::size_t request, std::size_t answer) : request_(request), answer_(answer), listening_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -89,7 +89,7 @@ private:
     std::thread thread_;
 };
 
-/// Each of the connections has one request under way. Answers per second.
+/// Answers per second, with one request in progress on each connection.
 double rate(const std::vector<int>& fds, const std::vector<Bytes>& requests, std::size_t answer, double seconds) {
     const int poller = ::epoll_create1(0);
     std::vector<std::size_t> have(fds.size());
@@ -129,7 +129,7 @@ double rate(const std::vector<int>& fds, const std::vector<Bytes>& requests, std
     return static_cast<double>(answers) * 1e9 / static_cast<double>(now - begun);
 }
 
-/// The gateway does nothing while the echo answers, as the echo does nothing while the gateway does: one of them has the processor.
+/// The gateway is paused while the echo answers, and the echo while the gateway does, so that each has the processor for itself.
 class Paused {
 public:
     explicit Paused(pid_t program) : program_(program) {
@@ -145,7 +145,8 @@ private:
     pid_t program_;
 };
 
-/// `pid` of the program; 0: it goes on beside the echo, and the figure flatters it. `only`: so many sessions alone; 0: all three figures.
+/// `pid` is that of the program; 0: it keeps running beside the echo, which makes the ratio too good. `only`: this number of sessions; 0:
+/// all three figures.
 bool explicit_messages(Address program, pid_t pid, int only) {
     constexpr double least = 0.9;
     constexpr int slices = 7;
@@ -202,7 +203,7 @@ double share(std::vector<double>& v, double of) {
     return v[at_most];
 }
 
-/// 32 owners at 2 ms, and Modbus clients that ask as fast as they can for half of the time.
+/// 32 owners at 2 ms, and during half of the time Modbus clients at their full rate.
 bool jitter(Address program, Address io, Address modbus, double seconds) {
     constexpr std::uint32_t count = 32, rpi_us = 2000;
     constexpr double p99_us = 300, p9999_us = 2000;

@@ -1,7 +1,7 @@
-// HTTP benchmark: one axis asked for by REST, the program against a bare Beast server that gives the same bytes, in one run.
-// In: where the program listens, the axis. Out: per number of connections the ratio, the limit, and both figures; exit 1 if one is not
-// kept. The servers have one thread on one core and take turns in short slices, the load generator has the other core; the figure is the
-// median of the slices' ratios, so that what disturbs the machine disturbs both.
+// The HTTP benchmark requests one axis over REST from the program and from a bare Beast server that answers the same bytes. For each number
+// of connections it prints the ratio, the limit and both figures; exit 1 if one is exceeded. Each server has one thread on one core; they
+// take turns in short slices, and the load generator has the other core. The figure is the median of the slices' ratios, so that
+// disturbances of the machine affect both.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 
 namespace axisgate::bench {
 namespace {
-constexpr double least_rate = 0.8;  // of the bare server's
+constexpr double least_rate = 0.8;  // of the bare server's rate
 constexpr int slices = 7;
 constexpr int server_cpu = 0, load_cpu = 1;
 
@@ -28,7 +28,7 @@ double median(std::vector<double> v) {
     return v[v.size() / 2];
 }
 
-/// The program's thread for HTTP; 0 if there is none.
+/// The id of the program's thread for HTTP; 0 if there is none.
 int door_thread(const std::string& pid) {
     std::error_code ec;
     for (const auto& task : std::filesystem::directory_iterator("/proc/" + pid + "/task", ec)) {
@@ -39,14 +39,14 @@ int door_thread(const std::string& pid) {
     return 0;
 }
 
-/// Processor time that it has used so far, s.
+/// Processor time of it so far, s.
 double door_seconds(const std::string& pid, int thread) {
     double ns = 0;
     std::ifstream("/proc/" + pid + "/task/" + std::to_string(thread) + "/schedstat") >> ns;
     return ns * 1e-9;
 }
 
-/// One number of connections; whether the limit is kept.
+/// Measures one number of connections; returns whether the limit is kept.
 bool compare(Address program, const std::string& pid, int thread, PlainHttpServer& plain, const std::string& path, int connections,
              double seconds) {
     std::printf("GET %s, %d connections kept open, one request in flight each\n", path.c_str(), connections);
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "bench_http: process %s has no thread for HTTP\n", argv[2]);
         return 2;
     }
-    // As far back as the program's thread stands, or a busy machine would not disturb both alike.
+    // With the nice value of the program's thread, so that a busy machine disturbs both alike.
     PlainHttpServer plain(server_cpu, ::getpriority(PRIO_PROCESS, static_cast<id_t>(thread)), answer.head, answer.body);
     bool kept = true;
     for (const int connections : {1, 8, 32})

@@ -1,6 +1,5 @@
-// bench_linmot: what 256 LinMot twins cost that move under VAI commands and are looked at a thousand times a second.
-// In: twins, motion commands over their wire, virtual time. Out: processor time per virtual second, as a share of one core; the limit is
-// half.
+// bench_linmot measures the cost of 256 LinMot twins that move under VAI commands and are read a thousand times a second, as processor time
+// per virtual second. The limit is half of one core.
 #include <chrono>
 #include <ctime>
 #include <memory>

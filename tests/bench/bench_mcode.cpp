@@ -1,5 +1,5 @@
-// bench_mcode: how fast the MCode twin executes a program when the time of its statements is not simulated, and what a held one costs.
-// In: a loop of five simple statements, compiled once. Out: statements per second as a ratio to five million; on one processor.
+// bench_mcode measures how many statements per second the MCode twin executes when their duration is not simulated, as a ratio to five
+// million, with a loop of five simple statements; and the cost of a held program.
 #include <chrono>
 
 #include "adapters/mcode/twin/run.hpp"

@@ -1,7 +1,6 @@
-// Modbus benchmark: the door against a plain epoll server that answers the same bytes with nothing behind them, in one run.
-// In: options (see usage). Out: per point the ratio, the limit it is measured against, and both figures; exit 1 if a limit is not kept.
-// Servers run one at a time on one core, the load generator on the other. The two servers take turns in short slices, so that what
-// disturbs the machine disturbs both; the figure is the median of the slices' ratios.
+// The Modbus benchmark measures the door against a plain epoll server that answers the same bytes. For each point it prints the ratio, its
+// limit and both figures; exit 1 if a limit is exceeded. The servers run one at a time on one core, the load generator on the other. They
+// take turns in short slices, so that disturbances of the machine affect both; the figure is the median of the slices' ratios.
 #include <fcntl.h>
 #include <sched.h>
 #include <sys/epoll.h>
@@ -28,7 +27,7 @@ struct Options {
     int spin_us = 0;
     std::string connect;               // empty: the door in this process
     std::string point;                 // empty: all
-    std::optional<double> least_rate;  // instead of the point's own
+    std::optional<double> least_rate;  // instead of the limit of the point
     bool busy_load = false;
     bool report_only = false;
 };
@@ -92,7 +91,7 @@ struct Point {
     int connections;
     int in_flight;
     double least_rate;               // of the plain server's
-    std::optional<double> most_p99;  // of the plain server's; pipelined, latency is queueing and no figure of its own
+    std::optional<double> most_p99;  // of the plain server's; with pipelining, latency is queueing and has no limit of its own
 };
 constexpr Point points[] = {{10, 1, 1, 0.85, 1.3},   {10, 8, 1, 0.85, 1.3},         {10, 64, 1, 0.85, 1.3},
                             {10, 512, 1, 0.92, 1.3}, {10, 8, 8, 0.5, std::nullopt}, {125, 1, 1, 0.85, 1.3},
@@ -106,7 +105,7 @@ bool say(const char* what, double ratio, const char* relation, double limit, boo
     return kept;
 }
 
-/// Slices of `a` and `b` by turns.
+/// Slices of `a` and `b` in turn.
 struct Comparison {
     std::vector<double> rate_a, rate_b, p99_a, p99_b, rate_ratio, p99_ratio;
     double answers_a = 0, answers_b = 0;
@@ -136,7 +135,7 @@ Comparison compare(Load& a, Load& b, const Options& o) {
     return c;
 }
 
-/// The same eight clients with and without 512 others that do nothing.
+/// The same eight clients with and without 512 idle ones.
 bool run_idle(const Options& o, Address ours) {
     bool kept = true;
     std::printf("FC 3, 10 registers, 8 connections, 1 in flight each, beside 512 open idle connections\n");

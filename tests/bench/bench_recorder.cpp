@@ -1,7 +1,6 @@
-// Recorder benchmark: what recording everything of 64 moving axes costs the thread that does it, and a write on its way; how fast a
-// recording is replayed.
-// In: nothing. Out: per figure the ratio, the limit it is measured against, and both figures; exit 1 if a limit is not kept.
-// Worlds in virtual time; the processor's time counts. The ring is the real one, emptied between two measurements as another thread would.
+// The recorder benchmark measures the cost of recording 64 moving axes for the recording thread and for a write on its way, and the speed
+// of a replay. For each figure it prints the ratio, its limit and both figures; exit 1 if a limit is exceeded. The worlds run in virtual
+// time, and processor time is counted. The ring is the real one, emptied between two measurements as another thread would.
 #include <time.h>
 
 #include <algorithm>
@@ -36,7 +35,7 @@ double processor_seconds() {
     return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
-/// Hands records over as the program does.
+/// Passes records on as the program does.
 struct Tape final : FlightTap {
     RecordRing ring{4u << 20};
     FlightLog inputs{256u << 20, false}, window{256u << 20, true};
@@ -69,7 +68,7 @@ const test::Subject& subject() {
     std::abort();
 }
 
-/// `n` axes that turn until somebody says otherwise.
+/// `n` axes that turn until they are stopped.
 std::vector<AxisId> turning(test::World& w, std::size_t n, Tape* tape) {
     if (tape) w.engine.set_tap(tape);
     const auto state = w.apply(w.twins(subject(), n));
@@ -97,7 +96,7 @@ double play(std::size_t n, Tape* tape) {
     return spent;
 }
 
-/// What a written set-point costs the thread until its frame is given to the line, the slowest of a hundred, while `axes` move.
+/// The time from a written set-point until its frame is given to the line, the slowest of a hundred, while `axes` move.
 double write_p99_us(Tape* tape) {
     test::World w(1);
     const auto ids = turning(w, axes, tape);
@@ -113,7 +112,7 @@ double write_p99_us(Tape* tape) {
         if (!r || !good(*r)) std::printf("    a write was not taken: %s\n", r ? r->text.c_str() : "no result"), ++not_taken;
         if (tape) tape->empty();
     }
-    if (not_taken > 0) return 1e9;  // what is refused costs nothing: that would flatter
+    if (not_taken > 0) return 1e9;  // a refused write costs nothing, which would make the figure too good
     const auto at = us.begin() + static_cast<std::ptrdiff_t>(us.size() * 99 / 100);
     std::ranges::nth_element(us, at);
     return *at;
@@ -134,7 +133,7 @@ bool cost() {
     return say("64 axes: hot thread, for recording", with - without, "<=", 3, "with", with, "without", without, "%");
 }
 
-/// Beside the 200 us that a write may take to its frame for 99 of 100 (`write`), recording is to be nothing.
+/// 99 of 100 writes may take 200 us until their frame (`write`); compared with that, recording must take almost nothing.
 bool tail() {
     double plain = 1e9, taped = 1e9;
     for (int i = 0; i < rounds; ++i) {

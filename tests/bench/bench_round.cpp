@@ -1,6 +1,6 @@
-// Round benchmark: engine, adapter and twins in virtual time: how much faster than the world is the simulated one?
-// In: options (see usage). Out: per point the ratio, the limit it is measured against, and both figures; exit 1 if a limit is not kept.
-// Nothing sleeps and nothing is measured by the clock on the wall but where a ratio says so: it is the processor's time that counts.
+// The round benchmark measures how much faster than real time engine, adapters and twins run in virtual time. For each point it prints the
+// ratio, its limit and both figures; exit 1 if a limit is exceeded. Processor time is counted, and wall-clock time only where a ratio says
+// so.
 #include <time.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ double wall_seconds() {
     return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
-/// Good addresses of drives that share a line. A group address that new drives listen to is left out: a drive there would be answered for
-/// by all the others, on a real line as well.
+/// Valid addresses of drives that share a line. A group address to which new drives listen is left out, because all the others would answer
+/// for a drive there, on a real line as well.
 std::vector<std::string> addresses_for(const FamilyEntry& e, std::size_t n) {
     auto list = test::addresses(e, n + 16);
     std::erase(list, "10");
@@ -72,7 +72,7 @@ Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t axes, std
     return std::move(*site);
 }
 
-/// What the runtime is to an engine, without keeping anything.
+/// The host of an engine, without storage.
 struct Host final : EngineHost {
     std::uint64_t bad = 0, results = 0, events = 0, samples = 0;
     std::string first_bad;
@@ -131,15 +131,16 @@ struct Plant {
     }
 };
 
-/// Axes that move, each asked a hundred times a second, in gateways of a thousand (their register map ends at 1,024) that go on in turn,
-/// a second each, as they know nothing of one another: all of them in the time of one processor.
+/// Axes that move, each polled a hundred times a second, in gateways of a thousand axes (their register map ends at 1,024), which run in
+/// turn for a second each, because they are independent: all of them in the time of one processor.
 bool run_polled(const FamilyEntry& e, std::size_t gateways) {
     constexpr std::size_t axes = 1000;
     constexpr double rate = 100;
     const auto all = static_cast<double>(gateways * axes);
     std::printf("%.0f moving axes of %s, polled at %.0f Hz, engine, adapters and twins\n", all, std::string(e.family->name).c_str(), rate);
-    // As many drives on a line as its bit rate can carry: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths. A moving
-    // drive is asked two things in turn in each poll period, and each answer brings its position: 100 a second are a period of 20 ms.
+    // The number of drives on a line that its bit rate can carry: 40 * 100 * (question + answer) fills 1 Mbit/s to about four fifths. A
+    // moving drive is asked two questions in turn in each poll period, and each answer contains its position: 100 a second are a period of
+    // 20 ms.
     std::vector<std::unique_ptr<Plant>> plants;
     for (std::size_t i = 0; i < gateways; ++i)
         plants.push_back(std::make_unique<Plant>(e, axes, 40, static_cast<int>(2000 / rate)));
@@ -218,7 +219,7 @@ bool run_world(const FamilyEntry& e, double simulated) {
     std::uint64_t given = 0;
     const std::uint64_t steps = w.steps;
     while (seconds(w.now - start) < simulated) {
-        // One fault and one command per second of the world, as a machine with a bad cable has them.
+        // One fault and one command per second of the world, as on a machine with a bad cable.
         if (random() % 10 == 0) {
             FaultRates to, from;
             to.loss = static_cast<double>(random() % 100) / 1000.0;
@@ -261,7 +262,7 @@ bool run_world(const FamilyEntry& e, double simulated) {
     return kept;
 }
 
-/// A thousand twins that move and that nobody asks.
+/// A thousand twins that move without being asked.
 bool run_unobserved(const FamilyEntry& e) {
     constexpr std::size_t twins = 1000;
     constexpr std::size_t per_bus = 100;
@@ -271,7 +272,7 @@ bool run_unobserved(const FamilyEntry& e) {
         void on_line_state(bool, const std::string&) override {}
         void on_sent(const Frame&) override {}
     } quiet;
-    // The adapters set them in motion; then each twin is left alone on a bus of its own making.
+    // The adapters set them in motion; then each twin is left alone on a bus of its own.
     Plant p(e, twins, per_bus, 1000);
     p.run_for(5s);
     for (const auto a : p.site->axis_ids)
@@ -293,7 +294,7 @@ bool run_unobserved(const FamilyEntry& e) {
     std::vector<double> before;
     for (auto* t : all)
         before.push_back(t->mechanics(1, p.now).position);
-    // From here nobody asks: time goes on, and only deadlines of the twins themselves are met.
+    // From here on nothing is asked: time passes, and only deadlines of the twins are met.
     constexpr double simulated = 3600;
     const Instant end = p.now + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(simulated));
     std::uint64_t wakes = 0;
@@ -321,7 +322,7 @@ bool run_unobserved(const FamilyEntry& e) {
     return kept && p.host.bad == 0;
 }
 
-/// What it costs that each feedback of a moving axis is compared with its record of motion and with its limits, of all three kinds.
+/// The cost of comparing each feedback of a moving axis with its record of motion and with its limits, of all three kinds.
 bool run_supervision(const FamilyEntry& e) {
     constexpr std::size_t axes = 1000;
     constexpr double rate = 100;
@@ -390,16 +391,16 @@ int main(int argc, char** argv) {
     const auto runs = [&](const char* name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); };
     bool kept = true;
     for (const auto& e : test::families().entries) {
-        // A serial line of one control carries some ten questions a second: the figure is for buses whose drives are asked. CANopen's tell
-        // by SYNC, and forty of them fill a bus at a third of that rate; their heartbeat wakes them when nobody asks. bench_cia402 has
-        // their figures.
+        // A serial line of one control carries some ten questions a second, so the figure is for buses whose drives are polled. CANopen
+        // drives report by SYNC, and forty of them fill a bus at a third of that rate; their heartbeat wakes them even if nothing is asked.
+        // bench_cia402 has their figures.
         const bool asked = e.family->name != "cia402" && e.family->name != "aposs";
         if (runs("thousand") && e.family->uses_can && asked) kept &= bench::run_polled(e, 1);
         if (runs("ten_thousand") && e.family->uses_can && asked) kept &= bench::run_polled(e, 10);
         if (runs("supervision") && e.family->uses_can && asked) kept &= bench::run_supervision(e);
         // A control that is alone on its line cannot be sixteen there.
         if (runs("world") && bench::addresses_for(e, 16).size() == 16) kept &= bench::run_world(e, world);
-        // A hundred drives are not set in motion over one slow serial line in the time that this takes.
+        // A hundred drives cannot be set in motion over one slow serial line in this time.
         if (runs("unobserved") && e.family->uses_can && asked) kept &= bench::run_unobserved(e);
     }
     std::printf(kept ? "all limits kept\n" : "NOT all limits kept\n");

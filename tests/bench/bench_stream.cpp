@@ -1,6 +1,6 @@
-// Stream benchmark: a crowd of live-feed clients that watch what the page watches; what the program's processor time for them is.
-// In: where the program listens, its process id. Out: the ratio to the limit, and whether every client was told all; exit 1 if a limit is
-// not kept. Clients here only count: frames are taken apart, texts are not read.
+// The stream benchmark measures the program's processor time for many live-feed clients that subscribe to the topics of the page. It prints
+// the ratio to the limit, and whether every client received everything; exit 1 if a limit is exceeded. The clients only count frames and do
+// not read their texts.
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace axisgate::bench {
 namespace {
 constexpr double most_processor = 0.15;  // of one core
-constexpr double least_published = 0.9;  // of the states that were due: an axis that moves is told once per period, if it was heard in it
+constexpr double least_published = 0.9;  // of the states that were due: a moving axis is sent once per period, if it has reported in it
 constexpr double longest_gap_s = 1.0;    // of one client, between two reads
 
 /// User and system time of a process, s.
@@ -35,7 +35,7 @@ double used_s(int pid) {
 int run(Address program, int pid, int clients, int axes, int period_ms, double seconds) {
     auto here = std::make_unique<Crowd>(program, static_cast<std::size_t>(clients), period_ms);
     Crowd& crowd = *here;
-    crowd.run(1.0);  // the first states of all
+    crowd.run(1.0);  // the first states
     crowd.forget();
     const double before = used_s(pid), begun = now_s();
     crowd.run(seconds);

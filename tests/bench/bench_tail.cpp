@@ -1,9 +1,8 @@
-// Tail benchmark: the longest ways through the real program while all of it is busy, beside a bare relay under the same load.
-// In: the program's path, how many of each way. Out: per way the median, 99, 99.9, 99.99 % and the longest, with the limits of two of them,
-// and how many took longer than a millisecond, each beside the relay's; exit 1 if a limit is not kept.
-// The load: 100 clients watch 33 axes at 20 Hz, 32 of which move; REST is asked at half of what it can; parameters are written and stored
-// one after the other on four axes, each command is an event that is stored; a trace is downloaded every second. The prober sleeps like any
-// client, and takes the kernel's word for when bytes came.
+// The tail benchmark measures the longest paths through the real program while all of it is busy, beside a bare relay under the same load.
+// For each path it prints the median, 99, 99.9, 99.99 % and the maximum, the limits of two of them, and how many took longer than a
+// millisecond, with those of the relay; exit 1 if a limit is exceeded. The load: 100 clients watch 33 axes at 20 Hz, 32 of which move; REST
+// is used at half of its maximum rate; parameters are written and stored one after the other on four axes, each command is an event that is
+// stored; a trace is downloaded every second. The prober sleeps like any client, and uses the kernel's time stamps of received data.
 #include <unistd.h>
 
 #include <algorithm>
@@ -46,7 +45,7 @@ std::string site(std::uint16_t drive_port) {
     return R"({"lines":[)" + lines + R"(],"drives":[)" + drives + R"(],"axes":[)" + axes + "]}";
 }
 
-/// An HTTP client that never waits by itself, with one request under way.
+/// An HTTP client that never waits, with one request in progress.
 class HttpClient {
 public:
     explicit HttpClient(Address address) : address_(address), fd_(connected_socket(address.port)) {}
@@ -58,7 +57,7 @@ public:
         in_.clear();
         if (::write(fd_, r.data(), r.size()) != static_cast<ssize_t>(r.size())) give_up("a request could not be sent");
     }
-    /// When the whole answer was there; 0: it is not. Anything but success ends the benchmark.
+    /// The time at which the answer was complete; 0: it is not. An answer other than success ends the benchmark.
     std::int64_t answered() {
         std::array<std::uint8_t, 4096> part;
         std::int64_t at = 0;
@@ -79,11 +78,11 @@ private:
     std::string in_;
 };
 
-/// Everything else that the program has to do, from threads that stand back. Ends with this object.
+/// The rest of the program's load, from threads of lower priority. Ends with this object.
 class Rush {
 public:
     explicit Rush(Address http) : http_(http) {
-        double most = 0;  // what REST can alone, when it began
+        double most = 0;  // the rate of REST alone, at the beginning
         {
             HttpLoad alone(http, "/api/v1/axes/m1", rest_connections);
             most = alone.run(0.5).per_second;
@@ -98,7 +97,7 @@ public:
             if (!crowd.good()) fault_ = "a stream was refused or closed";
         });
         begin([this] {
-            // Half of its time at its full rate, in turns of 5 ms.
+            // Half of the time at its full rate, in turns of 5 ms.
             HttpLoad load(http_, "/api/v1/axes/m1", rest_connections);
             while (!stop_) {
                 const std::int64_t begun = clock_ns();
@@ -126,7 +125,7 @@ public:
     ~Rush() { end(); }
     Rush(const Rush&) = delete;
     Rush& operator=(const Rush&) = delete;
-    /// Ends it and says what it came to.
+    /// Ends the load and prints its figures.
     void report() {
         const double took = now_s() - begun_s_;
         end();
@@ -167,7 +166,7 @@ private:
     std::vector<std::thread> threads_;
 };
 
-/// A way of the gateway, and the bare relay at the same time: one message of it after each of the way's.
+/// A path of the gateway and the bare relay at the same time: one message of the relay after each of the path's.
 struct Way {
     Distribution gateway, relay;
 };
@@ -203,11 +202,11 @@ int run(const std::string& path, int count) {
     cpu_set_t all;
     ::sched_getaffinity(0, sizeof all, &all);
     Program program(path, folder, site(drive.port()), all, {"http.bind=127.0.0.1:0", "modbus.bind=127.0.0.1:0"});
-    if (!go_first()) take_short_turns(hot_turn_ns);  // it stands for a client and a drive that are machines of their own
+    if (!go_first()) take_short_turns(hot_turn_ns);  // it represents a client and a drive that are separate machines
     std::bitset<128> polls;
     polls.set();
     std::int64_t frame_at = 0;
-    // Until `done`, asleep between what comes; the first frame that is no poll is dated.
+    // Until `done`, asleep in between; the first frame that is not a poll gets a time stamp.
     const auto until = [&](auto&& done, std::initializer_list<int> also, double limit_s, const char* what) {
         const std::int64_t end = clock_ns() + static_cast<std::int64_t>(limit_s * 1e9);
         while (!done()) {
@@ -248,7 +247,7 @@ int run(const std::string& path, int count) {
     for (const int word : {0x06, 0x07, 0x0F})
         write(32, {static_cast<std::uint16_t>(word)});
     write(42, {0, 500});
-    // What the gateway asks by itself: anything else is what a command has caused.
+    // The gateway's own questions: any other frame was caused by a command.
     drive.functions.reset();
     rest(1.0);
     polls = drive.functions;
@@ -259,7 +258,7 @@ int run(const std::string& path, int count) {
     const auto velocity = [](int i) { return 1000 + i % 1000; };
     const int warm_up = std::min(count / 10, 1000);
     Relay relay(-1, true);
-    // From `begin` to the frame, or to the answer; the next begins when both are over.
+    // From `begin` to the frame, or to the answer; the next one begins when both are over.
     const auto measure = [&](auto&& begin, auto&& answered, int fd, bool to_frame) {
         Way way;
         way.gateway.us.reserve(static_cast<std::size_t>(count));
@@ -288,7 +287,7 @@ int run(const std::string& path, int count) {
         },
         [&] { return modbus.answered(); }, modbus.fd(), true);
     Way reads = measure([&](int) { modbus.read(0, 20); }, [&] { return modbus.answered(); }, modbus.fd(), false);
-    HttpClient http(address);  // opened now: the gateway closes a connection that is silent for as long as the ways before take
+    HttpClient http(address);  // opened now, because the gateway closes a connection that is silent during the earlier measurements
     Way commands = measure(
         [&](int i) {
             http.post("/api/v1/axes/a/commands?wait=5", R"({"command":"move_velocity","velocity":)" + std::to_string(velocity(i)) + "}");

@@ -1,7 +1,6 @@
-// Write benchmark: the real program, from a Modbus write to the frame that it causes on the drive's line.
-// In: the program's path. Out: the distribution, the limit for the 99th percentile, and beside it what a bare relay needs on this machine
-// in the same run; exit 1 if the limit is not kept.
-// One thread is Modbus client and drive at once: it notes the time before the write leaves and the time at which the frame is there.
+// The write benchmark measures the time from a Modbus write to the real program to the frame that it causes on the drive's line. It prints
+// the distribution, the limit for the 99th percentile, and the figures of a bare relay on this machine in the same run; exit 1 if the limit
+// is exceeded. One thread is Modbus client and drive at once and notes both times.
 #include <sched.h>
 #include <unistd.h>
 
@@ -48,7 +47,7 @@ int run(const std::string& program_path, int count) {
                         R"(","family":"uim342"}],"drives":[{"name":"d","line":"l","address":5,"presence":"device"}],)"
                         R"("axes":[{"name":"a","drive":"d","number":1}]})",
                     others, {"http.bind=off", "modbus.bind=127.0.0.1:0"});
-    // The measuring thread looks without sleeping, and keeps one processor for itself; the gateway has the others.
+    // The measuring thread polls without sleeping on a processor of its own; the gateway has the others.
     if (processors > 1) {
         CPU_SET(static_cast<unsigned>(processors - 1), &own);
         (void)::sched_setaffinity(0, sizeof own, &own);
@@ -79,7 +78,7 @@ int run(const std::string& program_path, int count) {
     for (const int word : {0x06, 0x07, 0x0F})
         write(32, {static_cast<std::uint16_t>(word)});
     write(42, {0, 500});
-    // What the gateway asks by itself: anything else is what a write has caused.
+    // The gateway's own questions: any other frame was caused by a write.
     drive.functions.reset();
     rest(1.0);
     const std::bitset<128> polls = drive.functions;

@@ -1,6 +1,5 @@
-// EtherNet/IP originator of the benchmark: one session with its questions, one socket of implicit data. Plain sockets, nothing of the
-// gateway's. In: the device's address. Out: answers, images with the instant at which the kernel had them. What goes wrong ends the
-// benchmark with its reason.
+// The EtherNet/IP originator of the benchmark: one session for questions, one socket for implicit data, on plain sockets without code of
+// the gateway. Images have the kernel's time stamp. A fault ends the benchmark with its reason.
 #pragma once
 
 #include <arpa/inet.h>
@@ -78,7 +77,7 @@ inline Bytes packet(std::uint16_t command, std::uint32_t session, const Bytes& d
     p.insert(p.end(), data.begin(), data.end());
     return p;
 }
-/// An unconnected message, with further items behind it.
+/// An unconnected message, followed by further items.
 inline Bytes message(std::uint8_t service, const Bytes& path, const Bytes& data, const Bytes& items = {}) {
     Bytes b;
     put(b, 0, 6);
@@ -114,7 +113,7 @@ public:
         read_whole(fd_, answer.data() + 24, answer.size() - 24);
         return answer;
     }
-    /// Class 1, point to point; the device's id of it.
+    /// Class 1, point to point; returns the connection id of the device.
     std::uint32_t open(std::uint16_t serial, std::uint8_t output, std::uint8_t input, std::uint32_t ot_us, std::uint32_t to_us,
                        std::uint16_t ot_size, std::uint8_t multiplier, std::uint16_t our_port) {
         Bytes d{10, 14}, items;
@@ -186,7 +185,7 @@ public:
         std::int64_t at_ns = 0;
         std::array<std::uint8_t, 32> input{};
     };
-    /// Waits until `until_ns` at most. False: nothing came.
+    /// Waits until `until_ns` at most. Returns false if nothing came.
     bool receive(Arrival& a, std::int64_t until_ns) {
         for (;;) {
             std::array<std::uint8_t, 256> bytes;

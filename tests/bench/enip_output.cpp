@@ -1,5 +1,5 @@
-// Output benchmark: one thread is scanner and drive at once: it notes the time before the datagram leaves and the time at which the frame
-// was there. In: the real program with a drive on a TCP line. Out: figures. Never sleeps: it has a processor for itself.
+// The output benchmark: one thread is scanner and drive at once and notes the time before the datagram is sent and the time at which the
+// frame was received. It never sleeps, and has a processor for itself.
 #include "tests/bench/enip_output.hpp"
 
 #include <filesystem>
@@ -90,7 +90,7 @@ bool output_to_frame(const std::string& program_path, int count) {
             }
         }
     };
-    // The scanner's way to a drive that runs: the state that the input tells decides the next control word.
+    // The sequence of a scanner that starts a drive: the state in the input determines the next control word.
     std::uint16_t word = 0;
     std::int32_t speed = 0;
     end = clock_ns() + 10'000'000'000;
@@ -102,7 +102,7 @@ bool output_to_frame(const std::string& program_path, int count) {
         word = state == 0x27 || state == 0x23 ? 0x0F : state == 0x21 ? 0x07 : (state & 0x4F) == 0x40 ? 0x06 : 0;
         if (state == 0x27) speed = 500;
     }
-    // What the gateway asks by itself: anything else is what a datagram has caused.
+    // The gateway's own questions: any other frame was caused by a datagram.
     drive.functions.reset();
     for (int i = 0; i < 100; ++i) {
         udp.send(owner, ++sequence, output_of(word, speed));

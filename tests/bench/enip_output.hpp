@@ -1,5 +1,5 @@
-// Output benchmark: from a datagram with an output assembly to the frame that it causes on the drive's line.
-// In: the program's path. Out: the distribution beside its limit; false if the limit is not kept. Never more than one change at a time.
+// The output benchmark measures the time from a datagram with an output assembly to the frame that it causes on the drive's line. It prints
+// the distribution and its limit, and returns whether the limit is kept. There is one change at a time.
 #pragma once
 
 #include <string>

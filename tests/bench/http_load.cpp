@@ -1,5 +1,4 @@
-// HTTP load: requests, their answers, and how long each took, on one poller.
-// In: what the server sends. Out: counts and times. Never reads a body, never asks twice on a connection before the answer is there.
+// Requests, answers and their times on one poller. Bodies are not read, and a connection has one request at a time.
 #include "tests/bench/http_load.hpp"
 
 #include <netinet/in.h>
@@ -21,7 +20,7 @@ std::int64_t now_ns() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Size of the whole answer that begins with `in`; 0: its head is not whole; npos: it is not what was hoped for.
+/// Size of the whole answer that begins with `in`; 0: its head is incomplete; npos: it is not the expected answer.
 std::size_t size_of_answer(const std::string& in) {
     const auto end = in.find("\r\n\r\n");
     if (end == std::string::npos) return in.size() > 16'384 ? std::string::npos : 0;

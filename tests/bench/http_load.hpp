@@ -1,6 +1,6 @@
-// Load generator of the HTTP benchmark: one thread, many kept-open connections with one request in flight each.
-// In: an address, a path, a number of connections. Out: answers per second and the 99th percentile of the time from request to answer.
-// Never waits longer than two seconds for an answer; an answer that is not 200 with a Content-Length ends the run with a fault.
+// The load generator of the HTTP benchmark: one thread, many open connections with one request in flight each. It returns answers per
+// second and the 99th percentile of the time from request to answer. An answer that takes longer than two seconds, or is not 200 with a
+// Content-Length, ends the run with a fault.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace axisgate::bench {
 
-/// A socket that is connected, without delay and blocking; -1 if it could not be.
+/// A connected blocking socket without delay; -1 on failure.
 [[nodiscard]] int connect_blocking(Address address);
 
-/// A request with everything that the program's HTTP door asks for.
+/// A request with all headers that the program's HTTP door requires.
 [[nodiscard]] std::string http_request(Address address, const std::string& method, const std::string& path, const std::string& body);
 
-/// One answer to one request on a connection of its own; empty head if there was none.
+/// One answer to one request on a connection of its own; the head is empty if there was none.
 struct HttpAnswer {
     std::string head, body;
 };
@@ -25,12 +25,12 @@ struct HttpAnswer {
 
 class HttpLoad {
 public:
-    /// `body`, if there is one, goes as JSON.
+    /// A non-empty `body` is sent as JSON.
     HttpLoad(Address address, const std::string& path, int connections, const std::string& method = "GET", const std::string& body = {});
     ~HttpLoad();
     HttpLoad(const HttpLoad&) = delete;
     HttpLoad& operator=(const HttpLoad&) = delete;
-    /// Asks for that long, then waits for what is still in flight.
+    /// Sends requests for this time, then waits for the answers in flight.
     [[nodiscard]] LoadResult run(double seconds);
     [[nodiscard]] const std::string& fault() const { return fault_; }
 
@@ -38,11 +38,11 @@ private:
     struct Connection {
         int fd = -1;
         std::int64_t sent_at = 0;
-        std::size_t wanted = 0;  // of the answer that is coming; 0: its head is not here yet
+        std::size_t wanted = 0;  // size of the present answer; 0: its head is incomplete
         std::string in;
     };
     void ask(Connection& c);
-    bool take(Connection& c);  // the answer is whole
+    bool take(Connection& c);  // the answer is complete
 
     int poller_ = -1;
     std::string request_;

@@ -1,5 +1,4 @@
-// Plain HTTP server of the benchmark: a thread on its own core, one session with a buffer of 64 KiB per connection.
-// In: connections. Out: the same bytes for each request. Never closes a connection by itself.
+// A thread on its own core, one session with a buffer of 64 KiB per connection, the same bytes for each request.
 #include "tests/bench/http_plain.hpp"
 
 #include <sys/resource.h>

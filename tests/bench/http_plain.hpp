@@ -1,6 +1,5 @@
-// Plain HTTP server of the benchmark: Boost.Beast and nothing behind it: each request gets the same answer, as it was given.
-// In: the core to run on, the head and the body of an answer. Out: an address on loopback. One thread, as the program's door has one.
-// Never checks anything and has no timers, so nothing made with Beast is much faster that still answers.
+// The plain HTTP server of the benchmark: Boost.Beast with one thread, like the program's door, without checks and timers. Each request
+// gets the same given answer, so no server made with Beast that still answers is much faster.
 #pragma once
 
 #include <memory>
@@ -13,7 +12,7 @@ namespace axisgate::bench {
 
 class PlainHttpServer {
 public:
-    /// `head`: status line and fields of the answer to be given, without its empty line. `nice`: what the thread stands back by.
+    /// `head` contains the status line and the fields of the answer, without its empty line. `nice` is the thread's nice value.
     PlainHttpServer(int cpu, int nice, const std::string& head, std::string body);
     ~PlainHttpServer();
     PlainHttpServer(const PlainHttpServer&) = delete;

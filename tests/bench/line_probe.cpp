@@ -1,6 +1,5 @@
-// Line probe: the sockets of both ends, the drive's twin between them, the program as a child, the bare relay beside it.
-// In: bytes, the clock, the kernel's notes of when bytes came. Out: bytes, instants by clock_ns().
-// Never keeps the program running after itself.
+// The sockets of both ends, the drive's twin between them, the program as a child process, and the bare relay. Times are those of the
+// kernel's time stamps and of clock_ns(). The program ends with this process.
 #include "tests/bench/line_probe.hpp"
 
 #include <arpa/inet.h>
@@ -73,7 +72,7 @@ void wait_for(std::initializer_list<int> fds, int timeout_ms) {
     std::array<pollfd, 8> list{};
     nfds_t n = 0;
     for (const int fd : fds)
-        list[n++] = {fd, POLLIN, 0};  // poll leaves out what is negative
+        list[n++] = {fd, POLLIN, 0};  // poll ignores negative descriptors
     (void)::poll(list.data(), n, timeout_ms);
 }
 
@@ -175,7 +174,7 @@ void Drive::put(std::int32_t position) {
 }
 void Drive::send(const Out& out) {
     std::array<std::uint8_t, sizeof put_> words{};
-    std::memcpy(words.data(), &put_, sizeof put_);  // as the drive's language has it: the low byte first
+    std::memcpy(words.data(), &put_, sizeof put_);  // in the drive's byte order: the low byte first
     for (const auto& tx : out.frames) {
         const auto bytes = tx.frame.data();
         if (left_at_ == 0 && std::search(bytes.begin(), bytes.end(), words.begin(), words.end()) != bytes.end()) left_at_ = clock_ns();
@@ -196,7 +195,7 @@ Program::Program(const std::string& path, const std::string& folder, const std::
     if (::pipe2(ends, O_CLOEXEC) != 0) give_up("no pipe");
     pid_ = ::fork();
     if (pid_ == 0) {
-        ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // also when a benchmark gives up
+        ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // also if a benchmark gives up
         ::dup2(ends[1], 1);
         (void)::sched_setaffinity(0, sizeof cpus, &cpus);
         std::vector<char*> arguments;

@@ -1,6 +1,5 @@
-// Line probe: what benchmarks use to stand at both ends of the real program: a drive on a TCP line, a Modbus client, the program itself.
-// In: bytes. Out: bytes, and the instant at which they were there, as the kernel noted it: the prober's own waking up is not measured.
-// Never waits by itself; what goes wrong ends the benchmark with its reason.
+// Both ends of the real program for benchmarks: a drive on a TCP line, a Modbus client, and the program itself. Received bytes have the
+// kernel's time stamp, so that the wake-up time of the prober is not measured. A fault ends the benchmark with its reason.
 #pragma once
 
 #include <sched.h>
@@ -25,15 +24,15 @@ namespace axisgate::bench {
 [[noreturn]] void give_up(const std::string& why);
 
 [[nodiscard]] int listening_socket(std::uint16_t& port);
-/// Connected to the loopback, without delay, never waiting, noting when bytes come.
+/// A non-blocking socket to the loopback without delay, with time stamps of received bytes.
 [[nodiscard]] int connected_socket(std::uint16_t port);
 void no_delay(int fd);
-/// The kernel notes from now on when bytes come in.
+/// Enables the kernel's time stamps of received bytes.
 void note_arrivals(int fd);
 
-/// recv without waiting. `came_ns`: when the last of the bytes came in, by clock_ns().
+/// recv without waiting. `came_ns` is the arrival of the last byte, by clock_ns().
 [[nodiscard]] ssize_t receive(int fd, std::span<std::uint8_t> into, std::int64_t& came_ns);
-/// Sleeps until one of them has something to read (negative ones are left out), at most so long.
+/// Sleeps until one of them is readable (negative ones are ignored), at most this time.
 void wait_for(std::initializer_list<int> fds, int timeout_ms);
 
 /// The drive at the end of the line: the twin of UIM342 as device 5, answering at once.
@@ -45,14 +44,14 @@ public:
     Drive& operator=(const Drive&) = delete;
     [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
     [[nodiscard]] int fd() const noexcept { return fd_; }  ///< -1: the program has not connected
-    [[nodiscard]] int timeout_ms() const;                  ///< until the twin itself has something to do; at most 1000
+    [[nodiscard]] int timeout_ms() const;                  ///< until the twin's next deadline; at most 1000
 
-    /// Does what there is to do. Returns the instant at which a frame was there whose function is not in `expected`, else 0.
+    /// Handles everything that is ready. Returns the instant at which a frame arrived whose function is not in `expected`, otherwise 0.
     std::int64_t pump(const std::bitset<128>& expected);
     std::bitset<128> functions;  ///< of the frames that came
-    /// Moves the shaft by hand; the next frame that tells of it is noted.
+    /// Moves the shaft by hand; the next frame with the new position is noted.
     void put(std::int32_t position);
-    [[nodiscard]] std::int64_t left_at() const noexcept { return left_at_; }  ///< when that frame left; 0: not yet
+    [[nodiscard]] std::int64_t left_at() const noexcept { return left_at_; }  ///< when that frame was sent; 0: not yet
 
 private:
     void send(const Out& out);
@@ -67,15 +66,15 @@ private:
 /// The gateway as a process of its own.
 class Program {
 public:
-    /// On the processors of `cpus`, with what `site` (JSON) says and these settings (NAME=VALUE).
+    /// On the processors of `cpus`, with the site `site` (JSON) and these settings (NAME=VALUE).
     Program(const std::string& path, const std::string& folder, const std::string& site, const cpu_set_t& cpus,
             const std::vector<std::string>& settings);
     ~Program();
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
-    /// Whether it has said that it is ready.
+    /// True if it has reported that it is ready.
     bool ready();
-    /// Where a door of it listens; 0: it does not.
+    /// The port of one of its doors; 0: the door is closed.
     [[nodiscard]] std::uint16_t port(const std::string& door) const;
 
 private:
@@ -84,7 +83,7 @@ private:
     std::string output_;
 };
 
-/// A Modbus client that never waits by itself, with one request under way.
+/// A non-blocking Modbus client with one request in progress.
 class ModbusClient {
 public:
     explicit ModbusClient(std::uint16_t port) : fd_(connected_socket(port)) {}
@@ -93,7 +92,7 @@ public:
     ModbusClient& operator=(const ModbusClient&) = delete;
     void write(std::uint16_t address, std::initializer_list<std::uint16_t> values);
     void read(std::uint16_t address, std::uint16_t count);
-    /// When the whole answer was there; 0: it is not. An exception ends the benchmark.
+    /// When the answer was complete; 0: it is not. An exception response ends the benchmark.
     std::int64_t answered();
     [[nodiscard]] int fd() const noexcept { return fd_; }
 
@@ -109,7 +108,7 @@ struct Distribution {
     [[nodiscard]] double at(double share);  ///< 1: the longest
 };
 
-/// The least that any gateway needs: a process that sleeps until bytes come on one connection and writes them to another. `cpu` < 0: on any
+/// The minimum for any gateway: a process that sleeps until bytes arrive on one connection and writes them to another. `cpu` < 0: on any
 /// processor. `sleeping`: the prober sleeps as well.
 class Relay {
 public:
@@ -117,14 +116,14 @@ public:
     ~Relay();
     Relay(const Relay&) = delete;
     Relay& operator=(const Relay&) = delete;
-    /// What one message took.
+    /// The time of one message.
     [[nodiscard]] double once_us();
 
 private:
     bool sleeping_;
     int pid_ = 0, in_ = -1, out_ = -1;
 };
-/// Messages of a relay from a prober that does not sleep. `pause_ns` is waited between two, and up to four times as long again by chance.
+/// Messages through a relay from a prober that does not sleep. The pause between two is `pause_ns`, and up to four times as long at random.
 [[nodiscard]] Distribution relay(int count, int cpu, std::int64_t pause_ns);
 
 }  // namespace axisgate::bench

@@ -1,5 +1,4 @@
-// Load generator of the Modbus benchmark: one epoll loop; answers must come in the order of their requests.
-// In: sockets of the address. Out: a count, a sorted list of times. Never goes on after a wrong answer or an exception.
+// One epoll loop; answers must come in the order of their requests. A wrong answer or an exception ends the run.
 #include "tests/bench/modbus_load.hpp"
 
 #include <arpa/inet.h>
@@ -111,7 +110,7 @@ int Load::take(Connection& c) {
             static_cast<std::uint32_t>(std::min<std::int64_t>(at - c.sent_at[transaction % c.sent_at.size()], UINT32_MAX)));
         ++c.expected;
     }
-    // An exception is shorter than an answer: told instead of waited for.
+    // An exception is shorter than an answer, so it is reported instead of waiting for more bytes.
     if (c.have - begin >= 9 && (c.in[begin + 7] & 0x80) != 0) {
         fault_ = "exception " + std::to_string(int{c.in[begin + 8]}) + " (are axes 1 and 2 configured?)";
         return -1;
@@ -166,7 +165,7 @@ IdleConnections::IdleConnections(Address address, int count) : all_(true) {
         fds_.push_back(connect_to(address));
         all_ = all_ && fds_.back() >= 0;
     }
-    ::usleep(20'000);  // the server takes them before the measuring begins
+    ::usleep(20'000);  // the server accepts them before the measurement begins
 }
 IdleConnections::~IdleConnections() {
     for (const int fd : fds_) {

@@ -1,6 +1,6 @@
-// Load generator of the Modbus benchmark: one thread, many connections, each with a fixed number of requests in flight.
-// In: an address and the shape of the load. Out: answers per second and the 99th percentile of the time from request to answer.
-// Never waits longer than two seconds for an answer: a server that stands still ends the run with a fault.
+// The load generator of the Modbus benchmark: one thread, many connections, each with a fixed number of requests in flight. It returns
+// answers per second and the 99th percentile of the time from request to answer. A server that does not answer for two seconds ends the run
+// with a fault.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ class Load {
 public:
     Load(Address address, int connections, int in_flight, std::uint16_t registers);
     ~Load();
-    /// It looks for answers without ever sleeping: what is measured is then the server's wake-ups alone, and not the generator's own.
+    /// It polls for answers without sleeping, so that only the wake-up time of the server is measured.
     void never_sleep() noexcept { never_sleeps_ = true; }
     Load(const Load&) = delete;
     Load& operator=(const Load&) = delete;
 
-    /// Asks for that long, then waits for what is still in flight.
+    /// Sends requests for this time, then waits for the answers in flight.
     [[nodiscard]] LoadResult run(double seconds);
     [[nodiscard]] const std::string& fault() const { return fault_; }
 
@@ -43,7 +43,7 @@ private:
         std::vector<std::uint8_t> in;
     };
     void ask(Connection& c, int requests);
-    int take(Connection& c);  // answers taken; -1: lost
+    int take(Connection& c);  // number of complete answers; -1: the connection is lost
 
     int poller_ = -1;
     int in_flight_;
@@ -55,7 +55,7 @@ private:
     std::string fault_;
 };
 
-/// Connections that do nothing.
+/// Idle connections.
 class IdleConnections {
 public:
     IdleConnections(Address address, int count);

@@ -1,5 +1,4 @@
-// Servers of the Modbus benchmark: the door over a port without an engine, moved by its loop; the epoll server.
-// In: connections. Out: answers. Never more than one thread each.
+// The door over a port without an engine, whose pictures its loop changes; and the epoll server. One thread each.
 #include "tests/bench/modbus_servers.hpp"
 
 #include <arpa/inet.h>
@@ -43,7 +42,7 @@ double processor_seconds(std::thread& thread) {
 namespace {
 constexpr std::uint16_t axes = 8;
 
-/// Axes without drives; the clock is the machine's.
+/// Axes without drives, with the machine's clock.
 struct MovingPort final : DoorPort {
     MovingPort() {
         if (!image_.grow(axes)) std::abort();

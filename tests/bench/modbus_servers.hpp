@@ -1,5 +1,5 @@
-// Servers of the Modbus benchmark: the door with eight moving axes, and the plain epoll server that it is measured against.
-// In: the core to run on. Out: an address on loopback. Each has one thread that sleeps while nobody asks.
+// The servers of the Modbus benchmark: the door with eight moving axes, and the plain epoll server with which it is compared. Each has one
+// thread on the given core, which sleeps while there is no request.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ struct Address {
 /// Processor time that a thread has used so far, s.
 [[nodiscard]] double processor_seconds(std::thread& thread);
 
-/// Keeps the calling thread on one core; no harm if the machine has fewer.
+/// Keeps the calling thread on one core; without effect if the machine has fewer.
 void pin(int cpu);
 
 /// The Modbus door behind a port without an engine. Eight axes move: each gets a new picture every millisecond while anyone is connected.
@@ -36,15 +36,15 @@ private:
     std::thread thread_;
 };
 
-/// epoll, recv, one send with the answers to all whole 12-byte requests that have arrived. The answer is a block of bytes of the right
-/// size with the request's transaction and unit copied in; nothing is checked, so nothing is faster that still answers.
+/// epoll, recv, one send with the answers to all whole 12-byte requests that have arrived. The answer is a block of bytes of the right size
+/// with the request's transaction and unit; nothing is checked, so this is the fastest server that still answers.
 class PlainServer {
 public:
     explicit PlainServer(int cpu);
     ~PlainServer();
     [[nodiscard]] Address address() const { return address_; }
     [[nodiscard]] double used_seconds() { return processor_seconds(thread_); }
-    /// For the next requests: so many registers per answer. To be called while nobody asks.
+    /// The number of registers in the following answers. Must be called while there is no request.
     void answer_with(std::uint16_t registers) { registers_.store(registers); }
 
 private:

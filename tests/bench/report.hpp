@@ -1,12 +1,12 @@
-// Report: how benchmarks say what they measured: one line with the ratio, the limit it is measured against, and both figures.
-// In: figures. Out: text on standard output, in the form that tests/bench/run.sh counts. Never judges by itself what is not limited.
+// The output of benchmarks: one line with the ratio, its limit and both figures, in the form that tests/bench/run.sh counts. Figures
+// without a limit are only shown.
 #pragma once
 
 #include <cstdio>
 
 namespace axisgate::bench {
 
-/// `ratio` = `ours` / `theirs` or the other way round, as `what` says. Returns whether the limit is kept.
+/// `ratio` is `ours` / `theirs` or the reverse, as `what` says. Returns whether the limit is kept.
 inline bool say(const char* what, double ratio, const char* relation, double limit, const char* our_name, double ours,
                 const char* their_name, double theirs, const char* unit) {
     const bool kept = relation[0] == '>' ? ratio >= limit : ratio <= limit;

@@ -1,5 +1,4 @@
-// Crowd: handshakes, subscriptions and frames of many live-feed clients on one poller.
-// In: what the program sends. Out: counts. Never sends more than subscriptions and pongs.
+// Handshakes, subscriptions and frames of many live-feed clients on one poller. The clients send only subscriptions and pongs.
 #include "tests/bench/stream_crowd.hpp"
 
 #include <sys/epoll.h>
@@ -23,7 +22,7 @@ bool send_all(int fd, std::string_view bytes) {
     return ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
 }
 
-/// A client's frame; its mask is zero, which masks nothing.
+/// A client's frame with a mask of zero.
 std::string client_frame(int opcode, std::string_view payload) {
     std::string f{static_cast<char>(0x80 | opcode)};
     if (payload.size() < 126) {
@@ -61,7 +60,7 @@ bool open_client(Client& c, Address address, int period_ms, Crowd::Watches what)
     return what == Crowd::Watches::axes || (subscribe(R"("site","events","alarms")", 1000) && subscribe(R"("drives/*","lines/*")", 500));
 }
 
-/// Takes the whole frames out of what has come. False: closed, or not what a server sends.
+/// Removes the complete frames from the received bytes. Returns false if the connection was closed, or the frame cannot come from a server.
 bool take(Client& c) {
     static std::array<char, 256 * 1024> part;
     const auto n = ::recv(c.fd, part.data(), part.size(), MSG_DONTWAIT);
@@ -82,7 +81,7 @@ bool take(Client& c) {
             size = static_cast<std::size_t>(byte(2) << 8 | byte(3));
             head = 4;
         } else if (size > 126) {
-            return false;  // masked, or larger than anything that is told here
+            return false;  // masked, or larger than any message here
         }
         if (size > most_frame) return false;
         if (c.in.size() - at < head + size) break;

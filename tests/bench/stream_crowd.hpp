@@ -1,6 +1,5 @@
-// A crowd of live-feed clients that watch what the page watches.
-// In: where the program listens, how many, their period. Out: per client what it was told, and its longest silence.
-// Clients here only count: frames are taken apart, texts are not read.
+// Many live-feed clients with the subscriptions of the page. They count the received frames and the longest silence of each client, and do
+// not read the texts.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +21,13 @@ public:
         std::size_t axes = 0, others = 0, bytes = 0;
         double received_s = 0, gap_s = 0;
     };
-    /// All topics that the page watches, or the axes alone.
+    /// All topics of the page, or only the axes.
     enum class Watches { page, axes };
     Crowd(Address address, std::size_t count, int period_ms, Watches what = Watches::page);
     ~Crowd();
     Crowd(const Crowd&) = delete;
     Crowd& operator=(const Crowd&) = delete;
-    /// Reads what comes for that long.
+    /// Reads for this time.
     void run(double seconds);
     void forget();
     [[nodiscard]] bool good() const { return good_; }  ///< no client was refused or closed

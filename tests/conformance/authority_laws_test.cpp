@@ -1,5 +1,5 @@
-// Conformance, authority: a client that holds an axis is its only commander, in every kind of order and in every part of one; what stops an
-// axis is everybody's, and is a stop alone. In: law_subjects(), on twins, two clients. Out: laws. Never names a family.
+// Laws of authority, for every family: a client that holds an axis is its only commander, for every kind of order and every part of one;
+// every client may stop an axis, and such an order may do nothing else.
 #include <gtest/gtest.h>
 
 #include "gateway/axis/cia402.hpp"
@@ -69,7 +69,7 @@ TEST_P(AuthorityLaws, WhoDoesNotHoldTheAxisCommandsNothingOfIt) {
         SCOPED_TRACE(testing::Message() << "control word " << std::hex << cw);
         is_barred(word(cw));
     }
-    // What would be a halt of an enabled axis switches one on that is off.
+    // The word that is a halt for an enabled axis would switch on one that is off.
     is_barred(word(0x10F));
     world->run_for(500ms);
     EXPECT_NE(state(), PowerState::operation_enabled);
@@ -114,14 +114,14 @@ TEST_P(AuthorityLaws, AJointStartNeedsEachOfItsAxes) {
     EXPECT_NE(r.text.find(site->site.axes.at(1).name), std::string::npos) << "the axis that is held is named: " << r.text;
 }
 
-/// A client that waits for the end of his motion is told when another motion has taken its place, and not when that one ends.
+/// A client that waits for the end of its motion is informed when another motion has replaced it, and not when that one ends.
 TEST_P(AuthorityLaws, AMotionThatAnotherOneReplacesHasAnEnd) {
     start();
     ASSERT_TRUE(good(say(a1, Enable{}, bert)));
     const Ticket far = give(a1, move_to(400'000), bert, true);
     ASSERT_TRUE(world->run_until_true([&] { return moving(a1); }, 20s));
     const Result next = say(a1, move_to(-400'000), plc);
-    if (!good(next)) {  // a drive that takes no other motion meanwhile says so
+    if (!good(next)) {  // a drive that accepts no other motion meanwhile must say so
         EXPECT_FALSE(next.text.empty());
         return;
     }
@@ -130,7 +130,7 @@ TEST_P(AuthorityLaws, AMotionThatAnotherOneReplacesHasAnEnd) {
     if (const Result* ended = world->result(far)) EXPECT_FALSE(good(*ended)) << published(ended);
 }
 
-/// A client that waits for the end of his motion is told by which stop it was ended, as soon as that stop is asked for.
+/// A client that waits for the end of its motion is informed by which stop it was ended, as soon as the stop is requested.
 TEST_P(AuthorityLaws, AMotionThatIsStoppedIsToldToBeEndedByThatStop) {
     for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}, CommandBody{Disable{}}}) {
         SCOPED_TRACE(name_of(stop));
@@ -147,7 +147,7 @@ TEST_P(AuthorityLaws, AMotionThatIsStoppedIsToldToBeEndedByThatStop) {
     }
 }
 
-/// A held velocity move is its client's: nobody else keeps it going, and a stop ends the hold with it.
+/// A held velocity move belongs to its client: no other client can renew it, and a stop ends the hold.
 TEST_P(AuthorityLaws, AHoldIsRenewedByItsClientAloneAndEndsWithAStop) {
     start();
     ASSERT_TRUE(good(say(a1, Enable{}, bert)));
@@ -172,7 +172,7 @@ TEST_P(AuthorityLaws, AHoldIsRenewedByItsClientAloneAndEndsWithAStop) {
     EXPECT_EQ(events("hold"), 0) << "a hold that nobody had to renew any more was missed";
 }
 
-/// The catalogue's range holds before the drive is asked.
+/// The catalogue's range is checked before the drive is asked.
 TEST_P(AuthorityLaws, AValueOutsideOfTheCataloguesRangeIsRefusedBeforeTheDriveIsAsked) {
     start();
     for (const Parameter& p : e.catalogue->parameters()) {

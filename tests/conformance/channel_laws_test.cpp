@@ -1,6 +1,5 @@
-// Conformance: several axes at once, as many as one drive of the family can have, or three drives on one line where each has one: who is
-// stopped stops, who is not goes on, and what no order moves rests. In: all_families(), each wire. Out: laws of adapters, by the twins'
-// mechanics. Never names a family.
+// Laws of several axes at once, for every family and wire: as many as one drive of the family can have, or three drives on one line if each
+// has one. A stopped axis stops, the others continue, and an axis without an order rests. Judged by the mechanics of the twins.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -13,7 +12,7 @@ class ChannelLaws : public Laws {
 protected:
     World& w = *world;
 
-    /// Every channel of one drive; three drives where a drive has one.
+    /// Every channel of one drive; three drives if a drive has one channel.
     void start_all() {
         const int most = e.catalogue->most_channels();
         start(most > 1 ? 1 : 3, most);
@@ -23,7 +22,7 @@ protected:
         for (const AxisId axis : site->axis_ids)
             ASSERT_NO_FATAL_FAILURE(order(axis, Enable{}));
     }
-    /// Two axes that go far away in opposite directions, by whatever their drive can.
+    /// Two axes that move far away in opposite directions, by any means of their drive.
     void turn_two(AxisId one, AxisId other) {
         ASSERT_NO_FATAL_FAILURE(turn(one, 2000));
         ASSERT_NO_FATAL_FAILURE(turn(other, -2000));
@@ -34,7 +33,7 @@ protected:
             list.push_back(mechanics(axis).position);
         return list;
     }
-    /// All but these stand where they stood.
+    /// All other axes stand at their former positions.
     void rest(const std::vector<double>& before, std::initializer_list<AxisId> but) {
         for (std::size_t i = 0; i < before.size(); ++i) {
             const AxisId axis = site->axis_ids[i];
@@ -49,7 +48,7 @@ TEST_P(ChannelLaws, AStopOfOneLeavesTheOthersAlone) {
     start_all();
     enable_all();
     const AxisId one = site->axis_ids.front(), other = site->axis_ids.back();
-    if (one == other) {  // one axis is all that this line can have
+    if (one == other) {  // this line can have only one axis
         EXPECT_EQ(e.catalogue->most_channels(), 1);
         EXPECT_EQ(addresses(e, 3).size(), 1u);
         return;
@@ -63,7 +62,7 @@ TEST_P(ChannelLaws, AStopOfOneLeavesTheOthersAlone) {
         const Result* r = ask(one, stop);
         ASSERT_TRUE(r && good(*r)) << by << ": " << published(r);
         EXPECT_LT(w.now - asked, 5s) << by;
-        if (std::holds_alternative<Disable>(stop)) {  // its power is away, and so what brakes it
+        if (std::holds_alternative<Disable>(stop)) {  // its power is off, so it cannot brake
             EXPECT_FALSE(mechanics(one).powered) << by;
             (void)w.run_until_true([&] { return speed(one) == 0; }, 2s);
         }
@@ -115,7 +114,7 @@ TEST_P(ChannelLaws, StopsOfAllStopAllAndEachIsAnswered) {
 TEST_P(ChannelLaws, WhatNoOrderMovesRests) {
     start_all();
     const auto before = places();
-    // Some drives have power from their start; no other gets it by anything but an enable of its own.
+    // Some drives have power from their start; the others get it only by an enable of their own.
     std::vector<bool> had;
     for (const AxisId axis : site->axis_ids) {
         had.push_back(mechanics(axis).powered);
@@ -127,7 +126,7 @@ TEST_P(ChannelLaws, WhatNoOrderMovesRests) {
             if (axis != but) EXPECT_TRUE(had[i] || !mechanics(axis).powered) << by << " has switched on axis a" << i + 1;
         }
     };
-    // Read, write what is there already, reset, stop, switch on and off: nothing of it moves a shaft, and enabling one axis enables one.
+    // Reading, writing the present value, reset, stop, switching on and off move no shaft, and enabling one axis enables one.
     const AxisId one = site->axis_ids.front();
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
         if (e.catalogue->parameters()[i].readable()) (void)ask(one, ReadParameter{first_point(i)}, false);
@@ -192,7 +191,7 @@ TEST_P(ChannelLaws, PreparedMovesBeginTogetherOrAreRefused) {
         EXPECT_EQ(speed(axis), 0) << "done when all have arrived";
         EXPECT_EQ(now(axis).position, 3000);
     }
-    r = ask(all[0], go, true);  // what was started is not prepared any more
+    r = ask(all[0], go, true);  // a started motion is not prepared any more
     ASSERT_TRUE(r);
     w.run_for(2s);
     for (const AxisId axis : all)

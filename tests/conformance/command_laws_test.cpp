@@ -1,5 +1,4 @@
-// Conformance, ways in: what holds for whoever commands an axis: limits on every way down, the profile that counts, loss of command.
-// In: all_families(), on twins, with control words as a PLC writes them. Out: laws. Never names a family.
+// Laws for every way of commanding an axis: limits, the profile that applies, loss of command. Control words are written as a PLC does.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -21,7 +20,7 @@ protected:
         start(std::move(s));
         begin = now().position;
     }
-    /// The site again, with limits `room` increments up and down from where the axis is.
+    /// Applies the site again with limits `room` increments above and below the axis.
     void limit(std::int64_t room) {
         Site s = site->site;
         s.axes.at(0).position_max = static_cast<double>(begin + room) / s.axes.at(0).increments_per_unit;
@@ -71,7 +70,7 @@ protected:
         return answer(modbus(d));
     }
     bool goes() const { return moving(a1); }
-    /// False: this drive has no velocity mode, and has said so.
+    /// Returns false if this drive has no velocity mode, and has said so.
     bool turns(std::int32_t velocity) {
         ProcessData d;
         d.target_velocity = velocity;
@@ -96,7 +95,7 @@ TEST_P(CommandLaws, ASetPointThatWaitsKeepsTheLimits) {
     const Result beyond = set_point(begin + 8000);
     EXPECT_EQ(beyond.outcome, Outcome::refused);
     EXPECT_EQ(beyond.reason, Reason::out_of_range) << beyond.text;
-    const Result further = set_point(1500, 0x5F);  // relative to where it is going: 5500
+    const Result further = set_point(1500, 0x5F);  // relative to its target: 5500
     EXPECT_EQ(further.reason, Reason::out_of_range) << further.text;
     const auto before = world->events.size();
     const Result back = set_point(-2000, 0x5F);
@@ -155,7 +154,7 @@ TEST_P(CommandLaws, AClientThatIsGoneDoesNotLeaveTheAxisTurning) {
     EXPECT_NE(now().flags & flag_fail_safe, 0);
     EXPECT_EQ(world->engine.losses(LossCause::modbus_closed), 1u);
     EXPECT_EQ(power_state_of(now().statusword), PowerState::operation_enabled) << "halted, not switched off";
-    world->run_for(300ms);  // the place of a standing axis is read once more
+    world->run_for(300ms);  // the position of a standing axis is read once more
     const auto rest = now().position;
     world->run_for(2s);
     EXPECT_EQ(now().position, rest) << "it does not go on by itself";

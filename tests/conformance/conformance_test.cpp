@@ -1,5 +1,5 @@
-// Conformance: one suite for every family by enumeration: whatever adapters/ holds is tested, and a new family edits nothing here.
-// In: all_families(). Out: the laws of adapter.hpp and twin.hpp, through the engine, on twins. Never names a family.
+// One suite for every family by enumeration: every folder of adapters/ is tested, and a new family changes nothing here. It checks the laws
+// of adapter.hpp and twin.hpp through the engine, on twins.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -53,7 +53,7 @@ TEST_P(EveryFamily, ComesUpAndShowsThatItIsSimulated) {
 }
 
 TEST_P(EveryFamily, WhatIsShownAsOnlineCanBeCommanded) {
-    // From the very step on in which it is shown; a script that waits for `online` must not be refused.
+    // From the first step in which `online` is shown, so that a script that waits for it is not refused.
     site = w.apply(w.twins(e, 2));
     a1 = site->axis_ids.at(0);
     for (const AxisId a : site->axis_ids) {
@@ -155,7 +155,7 @@ TEST_P(EveryFamily, AHeldMoveEndsWhenItIsNotRenewed) {
     ASSERT_TRUE(good(*r)) << published(r);
     Move renewal = jog;
     renewal.renew_only = true;
-    for (int i = 0; i < 6; ++i) {  // renewed: it goes on far beyond its time
+    for (int i = 0; i < 6; ++i) {  // renewed: it continues far beyond its time
         w.run_for(400ms);
         r = w.wait(w.command(a1, i % 2 ? jog : renewal), 1s);
         ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
@@ -166,7 +166,7 @@ TEST_P(EveryFamily, AHeldMoveEndsWhenItIsNotRenewed) {
     EXPECT_GE(w.now - released, 550ms) << "it must not end before its time";
     EXPECT_EQ(std::ranges::count(w.events, std::string("hold"), &Event::kind), 1);
     EXPECT_EQ(power_state_of(w.picture(a1).statusword), PowerState::operation_enabled) << "halted, not switched off";
-    // A halt, or another motion, ends the hold: nothing is halted later that somebody else moves.
+    // A halt, or another motion, ends the hold, so that a later motion of another client is not halted.
     r = w.wait(w.command(a1, jog), 5s);
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
     r = w.wait(w.command(a1, Halt{}, true), 5s);
@@ -311,7 +311,7 @@ TEST_P(EveryFamily, AWriteIsAnsweredWhenItIsOnDiskAndSaysSoWhenItIsNot) {
 TEST_P(EveryFamily, ASilentDriveCostsOnlyItself) {
     start(2);
     if (site->axis_ids.size() < 2) {
-        // One drive is all that this line can have: then its catalogue must say so, and it costs and heals only itself.
+        // If a line can have only one drive, its catalogue must say so, and the fault affects only that drive.
         ASSERT_EQ(addresses(e, 2).size(), 1u);
         ASSERT_EQ(hand("silent", Value{true}), "");
         ASSERT_TRUE(w.run_until_true([&] { return !(now().flags & flag_online); }, 10s)) << "a silent drive is found out";
@@ -344,7 +344,7 @@ TEST_P(EveryFamily, ASilentDriveCostsOnlyItself) {
 }
 
 TEST_P(EveryFamily, AFullLineServesEverybody) {
-    // Polls are asked for far more often than the line can carry them: each drive still gets its share, and commands go before polls.
+    // The poll period is far shorter than the line can carry: each drive still gets its share, and commands go before polls.
     Site wanted = w.twins(e, 30);
     wanted.lines.at(0).timing.poll_period = 1ms;
     site = w.apply(std::move(wanted));
@@ -369,7 +369,7 @@ TEST_P(EveryFamily, AFullLineServesEverybody) {
 }
 
 TEST_P(EveryFamily, ALineThatIsCutAtAnyMomentComesToRestAndBack) {
-    // Full, lossy and late, so that it is cut with every kind of work half done. A line that is down has nothing to turn for.
+    // Full, lossy and late, so that it is cut with every kind of work unfinished. A line that is down has no deadlines.
     Site wanted = w.make_site(e, e.cable(), 16, "device");
     wanted.lines.at(0).timing.poll_period = 5ms;
     site = w.apply(std::move(wanted));
@@ -445,7 +445,7 @@ TEST_P(EveryFamily, AFurtherChannelComesToLifeWithoutARestart) {
         EXPECT_EQ(faults[0].pointer, "/axes/1/channel");
         return;
     }
-    // The one that is there goes on with its move as if nothing were.
+    // The remaining drive continues its move undisturbed.
     enable();
     const Ticket on_its_way = w.command(a1, move_to(20'000), true);
     ASSERT_TRUE(w.run_until_true([&] { return w.picture(a1).position > 500; }, 20s)) << "it moves";

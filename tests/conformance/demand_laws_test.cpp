@@ -1,5 +1,5 @@
-// Conformance: where an axis should be, for every family: nobody's while it is off, near the shaft in a good move, at the target after it.
-// In: all_families(). Out: laws of AxisFeedback's demand, through the engine, on twins. Never names a family.
+// Laws of the demand position, for every family: unknown while the axis is off, near the shaft in an undisturbed move, at the target
+// afterwards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ protected:
 
     void order(CommandBody body) { Laws::order(a1, std::move(body)); }
     static Move move(std::int64_t target) { return move_to(target); }
-    /// What must be true of every picture at any time.
+    /// The conditions for every picture at any time.
     void whole(const AxisPicture& p) {
         if (p.following_error_known()) return;
         EXPECT_EQ(p.position_demand, p.position) << "register 6 has no null: without a word of its own it is the position";
@@ -78,7 +78,7 @@ TEST_P(DemandLaws, InAGoodMoveItIsWhereTheShaftIs) {
         EXPECT_GT(moving, 50) << "it was watched while it moved";
         EXPECT_EQ(nobodys, 0) << "an order of this gateway is carried out";
         EXPECT_GT(most, 3000) << "the demand does not jump to the target";
-        // What a tenth of a second is at this speed: the slowest line of all asks ten times a second.
+        // The distance in a tenth of a second at this speed: the slowest line polls ten times a second.
         EXPECT_LE(farthest, 400);
         const Result* r = w.result(go);
         ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
@@ -93,7 +93,7 @@ TEST_P(DemandLaws, AHeldShaftFallsBehindIt) {
     order(Enable{});
     w.run_for(500ms);
     if (now().demand_source == DemandSource::open_loop) {
-        // Nothing measures this shaft: then nobody may be shown a following error either, least of all one that is always 0.
+        // This shaft is not measured, so no following error may be shown, and above all not a constant 0.
         EXPECT_FALSE(now().following_error_known());
         return;
     }
@@ -109,7 +109,7 @@ TEST_P(DemandLaws, AHeldShaftFallsBehindIt) {
         least = std::min(least, now().following_error());
         if (now().flags & flag_fault) gave_up = std::min(gave_up, w.now - held);
     }
-    // A drive that gives up at once may do so before a slow line could tell of it even once more.
+    // A drive that gives up at once may do so before a slow line could report it even once more.
     if (gave_up > 100ms) EXPECT_LT(least, -50) << "it should be lower than it is, and is shown to be, until the drive gives up";
 }
 

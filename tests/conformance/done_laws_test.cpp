@@ -1,5 +1,5 @@
-// Done: who says that a command is complete. An adapter answers for the drive's acknowledgement; what takes time ends by what the axis
-// shows, and the engine alone watches it. In: an adapter that says what the test tells it to, and calls everything done at once. Out: laws.
+// Which part decides that a command is complete: an adapter reports only the drive's acknowledgement; the end of commands that take time is
+// observed at the axis, by the engine alone. The adapter here answers everything with done at once.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -27,13 +27,13 @@ constexpr std::string_view scripted_page = R"({"family": "scripted", "number": 9
       {"id": "program", "name": "program", "kind": "action", "sends": "P", "argument": null, "description": ".", "completes": "reported"}],
     "errors": [{"code": 1, "kind": "fault", "name": "hot", "text": "It is hot", "cause": ".", "remedy": "."}]})";
 
-/// What the drive says, and how its adapter answers.
+/// The drive's feedback, and the answers of its adapter.
 struct Script {
     AxisFeedback shows;
     bool online = true;
     Outcome answers = Outcome::done;  ///< to everything, at once
     std::vector<Command> received;
-    std::vector<Result> later;  ///< told with the next feedback
+    std::vector<Result> later;  ///< reported with the next feedback
 };
 Script* script = nullptr;
 
@@ -47,7 +47,7 @@ public:
     void on_line(bool up, Instant now, Out&) override { next_ = up ? now : never; }
     void on_command(const Command& command, Instant now, Out& out) override {
         script->received.push_back(command);
-        if (std::holds_alternative<Move>(command.body) && script->answers != Outcome::refused) {  // an adapter's law
+        if (std::holds_alternative<Move>(command.body) && script->answers != Outcome::refused) {  // a law of adapters
             script->shows.target_reached = false;
             script->shows.at = now;
             out.feedback.push_back({axis_, script->shows});
@@ -142,7 +142,7 @@ struct Done : testing::Test {
     struct Case {
         const char* what;
         CommandBody body;
-        Change before;  ///< how the axis is when the command comes
+        Change before;  ///< the state of the axis when the command arrives
         Change meanwhile;
         Change end;
     };

@@ -1,5 +1,5 @@
-// Doors: what stands between a world's engine and the clients of its doors: the registers with their writer, the EtherNet/IP objects.
-// In: a world. Out: doors by which a test writes as a PLC does; results come back between two steps. Never names a family.
+// The doors of a world between its engine and their clients: the registers with their writer, and the EtherNet/IP objects. A test writes
+// through them as a PLC does; results are delivered between two steps.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace axisgate::test {
 
-/// The doors' side of a world: what its doors order goes to the engine, results come back between two steps.
+/// The doors' side of a world: commands of its doors go to the engine, results are delivered between two steps.
 struct WorldDoors final : DoorPort {
     explicit WorldDoors(World& of) : world(of) {}
     World& world;
@@ -34,7 +34,7 @@ struct WorldDoors final : DoorPort {
         return static_cast<DoorNumber>(doors.size());
     }
     void detach(HotDoor& door) override { std::ranges::replace(doors, &door, nullptr); }
-    /// A door that hears a result may give its next command at once.
+    /// A door that gets a result may give its next command at once.
     void deliver() {
         for (std::size_t i = 0; i < given.size();) {
             const Result* r = world.result(given[i]);

@@ -1,6 +1,6 @@
-// Conformance, loss of command: the whole matrix. Each cause, each action, on each family and wire: what the site names happens, at once
-// and once, the axis says why, and without a choice a motion that has no end of its own is ended. In: all_families(), on twins and behind
-// cables. Out: laws over the axis' picture and the twin's mechanics. Never names a family.
+// The matrix of loss of command: each cause and action, for each family and wire. The site's action is carried out at once and once, the
+// axis shows the cause, and without a choice of the site a motion without an end is ended. Judged by the axis' picture and the twin's
+// mechanics.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -43,7 +43,7 @@ protected:
         world->received_at = world->now;
         return world->wait(t, 5s);
     }
-    /// By the PLC: a velocity move where the drive has one, else a long way. False: it has none and `endless` is wanted.
+    /// By the PLC: a velocity move if the drive has one, otherwise a long way. Returns false if it has none and `endless` is required.
     [[nodiscard]] bool set_off(bool endless) {
         const Result* on = tell(Enable{});
         EXPECT_TRUE(on && good(*on)) << published(on);
@@ -58,7 +58,7 @@ protected:
         EXPECT_TRUE(world->run_until_true([&] { return moving(a1); }, 5s));
         return true;
     }
-    /// Pulls the plug; returns when the axis has been told of it at the latest.
+    /// Causes the loss; returns when the axis has been informed at the latest.
     void lose(LossCause cause) {
         switch (cause) {
             case LossCause::modbus_silent:
@@ -78,7 +78,7 @@ protected:
                 world->engine.on_client_lost(plc, cause, world->now);
         }
     }
-    /// It stands, and not by its status word alone.
+    /// The axis stands, and this is not only shown by its status word.
     void at_rest() {
         world->run_for(500ms);
         const auto place = now().position;
@@ -111,7 +111,7 @@ TEST_P(FailSafeLaws, WhatTheSiteNamesHappensForEachCause) {
             EXPECT_EQ(events("fail_safe"), 1);
 
             at_rest();
-            if (cause == LossCause::line_lost) continue;  // what a drive that was away counts as is its family's matter
+            if (cause == LossCause::line_lost) continue;  // whether a drive that was absent counts as lost depends on its family
             const auto wanted = action == FailSafeAction::halt         ? PowerState::operation_enabled
                                 : action == FailSafeAction::quick_stop ? PowerState::quick_stop_active
                                                                        : PowerState::switch_on_disabled;

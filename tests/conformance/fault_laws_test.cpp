@@ -1,6 +1,5 @@
-// Conformance: faults, for every family: what a twin can raise has a number and a text in its catalogue; one fault is one alarm, once
-// raised and once cleared. In: all_families(), each condition that a twin's hand offers. Out: laws of adapters, catalogues, and the list
-// of alarms. Never names a family.
+// Laws of faults, for every family: every fault that a twin can raise has a number and a text in its catalogue; one fault is one alarm,
+// raised once and cleared once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace axisgate::test {
 namespace {
 using namespace std::chrono_literals;
 
-/// One condition as the hand sets it, and as it was before.
+/// One condition of the hand, with its former value.
 struct Condition {
     std::string name;
     Value value, before;
@@ -32,7 +31,7 @@ protected:
     bool fault() { return (now().flags & flag_fault) != 0; }
     std::string set(const std::string& name, const Value& v) { return hand(name, v); }
 
-    /// Every condition of the hand and what it can be put to, but those that cut the drive off or mean a number of a fault.
+    /// Every condition of the hand with its possible values, except those that cut the drive off or are the number of a fault.
     std::vector<Condition> conditions() {
         std::vector<Condition> list;
         for (const HandItem& item : w->engine.twin(d1)->hand()) {
@@ -55,7 +54,7 @@ protected:
         EXPECT_GT(known->text.size(), 3u) << by << ": " << code;
         EXPECT_NE(known->kind, "command") << by << ": " << code << " is shown as the answer to a command";
     }
-    /// What stands on the list of alarms about this drive, as the store would make it of the events.
+    /// The alarms of this drive, as they follow from the events.
     AlarmList alarms() {
         AlarmList list;
         std::uint64_t id = 0;
@@ -81,9 +80,9 @@ TEST_P(FaultLaws, WhatAHandCanRaiseHasANumberAndAText) {
         for (std::int64_t code = 1; code <= 1100; ++code)
             codes.insert(code);
         for (const ErrorCode& known : e.catalogue->errors())
-            codes.insert(known.code);  // CiA 402 counts them from 1000h on
+            codes.insert(known.code);  // CiA 402 numbers them from 1000h on
         for (const std::int64_t code : codes) {
-            if (!set(name, Value{code}).empty()) continue;  // the drive has no such error: refused with what it has
+            if (!set(name, Value{code}).empty()) continue;  // the drive has no such error: it refuses with its possible ones
             ++taken;
             expect_published(static_cast<std::int32_t>(code), name);
             w->run_for(5ms);
@@ -118,7 +117,7 @@ TEST_P(FaultLaws, OneFaultIsOneAlarmRaisedOnceAndClearedOnce) {
         EXPECT_EQ(raised(), 1) << by;
         const auto published = std::ranges::find(w->events, std::string("fault"), &Event::kind);
         ASSERT_NE(published, w->events.end()) << by;
-        // A drive may have a fault that it gives no number, such as an emergency stop: it is told so, and no other fault is.
+        // A drive may have a fault without a number, such as an emergency stop: this must be reported, and no other fault.
         if (w->picture(a1).error_code != 0 || published->text.find("no number") == std::string::npos)
             expect_published(w->picture(a1).error_code, by);
         const auto before = alarms();

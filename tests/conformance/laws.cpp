@@ -1,5 +1,4 @@
-// Laws: the list of subjects, and the family without a velocity mode.
-// In: all_families(), adapters/<family>/tests/facts.json. Out: subjects. Never changes what a family does otherwise.
+// The list of subjects, and a family whose velocity mode was removed.
 #include "tests/conformance/laws.hpp"
 
 #include <fstream>
@@ -8,7 +7,7 @@
 namespace axisgate::test {
 namespace {
 
-/// The first family's adapter, which has never heard of velocity moves.
+/// The first family's adapter without velocity moves.
 class WithoutVelocity final : public PassingAdapter {
 public:
     using PassingAdapter::PassingAdapter;

@@ -1,5 +1,5 @@
-// Laws: the ground that the conformance suites stand on: one subject (a family on one of its wires) in a world of its own, and how its
-// drives are brought up, enabled and set in motion. In: the subject. Out: helpers that say what the drive answered. Never names a family.
+// The common base of the conformance suites: one subject (a family on one of its wires) in a world of its own, and functions that start,
+// enable and move its drives. Suites never name a family.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace axisgate::test {
 
-/// Every subject, and one family whose velocity mode was taken away: where a drive has none, the laws hold all the same.
+/// Every subject, and one family whose velocity mode was removed: the laws hold also for drives without one.
 const std::vector<Subject>& law_subjects();
 
 /// "refused no_answer: ..." of a result, or that there is none.
@@ -20,7 +20,7 @@ inline std::string published(const Result* r) {
     return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
 }
 
-/// Another adapter with every call passed on: what a test wants otherwise, it overrides.
+/// Another adapter with every call passed on; a test overrides the calls that it wants to change.
 class PassingAdapter : public Adapter {
 public:
     explicit PassingAdapter(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
@@ -58,7 +58,7 @@ protected:
     [[nodiscard]] bool online(AxisId axis) const { return (now(axis).flags & flag_online) && now(axis).ever_seen; }
     [[nodiscard]] bool moving(AxisId axis) const { return (now(axis).flags & flag_moving) != 0; }
 
-    /// Puts a site in force; every axis comes up.
+    /// Puts a site in force and waits until every axis is online.
     void start(Site wanted) {
         site = world->apply(std::move(wanted));
         a1 = site->axis_ids.at(0);
@@ -73,7 +73,7 @@ protected:
     const Result* ask(AxisId axis, CommandBody body, bool until_done = true, Duration limit = std::chrono::seconds(60)) {
         return world->wait(world->command(axis, std::move(body), until_done), limit);
     }
-    /// Asks and wants it to be taken, or done.
+    /// Gives an order, which must be accepted, or done.
     void order(AxisId axis, CommandBody body, bool until_done = true) {
         const std::string what(name_of(body));
         const Result* r = ask(axis, std::move(body), until_done);
@@ -87,7 +87,7 @@ protected:
         m.acceleration = m.deceleration = 20000;
         return m;
     }
-    /// By a velocity move; where the drive has none, and says so in words, by a positioning that takes half a minute.
+    /// By a velocity move; if the drive has none, and says so, by a positioning that takes half a minute.
     void turn(AxisId axis, std::int64_t velocity = 4000) {
         const Result* r = ask(axis, move_to(velocity, Move::Kind::velocity), false);
         ASSERT_TRUE(r);
@@ -105,9 +105,9 @@ protected:
             << "it does not turn";
     }
     bool has_velocity = true;  ///< as turn() found it
-    /// A velocity move was answered as not supported: in words, and only where the drive's manual knows none.
+    /// Checks a velocity move that was answered as not supported: with a text, and only if the drive's manual knows none.
     void lacks_velocity(const Result& r) const;
-    /// What its manual says of a question that the suites ask of every family: adapters/<family>/tests/facts.json.
+    /// The manual's answer to a question that the suites ask of every family: adapters/<family>/tests/facts.json.
     [[nodiscard]] bool fact(const std::string& name) const;
 
     [[nodiscard]] int channel_of(AxisId axis) const {
@@ -124,7 +124,7 @@ protected:
         }
         return no_drive;
     }
-    /// The true state of its mechanics, past every wire.
+    /// The true state of its mechanics, independent of the wire.
     [[nodiscard]] TwinMechanics mechanics(AxisId axis) const {
         return world->engine.twin(drive_of(axis))->mechanics(channel_of(axis), world->now);
     }
@@ -136,7 +136,7 @@ protected:
     [[nodiscard]] std::ptrdiff_t events(std::string_view kind) const {
         return std::ranges::count_if(world->events, [&](const Event& v) { return v.kind == kind; });
     }
-    /// By its page something of the drive can be set; what stands for a drive of somebody else's may have nothing to set.
+    /// True if the page has settings; a drive that represents another gateway's axis may have none.
     [[nodiscard]] bool has_settings() const {
         return std::ranges::any_of(e.catalogue->parameters(), [](const Parameter& p) { return p.writable(); });
     }

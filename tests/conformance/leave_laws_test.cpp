@@ -1,6 +1,6 @@
-// Conformance: a site change that takes away, or makes anew, what moves: stopped first, by the drive's own means, before its line goes.
-// In: all_families(), each wire, every kind of change. Out: laws of the engine, by the mechanics of the drives behind the cable, which stay
-// where they are when the gateway lets go of them. Never names a family.
+// Laws of a site change that removes or replaces a moving axis, for every family, wire and kind of change: the axis is stopped first, by
+// the drive's own means, before its line is closed. Judged by the mechanics of the drives behind the cable, which remain when the gateway
+// releases them.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -13,7 +13,7 @@ class LeaveLaws : public Laws {
 protected:
     const std::string address = addresses(e, 1).at(0);
 
-    /// A drive behind a cable, served as `presence` says, enabled and turning.
+    /// A drive behind a cable, with this presence rule, enabled and turning.
     void turning(std::string_view presence) {
         world = fresh();
         site = world->apply(world->make_site(e, e.cable(), 1, presence));
@@ -25,7 +25,7 @@ protected:
         ASSERT_NO_FATAL_FAILURE(order(a1, Enable{}));
         ASSERT_NO_FATAL_FAILURE(turn(a1));
     }
-    /// Of the drive behind the cable, whoever serves the axis.
+    /// Of the drive behind the cable, whichever side serves the axis.
     [[nodiscard]] TwinMechanics device() const { return world->buses.at("line")->twin(d1)->mechanics(1, world->now); }
     [[nodiscard]] std::ptrdiff_t published(Severity severity, std::string_view part) const {
         return std::ranges::count_if(world->events, [&](const Event& v) {
@@ -34,7 +34,7 @@ protected:
     }
 };
 
-/// Each takes the axis away, or makes it anew.
+/// Each removes the axis, or replaces it.
 struct Change {
     const char* name;
     void (*make)(Site&, const FamilyEntry&);
@@ -63,12 +63,12 @@ TEST_P(LeaveLaws, WhatASiteChangeTakesAwayInMotionIsStoppedFirst) {
             EXPECT_EQ(device().velocity, 0) << "it is let go while it turns";
         });
         ASSERT_FALSE(in_force) << "it cannot stand at once";
-        // Nothing begins here any more.
+        // Nothing may begin on this axis any more.
         const Result* r = ask(a1, move_to(100), false);
         ASSERT_TRUE(r);
         EXPECT_EQ(r->outcome, Outcome::refused);
         EXPECT_EQ(r->reason, Reason::busy) << r->text;
-        // A stop is everybody's, until the axis is gone.
+        // Every client may stop it until it is removed.
         const Ticket stop = world->command(a1, QuickStop{}, false);
         const Result* stopped = world->result(stop);
         EXPECT_FALSE(stopped && stopped->reason == Reason::busy) << stopped->text;

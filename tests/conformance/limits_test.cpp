@@ -1,5 +1,4 @@
-// Conformance: the site's limits of position hold for velocity moves, too, by command and by registers, for every family.
-// In: all_families(). Out: laws of guard and engine, on twins. Never names a family.
+// Laws of the site's limits of position, for every family: they apply to velocity moves, too, by command and by registers.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,7 +22,7 @@ protected:
         order(a1, Enable{});
     }
     const Result* jog(std::int64_t velocity) { return ask(a1, move_to(velocity, Move::Kind::velocity), false); }
-    /// What registers write, and what is answered.
+    /// Writes registers and returns the answer.
     Result write(auto&& fill) {
         ProcessData d;
         fill(d);
@@ -33,7 +32,7 @@ protected:
     Result word(int cw) {
         return write([&](ProcessData& d) { d.controlword = static_cast<std::uint16_t>(cw); });
     }
-    /// Where a drive has no velocity mode: it says so, and a positioning beyond the limit is refused, so that nothing leads out of it.
+    /// For a drive without a velocity mode: it says so, and a positioning beyond the limit is refused, so that nothing leads out of it.
     void no_velocity_leads_nowhere(const Result& refusal) {
         EXPECT_EQ(refusal.reason, Reason::not_supported);
         lacks_velocity(refusal);
@@ -46,7 +45,7 @@ protected:
         EXPECT_EQ(speed(a1), 0);
         EXPECT_EQ(now().position, 0);
     }
-    /// It comes to rest at the limit: not beyond it by more than what one late feedback explains, and not far before it either.
+    /// It comes to rest at the limit: not further beyond than one late feedback explains, and not far before it.
     void rests_at(std::int64_t place) {
         ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) == 0; }, 30s));
         w.run_for(500ms);
@@ -60,10 +59,10 @@ protected:
     [[nodiscard]] std::ptrdiff_t limit_events(Severity severity) const {
         return std::ranges::count_if(w.events, [&](const Event& v) { return v.kind == "limit" && v.severity == severity; });
     }
-    /// It runs outwards at 4000, and the limit becomes another one.
+    /// The axis moves outwards at 4000, and the limit changes.
     [[nodiscard]] bool runs_when_the_limit_moves(std::int64_t ramp, std::int64_t ahead) {
         Move m = move_to(4'000, Move::Kind::velocity);
-        m.acceleration = m.deceleration = ramp;  // some drives have one for both
+        m.acceleration = m.deceleration = ramp;  // some drives have one ramp for both
         const Result* r = ask(a1, m, false);
         if (r && r->reason == Reason::not_supported) {
             lacks_velocity(*r);
@@ -89,7 +88,7 @@ TEST_P(LimitLaws, AVelocityMoveIsHaltedAtTheLimitAndMayOnlyGoBack) {
         ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
         rests_at(direction * limit);
         const Move out = move_to(direction * limit);
-        r = w.wait(w.command(a1, out, true), 30s);  // whatever was left to it, by a positioning
+        r = w.wait(w.command(a1, out, true), 30s);  // back by a positioning, whatever it did before
         ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no result");
         EXPECT_EQ(now().statusword & cia402::sw_internal_limit, 0) << "another motion has begun and ended since";
         r = jog(direction * 5'000);
@@ -124,7 +123,7 @@ TEST_P(LimitLaws, AVelocityMoveWithNoRoomLeftOnItsRampIsStoppedQuicklyWithAnAlar
 }
 
 TEST_P(LimitLaws, ARampThatIsTheDrivesOwnIsReckonedWith) {
-    // The move says no deceleration: the drive brakes as it was told by the move before.
+    // The move names no deceleration: the drive brakes with that of the previous move.
     begin();
     Move gentle = move_to(1'000);
     gentle.acceleration = gentle.deceleration = 4'000;
@@ -157,7 +156,7 @@ TEST_P(LimitLaws, RegistersDoNotLeadOutEither) {
     rests_at(-limit);
 }
 
-/// The target alone is within the limits; what the word makes of it is not.
+/// The target alone is within the limits; with the control word it is not.
 TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
     begin();
     order(a1, move_to(limit * 4 / 5));
@@ -183,7 +182,7 @@ TEST_P(LimitLaws, ASetPointOfWordsIsLookedAtAsWhatItIs) {
     ASSERT_TRUE(w.run_until_true([&] { return now().position == limit / 2; }, 30s));
 }
 
-/// What its family's page says of drive_limits is what is shown of its drive: written and acknowledged where the site limits the axis.
+/// The page's drive_limits are what is shown of the drive: written and acknowledged if the site limits the axis.
 TEST_P(LimitLaws, ADriveThatKeepsLimitsByItselfHasThoseOfTheSite) {
     const bool available = e.catalogue->document().at("drive_limits").at("available").as_bool();
     begin();
@@ -195,10 +194,10 @@ TEST_P(LimitLaws, ADriveThatKeepsLimitsByItselfHasThoseOfTheSite) {
     EXPECT_TRUE(w.run_until_true([&] { return state() == DriveLimits::State::unknown; }, 10s)) << "the site gives none any more";
 }
 
-/// The gateway that gave a velocity move is gone; the next one knows of no order, and finds the axis on its way out.
+/// The gateway that gave a velocity move is gone; the next one knows no order, and finds the axis in motion.
 class FoundLaws : public LimitLaws {
 protected:
-    /// The next gateway, as soon as it has heard the drive; null where the drive has no velocity move, or ends it by itself.
+    /// The next gateway, as soon as the drive has reported; null if the drive has no velocity move, or ends it by itself.
     std::unique_ptr<World> found(FailSafeAction rule) {
         Site wanted = w.make_site(e, e.cable(), 1, "device");
         wanted.axes[0].position_min = -100;
@@ -256,7 +255,7 @@ TEST_P(FoundLaws, WhereTheSiteLetsItGoOnItIsStoppedAtTheLimit) {
     ASSERT_TRUE(rests(*next, a1)) << "it goes on at " << next->picture(a1).position;
     next->run_for(500ms);
     EXPECT_LE(std::llabs(next->picture(a1).position), limit + 300);
-    if (!enabled) {  // the drive does not tell that it has power, and moves: that contradicts itself, whatever the site lets go on
+    if (!enabled) {  // the drive reports no power, and moves: this is a contradiction, whatever action the site selects
         EXPECT_EQ(alarms(*next, "state"), 1);
         return;
     }
@@ -265,7 +264,7 @@ TEST_P(FoundLaws, WhereTheSiteLetsItGoOnItIsStoppedAtTheLimit) {
     EXPECT_EQ(events_of(*next, "motion"), 1) << "and it is told that it moves";
 }
 
-/// Each order that would lead beyond is refused with its limit, at rest and on the way, whoever it comes from; and the shaft has never been
+/// Each order that would lead beyond the limit is refused with it, at rest and in motion, from every client; and the shaft never goes
 /// there.
 TEST_P(LimitLaws, NoWayInLeadsOut) {
     begin();
@@ -298,11 +297,11 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
     order(a1, move_to(limit - 2000), false);
     ASSERT_TRUE(w.run_until_true([&] { return (now().flags & flag_moving) != 0; }, 5s));
     all_ways("on the way");
-    // Some drives count a distance from where they are going.
+    // Some drives count a distance from their target.
     refused(move_to(2500, Move::Kind::relative), "on the way, relative to its target");
     pass(8s);
     EXPECT_EQ(now().position, limit - 2000);
-    // What is prepared is looked at again when it begins: the limits may have become narrower.
+    // A prepared move is checked again when it begins, because the limits may have become narrower.
     Move far = move_to(limit - 100);
     far.prepare_only = true;
     const Result* r = ask(a1, far, false);
@@ -317,7 +316,7 @@ TEST_P(LimitLaws, NoWayInLeadsOut) {
     } else {
         EXPECT_EQ(r->reason, Reason::not_supported) << published(r);
     }
-    // A finger that holds it leads no further than others.
+    // A held move leads no further than others.
     order(a1, move_to(0));
     Move held = move_to(4000, Move::Kind::velocity);
     held.hold_ms = 60'000;

@@ -1,5 +1,4 @@
-// Conformance: how often a twin that is looked at closely tells of itself.
-// In: a line with one drive. Out: tellings per second; what the wire takes for its frames is the limit.
+// The rate of reports of a twin under fast polling; the time of its frames on the wire is the limit.
 #include <algorithm>
 
 #include "tests/conformance/laws.hpp"
@@ -12,7 +11,7 @@ using namespace std::chrono_literals;
 class LookLaws : public Laws {
 protected:
     Tellings tape;
-    void TearDown() override { world->engine.set_tap(nullptr); }  // the world is the last to go
+    void TearDown() override { world->engine.set_tap(nullptr); }  // the world is destroyed last
 };
 INSTANTIATE_TEST_SUITE_P(Families, LookLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 

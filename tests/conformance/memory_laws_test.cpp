@@ -1,5 +1,5 @@
-// Conformance: what a drive keeps over a power cycle, and that a search of a line finds every drive on it and no other.
-// In: all_families(), each wire. Out: laws of twins, adapters and Family::scan. Never names a family.
+// Laws of the values that a drive keeps over a power cycle, and of scans: a search of a line finds every drive on it and no other. For
+// every family and wire.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -16,7 +16,7 @@ class MemoryLaws : public Laws {
 protected:
     using Values = std::map<std::string, std::string>;
 
-    /// Every value of the catalogue that this drive gives, as text. Not those that count time or events, or measure something.
+    /// Every value of the catalogue that this drive provides, as text, except those that count time or events, or are measured.
     [[nodiscard]] Values values() {
         Values all;
         for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
@@ -32,7 +32,7 @@ protected:
         }
         return all;
     }
-    /// Writes another value to a parameter, if it takes one.
+    /// Writes another value to a parameter, if it accepts one.
     bool change(std::uint16_t i) {
         const Parameter& p = e.catalogue->parameters()[i];
         if (p.access != Access::read_write || p.addressing || p.live || p.type == ValueType::text) return false;
@@ -54,7 +54,7 @@ protected:
 };
 
 TEST_P(MemoryLaws, WhatADriveKeepsIsItsMemoryAndNothingElse) {
-    // What the gateway itself sets in a drive that it meets is no matter of memory: what differs in one that nobody has written to.
+    // Values that the gateway itself sets in a new drive are not a matter of memory: they differ in a drive to which nothing was written.
     start();
     const Values met = values();
     ASSERT_EQ(hand("power", Value{false}), "");
@@ -73,7 +73,7 @@ TEST_P(MemoryLaws, WhatADriveKeepsIsItsMemoryAndNothingElse) {
         EXPECT_TRUE(world->engine.twin(d1)->non_volatile().empty());
         return;
     }
-    // All parameters, eight at a time; those of an eight that takes the drive off its line one by one.
+    // All parameters, eight at a time; if a group of eight takes the drive off its line, one by one.
     std::deque<std::vector<std::uint16_t>> groups;
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {
         if (i % 8 == 0) groups.emplace_back();
@@ -106,7 +106,7 @@ TEST_P(MemoryLaws, WhatADriveKeepsIsItsMemoryAndNothingElse) {
         const bool up = comes_up();
         EXPECT_EQ(world->engine.twin(d1)->non_volatile(), memory) << ids << ": it is changed by being switched off and on";
         const Values after_power = kept_values(values());
-        // The same drive, made anew from what the store has of it.
+        // The same drive, made anew from the stored memory.
         SiteMemory kept;
         kept.twins["a1"] = memory;
         world = fresh();
@@ -129,7 +129,7 @@ TEST_P(MemoryLaws, WhatADriveKeepsIsItsMemoryAndNothingElse) {
 }
 
 TEST_P(MemoryLaws, AScanFindsEveryDriveAndNoOther) {
-    // Every second address of the family's list is there, on a cable, and the site names one of them.
+    // Every second address of the family's list has a drive on a cable, and the site names one of them.
     const auto list = addresses(e, 9);
     const Site wanted = world->make_site(e, e.cable(), 1, "device");
     site = world->apply(wanted);
@@ -160,7 +160,7 @@ TEST_P(MemoryLaws, AScanFindsEveryDriveAndNoOther) {
         EXPECT_EQ(f.known_as, f.address == list[0] ? "a1" : "") << f.address;
     }
     EXPECT_EQ(found, there);
-    // Addresses where nobody is time out: that is the scan's, and leaves no mark on the line.
+    // Time-outs at empty addresses belong to the scan and are not counted for the line.
     EXPECT_EQ(line().counters.timeouts, before.timeouts);
     EXPECT_EQ(line().counters.retries, before.retries);
     EXPECT_EQ(line().counters.garbled, before.garbled);

@@ -1,6 +1,5 @@
-// Mixed lines: two families on one CAN line: uim342 with its 29-bit identifiers, and the example drive's text in frames of 11 bits.
-// In: sites with both, twins behind a cable or embedded. Out: laws: both are homed, moved and found, and what befalls one is not felt by
-// the other. Never waits in real time.
+// Two families on one CAN line: uim342 with its 29-bit identifiers, and the example drive's text in frames of 11 bits. Both are homed,
+// moved and found, and a fault of one does not affect the other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +33,7 @@ void in_frames(Out& out, std::size_t begin, std::uint32_t base, int address) {
     out.frames.insert(out.frames.end(), made.begin(), made.end());
 }
 
-/// The example's adapter, whose bytes cross in CAN frames.
+/// The example's adapter with its bytes in CAN frames.
 class TextOnCan final : public Adapter {
 public:
     explicit TextOnCan(std::unique_ptr<Adapter> inner) : inner_(std::move(inner)) {}
@@ -130,7 +129,7 @@ const Family& text_on_can() {
     return family;
 }
 
-/// A node that nobody has in the site: it says something with each frame that it hears.
+/// A node that is not in the site and sends something after each frame that it receives.
 class Stranger final : public Twin {
 public:
     void on_frame(const Frame& received, Instant, Out& out) override {
@@ -159,7 +158,7 @@ struct MixedLine : testing::Test {
     std::shared_ptr<const SiteState> site;
     AxisId uim = no_axis, text = no_axis;
 
-    /// Both have the same number: on this line that is no conflict. `second`: the drive of the other family as well.
+    /// Both have the same number, which is no conflict on this line. `second`: with the drive of the other family.
     Site wanted(std::string_view uri, std::string_view presence, bool second = true) {
         json::array drives{{{"name", "uim"}, {"line", "line"}, {"family", "uim342"}, {"address", 5}, {"presence", presence}}};
         json::array axes{{{"name", "uim"}, {"drive", "uim"}, {"number", 1}, {"unit", "u"}, {"increments_per_unit", 100}}};
@@ -214,7 +213,7 @@ struct MixedLine : testing::Test {
     [[nodiscard]] std::ptrdiff_t events_of(std::string_view name) const {
         return std::ranges::count_if(world.events, [&](const Event& e) { return e.drive == name || e.axis == name; });
     }
-    /// `a` is enabled and goes there and back, each time within the time that this takes.
+    /// `a` is enabled and moves there and back, each time within the necessary time.
     void goes_there_and_back(AxisId a) {
         order(a, Enable{});
         for (const std::int64_t target : {std::int64_t{2000}, std::int64_t{-2000}}) {
@@ -417,7 +416,7 @@ TEST_F(MixedLine, ARecordedFrameIsReadByTheFamilyThatClaimsIt) {
     EXPECT_THAT(decoder.read(strange)[0], testing::HasSubstr("belongs to no family of this line"));
 }
 
-/// Which faults has a site whose drives on a CAN line are these?
+/// The faults of a site with these drives on a CAN line.
 TEST_F(MixedLine, TheSiteSaysWhatCannotShareALine) {
     const auto faults_of = [&](std::string_view text) {
         std::vector<SiteFault> faults;
@@ -447,7 +446,7 @@ TEST_F(MixedLine, TheSiteSaysWhatCannotShareALine) {
                             {"name":"b","line":"c","family":"text_on_can","address":5},{"name":"d","line":"c","family":"text_on_can","address":5}]})"),
               "/drives/2/address: two drives on c have the address 5\n");
 
-    // Families that do not say their identifiers, or whose identifiers meet.
+    // Families without identifiers, or with overlapping ones.
     Family silent = text_on_can(), same = text_on_can();
     silent.name = "silent";
     silent.can_identifiers = nullptr;

@@ -1,7 +1,6 @@
-// Conformance, motions: each family, each way in, each hazard, and what must hold whatever comes together: nothing moves that nobody owns
-// or nobody will end, a refusal changes nothing, after a stop nothing moves without a fresh edge, what is told agrees with what moves, no
-// motion passes a limit. In: all_families(), ways.hpp. Out: one test for each cell, judged by the twin's own mechanics. Never names a
-// family; a way that a drive lacks is asked for all the same, and nothing may move by it.
+// Laws of motions, for each family, way of commanding and hazard: nothing moves without an owner or an end, a refusal changes nothing,
+// after a stop nothing moves without a fresh edge, reports agree with the motion, no motion passes a limit. One test per cell, judged by
+// the twin's mechanics. A way that a drive lacks is tried all the same, and nothing may move by it.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -30,7 +29,7 @@ struct Cell {
 
 class Motions : public testing::TestWithParam<Cell> {
 public:
-    // Each hazard: the motion runs, then this befalls it.
+    // Each hazard occurs while the motion runs.
     void limit();
     void client_lost();
     void refused_words_of_another();
@@ -55,10 +54,10 @@ public:
     std::shared_ptr<Plant> plant = std::make_shared<Plant>();
     std::unique_ptr<Bench> b;
     const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
-    static constexpr std::int64_t wide = 1'000'000;  ///< limits in units that nothing here comes near
+    static constexpr std::int64_t wide = 1'000'000;  ///< limits in units that are never reached here
     static constexpr Duration watchdog = 400ms, tick = 10ms;
 
-    // --- what the judge knows
+    // --- data of the judge
     DriveId drive{0};
     bool behind_a_cable = false;
     double farthest = 0, nearest = 0, fastest = 0;  ///< of the shaft, since the cell began or from_here()
@@ -68,7 +67,7 @@ public:
         const Twin* t = behind_a_cable ? plant->buses.at("line")->twin(drive) : b->world.engine.twin(b->site->drive_ids.at(0));
         return t ? t->mechanics(1, b->world.now) : TwinMechanics{};
     }
-    /// What is told agrees with what moves: an axis that turns and is heard is said to move, and not in a state without power.
+    /// The report agrees with the motion: an axis that turns and answers is reported as moving, and not in a state without power.
     void judge() {
         const TwinMechanics m = shaft();
         farthest = std::max(farthest, m.position);
@@ -81,7 +80,7 @@ public:
         EXPECT_LT(unsaid, 1s) << "it turns at " << m.velocity << " and is said to stand";
         records(heard && std::fabs(m.velocity) > 200);
     }
-    /// Nothing moves that no record has; and a record has an owner, or is one of a motion that nobody owns, which the site's rule ends.
+    /// Nothing moves without a record; and a record has an owner, or belongs to a motion without an owner, which the site's rule ends.
     void records(bool turns) {
         const engine::Axis* a = b->world.engine.parts().machine.axis(b->axis);
         if (!a) return;
@@ -94,7 +93,7 @@ public:
         EXPECT_LT(unowned, 1s) << "a motion of kind " << static_cast<int>(r.kind) << " that was ordered has no owner" << told();
     }
     void from_here() { farthest = nearest = shaft().position; }
-    /// Time passes; the client does what it does in each of its cycles.
+    /// Lets time pass while the client acts in each of its cycles.
     void pass(Duration time) {
         for (const Instant end = b->world.now + time; b->world.now < end;) {
             way->cycle(*b);
@@ -115,7 +114,7 @@ public:
     bool stands(Duration limit) {
         return pass_until([&] { return std::fabs(shaft().velocity) < 1; }, limit);
     }
-    /// It comes to rest, and stays there while its client goes on with the same words.
+    /// It comes to rest, and stays there while its client continues with the same words.
     void rests_and_stays(Duration limit, const std::string& why) {
         ASSERT_TRUE(stands(limit)) << why << ": it goes on at " << shaft().velocity << ", at " << shaft().position;
         pass(300ms);
@@ -131,7 +130,7 @@ public:
         a.position_min = -wide;
         a.position_max = wide;
         a.fail_safe.watchdog_ms = milliseconds_of(watchdog);
-        // A motion to a target goes on when its client is gone unless the site says otherwise: here it says so, for every cause.
+        // A motion to a target continues when its client is gone unless the site says otherwise: here it does, for every cause.
         if (!way->endless()) {
             for (const LossCause cause : loss_causes)
                 a.fail_safe.of(cause) = FailSafeAction::quick_stop;
@@ -158,7 +157,7 @@ public:
         from_here();
         fastest = 0;
     }
-    /// False: the way is not there, which was looked at; the cell is over.
+    /// Returns false if the way does not exist, which was checked; the cell is finished then.
     [[nodiscard]] bool running() {
         std::string why;
         if (!way->offered(e, why)) {
@@ -183,7 +182,7 @@ public:
         EXPECT_NE(way->refusal(*b), "") << "it is not said that it cannot be done";
         EXPECT_EQ(fastest, 0) << "and yet it has moved";
     }
-    /// The gateway is killed; the next one comes up at the same drives.
+    /// The gateway is killed; the next one starts with the same drives.
     void next_gateway(Duration after = 300ms) {
         const Instant at = b->world.now + after;
         auto next = std::make_unique<Bench>(e, 2, plant);
@@ -193,7 +192,7 @@ public:
         put(site_of(*b, true));
         EXPECT_TRUE(b->until([&] { return (b->picture().flags & flag_online) != 0; }, 15s)) << "the next gateway does not hear the drive";
     }
-    /// What its client does when it is lost, and how long the gateway may need to see that.
+    /// The actions of its client when it is lost, and the time that the gateway may need to notice.
     void ends_with_its_client(LossCause cause) {
         way->lose(*b, cause);
         rests_and_stays(6s, "its client is lost (" + std::string(name_of(cause)) + ")");
@@ -204,7 +203,7 @@ public:
         ASSERT_TRUE(way->again(*b)) << why << ": " << way->refusal(*b) << ", status word " << std::hex << b->picture().statusword << told();
         EXPECT_TRUE(turns()) << why << ": a fresh edge does not move it: " << way->refusal(*b) << told();
     }
-    /// What the gateway has told last, for people.
+    /// The last reports of the gateway, for people.
     [[nodiscard]] std::string told() const {
         std::string all;
         const auto& list = b->world.events;
@@ -336,7 +335,7 @@ void Motions::lease_taken_by_another() {
     take.take_over = true;
     (void)b->ask(take, bert);
     pass(200ms);
-    way->lose(*b, way->losses().front());  // by a lease: that of the one who has taken it over ends now
+    way->lose(*b, way->losses().front());  // a lease: that of the client that has taken the axis over ends now
     rests_and_stays(6s, "whose motion it is has gone, whoever holds the axis");
 }
 
@@ -386,7 +385,7 @@ void Motions::order_behind_a_stop() {
     std::string why;
     if (!way->offered(e, why)) return lacking(why);
     if (way->unowned()) {
-        // It is stopped; the order behind that stop is somebody's of this gateway.
+        // It is stopped; an order behind that stop belongs to a client of this gateway.
         ASSERT_TRUE(running());
         const Ticket stop = b->give(QuickStop{}, bert);
         const Result* r = b->ask(Home{}, way->origin());
@@ -424,7 +423,7 @@ void Motions::gateway_restart() {
     if (!way->unowned()) {
         next_gateway();
         if (HasFailure()) return;
-        way->returned(*b);  // with the image that it had, which it says in each cycle
+        way->returned(*b);  // with its former image, which it sends in each cycle
         if (!way->endless()) another_stops(QuickStop{});
     }
     rests_and_stays(15s, "the gateway that had ordered it is gone");
@@ -490,7 +489,7 @@ void Motions::axis_removed() {
     }
 }
 
-/// The twin takes the drive's place, and gives it back: the motion of neither is the other's.
+/// The twin replaces the drive, and the drive returns: neither continues the motion of the other.
 void Motions::twin_and_device() {
     begin({}, true);
     if (!running()) return;
@@ -517,7 +516,7 @@ void Motions::twin_and_device() {
 void Motions::safe_input() {
     const json::object& input = facts_of(e).at("safe_input").as_object();
     begin();
-    if (const auto* before = input.if_contains("before")) {  // the input is made one by a setting of the drive
+    if (const auto* before = input.if_contains("before")) {  // a setting of the drive makes this input a safe one
         const std::string_view line = before->as_object().at("send").as_string();
         const Result* r = b->ask(Native{{line.begin(), line.end()}, true}, bert);
         ASSERT_TRUE(r && good(*r)) << (r ? r->text : "no answer");
@@ -556,7 +555,7 @@ void Motions::ends_of_numbers() {
     begin();
     if (!way->offered(e, why)) return lacking(why);
     if (way->unowned()) {
-        // The numbers are those of the site of the gateway that finds it: a unit and limits which no counter reaches.
+        // The numbers are those of the site of the gateway that finds the axis: a unit and limits that no counter reaches.
         ASSERT_TRUE(running());
         Site s = b->site->site;
         s.axes.at(0).increments_per_unit = 1e12;
@@ -603,7 +602,7 @@ constexpr Hazard hazards[]{
     {"ends_of_numbers", &Motions::ends_of_numbers},
 };
 
-/// One wire of each family: what the wires differ in has laws of its own.
+/// One wire of each family; differences between wires have laws of their own.
 std::vector<Cell> cells() {
     std::vector<Cell> all;
     for (const auto& entry : families().entries) {
@@ -616,7 +615,7 @@ std::vector<Cell> cells() {
     return all;
 }
 
-/// The doors' own descriptors: a way that they name and that is not tried here fails, and so does a loss that no way is lost by.
+/// From the doors' own descriptors: a way that they name and that is not tried here fails, and so does a cause by which no way is lost.
 TEST(MotionCells, EachWayOfADoorIsTriedWithEachOfItsLosses) {
     for (const auto& door : ways_of_all_doors) {
         for (const WayIn& of_door : door) {
@@ -626,7 +625,7 @@ TEST(MotionCells, EachWayOfADoorIsTriedWithEachOfItsLosses) {
                 const auto losses = kind.make()->losses();
                 tried.insert(losses.begin(), losses.end());
             }
-            if (of_door.name == "recipes") tried.insert(LossCause::lease_ended);  // its commands are its starter's: "http"
+            if (of_door.name == "recipes") tried.insert(LossCause::lease_ended);  // its commands belong to its starter: "http"
             for (const LossCause cause : of_door.losses)
                 EXPECT_TRUE(tried.contains(cause)) << of_door.name << " is not tried with " << name_of(cause);
         }

@@ -1,5 +1,4 @@
-// Conformance: the options that a site may give a line, a drive and a twin: listed for every family, checked, and wrong ones said to be so.
-// In: all_families() and their catalogues. Out: pass or fail. Never names a family.
+// The options that a site may give a line, a drive and a twin: listed for every family, checked, and wrong ones reported.
 #include <gtest/gtest.h>
 
 #include <set>

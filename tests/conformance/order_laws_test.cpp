@@ -1,6 +1,5 @@
-// Conformance: the orders that change what a position means, and those of the family alone: homing, a position that is set, every action of
-// the catalogue, an answer for each of them; and the decoder says what was ordered. In: all_families(), each wire. Out: laws of adapters
-// and decoders, by the twins' mechanics. Never names a family.
+// Laws of orders that change the meaning of a position, and of the family's own orders, for every family and wire: homing, set position,
+// every action of the catalogue, an answer for each of them; the decoder names the order. Judged by the twins' mechanics.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -15,7 +14,7 @@ class OrderLaws : public Laws {
 protected:
     World& w = *world;
 
-    /// Without the point of a fraction: 1.234 turns are 1234 increments.
+    /// Without the decimal point: 1.234 turns are 1234 increments.
     static std::string digits_of(std::string text) {
         std::erase(text, '.');
         return text;
@@ -203,7 +202,7 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
     enabled();
     auto decoder = e.family->make_decoder(*e.catalogue, e.kind());
     std::uint64_t next = 1;
-    // What has crossed the line since the last call, as people read it.
+    // The sentences for the frames since the last call.
     const auto read = [&](bool orders_only = false) {
         std::string text;
         const auto log = w.engine.frame_log(site->line_ids[0])->read(next, 100'000, 0);
@@ -221,7 +220,7 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
     EXPECT_NE(digits_of(move).find("1234"), std::string::npos) << "a move, and nobody can read how far:\n" << move;
     order(a1, Halt{});
     EXPECT_FALSE(read().empty()) << "a stop, and nothing was said on the line";
-    // A parameter that was asked for is shown with the value that the drive gave. Some are shown as what they mean: a model, a mask in hex.
+    // A parameter that was read is shown with the value that the drive gave, or with its meaning: a model, a mask in hex.
     std::size_t asked = 0;
     std::string unsaid;
     std::size_t reported = 0;
@@ -246,8 +245,8 @@ TEST_P(OrderLaws, TheDecoderSaysWhatWasOrdered) {
     EXPECT_GE(reported * 10, asked * 9) << unsaid;
 }
 
-/// A map may hold parameters, and a controller writes them in cycles: a target or a speed among them would undo what somebody else has
-/// stopped, so pages have those to read alone.
+/// A map may contain parameters, and a controller writes them in cycles: a target or a speed among them would undo the stop of another
+/// client, so these are read only in the pages.
 TEST_P(OrderLaws, NoParameterThatCanBeWrittenIsATargetOrASpeedToRunAt) {
     if (!e.family->stated) return;
     for (std::uint16_t i = 0; i < e.catalogue->parameters().size(); ++i) {

@@ -1,7 +1,6 @@
-// Conformance: the languages of register profiles, each by one script in front of every family: what a machine's old program writes and
-// reads moves the axis behind it, whatever that is, and what it cannot do is answered in the language's own way. The same scripts come in
-// by each way that the language has: Modbus, its image on EtherNet/IP, its classes and attributes there.
-// In: all_families(), each wire. Out: laws by the twins' mechanics. Never names a family.
+// The languages of register profiles, each by one script in front of every family and wire: the reads and writes of a machine's old program
+// move the axis behind it, and impossible requests are answered in the language's own way. The same scripts are used over each way of the
+// language: Modbus, its image on EtherNet/IP, its classes and attributes there.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -34,7 +33,7 @@ protected:
 
     void on_written(std::uint8_t, AxisId, Verdict verdict) override { answered = verdict; }
 
-    /// One axis behind a unit of this language; 100 increments are one unit, 40 u/s and 200 u/s^2 its full speed and ramp.
+    /// One axis behind a unit with this language; 100 increments are one unit, 40 u/s and 200 u/s^2 its full speed and ramp.
     void speak(ProfileLanguage language, Way by, std::optional<double> counts_per_unit = {}) {
         way = by;
         start();
@@ -69,7 +68,7 @@ protected:
     std::vector<MapValue> values_of(const AssemblySpec& a, bool written) const {
         return image->unit(unit)->values(a.table, a.address, a.registers, written);
     }
-    /// What a scanner does that renews its image; refusals are told by the language alone.
+    /// The cycle of a scanner that renews its image; only the language reports refusals.
     void renew() {
         const auto& a = spec_of(out_instance);
         std::vector<std::uint8_t> bytes(a.bytes());
@@ -79,7 +78,7 @@ protected:
     Verdict write_image(std::uint16_t address, const std::vector<std::uint8_t>& data) {
         const auto& a = spec_of(out_instance);
         if (address < a.address || address + data.size() / 2 > a.address + std::size_t{a.registers}) return Verdict::no_address;
-        // A scanner begins with zeros; one of a LinMot shows its word at once, so that it is seen not to start.
+        // A scanner begins with zeros; one of a LinMot writes its word at once, so that it is seen not to start.
         const bool linmot = site->site.profiles[0].language == ProfileLanguage::linmot;
         if (!std::exchange(begun, true) && !linmot) renew();
         std::ranges::copy(data, renewed.begin() + 2 * (address - a.address));
@@ -90,7 +89,7 @@ protected:
         port.deliver();
         return lexium && holding(lex_error) != before ? Verdict::failed : Verdict::good;
     }
-    /// Nothing: the register has no attribute.
+    /// Empty: the register has no attribute.
     std::optional<Verdict> write_attribute(std::uint16_t address, const std::vector<std::uint8_t>& data) {
         const auto& rows = scanner->values.languages()[static_cast<std::size_t>(ProfileLanguage::lexium)]->rows;
         const auto row = std::ranges::find(rows, address, &LanguageRow::address);
@@ -152,7 +151,7 @@ protected:
         if (r.verdict != Verdict::good) return 0;
         return count == 1 ? get16(r.bytes.data()) : get32(r.bytes.data(), words);
     }
-    /// Nothing: the way has no such register.
+    /// Empty: this way has no such register.
     std::optional<std::uint32_t> read_enip(Table table, std::uint16_t address, std::uint16_t count) {
         if (way == Way::modbus) return std::nullopt;
         if (way == Way::attributes) {
@@ -216,7 +215,7 @@ void LexiumScript::play(Way by) {
     } else {
         EXPECT_EQ(holding(lex_er), 37u) << "not in this product, as the drive would say";
         EXPECT_EQ(holding(lex_ef), 1u);
-        // An image that shows 0 all the time acknowledges nothing: by one the error stays until the next instruction.
+        // An image that is 0 all the time acknowledges nothing: the error stays until the next instruction.
         if (way != Way::image) ASSERT_EQ(write(lex_er, {0}), Verdict::good);
     }
     if (way != Way::image) EXPECT_EQ(holding(lex_ef), 0u);
@@ -270,7 +269,7 @@ void PaControlScript::play_commands(Way by) {
     ASSERT_TRUE(until([&] { return power_state_of(now().statusword) == PowerState::operation_enabled; }, 10s));
     if ((now().flags & flag_referenced) == 0) EXPECT_EQ(ask_pa(0x0A87, 1, real(1)).error(), 0x2Bu) << "no reference point";
     float base = 5;
-    if (const Reply r = ask_pa(0x0A96, 1, real(base)); r.failed()) {  // a drive that can only say: here is 0
+    if (const Reply r = ask_pa(0x0A96, 1, real(base)); r.failed()) {  // a drive that can only set the present position to 0
         EXPECT_EQ(r.error(), 0x15u);
         base = 0;
         ASSERT_FALSE(ask_pa(0x0A83, 1).failed());

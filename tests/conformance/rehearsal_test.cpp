@@ -1,5 +1,5 @@
-// Conformance, rehearsal: every family on every wire, every cause and action: each cell of the report has its figures, and they fit what
-// was chosen. In: all_families(). Out: laws over RehearsalCell. Never names a family.
+// Laws of the rehearsal, for every family, wire, cause and action: each cell of the report has its figures, and they agree with the
+// selected action.
 #include "gateway/engine/rehearsal.hpp"
 #include "gateway/site/ways_in.hpp"
 
@@ -29,7 +29,7 @@ protected:
         w.lease = 2s;
         return rehearse(families(), site_with(cause, action), {}, w);
     }
-    /// The gateway is killed, and another one is there after `away`.
+    /// The gateway is killed, and another one starts after `away`.
     RehearsalCell restart(Duration away, std::optional<FailSafeAction> action) {
         RehearsalWish w;
         w.axis = "a1";
@@ -44,7 +44,7 @@ protected:
         return cause == LossCause::line_lost && e.catalogue->document().at("drive_watchdog").as_object().contains("stops_velocity_moves");
     }
     [[nodiscard]] bool streams() const { return e.catalogue->offers_mode(8) || e.catalogue->offers_mode(9); }
-    /// Who comes over HTTP or DDS writes no registers, so it has no image that could be old.
+    /// Clients over HTTP or DDS write no registers, so they have no old image.
     [[nodiscard]] static bool has_image(LossCause cause) {
         return cause != LossCause::lease_ended && cause != LossCause::set_points_silent && cause != LossCause::dds_deadline;
     }
@@ -91,7 +91,7 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
     }
 }
 
-/// The doors' own descriptors: a new way in is rehearsed here the day it is in the table.
+/// From the doors' own descriptors: a new way is rehearsed here as soon as it is in the table.
 TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
     int rehearsed = 0;
     for (const auto& door : ways_of_all_doors) {
@@ -113,8 +113,8 @@ TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
     EXPECT_GE(rehearsed, 6);
 }
 
-/// Whatever another client says, whatever is refused meanwhile: the motion goes on, the loss of its own client ends it, and what that one
-/// repeats afterwards begins nothing.
+/// Requests of other clients and refused commands do not change whose loss ends the motion, and the repeated words of the lost client begin
+/// nothing.
 TEST_P(Rehearsals, NothingThatComesBetweenChangesWhoseLossEndsTheMotion) {
     for (const LossCause cause : loss_causes) {
         if (cause == LossCause::set_points_silent && !streams()) continue;

@@ -1,6 +1,5 @@
-// Conformance, what was seen at machines: ways by which an axis moved, or stayed deaf, although each order for itself was right.
-// In: all_families(), on twins; control words as a controller writes them beside commands of people. Out: laws, one for each of these
-// ways. Judged by the drive's mechanics. Never names a family.
+// Cases from real machines, for every family: an axis moved, or did not react, although each order for itself was right. Control words are
+// written as a controller does, beside commands of people. Judged by the drive's mechanics.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -55,7 +54,7 @@ protected:
             ASSERT_TRUE(good(word(cw))) << std::hex << cw;
         ASSERT_EQ(power_state_of(now().statusword), PowerState::operation_enabled);
     }
-    /// The furthest that its shaft comes in this time, in either direction.
+    /// The furthest distance of its shaft in this time, in either direction.
     double farthest_in(Duration time) {
         double most = 0;
         for (const Instant end = world->now + time; world->now < end;) {
@@ -67,7 +66,7 @@ protected:
     bool rests(Duration limit = 10s) {
         return world->run_until_true([&] { return speed(a1) < 1; }, limit);
     }
-    /// The first parameter that this drive takes a value of while it moves, and its value now.
+    /// The first parameter that this drive accepts while it moves, and its present value.
     [[nodiscard]] std::optional<std::pair<Point, Value>> some_setting() {
         for (const Parameter& p : e.catalogue->parameters()) {
             if (!p.writable() || !p.readable()) continue;
@@ -82,7 +81,7 @@ protected:
     }
 };
 
-/// Halt (bit 8) set, or a quick stop active: a search is not begun, by a word or by a command, and nothing turns.
+/// While halt (bit 8) is set, or a quick stop is active, neither a word nor a command begins a homing, and nothing turns.
 TEST_P(SeenLaws, ASearchBeginsNeitherUnderAHaltNorOutOfAQuickStop) {
     begin();
     enable_by_words(cia402::mode_homing);
@@ -102,15 +101,15 @@ TEST_P(SeenLaws, ASearchBeginsNeitherUnderAHaltNorOutOfAQuickStop) {
     EXPECT_EQ(farthest_in(2s), 0) << "it searches out of a quick stop";
 }
 
-/// Each word that stops is sent by a gateway that has just come up, whatever state it shows, while the axis turns; and it is not answered
-/// before the drive.
+/// A gateway that has just started sends each stopping word while the axis turns, whatever state it shows; the answer comes after the
+/// drive's.
 TEST_P(SeenLaws, WordsThatStopReachAnAxisThatTurnedBeforeTheGatewayCameUp) {
     for (const int cw : {0x0000, 0x0002, 0x000B, 0x010F, 0x0006}) {
         SCOPED_TRACE(testing::Message() << "control word " << std::hex << cw);
         auto plant = std::make_shared<Plant>();
         World before(1, plant);
         Site wanted = before.make_site(e, e.cable(), 1, "device");
-        wanted.axes.at(0).fail_safe.of(LossCause::motion_unowned) = FailSafeAction::nothing;  // the word is to do it
+        wanted.axes.at(0).fail_safe.of(LossCause::motion_unowned) = FailSafeAction::nothing;  // the word itself must stop the axis
         site = before.apply(wanted);
         a1 = site->axis_ids.at(0);
         before.plug_in("line", DriveId{0}, e, addresses(e, 1).at(0), e.kind());
@@ -147,9 +146,10 @@ TEST_P(SeenLaws, WordsThatStopReachAnAxisThatTurnedBeforeTheGatewayCameUp) {
     }
 }
 
-/// Drives count a distance from where they are, from where they are going, or from where the order arrives; the guard counts as the drive.
+/// Drives count a distance from the actual position, from the target, or from the position at which the order arrives; the guard counts
+/// like the drive.
 TEST_P(SeenLaws, ARelativeMoveOutOfAVelocityMoveKeepsTheLimit) {
-    constexpr std::int64_t limit = 130'000;  // room for a drive that turns by positions alone
+    constexpr std::int64_t limit = 130'000;  // room for a drive that turns only by positions
     begin({}, limit);
     order(a1, Enable{});
     turn(a1);
@@ -176,8 +176,8 @@ TEST_P(SeenLaws, AParameterThatIsWrittenMeanwhileLeavesTheGuardItsRamp) {
     EXPECT_TRUE(rests());
 }
 
-/// What left for a drive that was not heard, and was answered as failed, may have been taken: it moves nothing later, or is stopped and
-/// told.
+/// An order that was sent to a silent drive and answered as failed may have been accepted: it moves nothing later, or is stopped and
+/// reported.
 TEST_P(SeenLaws, AMoveThatWasAnsweredAsFailedDoesNotBeginWhenTheDriveIsHeardAgain) {
     begin();
     order(a1, Enable{});
@@ -191,7 +191,7 @@ TEST_P(SeenLaws, AMoveThatWasAnsweredAsFailedDoesNotBeginWhenTheDriveIsHeardAgai
     EXPECT_LT(speed(a1), 1) << "it is on its way to a place whose order has failed";
 }
 
-/// A controller that has gone with its halt bit set leaves an axis that people can move: they are told what to do, and that does it.
+/// A controller that has gone with its halt bit set leaves an axis that people can move: the refusal says how, and that works.
 TEST_P(SeenLaws, AHaltBitThatAControllerHasLeftIsNoDeadEnd) {
     begin();
     enable_by_words(cia402::mode_profile_position);
@@ -213,7 +213,7 @@ TEST_P(SeenLaws, APositionThatIsSetIsShownWhenItIsDone) {
     order(a1, Enable{});
     const Result* r = ask(a1, SetPosition{700}, true);
     ASSERT_TRUE(r);
-    if (r->reason == Reason::not_supported || r->reason == Reason::out_of_range) {  // a drive that knows no place but 0 says so
+    if (r->reason == Reason::not_supported || r->reason == Reason::out_of_range) {  // a drive that can only set 0 says so
         EXPECT_FALSE(r->text.empty());
         r = ask(a1, SetPosition{0}, true);
         ASSERT_TRUE(r);
@@ -226,7 +226,7 @@ TEST_P(SeenLaws, APositionThatIsSetIsShownWhenItIsDone) {
 
 INSTANTIATE_TEST_SUITE_P(Families, SeenLaws, testing::ValuesIn(law_subjects()), name_of_subject);
 
-/// A unit that no counter can be reckoned in is refused where it is written: limits in it would be none.
+/// A unit in which no counter can be computed is refused where it is written, because limits in it would have no effect.
 TEST(SeenInSites, IncrementsPerUnitThatDropTheLimitsAreRefused) {
     for (const double odd : {1e-320, 1e308, 0.0, -1.0}) {
         World w(1);

@@ -1,6 +1,5 @@
-// Families that one adapter serves: MACS controllers and CiA 402 drives on one CAN line, beside a UIM342.
-// In: a site with all of them behind one cable. Out: laws: what a CANopen line has once comes from one place, and a search tells them
-// apart.
+// Families with one adapter: MACS controllers and CiA 402 drives on one CAN line, beside a UIM342. Resources that a CANopen line has once
+// are shared, and a scan distinguishes the drives.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -56,7 +55,7 @@ struct SharedAdapter : testing::Test {
         const Result* r = world.wait(world.command(a, std::move(body), true), 30s);
         ASSERT_TRUE(r && good(*r)) << published(r);
     }
-    /// When frames with this identifier crossed in the next time, ns.
+    /// The instants at which frames with this identifier were on the line in this time, ns.
     std::vector<std::int64_t> crossing(std::uint32_t id, Duration time) {
         const auto log = world.engine.frame_log(site->line_ids[0]);
         std::uint64_t at = log->next_sequence();

@@ -1,5 +1,5 @@
-// Conformance: stops by registers, for every family: to a drive that hears and is not heard, beside a wrong value, and what is shown then.
-// In: all_families(). Out: laws of the engine and the CiA 402 profile, on twins. Never names a family.
+// Laws of stops by registers, for every family: to a drive that receives and whose answers are lost, beside a wrong value, and the values
+// that are shown then.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ protected:
     using Laws::speed;
     double speed() { return speed(a1); }
 
-    /// Enabled by registers, and turning: in mode 3, or far away in mode 1 where the drive has no velocity mode.
+    /// Enabled by registers, and turning: in mode 3, or to a far target in mode 1 if the drive has no velocity mode.
     void turn() {
         world = fresh();
         start();
@@ -80,7 +80,7 @@ TEST_P(StopLaws, WhatSwitchesOnIsRefusedWhileNobodyAnswers) {
         EXPECT_EQ(r->reason, Reason::no_answer) << cw;
     }
     EXPECT_EQ(world->picture(a1).controlword, 0);
-    // What it said last stays, with its age; what it does now is not known.
+    // Its last report stays, with its age; its present activity is unknown.
     EXPECT_TRUE(last.ever_seen);
     EXPECT_EQ(world->picture(a1).position, last.position);
     EXPECT_EQ(world->picture(a1).at, last.at);
@@ -111,7 +111,7 @@ TEST_P(StopLaws, AWrongValueBesideAStopDoesNotKeepItBack) {
 }
 
 TEST_P(StopLaws, AnEnableThatWaitsIsOverWithADisable) {
-    // However far it has come on its way: what was wanted last holds.
+    // However far it has come: the newest order counts.
     for (int reads = 0; reads < 4; ++reads) {
         for (const Duration between : {0ms, 7ms, 30ms}) {
             world = fresh();

@@ -1,6 +1,5 @@
-// Conformance, streamed set-points: what holds for whoever renews set-points in cycles: limits, authority, silence, stops, no event per
-// cycle. In: all_families(), on twins. Out: laws. Where a drive does not follow streams, it says so by state and nothing moves. Never names
-// a family.
+// Laws of streamed set-points, for every family: limits, authority, silence, stops, no event per cycle. If a drive does not follow streams,
+// its state says so and nothing moves.
 #include <gtest/gtest.h>
 
 #include "tests/conformance/laws.hpp"
@@ -50,12 +49,12 @@ protected:
         p.origin = by ? *by : plc;
         world->engine.on_set_point(p, world->now);
     }
-    /// The same again and again.
+    /// The same set-point again and again.
     void stream(std::int64_t value, Mode mode, Duration time, const Origin* by = nullptr) {
         for (const Instant end = world->now + time; world->now < end; world->run_for(cycle))
             say(value, mode, by);
     }
-    /// Where the drive does not follow this mode: true, and that has been looked at.
+    /// Returns true if the drive does not follow this mode, after checking this.
     bool does_not_follow(Mode mode) {
         if (follows(mode)) return false;
         stream(mode == Mode::position ? begin + 1000 : 1000, mode, 500ms);
@@ -102,7 +101,7 @@ TEST_P(StreamLaws, TheNewestCounts) {
     begin_with();
     if (does_not_follow(Mode::position)) return;
     for (int i = 0; i < 500; ++i)
-        say(begin + 1000 + i);  // all in one instant: the line has no room for them
+        say(begin + 1000 + i);  // all at one instant: the line cannot carry them
     stream(begin + 500, Mode::position, 3s);
     EXPECT_EQ(now().position, begin + 500);
 }
@@ -114,7 +113,7 @@ TEST_P(StreamLaws, TheSitesLimitsHold) {
     ASSERT_TRUE(now().streaming);
     const auto taken = now().set_points;
     for (int i = 0; i < 5; ++i) {
-        say(begin + 2001);                                 // a place behind the limit
+        say(begin + 2001);                                 // a position beyond the limit
         say(begin + 1500, Mode::position, nullptr, 5001);  // a speed above it
         if (follows(Mode::velocity)) say(5001, Mode::velocity);
         world->run_for(cycle);
@@ -123,7 +122,7 @@ TEST_P(StreamLaws, TheSitesLimitsHold) {
     EXPECT_GE(now().set_points_refused, 10u);
     EXPECT_EQ(now().set_point_refusal, Reason::out_of_range);
     EXPECT_LE(events("set_points"), 2) << "the begin, and the refusal once";
-    stream(begin + 2001, Mode::position, 2s);  // a refused one keeps nothing alive
+    stream(begin + 2001, Mode::position, 2s);  // a refused one does not renew the stream
     EXPECT_FALSE(now().streaming);
     EXPECT_LE(now().position, begin + 1000);
     world->run_for(1s);
@@ -384,14 +383,14 @@ TEST_P(StreamLaws, AModeThatTheDriveHasNotIsRefusedByWord) {
     }
 }
 
-/// An adapter whose drive reaches each set-point within 20 ms, whatever speed that takes.
+/// An adapter whose drive reaches each set-point within 20 ms, at any speed.
 class InItsPeriod final : public PassingAdapter {
 public:
     using PassingAdapter::PassingAdapter;
     [[nodiscard]] Duration interpolation_time(AxisId) const override { return 20ms; }
 };
 
-/// And one that has never heard of set-points, whatever its page says.
+/// An adapter without set-points, whatever its page says.
 class WithoutSetPoints final : public PassingAdapter {
 public:
     using PassingAdapter::PassingAdapter;
@@ -495,7 +494,7 @@ TEST_F(StreamAdapters, AStepIsNoGreaterThanTheSitesSpeedInTheInterpolationTime) 
     world->run_for(2s);  // its end
 
     EXPECT_TRUE(say(401, SetPoint::Mode::velocity)) << "20000 increments/s2 for 20 ms";
-    world->run_for(600ms);  // after a refusal, the pause of a new stream
+    world->run_for(600ms);  // after a refusal, the pause before a new stream
     EXPECT_FALSE(say(400, SetPoint::Mode::velocity));
     EXPECT_FALSE(say(800, SetPoint::Mode::velocity));
     EXPECT_TRUE(say(1201, SetPoint::Mode::velocity));

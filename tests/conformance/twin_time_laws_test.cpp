@@ -1,6 +1,6 @@
-// Conformance: a twin's reaction stands at the instant of its cause, not at the host's wake-up, for every family.
-// In: all_families(); a conversation of a gateway with a twin, recorded once. Out: the same conversation with twins that are called at
-// every deadline, in steps, or at frames alone: frames, their instants and motions must be the same. Never names a family.
+// Law of time, for every family: a twin's reaction has the instant of its cause, not of the host's wake-up. A conversation of a gateway
+// with a twin is recorded once and played with twins that are called at every deadline, in steps, or only at frames: frames, their instants
+// and motions must be equal.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -13,18 +13,18 @@ using namespace std::chrono_literals;
 
 struct Reported {
     Instant at;
-    std::string bytes;  ///< bytes lines: all of one instant; CAN: identifier and data of one frame
+    std::string bytes;  ///< byte lines: all of one instant; CAN: identifier and data of one frame
 };
 
 class TwinTimeLaws : public testing::TestWithParam<FamilyEntry> {
 protected:
     const FamilyEntry& e = GetParam();
     Instant begin{};
-    std::vector<Frame> received;  ///< frames to the drive, at the instants at which it had them
+    std::vector<Frame> received;  ///< frames to the drive, at the instants of their arrival
     std::string address;
     LineKind kind = LineKind::bytes;
 
-    /// An axis that is found, enabled and sent on a way of some seconds; then nobody speaks any more.
+    /// An axis that is found, enabled and sent on a way of some seconds; then nothing more is sent.
     void converse() {
         World w;
         begin = w.now;
@@ -57,7 +57,7 @@ protected:
         std::vector<Reported> reported;
         std::vector<TwinMechanics> seen;
     };
-    /// `step`: how often the twin is called beside frames; zero: never. `punctual`: at each of its deadlines as well.
+    /// `step` is how often the twin is called beside frames; zero: never. `punctual`: at each of its deadlines as well.
     Played play(Duration step, bool punctual) {
         TwinSetup t;
         t.address = address;
@@ -96,7 +96,7 @@ protected:
             twin->on_frame(f, f.at, out);
             take();
         }
-        // In the middle of the way the shaft is held and let go again: two causes nobody is called for; then the way ends, unobserved.
+        // In the middle of the way the shaft is held and released: two causes without a call; then the way ends unobserved.
         const Instant last = now;
         for (const auto& [after, held] : {std::pair{700ms, true}, {900ms, false}}) {
             pass(last + after);
@@ -105,7 +105,7 @@ protected:
             p.seen.push_back(twin->mechanics(1, now));
         }
         pass(last + 9s);
-        // One that watches its master has stopped meanwhile: a cause of its own, which needs one call, however late.
+        // A twin that monitors its master has stopped meanwhile: a cause of its own, which needs one call, however late.
         if (twin->deadline() <= now) twin->on_deadline(now, out);
         take();
         p.seen.push_back(twin->mechanics(1, now));

@@ -1,5 +1,5 @@
-// Ways in: registers of the standard map, of a site's own map and of the four languages; EtherNet/IP messages and connections; commands,
-// actions, statements, recipes, streams; programs and motions that nobody of this gateway has begun.
+// Registers of the standard map, of a site's own map and of the four languages; EtherNet/IP messages and connections; commands, actions,
+// statements, recipes, streams; programs and motions that no client of this gateway has begun.
 #include "tests/conformance/ways.hpp"
 
 #include <fstream>
@@ -87,7 +87,7 @@ namespace {
 bool powered_on(Bench& b) {
     return b.until([&] { return b.enabled(); }, 10s);
 }
-/// One word of a controller that looks at the status word before it says the next one.
+/// One word of a controller that checks the status word before it writes the next one.
 struct Step {
     std::uint16_t word;
     bool (*there)(PowerState);
@@ -102,7 +102,7 @@ constexpr Step walk_up[]{
     {0x0007, [](PowerState s) { return s == PowerState::switched_on; }},
     {0x000F, [](PowerState s) { return s == PowerState::operation_enabled; }},
 };
-/// An order of commands that a gateway's user gives before a motion.
+/// The command by which a user enables the axis before a motion.
 bool enable_by(Bench& b, const Origin& by) {
     const Result* r = b.ask(Enable{}, by);
     return r && good(*r) && powered_on(b);
@@ -116,11 +116,11 @@ public:
     [[nodiscard]] const Origin& origin() const override { return plc_; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
-        if (cause == LossCause::modbus_silent) return;  // World::received_at stands still
+        if (cause == LossCause::modbus_silent) return;  // World::received_at does not advance
         b.world.received_at.reset();
         b.world.engine.on_client_lost(AuthorityClient::of(plc_), cause, b.world.now);
     }
-    void returned(Bench&) override { waiting_ = 0; }  // what was on its way has no answer any more
+    void returned(Bench&) override { waiting_ = 0; }  // outstanding writes are not answered any more
     void on_written(std::uint8_t, AxisId, Verdict verdict) override {
         if (waiting_ > 0) --waiting_;
         if (verdict != Verdict::good) refused_ = "exception " + std::to_string(static_cast<int>(verdict));
@@ -128,7 +128,7 @@ public:
     [[nodiscard]] std::string refusal(const Bench&) const override { return refused_; }
 
 protected:
-    /// Registers from `address` on, by one request. It counts as its last words, which cycle() repeats.
+    /// Writes registers from `address` on in one request. They count as its last words, which cycle() repeats.
     void send(Bench& b, std::uint16_t address, std::vector<std::uint16_t> values) {
         refused_.clear();
         last_ = {address, std::move(values)};
@@ -168,7 +168,7 @@ protected:
         refused_ = kept;
     }
     [[nodiscard]] virtual std::uint8_t unit() const = 0;
-    /// Of its words.
+    /// Period of its words.
     [[nodiscard]] virtual Duration period() const { return 100ms; }
 
     Origin plc_ = origin_of(Door::modbus, "192.0.2.7:50000");
@@ -232,7 +232,7 @@ public:
 private:
     [[nodiscard]] std::uint8_t unit() const override { return 10; }
 };
-/// A site's own map, by a master on a serial line.
+/// A site's own map, written by a master on a serial line.
 class OwnMapWay final : public BlockWay {
 public:
     OwnMapWay() { plc_ = origin_of(Door::modbus, "serial:/dev/ttyS1"); }
@@ -305,7 +305,7 @@ public:
 private:
     static constexpr std::uint16_t acceleration_ = 0, deceleration_ = 24, enable_ = 28, error_ = 33, slew_ = 120, speed_limit_ = 139;
     [[nodiscard]] ProfileLanguage language() const override { return ProfileLanguage::lexium; }
-    [[nodiscard]] Duration period() const override { return 300ms; }  // each write is an instruction, for the slowest line, too
+    [[nodiscard]] Duration period() const override { return 300ms; }  // each write is an instruction, so the period suits the slowest line
     static std::vector<std::uint16_t> words_of(Bench& b, std::int64_t v) {
         const auto& page = b.image->languages()[static_cast<std::size_t>(ProfileLanguage::lexium)];
         if (page->word_order == registers::WordOrder::high_first) return {high(v), low(v)};
@@ -314,7 +314,7 @@ private:
     bool write32(Bench& b, std::uint16_t address, std::int64_t v) { return say(b, address, words_of(b, v)); }
 };
 
-/// Command header with a count; a motion to a place.
+/// Command header with a count; a motion to a position.
 class LinMotWay final : public ProfileWay {
 public:
     [[nodiscard]] bool endless() const override { return false; }
@@ -345,12 +345,12 @@ private:
     std::uint16_t count_ = 0;
 };
 
-/// A command code with a toggling bit; a motion to a place.
+/// A command code with a toggling bit; a motion to a position.
 class PaControlWay final : public ProfileWay {
 public:
     [[nodiscard]] bool endless() const override { return false; }
     [[nodiscard]] bool prepare(Bench& b) override {
-        // Out of ONLINE, where an error can be reset, and into it again; what there is nothing to do for is answered as an error.
+        // Out of ONLINE, where an error can be reset, and into it again; an unnecessary step is answered as an error.
         for (const std::uint16_t code : {std::uint16_t{0x0A81}, std::uint16_t{0x0909}, std::uint16_t{0x0603}})
             (void)command(b, code, 0, 0);
         if (!powered_on(b)) return false;
@@ -443,7 +443,7 @@ public:
     [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::enip_session_closed, LossCause::enip_silent}; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
-        if (cause == LossCause::enip_silent) return;  // World::received_at stands still
+        if (cause == LossCause::enip_silent) return;  // World::received_at does not advance
         b.world.received_at.reset();
         b.enip->values.messages_ended(peer_);
     }
@@ -463,7 +463,7 @@ private:
     }
     cip::Token token_ = 0;
 };
-/// An exclusive owner, whose image comes every 20 ms.
+/// An exclusive owner that sends its image every 20 ms.
 class EnipOwnerWay final : public EnipWay {
 public:
     EnipOwnerWay() {
@@ -518,7 +518,7 @@ Move turning(std::int64_t speed) {
     return m;
 }
 
-/// A page that holds the axis by a lease, and renews that while it is open.
+/// A page that holds the axis by a lease and renews it while it is open.
 class HttpWay : public CommandWay {
 public:
     HttpWay() { by_ = origin_of(Door::http, "anna"); }
@@ -544,7 +544,7 @@ protected:
     Instant next_cycle_{};
 };
 
-/// What the family's page offers as a command of its own: by its name and argument, or in the drive's language.
+/// The family's own command for a motion: by its name and argument, or in the drive's language.
 class StatementWay : public HttpWay {
 public:
     [[nodiscard]] bool endless() const override { return endless_; }
@@ -575,12 +575,12 @@ public:
     }
     void set_off(Bench& b) override {
         const json::object& m = motion(b.subject);
-        // Where a language counts its orders, the next one has another count.
+        // In a language that counts its orders, the next one has another count.
         const char* const which = std::exchange(other_, !other_) && m.if_contains("begin_next") ? "begin_next" : "begin";
         last_ = b.give(m.if_contains("lacks") ? CommandBody{lacking()} : body(m.at(which).as_object()), by_);
     }
     [[nodiscard]] bool takes_speeds() const override { return false; }
-    /// The statement of this number among those at the ends of numbers.
+    /// The statement with this index among those for extreme numbers.
     void set_off_to(Bench& b, std::int64_t number) override {
         last_ = b.give(body(motion(b.subject).at("ends").as_array().at(static_cast<std::size_t>(number)).as_object()), by_);
     }
@@ -594,7 +594,7 @@ protected:
     mutable bool endless_ = true;
     bool other_ = false;
     [[nodiscard]] virtual const char* fact() const = 0;
-    /// What is asked where the family's page has no such thing.
+    /// The request if the family's page has no such command.
     [[nodiscard]] virtual CommandBody lacking() const = 0;
     [[nodiscard]] const json::object& motion(const Subject& s) const {
         return facts_of(s).at("motions").as_object().at(fact()).as_object();
@@ -623,7 +623,7 @@ class ProgramWay final : public StatementWay {
     [[nodiscard]] CommandBody lacking() const override { return Action{"program.of_none", "", {}}; }
 };
 
-/// A run of a recipe, which waits behind its motion and stops it when it is cancelled.
+/// A run of a recipe, which waits for its motion and stops it when it is cancelled.
 class RecipeWay final : public HttpWay {
 public:
     RecipeWay() { by_ = origin_of(Door::http, "recipe demo"); }
@@ -680,7 +680,7 @@ private:
     std::int64_t target_ = 0;
 };
 
-/// A peer on the data bus, whose reader says that it is gone.
+/// A peer on the data bus whose end the reader reports.
 class DdsWay final : public HttpWay {
 public:
     DdsWay() { by_ = origin_of(Door::dds, "yard anna"); }
@@ -709,7 +709,7 @@ public:
     [[nodiscard]] bool prepare(Bench& b) override {
         running_ = false;
         if (power_state_of(b.picture().statusword) == PowerState::fault) (void)b.ask(ResetFault{}, by_);
-        b.run(600ms);  // a stream that was ended begins again after a pause
+        b.run(600ms);  // a stream that was ended begins again only after a pause
         return enable_by(b, by_);
     }
     void set_off(Bench& b) override {
@@ -756,7 +756,7 @@ private:
     std::string refused_;
 };
 
-/// It moved before this gateway was there: another one had ordered it, and is gone.
+/// It moved before this gateway existed: another gateway had ordered it, and is gone.
 class FoundWay final : public HttpWay {
 public:
     FoundWay() { by_ = origin_of(Door::http, "the gateway before"); }

@@ -1,6 +1,5 @@
-// Adapter laws: one adapter, its twins, and a wire that the fuzzer holds: whatever frames come and whenever, the laws of adapter.hpp stand.
-// In: a family, the fuzzer's bytes, how the family's own frames look. Out: nothing; stops the program when a law is broken.
-// Never knows a protocol: that is for the target in adapters/<family>/fuzz.
+// One adapter, its twins, and a wire that the fuzzer controls: whatever frames arrive at whatever time, the laws of adapter.hpp hold; the
+// program is aborted when one is broken. The protocol is known only to the target in adapters/<family>/fuzz.
 #pragma once
 
 #include <functional>
@@ -14,11 +13,11 @@ namespace axisgate::fuzz {
 struct FamilyFrames {
     /// A frame as one of these drives might send it.
     std::function<Frame(FuzzedDataProvider&, LineKind, const std::vector<std::string>& addresses)> plausible;
-    /// Empty if this frame may be sent to these drives, else what is wrong with it.
+    /// Empty if this frame may be sent to these drives, otherwise its fault.
     std::function<std::string(const Frame&, LineKind, const std::vector<std::string>& addresses)> wrong;
 };
 
-/// One run: twins at `addresses`, the adapter, and whatever the fuzzer's bytes make of them.
+/// One run: twins at `addresses`, the adapter, and the events that the fuzzer's bytes determine.
 void run_adapter(const FamilyEntry& entry, const FamilyFrames& frames, FuzzedDataProvider& in, std::vector<std::string> addresses);
 
 }  // namespace axisgate::fuzz

@@ -1,6 +1,6 @@
-// Fuzz: a backup that somebody sends: a good database, archive or sealed archive with the fuzzer's changes in it, or anything at all.
-// In: the fuzzer's bytes: changes (place, byte), a cut, or the file itself. Out: nothing; laws: it is taken or refused in words, an archive
-// that was changed is refused, what was there before is untouched by a refusal, and what is laid down is taken by the next start.
+// Fuzz target for an uploaded backup: a good database, archive or sealed archive with changes of the fuzzer (place, byte, a cut), or any
+// bytes. Laws: it is accepted or refused with a text, a changed archive is refused, a refusal leaves the former state, and an accepted
+// backup is restored by the next start.
 #include <unistd.h>
 
 #include <filesystem>

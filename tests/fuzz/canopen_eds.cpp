@@ -1,6 +1,5 @@
-// Fuzz: EDS and DCF files.
-// In: the fuzzer's bytes as the file. Out: nothing; laws: a description or faults, each with its line and words; what is read can be
-// written as a DCF, and that is read as the same; its dictionary has bytes of every type's length.
+// Fuzz target for EDS and DCF files. Laws: a description or faults, each with its line and text; an accepted file can be written as a DCF,
+// which is read as the same; its dictionary has bytes of the length of every type.
 #include "gateway/protocols/canopen/eds.hpp"
 
 #include <algorithm>

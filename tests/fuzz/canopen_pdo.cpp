@@ -1,6 +1,5 @@
-// Fuzz: PDO mappings as a node tells them, and frames by them.
-// In: the fuzzer's bytes as what the node's dictionary says, and as frames. Out: nothing; laws: a walk through a node ends, what is read is
-// within 64 bits, bytes and values are one and the same, and what is written into a node is read out of it again.
+// Fuzz target for PDO mappings of a node, and frames with them. Laws: a walk through a node ends, all fields are within 64 bits, bytes and
+// values are equivalent, and values written to a node are read from it again.
 #include "gateway/protocols/canopen/pdo.hpp"
 
 #include "tests/fuzz/fuzz.hpp"

@@ -1,6 +1,5 @@
-// Fuzz: the SDO client against a node that answers anything at any time.
-// In: the fuzzer's bytes as transfers, answers and steps of time. Out: nothing; laws: a transfer ends once and by its deadline, nothing
-// grows beyond its bound, no call sends more than a block, and an end that is done brought at most the limit.
+// Fuzz target for the SDO client with a node that answers anything at any time. Laws: a transfer ends once and by its deadline, nothing
+// grows beyond its bound, no call sends more than a block, and a successful end brings at most the limit.
 #include "gateway/protocols/canopen/sdo_client.hpp"
 
 #include "tests/fuzz/fuzz.hpp"

@@ -1,6 +1,5 @@
-// Fuzz: the SDO server and its dictionary against a client that asks anything at any time.
-// In: the fuzzer's bytes as requests and steps of time. Out: nothing; laws: no call answers with more than a block, values keep their
-// lengths and bounds, and whatever came, after a pause an honest client is served.
+// Fuzz target for the SDO server and its dictionary with a client that sends anything at any time. Laws: no call answers with more than a
+// block, values keep their lengths and bounds, and after a pause a correct client is served.
 #include "gateway/protocols/canopen/sdo_server.hpp"
 
 #include <utility>

@@ -1,5 +1,5 @@
-// Fuzz: a family's catalogue page.
-// In: JSON text. Out: nothing; laws: a catalogue or faults; every parameter is found by its id, and writes are judged without surprise.
+// Fuzz target for a family's catalogue page. Laws: a catalogue or faults; every parameter is found by its id, and writes are checked
+// without a crash.
 #include "gateway/core/catalogue.hpp"
 
 #include "tests/fuzz/fuzz.hpp"

@@ -1,5 +1,5 @@
-// Fuzz: the data sheet of a device whose axes and parameters are called anything and hold anything.
-// In: the fuzzer's bytes as a description. Out: nothing; law: what is written is read back as what the description says.
+// Fuzz target for the data sheet of a device whose axes and parameters have any names and values. Law: the written sheet is read back as
+// the description says.
 #include "tests/fuzz/eds_laws.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
-// Fuzz: paths and Forward_Open as an originator may write them.
-// In: the fuzzer's bytes. Out: nothing; laws: what is read ends within the bytes, and what this side writes it reads as the same.
+// Fuzz target for paths and Forward_Open of an originator. Laws: reading ends within the bytes, and a path written here is read as the
+// same.
 #include "gateway/protocols/cip/path.hpp"
 
 #include "gateway/protocols/cip/forward_open.hpp"

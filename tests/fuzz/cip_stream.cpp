@@ -1,6 +1,5 @@
-// Fuzz: an EtherNet/IP device against a peer that sends anything, on TCP, on both UDP ports, at any time.
-// In: the fuzzer's bytes as packets, messages, datagrams and steps of time. Out: nothing; laws: bounds hold, time goes on, whoever was
-// told that it owns an output is told its end once, and an honest client is served afterwards.
+// Fuzz target for an EtherNet/IP device with a peer that sends anything, on TCP and both UDP ports, at any time. Laws: bounds hold, time
+// advances, an owner of an output is informed of its end once, and a correct client is served afterwards.
 #include "gateway/protocols/cip/adapter.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,6 +1,5 @@
-// Fuzz: the host's configuration: TOML file, environment, --set.
-// In: the three, each a run of lines. Out: nothing; laws: faults have place, text and remedy; numbers are in their ranges whatever was
-// read.
+// Fuzz target for the host's configuration: TOML file, environment, --set. Laws: faults have place, text and remedy; numbers are in their
+// ranges for any input.
 #include "gateway/runtime/config.hpp"
 
 #include "tests/fuzz/fuzz.hpp"
@@ -9,7 +8,7 @@ using namespace axisgate;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size > 64 * 1024) return 0;
-    // Split at the byte 1, which is in none of them: the fuzzer keeps readable inputs that way.
+    // Split at byte 1, which occurs in none of the three parts, so that the fuzzer's inputs stay readable.
     std::string_view rest(reinterpret_cast<const char*>(data), size);
     const auto take = [&rest] {
         const auto end = std::min(rest.find('\x01'), rest.size());

@@ -1,6 +1,6 @@
-// Fuzz: makers' descriptions, from the file to the drive's catalogue, its model and its DCF.
-// In: the fuzzer's bytes as the file. Out: nothing; laws: taken as a whole or refused with lines; what is taken makes a catalogue or a
-// fault of the site; the catalogue's points have a type, a range that holds its ends, and names that lead back; its model answers.
+// Fuzz target for makers' descriptions, from the file to the drive's catalogue, its model and its DCF. Laws: a file is accepted as a whole
+// or refused with lines; an accepted one makes a catalogue or a fault of the site; the catalogue's points have a type, a range and names
+// that lead back; the model answers.
 #include <memory>
 
 #include "gateway/core/text.hpp"
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto twin = family.family->make_twin(c, setup);
     Out out;
     twin->power_on({}, at_ns(0), out);
-    // Every parameter of the catalogue is asked for, so that what the file made of the dictionary is read once.
+    // Every parameter of the catalogue is read once, so that the dictionary made of the file is used.
     Instant now = at_ns(1'000'000'000);
     std::size_t answers = 0;
     for (std::size_t i = 0; i < c.parameters().size() && i < 200; ++i) {

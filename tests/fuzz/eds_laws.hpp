@@ -1,5 +1,5 @@
-// EDS laws: a sheet made of any description is read back, by a reader of its own, as what the description says.
-// In: a description and its names. Out: the first law that is broken, or nothing. Never reads what the standard's form does not allow.
+// Checks that a data sheet of any description is read back, by a reader of its own, as the description says. Forms that the standard does
+// not allow are not read.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace axisgate::cip::laws {
 
 using Entries = std::map<std::string, std::map<std::string, std::vector<std::string>>>;
 
-/// Sections with their entries; false: it is no sheet. A text keeps its quotation marks.
+/// Sections with their entries; false: it is not a sheet. A text keeps its quotation marks.
 inline bool read_sheet(const std::string& text, Entries& into) {
     std::map<std::string, std::vector<std::string>>* section = nullptr;
     std::string key, field;
@@ -55,7 +55,7 @@ inline bool read_sheet(const std::string& text, Entries& into) {
     return key.empty() && fields.empty() && trimmed(field).empty();
 }
 
-/// The bytes of a number as a sheet writes it; empty: it is none of the type.
+/// The bytes of a number in the form of a sheet; empty: it is not of the type.
 inline Bytes number_in(const std::string& text, DataType type) {
     const char *const begin = text.data(), *const end = begin + text.size();
     std::uint64_t raw = 0;
@@ -83,7 +83,7 @@ inline Bytes number_in(const std::string& text, DataType type) {
     return out;
 }
 
-/// nullptr: the sheet says what the description says.
+/// nullptr: the sheet agrees with the description.
 inline const char* broken_by(const Description& d, const EdsNames& names) {
     Entries sheet;
     if (!read_sheet(eds_text(d, names), sheet)) return "a sheet can be read";

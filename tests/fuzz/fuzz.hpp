@@ -1,5 +1,5 @@
-// Fuzz: what all targets share: the input taken apart, and a check that stops the program with a sentence when a law is broken.
-// In: the fuzzer's bytes. Out: numbers, texts, frames. Never takes randomness from elsewhere: an input is its own replay.
+// The common parts of all targets: the input split into values, and a check that aborts the program with a text when a law is broken. All
+// randomness comes from the input, so that it can be replayed.
 #pragma once
 
 #include <fuzzer/FuzzedDataProvider.h>
@@ -14,15 +14,15 @@
 
 namespace axisgate::fuzz {
 
-/// Stops the program with the law's sentence unless it holds.
+/// Aborts the program with the law's text unless it holds.
 void require(bool holds, const char* law);
-/// Every family that was built in, with its catalogue; read once.
+/// Every embedded family with its catalogue; read once.
 const Families& families();
-/// A frame of any kind with anything in it.
+/// A frame of any kind with any content.
 Frame any_frame(FuzzedDataProvider& in);
-/// Any value that a client or a memory file can give.
+/// Any value that a client or a memory file can contain.
 Value any_value(FuzzedDataProvider& in);
-/// A step of time: mostly what a line sees, sometimes hours.
+/// A step of time: mostly typical ones of a line, sometimes hours.
 Duration any_step(FuzzedDataProvider& in);
 
 }  // namespace axisgate::fuzz

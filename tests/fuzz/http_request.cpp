@@ -1,7 +1,6 @@
-// Fuzz target: a request through the router with a made-up Gateway, a WebSocket client's bytes through the codec, and a live-feed
-// request through the hub. In: bytes. Out: nothing; every answer must be a whole response with valid JSON where it says JSON.
-// Shape of the input: first byte: what to feed; then for requests a line with the method and target, lines "Name: value" up to an empty
-// line, and the body.
+// Fuzz target: a request through the router with a fake gateway, a WebSocket client's bytes through the codec, and a live-feed request
+// through the hub. Every answer must be complete, with valid JSON if it is declared as JSON. Form of the input: the first byte selects the
+// target; requests are a line with method and target, lines "Name: value" up to an empty line, and the body.
 #include <boost/json/parse.hpp>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,4 @@
-// Fuzz: line URIs.
-// In: text. Out: nothing; laws: a URI or one sentence; what is written reads back the same.
+// Fuzz target for line URIs. Laws: a URI or one sentence; a written URI is read as the same.
 #include "gateway/core/line_uri.hpp"
 
 #include "tests/fuzz/fuzz.hpp"
@@ -15,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const std::string written = to_text(r.uri);
     const auto again = parse_line_uri(written);
-    // The written form says everything, and may by that be longer than what is taken.
+    // The written form contains all options, so it may be longer than the limit for reading.
     fuzz::require(again.good() || written.size() > 1024, "what was written can be read");
     if (again.good()) fuzz::require(again.uri == r.uri, "what was written reads back the same");
     return 0;

@@ -1,6 +1,5 @@
-// Fuzz: user maps and assemblies as CSV, and as JSON entries against a site with one axis of every family.
-// In: the fuzzer's bytes as the file. Out: nothing; laws: rows or faults with their lines; what is taken can be written and read back and
-// is the same; values survive the registers of their mapping.
+// Fuzz target for user maps and assemblies as CSV, and as JSON entries against a site with one axis of every family. Laws: rows or faults
+// with their lines; accepted rows can be written and are read as the same; values survive the registers of their mapping.
 #include <boost/json.hpp>
 
 #include "gateway/site/assembly.hpp"
@@ -46,7 +45,7 @@ std::optional<std::vector<Mapping>> read(std::string_view csv, bool& readable) {
     return list;
 }
 
-/// The same text as a table of assemblies: rows or faults; what is read is written and read as the same.
+/// The same text as a table of assemblies: rows or faults; accepted rows can be written and are read as the same.
 std::optional<std::vector<AssemblySpec>> read_assembly_table(std::string_view csv) {
     std::vector<std::size_t> lines;
     std::vector<CsvFault> faults;
@@ -62,7 +61,7 @@ std::optional<std::vector<AssemblySpec>> read_assembly_table(std::string_view cs
     check_assemblies(with, wrong, [&](std::size_t i) { return "row " + std::to_string(lines[i]); });
     for (const auto& f : wrong)
         require(f.pointer.starts_with("/assemblies") && !f.text.empty(), "a fault has its place and words");
-    if (!readable) return std::nullopt;  // what nothing is mapped for is not served, but it is read
+    if (!readable) return std::nullopt;  // an assembly without mappings is not served, but can be read
     return with.assemblies;
 }
 }  // namespace

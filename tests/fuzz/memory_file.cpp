@@ -1,5 +1,5 @@
-// Fuzz: the memory file of `axisgate twin --state`, and each family's twin powered on with what it says.
-// In: JSON text. Out: nothing; laws: what is read and written reads back the same; a twin starts with any memory, and keeps what it kept.
+// Fuzz target for the memory file of `axisgate twin --state`, and each family's twin started with it. Laws: an accepted file can be written
+// and is read as the same; a twin starts with any memory and keeps it.
 #include "gateway/runtime/memory_file.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 using namespace axisgate;
 
 namespace {
-/// Equal, but for the last digit of a floating-point number: Boost.JSON reads those fast rather than to the nearest.
+/// Equal except for the last digit of a floating-point number, because Boost.JSON does not read these to the nearest value.
 bool same(const std::map<std::string, NonVolatile>& a, const std::map<std::string, NonVolatile>& b) {
     const auto alike = [](const auto& x, const auto& y) {
         const auto *d = std::get_if<double>(&x.second), *e = std::get_if<double>(&y.second);

@@ -1,5 +1,5 @@
-// Fuzz target: one Modbus/TCP client that sends anything, in pieces of any size, while results come, time passes and axes change.
-// In: the fuzzer's bytes, read as a script. Out: nothing, or an abort when an answer is missing, too much, out of order or malformed.
+// Fuzz target: one Modbus/TCP client that sends anything, in pieces of any size, while results come, time passes and axes change. The
+// program is aborted when an answer is missing, unexpected, out of order or malformed.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -55,7 +55,7 @@ struct World : SessionWaker {
     explicit World(WordOrder order) : door(port, order) {
         for (std::uint16_t n = 1; n <= 3; ++n)
             axes.push_back(port.add_axis(n, &test::catalogue()));
-        // Units 10 to 12 speak other devices' languages.
+        // Units 10 to 12 have other devices' languages.
         for (const auto language : {ProfileLanguage::lexium, ProfileLanguage::pacontrol, ProfileLanguage::linmot}) {
             ProfileMap::Setup setup{page(language), order, {}, MapGaps::zero};
             for (std::size_t i = 0; i < std::min(most_axes(language), axes.size()); ++i) {
@@ -70,7 +70,7 @@ struct World : SessionWaker {
     }
     void wake(Session&) override {}
 
-    /// What the client expects, read from its own bytes: the head of every whole request before the first bad header.
+    /// The expected answers, from the client's own bytes: the head of every whole request before the first bad header.
     void sent(std::span<const std::uint8_t> bytes) {
         stream.insert(stream.end(), bytes.begin(), bytes.end());
         while (!worthless && stream.size() >= 6) {
@@ -103,7 +103,7 @@ struct World : SessionWaker {
             }
         } while (last == Session::Work::output_full);
         require(session.in_flight() <= Session::max_in_flight &&
-                port.commands.size() <= 4096);  // what profiles ask for does not keep its client waiting
+                port.commands.size() <= 4096);  // commands of profiles do not delay their client
     }
 
     test::FakePort port;

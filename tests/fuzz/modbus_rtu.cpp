@@ -1,6 +1,6 @@
-// Fuzz target: a serial line with one gateway on it, on which anything is said, at any time, while results come and answers echo.
-// In: the fuzzer's bytes, read as a script. Out: nothing, or an abort when a frame without a right checksum is taken, another slave or a
-// broadcast is answered, two answers go to one request, or an echo is answered.
+// Fuzz target: a serial line with one gateway on which anything is sent at any time, while results come and answers are echoed. The program
+// is aborted when a frame without a correct checksum is accepted, another slave's request, a broadcast or an echo is answered, or a request
+// gets two answers.
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -46,7 +46,7 @@ struct RtuWorld final : RtuSink {
     void echo() {
         const auto back = std::exchange(pending, {});
         if (back.empty()) return;
-        collided = collided || receiver.busy();  // two have spoken at once: nothing that is heard then says anything about echoes
+        collided = collided || receiver.busy();  // two nodes have sent at once: received bytes say nothing about echoes then
         if (collided) return;
         receive(back);
         require(!receiver.busy(), "an echo is no request");

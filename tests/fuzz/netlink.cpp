@@ -1,6 +1,5 @@
-// Fuzz: the kernel's news about network interfaces, as datagrams of an rtnetlink socket.
-// In: the fuzzer's bytes, as they are and behind a whole header. Out: nothing; laws: no length is believed, what is cut off is left out,
-// a datagram gives no more messages than it has headers, and our own requests are no news.
+// Fuzz target for the kernel's messages about network interfaces, as datagrams of an rtnetlink socket. Laws: no length field is trusted,
+// truncated parts are left out, a datagram gives no more messages than it has headers, and our own requests are no news.
 #include "gateway/lines/can_link.hpp"
 
 #include <cstring>
@@ -21,7 +20,7 @@ void read(std::span<const std::uint8_t> datagram) {
         require(n.name.find('\0') == std::string::npos && n.type.find('\0') == std::string::npos, "a text ends at its 0");
         require(n.kind == LinkNews::Kind::answer || (n.sequence == 0 && n.error == 0) || n.sequence != 0, "only an answer answers");
     }
-    // What a socket buffer cuts off never gives more.
+    // A truncated datagram never gives more messages.
     for (std::size_t n = 0; n < datagram.size(); n += 1 + datagram.size() / 16)
         require(read_link_news(datagram.first(n)).size() <= news.size(), "a part says no more than the whole");
 }

@@ -1,6 +1,5 @@
-// Fuzz: a table of parameters that is written back, through the router with a made-up gateway.
-// In: the fuzzer's bytes: the query up to the first line end, then the file. Out: nothing; laws: one whole answer; a file with a fault
-// writes nothing; what is written is in the catalogue's range.
+// Fuzz target for a table of parameters that is written back, through the router with a fake gateway: the query up to the first line end,
+// then the file. Laws: one whole answer; a file with a fault writes nothing; written values are in the catalogue's range.
 #include <boost/json/parse.hpp>
 
 #include "gateway/doors/http/router.hpp"

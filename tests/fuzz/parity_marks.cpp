@@ -1,6 +1,5 @@
-// Fuzz: the kernel's parity marks taken out of what a serial port delivers.
-// In: the fuzzer's bytes. Out: nothing; laws: how a run is cut changes nothing, what a kernel writes is read back as it was meant, nothing
-// is invented, and a byte that came badly is counted and is 0.
+// Fuzz target for the removal of the kernel's parity marks from a serial port's bytes. Laws: the boundaries of runs have no effect, marked
+// bytes are decoded correctly, nothing is invented, and a byte with an error is counted and is 0.
 #include "gateway/lines/parity_marks.hpp"
 
 #include "tests/fuzz/fuzz.hpp"
@@ -32,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(at_once.size() <= size, "nothing is invented");
     require(at_once.size() + 2 * whole.bad() <= size + 1, "a bad byte takes three");
 
-    // As a kernel would mark them: every fifth byte came badly.
+    // With the kernel's marks: every fifth byte has an error.
     std::vector<std::uint8_t> marked, meant;
     std::uint64_t bad = 0;
     for (std::size_t i = 0; i < size; ++i) {

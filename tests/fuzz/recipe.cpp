@@ -1,6 +1,5 @@
-// Fuzz: recipes as JSON, with arguments, and the label of every step.
-// In: the fuzzer's bytes: the document, and behind a line "---" the arguments of a run. Out: nothing; laws: a recipe or faults with their
-// places and words, never both; the number of steps is what is counted; a good document stays good with its own defaults.
+// Fuzz target for recipes as JSON, with arguments, and the label of every step: the document, and behind a line "---" the arguments. Laws:
+// a recipe or faults with places and texts, never both; the number of steps is correct; a good document stays good with its own defaults.
 #include "gateway/services/recipes/recipe_read.hpp"
 
 #include <boost/json.hpp>

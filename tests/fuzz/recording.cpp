@@ -1,6 +1,5 @@
-// Fuzz: `axisgate decode`: a recording in any of its forms, through every family's decoder.
-// In: the form, then the text. Out: nothing; laws: one line per message, frames that fit their kind, and what is read can be written and
-// read again.
+// Fuzz target for `axisgate decode`: a recording in any of its forms, through every family's decoder. Laws: one line per message, frames
+// that fit their kind, and frames that were read can be written and read again.
 #include "gateway/runtime/recording.hpp"
 
 #include "gateway/wire/frame_export.hpp"
@@ -30,13 +29,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(f.kind == Frame::Kind::bytes ? f.size > 0 : f.size <= 8, "a frame holds what its kind can hold");
         fuzz::require(f.id <= 0x1FFFFFFFu, "an identifier has 29 bits");
         for (auto& d : decoders) {
-            // A run of bytes on a CAN line and the other way round: a recording of something else.
+            // A run of bytes on a CAN line and the reverse: a recording of another line.
             one_line_each(d.can->on_frame(f, r.to_drive));
             one_line_each(d.bytes->on_frame(f, r.to_drive));
         }
         TraceEntry e;
         e.frame = f;
-        if (f.kind == Frame::Kind::can) e.frame.extended = f.extended || f.id > 0x7FF;  // the trace form cannot write what does not exist
+        if (f.kind == Frame::Kind::can) e.frame.extended = f.extended || f.id > 0x7FF;  // the trace form cannot represent impossible frames
         e.to_drive = r.to_drive.value_or(false);
         entries.push_back(std::move(e));
     };

@@ -1,12 +1,12 @@
-// Fuzz target: any text, with a password planted in it in one of the ways in which texts carry one.
-// In: the fuzzer's bytes. Out: nothing, or an abort when the password is still there, or when a second time changes anything.
+// Fuzz target: any text, with a password inserted in one of the usual forms. The program is aborted when the password remains, or when a
+// second pass changes anything.
 #include "gateway/runtime/scrub.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace axisgate;
     FuzzedDataProvider in(data, size);
-    const std::string planted = "Zq7mQp";  // six characters that no name has
+    const std::string planted = "Zq7mQp";  // six characters that occur in no name
     const std::string ways[] = {"\npassword = \"" + planted + "\"\n",
                                 "\n{\"token\":\"" + planted + "\"}\n",
                                 "\nAuthorization: Bearer " + planted + "\n",

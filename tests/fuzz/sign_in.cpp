@@ -1,6 +1,5 @@
-// Fuzz: who a request comes from: sign-ins, cookies, tokens, the first code, users that change meanwhile; and the records of the store.
-// In: the fuzzer's bytes. Out: nothing; laws: a role comes from a right password, a token that is there, or this machine, and from nothing
-// else; bounds hold; a record that was written is read back as it was.
+// Fuzz target for identities: sign-ins, cookies, tokens, the first code, users that change meanwhile; and the records of the store. Laws: a
+// role comes only from a correct password, an existing token, or this machine; bounds hold; a written record is read back as the same.
 #include "gateway/services/access/access_register.hpp"
 #include "gateway/services/access/secrets.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -160,7 +159,7 @@ private:
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0 || size > 8 * 1024) return 0;
-    // Records as texts begin with their brace; all else is a story.
+    // Records as texts begin with a brace; other inputs are sequences of actions.
     if (data[0] == '{') return records({reinterpret_cast<const char*>(data), size}), 0;
     FuzzedDataProvider in(data, size);
     Run(in).run();

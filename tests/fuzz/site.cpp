@@ -1,5 +1,5 @@
-// Fuzz: JSON of others, and the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it.
-// In: JSON text. Out: nothing; laws: a site or a fault, never both; faults have a place and a remedy; what is written reads back the same.
+// Fuzz target for foreign JSON and the site document, as `axisgate check`, `--site` and PUT /api/v1/site read it. Laws: a site or a fault,
+// never both; faults have a place and a remedy; a written site is read as the same.
 #include "gateway/site/site.hpp"
 #include "gateway/core/json_read.hpp"
 
@@ -12,7 +12,7 @@
 using namespace axisgate;
 
 namespace {
-/// The library makes 0e999 of nothing times infinity, which is no number; it is nothing.
+/// The library makes NaN of 0e999; it counts as 0.
 boost::json::value with_numbers(boost::json::value v) {
     if (v.is_double() && std::isnan(v.get_double())) return 0.0;
     if (auto* a = v.if_array())

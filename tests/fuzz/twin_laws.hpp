@@ -1,6 +1,5 @@
-// Twin laws: one twin in the fuzzer's hands: whatever frames, times, memories and hands come, the laws of twin.hpp stand.
-// In: a family's twin, what a frame of it must look like, the fuzzer's bytes. Out: nothing; stops the program when a law is broken.
-// Never knows a protocol: that is for the target in adapters/<family>/fuzz.
+// One twin under the fuzzer's control: whatever frames, times, memories and conditions it gets, the laws of twin.hpp hold; the program is
+// aborted when one is broken. The protocol is known only to the target in adapters/<family>/fuzz.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +14,13 @@ namespace axisgate::fuzz {
 
 class TwinRun {
 public:
-    /// `sent` is called with each frame that the twin sends. Channels 0 to `channels` + 1 are looked at: one on each side is not there.
+    /// `sent` is called with each frame of the twin. Channels 0 to `channels` + 1 are examined: one on each side does not exist.
     TwinRun(std::unique_ptr<Twin> twin, int channels, std::function<void(const Frame&)> sent)
         : twin_(std::move(twin)), channels_(channels), sent_(std::move(sent)) {}
 
     [[nodiscard]] Instant now() const noexcept { return now_; }
 
-    /// The first start, from any memory: a damaged one is mended, and what came of it is what is kept.
+    /// The first start, from any memory: a damaged one is repaired, and the result is the memory that is kept.
     void power_on(const NonVolatile& any) {
         twin_->power_on(any, now_, out_);
         drain();

@@ -1,5 +1,5 @@
-// Closer looks: of every family on each of its wires: an axis is asked more often for a while, its neighbours no less often than before,
-// and all of it ends by itself and is replayed. In: worlds with two or more drives. Out: how often each was told. Never sleeps.
+// Fast polling, for every family and wire: an axis is polled more often for a while, its neighbours no less often than before, and all of
+// it ends by itself and can be replayed.
 #include "tests/world/tape.hpp"
 
 namespace axisgate::test {
@@ -37,7 +37,7 @@ TEST_P(Looked, ItIsAskedMoreOftenAndNobodyLessOften) {
         << close[axis] << " Hz, not looked at " << plain[axis] << " Hz, load of the line " << load;
     for (const AxisId a : state->axis_ids)
         if (a != axis) EXPECT_GE(close[a], 0.93 * plain[a] - 0.3) << "the neighbour " << index_of(a);
-    w.run_for(3s);  // nobody has said that it is enough
+    w.run_for(3s);  // the request was not ended
     auto after = count(8s);
     EXPECT_LE(after[axis], 1.1 * plain[axis] + 0.3);
     const auto report = tape.play();

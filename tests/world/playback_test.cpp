@@ -1,5 +1,5 @@
-// Recordings played back: what a recorded world shows of an instant: axes, registers, frames in words, what had happened, curves.
-// In: a world with a tape. Out: the same as its picture then; nothing of a file that is cut off. Never sleeps.
+// The state that a recording shows of an instant: axes, registers, frames with their meaning, recent events, curves. It equals the picture
+// of that instant; a truncated file shows nothing.
 #include <boost/json/serialize.hpp>
 #include <map>
 #include <set>
@@ -73,7 +73,7 @@ TEST_P(PlayedBack, AnInstantIsShownAsItWas) {
     EXPECT_TRUE(read);
     EXPECT_TRUE(commanded);
     EXPECT_FALSE(end.at("curves").as_array().empty());
-    // A command, its result and the frames that were sent for it have one number, however late they were sent.
+    // A command, its result and its frames have one number, however late they were sent.
     const auto whole = play_back(file, own(), {std::nullopt, 20000, 0}, fault);
     std::map<std::int64_t, std::set<std::string>> of_command;
     for (const auto& h : whole.at("happened").as_array())
@@ -111,7 +111,7 @@ TEST(Playback, OfAFileThatIsNotToBeTrustedShowsNothing) {
     altered[file.size() / 2] ^= 4;
     EXPECT_TRUE(play_back(altered, own(), {}, fault).empty());
     EXPECT_NE(fault.find("altered"), std::string::npos) << fault;
-    AxrWriter w2;  // whole, and nothing in it is what it should be
+    AxrWriter w2;  // complete, but with wrong content
     for (const auto name : {axr_meta, axr_site, axr_records}) {
         w2.begin(name);
         w2.add(std::string("[\x06\x02"));

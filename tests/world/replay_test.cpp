@@ -1,5 +1,5 @@
-// Recordings replayed: a world is recorded and played again through an engine of its own: every family, on twins and on a cable.
-// In: worlds. Out: no difference where nothing was changed, the right one where something was. Never sleeps.
+// A world is recorded and played again through an engine of its own, for every family, on twins and on a cable: there is no difference if
+// nothing was changed, and the right one otherwise.
 #include "tests/world/tape.hpp"
 
 namespace axisgate::test {
@@ -13,7 +13,7 @@ std::string published(const ReplayReport& r) {
     return text;
 }
 
-/// What a user does on a good day: enable, move, stop, read, and the tester's hand.
+/// The usual commands of a user: enable, move, stop, read, and conditions of the twin.
 void live(World& w, AxisId axis, DriveId drive, bool simulated) {
     ASSERT_TRUE(w.run_until_true([&] { return (w.picture(axis).flags & flag_online) != 0; }, 10s));
     (void)w.wait(w.command(axis, Enable{}, true), 10s);
@@ -88,7 +88,7 @@ TEST(Replay, NamesWhatIsDoneOtherwise) {
     w.engine.set_tap(&tape);
     const auto state = w.apply(w.twins(subjects()[0]));
     live(w, state->axis_ids[0], state->drive_ids[0], true);
-    // The same recording without its move: what follows is not what was recorded.
+    // The same recording without its move: the consequences differ from the recorded ones.
     FlightLog without(64u << 20, false);
     const std::string all = Tape::joined(tape.inputs);
     FlightReader reader(all);

@@ -1,6 +1,5 @@
-// Story: the seeded day itself: commands of two clients, faults of the wire, of drives, store and gateway, then healing.
-// In: a subject and a seed. Out: laws: one answer each, nothing fresh from who is silent, leases hold, motion by order alone, all heals.
-// Never uses a random number that is not the seed's.
+// One seeded day: commands of two clients, faults of the wire, of drives, store and gateway, then healing. Laws: one answer for each
+// command, no fresh data from a silent drive, leases hold, motion only by order, everything heals. All randomness comes from the seed.
 #include "tests/world/story.hpp"
 
 #include <random>
@@ -13,9 +12,9 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr Duration lease = 2s;
-/// From the fastest speed of a story down the flattest ramp, and the widest wait for a drive's own reaction.
+/// From the fastest speed of a story down the flattest ramp, and the longest wait for a drive's own reaction.
 constexpr Duration stop_limit = 2500ms;
-/// What is shown is old after 3 s on a line of bytes, after 1 s on CAN; that is looked at now and then.
+/// Data count as old after 3 s on a byte line, after 1 s on CAN; this is checked periodically.
 constexpr Duration longest_fresh = 3500ms;
 
 class Story {
@@ -63,10 +62,10 @@ private:
         AxisId axis = no_axis;
         bool present = true;  ///< in the site
         struct Lease {
-            int client = -1;  ///< nobody is known to hold it
+            int client = -1;  ///< no holder is known
             Instant until{};
         } lease;
-        Instant asked[2]{};  ///< when each client wanted something of it last
+        Instant asked[2]{};  ///< the last request of each client
     };
     struct Given {
         Ticket ticket = no_ticket;
@@ -75,8 +74,8 @@ private:
         Instant at{};
         bool stop = false, off = false, motion = false, write = false;
         std::uint64_t motions = 0, powers = 0;
-        Machine::Lease lease;   ///< as it was known when it was given
-        Instant other_asked{};  ///< and when the other client wanted something last
+        Machine::Lease lease;   ///< as it was known when the command was given
+        Instant other_asked{};  ///< and the last request of the other client
     };
 
     static std::string line_name(std::size_t l) { return l == 0 ? "bad" : "good"; }
@@ -121,7 +120,7 @@ private:
             const auto at = std::ranges::find(state->site.axes, m.name, &AxisSpec::name);
             m.present = at != state->site.axes.end();
             m.axis = m.present ? state->axis_ids[static_cast<std::size_t>(at - state->site.axes.begin())] : no_axis;
-            m.lease = {};  // an axis that was built anew is nobody's
+            m.lease = {};  // an axis that was built anew has no holder
         }
         good_line_was_up_ = false;
     }
@@ -132,7 +131,7 @@ private:
         return std::ranges::all_of(machines_, [&](const Machine& m) { return back(m); });
     }
 
-    // --- what goes wrong --------------------------------------------------------------------------------------------
+    // --- faults -----------------------------------------------------------------------------------------------------
 
     void faults() {
         const bool good_wire = !plan_.garbling && !plan_.faulty;
@@ -155,7 +154,7 @@ private:
             if (subjects_[0].wire != Wire::network) to.duplicate = rate(0.05);
             if (can) from.duplicate = rate(0.1), from.reorder = rate(0.2);
             if (pick(4) == 0) from.drift = 20ms, from.drift_max = std::chrono::milliseconds(pick(120));
-            if (pick(4) == 0) (pick(2) ? to : from).loss = 1;  // one direction is cut: the line is up, and half of it is deaf
+            if (pick(4) == 0) (pick(2) ? to : from).loss = 1;  // one direction is cut: the line is up, but half of it does not work
             went_wrong_["slow drift"] += from.drift_max > Duration::zero();
             went_wrong_["not heard by the drives"] += to.loss == 1;
             went_wrong_["drives not heard"] += from.loss == 1;
@@ -186,12 +185,12 @@ private:
     }
     void power(DriveId key, bool on) {
         (void)world_->buses.at("bad")->set_hand(key, "power", Value{on}, world_->now);
-        if (on ? without_power_.erase(key) == 0 : !without_power_.insert(key).second) return;  // as it was: no order has ended by that
+        if (on ? without_power_.erase(key) == 0 : !without_power_.insert(key).second) return;  // unchanged: no order has ended by this
         if (!on) ++went_wrong_["drive without power"];
         for (const Machine& m : machines_) {
             if (m.line != 0 || m.key != key) continue;
             witness_.power_cycled(m.shaft);
-            // What was ordered before is over, but for what is on its way still.
+            // Earlier orders are over, except those on their way.
             const bool waits =
                 std::ranges::any_of(given_, [&](const Given& g) { return g.machine == static_cast<std::size_t>(&m - machines_.data()); });
             if (!waits) witness_.stopped(m.shaft, witness_.motions(m.shaft), world_->now + stop_limit);
@@ -199,19 +198,19 @@ private:
     }
     void change_site() {
         ++went_wrong_["site changed"];
-        std::size_t first = machines_.size();  // of those that are taken away or made anew, up to the last
+        std::size_t first = machines_.size();  // of those that are removed or made anew, up to the last
         std::size_t behind = machines_.size();
         switch (pick(3)) {
             case 0:
                 for (auto& a : document_.axes)
                     a.unit = a.unit == "u" ? "mm" : "u";
                 break;
-            case 1:  // its drives are not where they were on the way: the line is built anew
+            case 1:  // its drives are at other addresses: the line is built anew
                 document_.lines[0].timing.retries = document_.lines[0].timing.retries == 2 ? -1 : 2;
                 first = 0;
                 behind = static_cast<std::size_t>(std::ranges::count(machines_, std::size_t{0}, &Machine::line));
                 break;
-            default:  // the last axis goes, or comes back
+            default:  // the last axis is removed, or returns
                 if (!removed_) {
                     removed_ = document_.axes.back();
                     document_.axes.pop_back();
@@ -231,8 +230,8 @@ private:
         Instant then = world_->now;
         ++went_wrong_["restart"];
         mix_in(fingerprint_, *world_);
-        given_.clear();                     // nobody is left to answer
-        for (const Machine& m : machines_)  // and nobody to halt what has no end of its own, until the other one has found it
+        given_.clear();                     // no gateway is left to answer
+        for (const Machine& m : machines_)  // and none to halt motions without an end, until the other gateway has found them
             if (witness_.speed(m.shaft, then) > 0) witness_.lift_limit(m.shaft);
         auto plant = world_->plant;
         world_.reset();
@@ -242,7 +241,7 @@ private:
         put_in_force();
     }
 
-    // --- what is wanted ---------------------------------------------------------------------------------------------
+    // --- commands ---------------------------------------------------------------------------------------------------
 
     void give_command() {
         const std::size_t n = pick(machines_.size());
@@ -275,7 +274,7 @@ private:
     CommandBody any_body(const Subject& s, Given& g) {
         Move m;
         m.target = static_cast<std::int64_t>(pick(20001)) - 10000;
-        if (plan_.limits) m.target = m.target * 6 / 10;  // a third lead beyond
+        if (plan_.limits) m.target = m.target * 6 / 10;  // a third of them lead beyond the limit
         m.velocity = 1 + static_cast<std::int64_t>(pick(8000));
         m.acceleration = 10000 + static_cast<std::int64_t>(pick(30000));
         m.deceleration = m.acceleration;
@@ -310,7 +309,7 @@ private:
             }
         }
     }
-    /// A value that is stored and moves nothing: its factory setting, if the catalogue knows it.
+    /// A stored value that moves nothing: its factory setting, if the catalogue knows it.
     CommandBody write_something(const Subject& s) {
         const auto all = s.catalogue->parameters();
         for (std::size_t tries = 0; tries < 20; ++tries) {
@@ -387,7 +386,7 @@ private:
             power(m.key, true);
         }
         const Instant healed = world_->now;
-        // Heard since then: who restarted in the last moment is shown online until its silence is noticed.
+        // Reported since then: a drive that restarted in the last moment is shown online until its silence is noticed.
         const auto received = [&](const Machine& m) { return !m.present || world_->picture(m.axis).at > healed; };
         EXPECT_TRUE(world_->run_until_true([&] { return all_back() && std::ranges::all_of(machines_, received); }, 15s))
             << "an axis is not back after " << seconds(world_->now - healed) << " s";
@@ -418,7 +417,7 @@ private:
             EXPECT_EQ(list.size(), 1u) << "ticket " << (t & 0xFFFFFF);
     }
 
-    /// What happened, as one number.
+    /// The events as one number.
     static std::uint64_t mix_in(std::uint64_t& h, const World& w) {
         const auto mix = [&h](std::uint64_t v) { h = (h ^ v) * 1099511628211ull; };
         for (const auto& [t, list] : w.results) {

@@ -1,6 +1,5 @@
-// Story: one seeded day of a gateway: which wires and clients it has, what goes wrong and when, and the laws that hold all the time.
-// In: a subject and a seed. Out: failed laws, a fingerprint that is equal for equal runs, what went wrong how often. Never depends on real
-// time.
+// One seeded day of a gateway: its wires and clients, the faults and their times, and the laws that hold all the time. Equal runs give an
+// equal fingerprint; nothing depends on real time.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +10,14 @@
 
 namespace axisgate::test {
 
-/// What the seed makes of a world. Several hold at once.
+/// The properties of a world that the seed selects. Several may apply at once.
 struct StoryPlan {
     explicit StoryPlan(std::uint64_t seed);
-    bool garbling;      ///< bits turned over, frames cut short, foreign bytes: what was ordered may come as another order, so no law about
+    bool garbling;      ///< inverted bits, truncated frames, foreign bytes: an order may become another order, so there is no law about
                         ///< motion
-    bool faulty;        ///< losses, doubles, lateness, cuts: what a wire does that keeps its bits
+    bool faulty;        ///< losses, doubles, delays, cuts: the faults of a wire that keeps its bits
     bool limits;        ///< the site limits positions; only on a wire without faults
-    bool two_lines;     ///< beside a line of another subject, which has no faults and must not feel those of the first
+    bool two_lines;     ///< beside a line of another subject without faults, which must not be affected by the first one
     bool two_clients;   ///< axes are held by leases
     bool restart;       ///< the gateway is killed in the middle, and another one starts
     bool site_changes;  ///< under load
@@ -27,9 +26,9 @@ struct StoryPlan {
 
 struct StoryEnd {
     std::uint64_t fingerprint = 0;
-    std::map<std::string, std::uint64_t> faults;  ///< what went wrong how often, by name
+    std::map<std::string, std::uint64_t> faults;  ///< number of faults by name
 };
-/// `turns`: commands given.
+/// `turns` is the number of commands.
 StoryEnd run_story(const Subject& subject, std::uint64_t seed, int turns);
 
 }  // namespace axisgate::test

@@ -1,5 +1,5 @@
-// Tape: what a recorder keeps of a world: both of its logs, and the replay of them; Tellings: how often its axes told of themselves.
-// In: records of a world's engine. Out: bytes, a report. Never loses one: its bounds are for the tests that ask for them.
+// Tape keeps both logs of a world's recorder and replays them; Tellings counts how often its axes reported. No record is lost; bounds apply
+// only in tests of bounds.
 #pragma once
 
 #include <map>
@@ -39,7 +39,7 @@ protected:
     }
 };
 
-/// How often each axis was told, by what is said of its age.
+/// How often each axis reported, by the age of its data.
 struct Tellings final : Tape {
     std::map<AxisId, std::uint64_t> published;
     std::map<AxisId, Instant> last;

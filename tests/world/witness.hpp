@@ -1,6 +1,6 @@
-// Witness: watches the true mechanics of the drives behind the cables, past every wire, and knows what was ordered of each.
-// In: orders and stops as a story gives them, and how they were answered. Out: a failed test where a shaft moves that nobody has told to,
-// does not rest after an acknowledged stop, leaves its limits, or has power that nobody gave it. Never changes a drive.
+// Watches the true mechanics of the drives behind the cables, independent of the wire, and knows the orders of each. The test fails if a
+// shaft moves without an order, does not rest after an acknowledged stop, leaves its limits, or has power without an enable. Drives are
+// never changed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace axisgate::test {
 
 class Witness {
 public:
-    /// Returns the number by which the shaft is called below. It must be at rest.
+    /// Returns the number of the shaft for the calls below. It must be at rest.
     std::size_t watch(std::string name, TwinBus& bus, DriveId key, int channel, Instant now) {
         Shaft& s = shafts_.emplace_back();
         s.name = std::move(name);
@@ -38,7 +38,7 @@ public:
         s.rest_from = never;
     }
     void power_ordered(std::size_t n) { ++shafts_[n].powers, shafts_[n].off_from = never; }
-    /// What stood when a stop was given, for stopped() and switched_off().
+    /// The number of motions when a stop was given, for stopped() and switched_off().
     [[nodiscard]] std::uint64_t motions(std::size_t n) const { return shafts_[n].motions; }
     [[nodiscard]] std::uint64_t powers(std::size_t n) const { return shafts_[n].powers; }
     /// A stop was acknowledged that was given when `motions` had been ordered: from `by` on the shaft rests until the next order.
@@ -48,13 +48,13 @@ public:
         s.rest_from = by;
         s.place.reset();
     }
-    /// A disable was answered as good: from `by` on it has no power until the next order. Who starts with power has it by its own rule
-    /// until then, and again after its supply has failed (PA-CONTROL's enable mode 1 [L722]).
+    /// A disable was answered as good: from `by` on it has no power until the next order. A drive that starts with power has it until then,
+    /// and again after its supply has failed (PA-CONTROL's enable mode 1 [L722]).
     void switched_off(std::size_t n, std::uint64_t powers, Instant by) {
         Shaft& s = shafts_[n];
         if (s.powers == powers) s.off_from = std::min(s.off_from, by);
     }
-    /// Its power fails or comes back, and its counter may begin anew.
+    /// Its supply fails or returns, and its counter may begin anew.
     void power_cycled(std::size_t n) {
         shafts_[n].place.reset();
         if (shafts_[n].starts_with_power) shafts_[n].off_from = never;
@@ -62,7 +62,7 @@ public:
 
     [[nodiscard]] double speed(std::size_t n, Instant now) const { return std::fabs(mechanics(shafts_[n], now).velocity); }
 
-    /// To be called as often as wanted; one fault is told once.
+    /// May be called at any rate; one fault is reported once.
     void look(Instant now) {
         for (Shaft& s : shafts_) {
             if (s.published) continue;
@@ -83,11 +83,11 @@ private:
         DriveId key = no_drive;
         int channel = 1;
         std::uint64_t motions = 0, powers = 0;
-        Instant rest_from{};  // from here on it rests; never: an order stands
+        Instant rest_from{};  // from here on it rests; never: an order is in force
         Instant off_from{};
-        std::optional<double> place;  // where it rests
+        std::optional<double> place;  // its rest position
         std::optional<double> limit;
-        bool starts_with_power = false;  // as some drives do; no other gets it by itself
+        bool starts_with_power = false;  // as some drives do; others need an enable
         bool published = false;
     };
     static TwinMechanics mechanics(const Shaft& s, Instant now) {

@@ -1,6 +1,5 @@
-// World: an engine with simulated lines in virtual time: the whole round without a clock, thread or socket; and the subjects of the suites,
-// every family on each wire that it has. In: a site, a seed, what shall go wrong. Out: results by ticket, events, the image; everything
-// repeatable from the seed. Never sleeps: run_for() goes from deadline to deadline.
+// An engine with simulated lines in virtual time, without clock, thread or socket; and the subjects of the suites: every family on each of
+// its wires. A world is repeatable from its seed. It never sleeps: run_for() goes from deadline to deadline.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,8 +21,8 @@
 
 namespace axisgate::test {
 
-/// Every family with its embedded catalogue, read once. One that stands in the domain alone stands on a line of bytes here, where its twin
-/// can be cut off and plugged in like any other; that a site says no to it is a test of the program's.
+/// Every family with its embedded catalogue, read once. A family for DDS lines is on a byte line here, where its twin can be disconnected
+/// and connected like any other; that a site refuses this is tested with the program.
 inline const Families& families() {
     static std::vector<std::unique_ptr<Catalogue>> kept;
     static std::deque<Family> changed;
@@ -45,7 +44,7 @@ inline const Families& families() {
     return all;
 }
 
-/// `n` different good addresses of a family: from the catalogue's "address" (min..max, or "examples").
+/// `n` different valid addresses of a family: from the catalogue's "address" (min..max, or "examples").
 inline std::vector<std::string> addresses(const FamilyEntry& e, std::size_t n) {
     std::vector<std::string> out;
     const auto* a = e.catalogue->document().if_contains("address");
@@ -63,10 +62,10 @@ inline std::vector<std::string> addresses(const FamilyEntry& e, std::size_t n) {
     return out;
 }
 
-/// What a drive hangs on. `serial` has the family's own bit rate, `network` carries bytes without one.
+/// The kind of line of a drive. `serial` has the family's own bit rate, `network` carries bytes without one.
 enum class Wire : std::uint8_t { can, serial, network };
 
-/// One family on one of its wires: what the laws are asked of.
+/// One family on one of its wires: the subject of the laws.
 struct Subject : FamilyEntry {
     Wire wire = Wire::serial;
     std::string variant{};  ///< not empty: a family that was changed for the test, with this word
@@ -76,7 +75,7 @@ struct Subject : FamilyEntry {
         static constexpr const char* wires[] = {"can", "serial", "network"};
         return std::string(family->name) + "_" + wires[static_cast<int>(wire)] + (variant.empty() ? "" : "_" + variant);
     }
-    /// URI of a cable of this wire; real drives are behind it (World::plug_in), or nobody.
+    /// URI of a cable of this wire, with real drives behind it (World::plug_in), or none.
     [[nodiscard]] std::string cable() const {
         return wire == Wire::can ? "can:sim" : wire == Wire::serial ? "serial:/dev/sim" : "tcp:127.0.0.1:9";
     }
@@ -102,14 +101,14 @@ inline const std::vector<Subject>& subjects() {
 }
 inline std::string name_of_subject(const testing::TestParamInfo<Subject>& i) { return i.param.text(); }
 
-/// The drives behind the cables, by line: they outlive the gateway that talks to them.
+/// The drives behind the cables, by line: they outlive the gateway.
 struct Plant {
     std::map<std::string, std::unique_ptr<TwinBus>> buses;
 };
 
 class World final : public EngineHost {
 public:
-    /// A gateway that has just started; with `drives`, at those of another one that is gone.
+    /// A gateway that has just started; with `drives`, at those of a former one.
     explicit World(std::uint64_t seed_value = 1, std::shared_ptr<Plant> drives = std::make_shared<Plant>(), Families some = families())
         : seed(seed_value), plant(std::move(drives)), engine(std::move(some), *this, image) {}
 
@@ -121,13 +120,13 @@ public:
     Engine engine;
     Instant now = at_ns(1'000'000'000);
     std::map<Ticket, std::vector<Result>> results;
-    std::set<Ticket> on_disk;  ///< of those, what was answered because the store had it
+    std::set<Ticket> on_disk;  ///< of those, the ones that were answered because the store had recorded them
     std::vector<Event> events;
     std::vector<Sample> samples;
     std::map<std::string, NonVolatile> twin_memories;
-    std::optional<Instant> received_at;  ///< when a client that commands was heard last on its door; nothing: nobody watches
-    std::string store_fault;             ///< what the store says to every order
-    Duration store_delay{};              ///< and how late
+    std::optional<Instant> received_at;  ///< the last message of a client that commands; empty: clients are not monitored
+    std::string store_fault;             ///< the store's answer to every order
+    Duration store_delay{};              ///< and its delay
     std::uint64_t next_ticket = 1;
     std::uint64_t steps = 0;
 
@@ -159,9 +158,9 @@ public:
     }
     void on_twin_memory(const std::string& drive, NonVolatile memory) override { twin_memories[drive] = std::move(memory); }
 
-    // --- what a test does
-    /// One line "line" of this URI with so many drives, as far as there are addresses, and an axis "a1", "a2"... for each of their
-    /// channels.
+    // --- actions of a test
+    // One line "line" of this URI with this number of drives, as far as there are addresses, and an axis "a1", "a2"... for each of their
+    // channels.
     Site make_site(const FamilyEntry& e, std::string_view uri, std::size_t drives, std::string_view presence = "auto", int channels = 1,
                    const boost::json::object& line_options = {}) {
         namespace json = boost::json;
@@ -202,7 +201,7 @@ public:
         auto s = engine.apply_site(std::move(site), std::move(memory), ++revision, now);
         return s;
     }
-    /// As a running gateway puts a changed site in force: what moves and goes is stopped first.
+    /// As a running gateway applies a changed site: moving axes that are removed are stopped first.
     std::shared_ptr<const SiteState> change(Site site) {
         std::shared_ptr<const SiteState> state;
         engine.change_site(std::move(site), {}, ++revision, now, [&](std::shared_ptr<const SiteState> s) { state = std::move(s); });
@@ -230,14 +229,14 @@ public:
         settle_store();
         return t;
     }
-    /// The one result, if it is there.
+    /// The one result, if it has arrived.
     const Result* result(Ticket t) const {
         const auto it = results.find(t);
         return it == results.end() || it->second.empty() ? nullptr : &it->second.front();
     }
     AxisPicture picture(AxisId id) const { return image.picture(id); }
 
-    /// When something happens next.
+    /// The instant of the next event.
     [[nodiscard]] Instant next() const { return std::min(engine.deadline(), to_store.empty() ? never : to_store.front().first); }
     void step(Instant at) {
         now = std::max(now, at);
@@ -249,7 +248,7 @@ public:
         (void)run_until_true([] { return false; }, end - now);
     }
     void run_for(Duration d) { run_until(now + d); }
-    /// Runs until `condition` holds, at most for `limit`. False: it never did.
+    /// Runs until `condition` is true, at most for `limit`. Returns false if it never was.
     template <class F>
     bool run_until_true(F&& condition, Duration limit) {
         const Instant end = now + limit;
@@ -272,7 +271,7 @@ public:
         return result(t);
     }
 
-    static constexpr std::uint64_t most_steps = 5'000'000;  ///< of one run: frames that breed frames end a test instead of hanging it
+    static constexpr std::uint64_t most_steps = 5'000'000;  ///< of one run: frames that cause frames end a test instead of an endless loop
 
 private:
     void settle_store() {
@@ -284,9 +283,9 @@ private:
             stored_well_ = false;
         }
     }
-    std::deque<std::pair<Instant, Ticket>> to_store;  // one writer: what is given later is stored later
+    std::deque<std::pair<Instant, Ticket>> to_store;  // one writer: later orders are stored later
     std::uint64_t revision = 0;
-    bool stored_well_ = false;  // the store has just told that it has something
+    bool stored_well_ = false;  // the store has just reported a success
 };
 
 }  // namespace axisgate::test

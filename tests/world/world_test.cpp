@@ -1,6 +1,5 @@
-// World tests: seeded stories with faults, then healing: safety all the time, liveness at the end; and presence, from the device to its
-// twin and back. In: all_families() on each of their wires, seeds. Out: laws. Never depends on real time: a failing seed fails again;
-// AXISGATE_SEED=17 plays that one alone.
+// Seeded stories with faults, then healing: safety all the time, liveness at the end; and presence, from the device to its twin and back.
+// For every family on each of its wires. A failing seed fails again; AXISGATE_SEED=17 plays this one only.
 #include "tests/world/world.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ TEST_P(Stories, LawsHoldAndEverythingHeals) {
     const std::uint64_t only = one ? std::strtoull(one, nullptr, 10) : 0;
     for (std::uint64_t seed = block * stories_per_test + 1; seed <= (block + 1) * stories_per_test; ++seed) {
         if (only != 0 && seed != only) continue;
-        const Subject& subject = wires[seed / 4 % wires.size()];  // each wire meets each kind of story
+        const Subject& subject = wires[seed / 4 % wires.size()];  // each wire gets each kind of story
         SCOPED_TRACE("AXISGATE_SEED=" + std::to_string(seed) + " on " + subject.text());
         const auto first = run_story(subject, seed, turns).fingerprint;
         if (seed % 50 == 1) EXPECT_EQ(run_story(subject, seed, turns).fingerprint, first) << "the same seed gives the same world";
@@ -38,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& i) { return std::string(std::get<0>(i.param).family->name) + "_" + std::to_string(std::get<1>(i.param)); });
 
 TEST(StoryPlan, TheSeedsHaveEveryKindOfDay) {
-    // What a plan can have, each with each other, so that no law is asked of nothing.
+    // All pairs of properties of a plan occur, so that no law is tested without its condition.
     std::set<std::string> met;
     for (std::uint64_t seed = 1; seed <= stories; ++seed) {
         const StoryPlan p(seed);
@@ -61,7 +60,7 @@ TEST(StoryPlan, TheSeedsHaveEveryKindOfDay) {
 }
 
 TEST(StoryPlan, EachFaultHappens) {
-    // What is planned and never comes, no law is asked of.
+    // Every planned property really occurs.
     for (const Wire wire : {Wire::can, Wire::serial}) {
         const auto subject = std::ranges::find(subjects(), wire, &Subject::wire);
         ASSERT_NE(subject, subjects().end());
@@ -136,7 +135,7 @@ TEST_P(PresenceStory, AutoTakesTheTwinIfNobodyAnswersAndGivesItBackAtRestAfterCo
         const Result* now = w.wait(w.command(a, ReadParameter{{i, 0}}), 3s);
         if (!now || !good(*now)) continue;
         const auto v = as_integer(now->value);
-        // The next value but one, too: an address or a code may have a hole where the next is.
+        // The value after the next one, too: the next one may not be a valid address or code.
         for (std::int64_t other = v.value_or(0) + 1; v && !point && other <= *v + 2; ++other) {
             if (static_cast<double>(other) > *p.max) continue;
             const Result* r = w.wait(w.command(a, WriteParameter{{i, 0}, Value{other}}), 3s);
@@ -183,7 +182,7 @@ TEST_P(PresenceStory, TheTwinDoesNotTakeOverACommandedAxis) {
     EXPECT_EQ(w.picture(a).presence, Presence::offline) << "the axis and its drive say the same";
     EXPECT_EQ(w.engine.drive_status(d).presence, Presence::offline);
     ProcessData word;
-    word.controlword = cia402::cw_enable_voltage;  // a quick stop by registers: nobody heard it, and nothing is released
+    word.controlword = cia402::cw_enable_voltage;  // a quick stop by registers: the drive did not receive it, and nothing is released
     r = w.wait(w.command(a, word), 5s);
     ASSERT_TRUE(r);
     EXPECT_FALSE(good(*r));
@@ -252,7 +251,7 @@ class WorldSite : public testing::TestWithParam<Subject> {};
 TEST_P(WorldSite, ChangesTouchOnlyWhatChanged) {
     const Subject& e = GetParam();
     World w;
-    // Two drives, or two channels of the one that a line of this family can have, as far as it can have two.
+    // Two drives, or two channels of the one that a line of this family can have, if it can have two.
     const bool two_drives = addresses(e, 2).size() == 2;
     const int channels = two_drives ? 1 : std::min(2, e.catalogue->most_channels());
     auto doc = w.twins(e, 2, channels);

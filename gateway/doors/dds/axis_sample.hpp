@@ -1,6 +1,5 @@
-// Axis sample: which members of the topic AxisState show a value of the table of points, and how one is put into its member.
-// The IDL is fixed, so its members are listed here once more; what the table does not say, or says and nobody lists, does not compile.
-// In: a picture. Out: members of a sample, in increments. What a sample says of its gateway and of the site is the door's.
+// Which members of the topic AxisState show a value of the table of points. The IDL is fixed, so its members are listed here again; a
+// member without a row, or a row that is not listed, does not compile. Members about the gateway and the site belong to the door.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +16,11 @@ namespace axisgate::dds {
 
 template <class Sample>
 struct SampleMember {
-    std::string_view name;  ///< as the IDL has it
+    std::string_view name;  ///< as in the IDL
     void (*put)(Sample&, const AxisPointRow&, const AxisPicture&);
 };
 
-/// A text takes the value's word, a number its number.
+/// A text member gets the value's word, a numeric one its number.
 template <auto member, class Sample>
 void put_point(Sample& sample, const AxisPointRow& row, const AxisPicture& p) {
     auto& into = sample.*member;

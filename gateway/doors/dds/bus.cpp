@@ -1,5 +1,5 @@
-// Bus: entities of Cyclone DDS, made and unmade. Configuration is built here: CYCLONEDDS_URI of the environment is not looked at.
-// In: settings, samples. Out: samples, faults as text. Never waits for longer than a millisecond.
+// The entities of Cyclone DDS. The configuration is built here; CYCLONEDDS_URI of the environment is ignored. No call waits longer than a
+// millisecond.
 #include "gateway/doors/dds/bus.hpp"
 
 #include <dds/dds.h>
@@ -35,7 +35,7 @@ const Shape& shape_of(Topic t) {
     return shapes.at(static_cast<std::size_t>(t));
 }
 
-/// The table of docs/handbook/fleet.md. Reliable writers give up after a millisecond: no reader holds the service thread.
+/// The table of docs/handbook/fleet.md. Reliable writers give up after a millisecond, so that no reader holds up the service thread.
 Qos qos_of(Topic t) {
     Qos q(dds_create_qos());
     constexpr dds_duration_t patience = DDS_MSECS(1);
@@ -83,7 +83,7 @@ Qos qos_of(Topic t) {
     return q;
 }
 
-constexpr std::size_t most_word_bytes = 48;  // of what a participant says of itself
+constexpr std::size_t most_word_bytes = 48;  // limit of one property of a participant
 
 std::string xml_text(const std::string& s) {
     std::string out;
@@ -101,7 +101,7 @@ std::string xml_text(const std::string& s) {
     return out;
 }
 
-/// On the loopback interface participants find each other by their ports: it has no multicast that other machines would not see.
+/// On the loopback interface participants find each other by their ports, because multicast there would be visible to other machines.
 std::string configuration(const BusSettings& s) {
     const bool here = s.interface_name == "lo";
     return fmt::format(
@@ -112,7 +112,7 @@ std::string configuration(const BusSettings& s) {
         here ? "<Peers><Peer Address=\"127.0.0.1\"/></Peers>" : "");
 }
 
-/// DDS Security's plug-ins lie beside the library, or in a folder of its package's name.
+/// The plug-ins of DDS Security are beside the library, or in a folder with its package's name.
 std::string plug_in(const char* name) {
     Dl_info info{};
     if (::dladdr(reinterpret_cast<const void*>(&dds_create_participant), &info) == 0 || !info.dli_fname) return {};
@@ -125,7 +125,7 @@ std::string plug_in(const char* name) {
     return {};
 }
 
-/// What the participant's certificates are, as properties of it; or what is missing.
+/// The participant's certificates as its properties; returns the missing file, or an empty text.
 std::string secure(dds_qos_t* q, const std::string& folder) {
     struct {
         const char *property, *file;
@@ -159,13 +159,13 @@ std::string secure(dds_qos_t* q, const std::string& folder) {
 }
 
 void on_data_available(dds_entity_t, void* bus) { static_cast<const Bus*>(bus)->on_data(); }
-/// Called for each writer by itself: with one alive less, it is this one.
+/// Called for each writer by itself: if the number of live writers has decreased, this one has ended.
 void on_liveliness(dds_entity_t reader, const dds_liveliness_changed_status_t status, void* bus) {
     if (status.alive_count_change < 0) static_cast<Bus*>(bus)->on_writer_gone(reader, status.last_publication_handle);
 }
 bool commands_by(Topic t) { return t == Topic::axis_command || t == Topic::parameter_write; }
 
-/// Of what is told to everybody, what is for this gateway. The others' would fill the reader's places: one for each axis of the plant.
+/// Selects the samples for this gateway. Those for others would fill the reader's places: one for each axis of the plant.
 template <class T>
 bool is_for(const void* sample, void* gateway) {
     return *static_cast<const std::string*>(gateway) == static_cast<const T*>(sample)->gateway;
@@ -183,7 +183,7 @@ std::string Bus::open(const BusSettings& s, std::initializer_list<Topic> writes,
     close();
     gateway_ = s.gateway;
     domain_ = dds_create_domain(s.domain, configuration(s).c_str());
-    if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) domain_ = 0;  // this process is in it already
+    if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) domain_ = 0;  // this process has joined it already
     if (domain_ < 0) {
         const auto code = domain_;
         domain_ = 0;
@@ -239,7 +239,7 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
         if (writers_[i] < 0) return failed(shape_of(t).name, writers_[i]);
     }
     if (reads) {
-        // A filter holds for all of a topic's entity, and would keep commands to others from being written.
+        // A filter applies to the whole entity of a topic, and would prevent commands to others from being written.
         dds_entity_t received = topic;
         if (filter_of(t) && !gateway_.empty()) {
             received = dds_create_topic(participant_, shape_of(t).type, shape_of(t).name, q.get(), nullptr);
@@ -260,7 +260,7 @@ std::string Bus::add(Topic t, const BusSettings& s, bool writes, bool reads) {
 }
 
 void Bus::close() {
-    if (participant_ > 0) (void)dds_delete(participant_);  // and all that hangs on it; no listener runs after it
+    if (participant_ > 0) (void)dds_delete(participant_);  // and its dependents; no listener runs afterwards
     if (domain_ > 0) (void)dds_delete(domain_);
     domain_ = participant_ = publisher_ = subscriber_ = participants_ = 0;
     writers_.fill(0);
@@ -278,7 +278,7 @@ bool Bus::write_raw(Topic t, const void* sample, bool ended) {
 void Bus::on_writer_gone(std::int32_t reader, std::uint64_t handle) {
     {
         const std::scoped_lock lock(gone_mutex_);
-        // The reader's entity is known here when it was made; a writer that came and went before that has written nothing.
+        // The reader's entity is known here after its creation; a writer that came and went before has written nothing.
         const auto at = std::find(readers_.begin(), readers_.end(), reader);
         if (at == readers_.end()) return;
         gone_more_ = gone_more_ || gone_.size() >= gone_most;
@@ -317,12 +317,12 @@ std::string Bus::whereabouts(const Writer& writer) const {
     if (participants_ <= 0 || dds_read_instance(participants_, &sample, &info, 1, 1, participant) <= 0) return where;
     if (info.valid_data) {
         const auto* const of = static_cast<const dds_builtintopic_participant_t*>(sample);
-        // Properties that every participant of Cyclone DDS announces; others may say nothing.
+        // Properties that every participant of Cyclone DDS announces; others may announce none.
         for (const auto& [property, before] : {std::pair{"__NetworkAddresses", ""}, {"__Hostname", ""}, {"__Pid", "process "}}) {
             char* value = nullptr;
             if (!dds_qget_prop(of->qos, property, &value) || !value) continue;
             std::string_view text(value);
-            // The addresses with their ports and kinds: "udp/192.0.2.7:7411@2", with a comma between.
+            // The addresses with their ports and kinds, separated by commas: "udp/192.0.2.7:7411@2".
             if (property == std::string_view("__NetworkAddresses")) text = text.substr(0, text.find(','));
             if (!text.empty()) where += fmt::format("{}{}{}", where.empty() ? "" : ", ", before, text.substr(0, most_word_bytes));
             dds_free(value);

@@ -1,5 +1,4 @@
-// Commanders: the list.
-// In: names and writers. Out: who has none left. Never more entries than axes were commanded, each with a writer of each topic at most.
+// The list has at most one entry per commanded axis, with at most one writer of each topic.
 #include "gateway/doors/dds/commanders.hpp"
 
 #include <algorithm>

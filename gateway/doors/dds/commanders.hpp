@@ -1,6 +1,5 @@
-// Commanders: which client of the domain commanded an axis last, and by which of its writers, so that one whose writers are gone is missed.
-// In: commands as they are read, writers that are gone. Out: clients that are lost. Kept by axis: who makes up a new name for each command
-// takes no more room by that. Never asks the bus.
+// Remembers which client of the domain commanded an axis last, and by which of its writers, so that a client without writers counts as
+// lost. It is kept by axis, so that a client with a new name for each command takes no more space.
 #pragma once
 
 #include <functional>
@@ -15,13 +14,13 @@ namespace axisgate::dds {
 
 class Commanders {
 public:
-    /// `source` commands the axis now. True: not by this writer before, as far as is known.
+    /// `source` commands the axis now. Returns true if it has not used this writer before, as far as it is known.
     bool note(const std::string& axis, const std::string& source, const Bus::Writer& writer);
-    /// The clients that have no writer left of those by which they commanded an axis last.
+    /// The clients that have lost their last writer by which they commanded an axis.
     [[nodiscard]] std::set<std::string> gone(const Bus::Writer& writer);
-    /// All writers that are known, each once.
+    /// All known writers, each once.
     [[nodiscard]] std::vector<Bus::Writer> writers() const;
-    /// An axis that is no more has no commander.
+    /// Removes the commanders of axes that do not exist any more.
     void keep(const std::function<bool(const std::string& axis)>& is_there) {
         std::erase_if(commanders_, [&is_there](const auto& c) { return !is_there(c.first); });
     }

@@ -1,5 +1,4 @@
-// Commands seen: a map by source and id, and the order in which results came, for forgetting the oldest.
-// In: names, results, time. Out: what is known. Never looks at a clock.
+// A map by source and id, and the order of the results, by which the oldest is forgotten.
 #include "gateway/doors/dds/commands_seen.hpp"
 
 namespace axisgate::dds {

@@ -1,6 +1,5 @@
-// Commands seen: which commands came over DDS, and the one result of each, so that one that is sent again is answered and not carried out.
-// In: names of commands, results, time. Out: whether it is new, under way, or what it was answered.
-// Never forgets one within `keep_for`: where there is no room without that, a new one is turned away.
+// Remembers the commands that arrived over DDS with their one result, so that a repeated command is answered and not carried out again.
+// None is forgotten within `keep_for`; if there is no space, a new one is refused.
 #pragma once
 
 #include <chrono>
@@ -22,11 +21,12 @@ public:
     enum class Stage : std::uint8_t { is_new, under_way, answered, no_room };
     struct Seen {
         Stage stage = Stage::is_new;
-        const Result* result = nullptr;  ///< of one that was answered; good until the next call
+        const Result* result = nullptr;  ///< of an answered one; valid until the next call
     };
-    /// With less than this left, who has an eighth of all places gets no further one: a member's flood leaves room for the others.
+    /// If less than this number is free, a sender with an eighth of all places gets no further one, so that one member cannot use up the
+    /// places of others.
     static constexpr std::size_t kept_for_others = most / 4, share = most / 8;
-    /// A command has come, by `writer`. `is_new`: it is noted as under way, and end() follows.
+    /// A command has arrived from `writer`. `is_new`: it is recorded as in progress, and end() follows.
     [[nodiscard]] Seen begin(const std::string& source, const std::string& id, Instant now, std::uint64_t writer = 0);
     /// Its one result.
     void end(const std::string& source, const std::string& id, Result result, Instant now);
@@ -39,7 +39,7 @@ private:
         std::uint64_t writer = 0;
     };
     void forget(const std::string& key);
-    /// Neither part can have the other's separator: texts of the IDL end at a zero.
+    /// The separator cannot occur in either part, because texts of the IDL end at a zero.
     [[nodiscard]] static std::string key_of(const std::string& source, const std::string& id) { return source + '\0' + id; }
 
     std::unordered_map<std::string, Kept> kept_;

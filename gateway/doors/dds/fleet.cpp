@@ -1,5 +1,4 @@
-// Fleet: gateways by their instance; commands by their id until the gateway answers, is lost, or five minutes are over.
-// In: samples, orders, time. Out: lists, results. Never looks at a clock.
+// Gateways by their instance; commands by their id until the gateway answers, is lost, or five minutes have passed.
 #include "gateway/doors/dds/fleet.hpp"
 
 #include <fmt/core.h>
@@ -19,7 +18,7 @@ Result no_result(Outcome outcome, Reason reason, std::string text) {
     r.text = std::move(text);
     return r;
 }
-/// As the other gateway wrote it; a word of a newer program that this one does not know counts as a fault of the gateway.
+/// The word of the other gateway; an unknown word of a newer program counts as a fault of the gateway.
 Outcome outcome_named(std::string_view word) {
     for (const Outcome o : {Outcome::accepted, Outcome::done, Outcome::refused, Outcome::failed}) {
         if (name_of(o) == word) return o;
@@ -44,7 +43,7 @@ Event Fleet::lose(Known& k, Instant now) {
     }
     for (const auto& id : unanswered) {
         const auto it = waiting_.find(id);
-        if (it == waiting_.end()) continue;  // the end of another one has led to it
+        if (it == waiting_.end()) continue;  // it was completed by the end of another one
         const Waiting& w = *it->second;
         std::vector<Result> answers;
         for (const auto& [instance, answer] : w.answers)
@@ -99,8 +98,8 @@ std::optional<Event> Fleet::on_gateway(const axisgate_GatewayState& s, bool aliv
     return e;
 }
 
-/// Who is gone gives way first, the one that has been gone for longest. Of the living, one that has told of an axis is a gateway that
-/// works; names without axes are cheap to invent, and the one that was heard longest ago gives way to a newcomer.
+/// Lost gateways are removed first, the one that was lost earliest. Of the others, one with axes is a working gateway; names without axes
+/// are easy to invent, and the one with the oldest message is removed for a newcomer.
 bool Fleet::make_room(Instant now) {
     if (known_.size() < gateways_most) return true;
     const auto rank = [this](const auto& k) {
@@ -110,7 +109,7 @@ bool Fleet::make_room(Instant now) {
     if (victim->first == instance_ || (victim->second.gateway.alive && !victim->second.axes.empty())) return false;
     if (victim->second.gateway.alive) {
         ++left_out_;
-        (void)lose(victim->second, now);  // nobody waits for its answer any more
+        (void)lose(victim->second, now);  // its answer is not awaited any more
     }
     known_.erase(victim->first);
     ++comings_;
@@ -119,14 +118,14 @@ bool Fleet::make_room(Instant now) {
 
 void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
     if (!valid || !alive) {
-        // Only the key is told: of every gateway of the name that is alive or not; who still has the axis tells it again.
+        // Only the key is known: of every gateway of the name, alive or not; one that still has the axis reports it again.
         for (auto& [instance, k] : known_) {
             if (k.gateway.name == s.gateway && k.gateway.alive) k.axes.erase(s.axis);
         }
         return;
     }
     const auto it = known_.find(s.instance);
-    if (it == known_.end()) return;  // its gateway's own state comes within half a second, and this again
+    if (it == known_.end()) return;  // its gateway's own state arrives within half a second, and this one again
     auto& axes = it->second.axes;
     if (axes.size() >= axes_most && !axes.contains(s.axis)) {
         ++left_out_;
@@ -163,7 +162,7 @@ void Fleet::on_axis(const axisgate_AxisState& s, bool valid, bool alive) {
 void Fleet::on_result(const axisgate_CommandResult& s) {
     if (!std::string_view(s.source).starts_with(name_)) return;
     const auto it = waiting_.find(s.id);
-    // Its id was this process' own; an answer of another start, or of a namesake, is not this command's, if it is no stop.
+    // The id belongs to this process; an answer for another start, or for a namesake, does not belong to this command unless it is a stop.
     if (it == waiting_.end() || std::string_view(it->second->sample.source) != s.source) return;
     Waiting& w = *it->second;
     if (!w.stops && !w.awaited.contains(s.instance)) return;

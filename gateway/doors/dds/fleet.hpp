@@ -1,7 +1,6 @@
-// Fleet: what the gateways of the domain tell, and commands of this one to axes of others until each has its one result.
-// In: samples, orders, time. Out: a list of gateways; events for those that come and go; command samples, sent again until they are
-// answered. Never a second command: what is sent again has the same source and id, and is meant for one start of its gateway; but a stop is
-// for every gateway of its name.
+// The states of the domain's gateways, and this gateway's commands to axes of others until each has its one result. Command samples are
+// repeated until they are answered, with the same source and id, and are valid for one start of the other gateway; a stop is valid for
+// every gateway of its name.
 #pragma once
 
 #include <array>
@@ -23,75 +22,75 @@ namespace axisgate::dds {
 class Fleet {
 public:
     static constexpr std::size_t gateways_most = 256, axes_most = 1024, waiting_most = 256;
-    static constexpr Duration sent_again = std::chrono::milliseconds(500);  ///< while no result has come
-    static constexpr Duration waits_most = std::chrono::minutes(5);         ///< less than a gateway remembers a command
+    static constexpr Duration sent_again = std::chrono::milliseconds(500);  ///< while there is no result
+    static constexpr Duration waits_most = std::chrono::minutes(5);         ///< less than the time for which a gateway remembers a command
     static constexpr Duration lost_kept = std::chrono::minutes(10);
-    /// So long a command waits for an axis, or for a gateway, that may be there and has not been heard of yet. States come twice a second.
+    /// The time for which a command waits for an axis, or a gateway, that may exist and has not been seen yet. States are sent twice a
+    /// second.
     static constexpr Duration heard_within = std::chrono::milliseconds(lease_ms);
 
-    /// `send` puts a command on the bus. `name`, `instance`: of this gateway.
+    /// `send` writes a command to the bus. `name` and `instance` are those of this gateway.
     Fleet(std::string name, std::uint64_t instance, std::function<void(const axisgate_AxisCommand&)> send)
         : name_(std::move(name)), instance_(instance), send_(std::move(send)) {}
 
-    /// A state, or its end. What there is to be told: a gateway has come, or is lost.
+    /// A state, or its end. Returns an event if a gateway has come, or is lost.
     [[nodiscard]] std::optional<Event> on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now);
     void on_axis(const axisgate_AxisState& s, bool valid, bool alive);
     void on_result(const axisgate_CommandResult& s);
-    /// Sends again, gives up, forgets; and what there is to be told: who has not been heard for the lease is lost, whatever the bus says.
+    /// Repeats, gives up and forgets; returns the events: a gateway without a message within the lease is lost, whatever the bus reports.
     [[nodiscard]] std::vector<Event> on_turn(Instant now);
     [[nodiscard]] bool alive(std::uint64_t instance) const {
         const auto it = known_.find(instance);
         return it != known_.end() && it->second.gateway.alive;
     }
 
-    /// Now, on both of this machine's clocks: for what is told of ages.
+    /// The present list; the two times are those of this machine's clocks, for ages.
     [[nodiscard]] std::vector<FleetGateway> list(std::int64_t now_unix_ns, Instant now) const;
-    /// The one that is meant, or why none is (`fault`).
+    /// The gateway of the order, or null with the reason in `fault`.
     [[nodiscard]] const FleetGateway* target(const FleetOrder& order, Result& fault) const;
-    /// An axis of another gateway that can be mirrored, or why it cannot (`why`): its gateway is not there or gone, it is this gateway's
-    /// own, its drive is not online, or it is a mirror itself.
+    /// An axis of another gateway that can be mirrored, or the reason why not (`why`): its gateway does not exist or is lost, the axis is
+    /// this gateway's own, its drive is not online, or it is a mirror itself.
     struct Seen {
         const FleetGateway* gateway = nullptr;
         const FleetAxis* axis = nullptr;
         std::string why;
-        bool known = false;   ///< it is there, and its drive does not answer
-        bool circle = false;  ///< it is this gateway's own or a mirror itself: a command could come back here
+        bool known = false;   ///< it exists, and its drive does not answer
+        bool circle = false;  ///< it is this gateway's own or a mirror itself: a command could return here
     };
-    /// Counts gateways that come and go: what was looked up before may have changed.
+    /// Increases when a gateway comes or is lost: earlier look-ups may be invalid then.
     [[nodiscard]] std::uint64_t comings() const noexcept { return comings_; }
     [[nodiscard]] Seen mirrored(std::string_view gateway, std::string_view axis) const;
-    /// What is known of it was told before the newest answer to a command from here.
+    /// The data were sent before the newest answer to a command from here.
     [[nodiscard]] static bool outdated(const FleetAxis& axis) noexcept { return axis.sequence != 0 && axis.sequence <= axis.answered; }
     [[nodiscard]] static std::int64_t age_ms(const FleetGateway& gateway, const FleetAxis& axis, std::int64_t now_unix_ns);
-    /// Gives it to another gateway. `then` is called once, perhaps from inside this call.
-    /// A stop (halt, quick_stop) is sent at once, whatever is known of its gateway and axis, to all gateways of the name but this one, and
-    /// ends what waits for its axis, which would otherwise be sent again after it. Its result comes when all that are alive have answered
-    /// or are gone; the worst of their answers counts. Up to 2 * waiting_most orders wait; a stop beyond that is sent once, and answered
-    /// with `busy`.
-    /// Anything else is for one gateway. Where its axis, or in the first moments the gateway, has not been heard of yet, it waits for that,
-    /// `heard_within` or its own `wait` at most.
+    /// Gives a command to another gateway. `then` is called once, perhaps from inside this call. A stop (halt, quick_stop) is sent at once,
+    /// whatever is known of its gateway and axis, to all gateways of the name except this one, and ends the waiting commands of its axis,
+    /// which would otherwise be repeated after it. Its result comes when all live ones have answered or are lost; the worst answer counts.
+    /// Up to 2 * waiting_most orders wait; a further stop is sent once, and answered with `busy`. Any other command is for one gateway. If
+    /// its axis, or in the first moments the gateway, has not been seen yet, the command waits for it, at most `heard_within` or its own
+    /// `wait`.
     void command(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
     [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size() + unheard_.size(); }
-    /// Another gateway that is alive has this name.
+    /// Another live gateway has this name.
     [[nodiscard]] bool has_other(std::string_view name) const;
-    /// One result of the answers of several gateways of one name to a stop: the first that is not good; one that has no such axis does not
-    /// count if another has. At least one answer.
+    /// Combines the answers of several gateways of one name to a stop: the first one that is not good; an answer that the axis does not
+    /// exist does not count if another gateway has it. Needs at least one answer.
     [[nodiscard]] static Result together(const std::vector<Result>& answers, std::string_view gateway);
-    /// States of gateways and axes that came when as many as are kept were known.
+    /// Number of states of gateways and axes that were ignored because the maximum number was known.
     [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
 
 private:
     struct Known {
         FleetGateway gateway;
         std::map<std::string, FleetAxis> axes;
-        std::size_t axes_told = 0;  // how many it says that it has
+        std::size_t axes_told = 0;  // the number of axes that it reports
         Instant lost_at = never, received_at{};
     };
     struct Waiting {
         axisgate_AxisCommand sample{};
-        std::array<double, 4> numbers{};  // what its optional members point to
+        std::array<double, 4> numbers{};  // storage for its optional members
         std::array<std::int32_t, 2> whole{};
-        std::set<std::uint64_t> awaited;          // whose answer is to come
+        std::set<std::uint64_t> awaited;          // gateways whose answer is outstanding
         std::map<std::uint64_t, Result> answers;  // of a stop
         bool stops = false, unheard = false;      // `unheard`: a stop to a gateway that was not alive
         std::string gateway;
@@ -103,13 +102,13 @@ private:
         Instant until{};
         std::function<void(const Result&)> then;
     };
-    /// Why the order can not be given yet, though it may be soon; nothing: now, or never.
+    /// The reason why the order must wait for an axis or gateway that may appear; empty: it can be given now, or never.
     [[nodiscard]] std::optional<std::string> not_heard_yet(const FleetOrder& order, Instant now) const;
     void send(const FleetOrder& order, std::set<std::uint64_t> instances, std::function<void(const Result&)> then, Instant now);
     void stop(const FleetOrder& order, std::function<void(const Result&)> then, Instant now);
     void end_overtaken(const std::string& gateway, const std::string& axis, std::string_view by);
     void try_unheard(Instant now);
-    /// A place for one more gateway. False: all that are known are alive and have axes.
+    /// Makes a place for one more gateway. Returns false if all known ones are alive and have axes.
     [[nodiscard]] bool make_room(Instant now);
     void end(const std::string& id, const Result& result);
     [[nodiscard]] Event lose(Known& k, Instant now);

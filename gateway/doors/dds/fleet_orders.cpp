@@ -1,6 +1,5 @@
-// Fleet orders: commands of this gateway to axes of others, from being given to being on the bus.
-// In: orders, time. Out: command samples; orders that wait for an axis which has not been heard of yet. A stop is never kept for that: it
-// is sent first, and what is known of its gateway decides only what its answer says.
+// Commands of this gateway to axes of others, from the order to the sample on the bus. Orders wait for an axis that was not seen yet; a
+// stop never does: it is sent first, and the state of its gateway affects only its answer.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -63,7 +62,7 @@ void Fleet::try_unheard(Instant now) {
             still.push_back(std::move(u));
         }
     }
-    // Orders that an answer has led to meanwhile come behind them.
+    // Orders that an answer has caused meanwhile follow behind them.
     still.insert(still.end(), std::make_move_iterator(unheard_.begin()), std::make_move_iterator(unheard_.end()));
     unheard_ = std::move(still);
 }
@@ -83,7 +82,7 @@ void Fleet::command(const FleetOrder& o, std::function<void(const Result&)> then
     const auto& axes = known_.at(g->instance).axes;
     const auto axis = axes.find(o.axis);
     if (axis == axes.end()) return then(refusal(Reason::unknown_point, fmt::format("{} has no axis {}", o.gateway, o.axis)));
-    // By the same rules as there, so that all that is wrong is said before anything is sent.
+    // By the same rules as at the other gateway, so that all faults are reported before anything is sent.
     const auto made = make_command(o.wish, axis->second.increments_per_unit, axis->second.unit);
     if (!made.body) {
         const auto& f = made.faults.front();
@@ -119,7 +118,7 @@ void Fleet::end_overtaken(const std::string& gateway, const std::string& axis, s
     interrupted.text = text;
     for (const auto& id : overtaken)
         end(id, interrupted);
-    // One that was not sent is not begun; what it would do after the stop nobody wants any more.
+    // An order that was not sent has not begun, and must not begin after the stop.
     std::vector<Unheard> mine;
     for (auto& u : std::exchange(unheard_, {}))
         (u.order.gateway == gateway && u.order.axis == axis ? mine : unheard_).push_back(std::move(u));
@@ -128,8 +127,7 @@ void Fleet::end_overtaken(const std::string& gateway, const std::string& axis, s
 }
 
 namespace {
-/// The wish as a sample has it, whose optional members point to what `w` holds. A stop has no members; what else was given with it keeps
-/// it from nobody.
+/// The wish as a sample, whose optional members point into `w`. A stop has no members; other given members are ignored.
 template <class Waiting>
 void put_wish(Waiting& w, const CommandWish& wish) {
     axisgate_AxisCommand& s = w.sample;

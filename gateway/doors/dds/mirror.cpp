@@ -1,6 +1,5 @@
-// Mirror: requests to orders of the fleet, its axes to states.
-// In: telegrams. Out: telegrams. A state that was told before the newest answer to a command is not handed on: it would show the axis at a
-// target that it has just been sent away from.
+// Converts requests to orders of the fleet, and its axes to states. A state that was sent before the newest answer to a command is not
+// passed on: it would show the axis at a target that it has just left.
 #include "gateway/doors/dds/mirror.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +16,7 @@ DemandSource demand_source_named(std::string_view name) {
     return DemandSource::none;
 }
 
-/// As a client of the fleet would ask, in the axis' unit.
+/// As a client of the fleet would request it, in the axis' unit.
 CommandWish wish_of(const mirror::Order& o, double increments_per_unit) {
     CommandWish wish = CommandWish::named(o.verb);
     const auto put = [](WishedNumber& member, const std::optional<std::int64_t>& v, double scale) {
@@ -64,7 +63,7 @@ void Mirror::request(const Telegram& t, std::int64_t now_unix_ns, Instant now) {
     to.gateway = t.address.substr(0, slash);
     to.axis = t.address.substr(slash + 1);
     const auto axis = fleet_.mirrored(to.gateway, to.axis);
-    // A stop goes to whoever may still hear it, one that is not known or not alone, too; its gateway answers for its drive.
+    // A stop is sent to every gateway that may still receive it, also to an unknown one or to several; the gateway answers for its drive.
     const bool goes_all_the_same = is_stop(order->verb) ? !axis.circle : order->verb == "disable" && axis.known;
     if (!axis.axis && !goes_all_the_same) return answer(t, {Outcome::refused, Reason::line_down, 0, axis.why});
     to.wish = wish_of(*order, axis.axis ? axis.axis->increments_per_unit : 1);
@@ -92,7 +91,7 @@ void Mirror::tell(const std::string& address, Watched& w, std::uint64_t number, 
     }
     const FleetAxis& a = *found.axis;
     if (Fleet::outdated(a)) {
-        w.waits = number;  // an older question that waits is not answered any more
+        w.waits = number;  // an older waiting question is not answered any more
         return;
     }
     mirror::State s;

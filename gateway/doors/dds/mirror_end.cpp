@@ -1,5 +1,4 @@
-// Mirror end: reading and writing, one of each at a time.
-// In: readiness of the socket. Out: bytes. A fault of any kind closes it.
+// One read and one write at a time. Any fault closes the socket.
 #include "gateway/doors/dds/mirror_end.hpp"
 
 #include <unistd.h>

@@ -1,6 +1,5 @@
-// Mirror end: the socket of a mirror line at the fleet's side, on the service thread.
-// In: a connected stream; what comes of axes. Out: what Mirror says, written as the hot loop reads it. Never holds more than `waits_most`
-// for a loop that does not read: then the end is closed, and the line begins anew.
+// The socket of a mirror line at the fleet's side, on the service thread. If the hot loop does not read, at most `waits_most` bytes wait;
+// then the end is closed, and the line opens again.
 #pragma once
 
 #include <array>
@@ -40,7 +39,7 @@ private:
     std::function<Instant()> clock_;
     std::array<char, 4096> in_;
     std::string waits_, sending_;
-    std::shared_ptr<char> alive_ = std::make_shared<char>();  // handlers that come later find it gone
+    std::shared_ptr<char> alive_ = std::make_shared<char>();  // later handlers see that it was destroyed
     Mirror mirror_;
 };
 

@@ -1,4 +1,4 @@
-// Axis leases: one command per axis and lease, as a client of another door would give it.
+// One command per axis and lease, as a client of another door would give it.
 #include "gateway/doors/enip/axis_leases.hpp"
 
 #include <utility>

@@ -1,5 +1,5 @@
-// Axis leases: an owner of outputs in run mode holds its axes, so that nobody commands beside it; who takes one over by the site's rules
-// has it for that lease. In: the owner's client and axes, the pictures. Out: HoldAxis commands, whose results nobody waits for.
+// An owner of outputs in run mode holds its axes, so that no other client commands beside it; a client that takes one over by the site's
+// rules has it for that lease. Results of the HoldAxis commands are not waited for.
 #pragma once
 
 #include <span>
@@ -12,10 +12,10 @@ class AxisLeases {
 public:
     AxisLeases(DoorPort& port, std::int64_t lease_s) : port_(port), lease_s_(lease_s) {}
     void use_number(DoorNumber number) noexcept { number_ = number; }
-    /// Takes those that nobody holds; `renews`: prolongs its own, too.
+    /// Takes the axes without a holder; `renews`: prolongs its own leases, too.
     void hold(const Origin& by, std::span<const AxisId> axes, bool renews, Instant now);
     void let_go(const Origin& by, std::span<const AxisId> axes);
-    /// The result belongs to a lease: who holds the axis is seen in its picture.
+    /// True if the result belongs to a lease: the holder is visible in the axis' picture.
     [[nodiscard]] static bool is_mine(Ticket ticket) noexcept { return (ticket & first_ticket) != 0; }
 
 private:

@@ -1,5 +1,5 @@
-// Axis values, the owners of outputs: what connections with implicit data bring becomes commands and set-points of their client, who holds
-// its axes while it runs. In: opening, images, idle, the end. Out: commands, leases, losses.
+// AxisValues, owners of outputs: the data of implicit connections become commands and set-points of their client, which holds its axes
+// while it runs.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ void AxisValues::opened(std::uint32_t output, const cip::Peer& who, Duration tim
         owner.window = std::make_unique<WindowOutput>(port_, image_, writer_, counters_.commands, w->spec, owner.origin);
         for (const auto& [axis, members] : owner.window->members())
             owner.lanes.emplace(axis, OutputLane(members));
-        // Whoever leaves power and halt to others must let them command.
+        // An owner that leaves power and halt to other clients must let them command.
         std::erase_if(owner.held, [&](AxisId axis) {
             const auto it = owner.window->members().find(axis);
             return it != owner.window->members().end() && (it->second & has_controlword) == 0;

@@ -1,5 +1,4 @@
-// Axis values: a lane per axis and owner; a ticket for each command, by which its result finds who asked.
-// In: assemblies, parameters, results. Out: bytes little endian, commands, set-points. Never waits for a drive.
+// One lane per axis and owner; one ticket per command, by which its result finds the sender. Drives are never waited for.
 #include "gateway/doors/enip/axis_values.hpp"
 
 #include <fmt/core.h>
@@ -16,7 +15,7 @@ using cip::Bytes;
 using cip::General;
 
 constexpr std::uint16_t input_registers = bytes_per_axis / 2;
-/// Beyond those of the register writer, whose tickets are the door's as well: place and generation, below 2^48.
+/// Beyond those of the register writer, which share the door's number: place and generation, below 2^48.
 constexpr std::uint64_t own_tickets = std::uint64_t{1} << 48;
 
 std::string text_of_parameter(const Layout& layout, std::uint32_t instance) {
@@ -24,13 +23,13 @@ std::string text_of_parameter(const Layout& layout, std::uint32_t instance) {
     return fmt::format("write of parameter object {}, {}", instance, info ? info->name : "gone");
 }
 
-/// A word that stops or switches off is taken though much waits for the drives.
+/// A word that stops or switches off is accepted even if many commands wait for the drives.
 bool only_stops(const CommandBody& body) {
     const auto* d = std::get_if<ProcessData>(&body);
     return d && d->controlword && (*d->controlword & 0x010F) != 0x000F;
 }
 
-/// Registers of the standard map, big-endian words in the house's order, as little-endian data.
+/// Converts registers of the standard map (big-endian, words in the configured order) to little-endian data.
 void put_little_endian(const std::uint8_t* block, MapWordOrder order, Bytes& to) {
     const std::size_t begin = to.size();
     to.resize(begin + bytes_per_axis);
@@ -54,7 +53,7 @@ Origin origin_of(std::uint32_t output, const cip::Peer& who) {
     Origin o;
     o.door = Door::ethernet_ip;
     o.who = std::make_shared<const std::string>(text_of(who.from));
-    // Each output is a client of its own: the end of one is no loss to the axes of another.
+    // Each output is a client of its own, so that the end of one is no loss for the axes of another.
     o.client = std::make_shared<const std::string>(fmt::format("{} assembly {}", address_text(who.from.address), output));
     return o;
 }
@@ -126,7 +125,7 @@ void AxisValues::read(std::uint32_t instance, Instant now, Bytes& to) {
             if (verdict != registers::Verdict::good) std::ranges::fill(block, std::uint8_t{0});
         }
         if (input) return put_little_endian(block, image_.word_order(), to);
-        // As the standard map lays 32..45 out: one word, one word, five pairs, one word.
+        // The layout of 32..45 in the standard map: one word, one word, five pairs, one word.
         const auto pair = [&](std::size_t at) { cip::put32(to, registers::get32(block + at, image_.word_order())); };
         const auto word = [&](std::size_t at) { cip::put16(to, registers::get16(block + at)); };
         word(0);

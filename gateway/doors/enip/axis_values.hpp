@@ -1,6 +1,5 @@
-// Axis values: the axes behind the EtherNet/IP objects: inputs from the register image, outputs into lanes, parameters by the drive.
-// In: what connections and messages bring, results of commands. Out: data, commands, set-points, the word that an owner is gone.
-// Never a second way to an axis: everything passes the DoorPort. Bounds: `most_asked` parameters on their way, an answer within `patience`.
+// The axes behind the EtherNet/IP objects: inputs from the register image, outputs into lanes, parameters through the drive. Everything
+// passes the DoorPort. Bounds: `most_asked` parameters outstanding, an answer within `patience`.
 #pragma once
 
 #include <functional>
@@ -26,13 +25,13 @@ class AxisValues final : public cip::Values {
 public:
     static constexpr std::size_t most_asked = 1024;
     static constexpr Duration patience = std::chrono::seconds(30), lease_renewal = std::chrono::seconds(5);
-    /// The last one: a word that follows a bad status, the number of the Reason (register 20); 0: none.
+    /// The last argument is the word that follows a bad status, the number of the Reason (register 20); 0: none.
     using Answered = std::function<void(cip::Token, cip::General, cip::View, std::uint16_t)>;
     struct Counters {
         Counter commands, set_points, set_points_refused, parameters;
     };
 
-    /// `told`: where values of parameters go; not called from inside ask() or set().
+    /// `told` gets the values of parameters; it is not called from inside ask() or set().
     AxisValues(DoorPort& port, registers::RegisterImage& image, std::int64_t lease_s);
     void use_number(DoorNumber number) noexcept {
         number_ = number;
@@ -40,13 +39,13 @@ public:
         leases_.use_number(number);
     }
     void use(Answered answered) { answered_ = std::move(answered); }
-    /// The layout of the site in force. Connections whose bytes are others there have been closed; those that are left go on.
+    /// The layout of the site in force. Connections whose bytes differ there have been closed; the others continue.
     void use(Layout layout);
     [[nodiscard]] const Layout& layout() const noexcept { return layout_; }
     [[nodiscard]] const registers::Languages& languages() const noexcept { return image_.languages(); }
 
     void on_result(const Result& result);
-    /// Now and then: what the drives have not answered, leases of who goes on commanding.
+    /// Called periodically: ends requests that drives have not answered, and renews leases.
     void sweep(Instant now);
 
     // --- cip::Values
@@ -78,9 +77,9 @@ public:
                                        bool& later) override;
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
-    /// Who commands by messages. The owner of an implicit connection is none of these: that connection is how it is heard.
+    /// The clients that command by messages. The owner of an implicit connection is not among them, because its connection is monitored.
     [[nodiscard]] const MessageClients& message_clients() const noexcept { return clients_; }
-    /// The gateway itself ends its sessions: nobody has gone.
+    /// The gateway itself ends its sessions: no client has gone.
     void forget_message_clients() noexcept { clients_.clear(); }
 
 private:
@@ -88,12 +87,12 @@ private:
         Origin origin;
         Duration good_for{};
         std::map<AxisId, OutputLane> lanes;
-        std::vector<AxisId> axes;              ///< all that it commands
-        std::vector<AxisId> held;              ///< of them, those that nobody else may command while it runs
+        std::vector<AxisId> axes;              ///< all axes that it commands
+        std::vector<AxisId> held;              ///< those of them that no other client may command while it runs
         bool runs = false;                     ///< in run mode
-        std::unique_ptr<WindowOutput> window;  ///< of an assembly of the site's own
+        std::unique_ptr<WindowOutput> window;  ///< of one of the site's own assemblies
     };
-    /// A write of an attribute, until all that it ordered has been answered.
+    /// A write of an attribute, until all of its commands have been answered.
     struct OwnWrite final : registers::WriteOwner {
         OwnWrite(AxisValues& of, cip::Token t, Origin by) : values(of), token(t), origin(std::move(by)) { values.lost_.begun(origin); }
         ~OwnWrite() override { values.lost_.answered(origin); }
@@ -106,10 +105,10 @@ private:
         std::uint16_t left = 0;
         cip::General general = cip::General::success;  ///< the first bad one
     };
-    /// A write of an output of axes, the same.
+    /// The same for a write of an output of axes.
     struct MessageWrite {
         void note(Reason why);
-        /// True: it was the last answer.
+        /// Returns true for the last answer.
         [[nodiscard]] bool answered(const Result& result);
         std::uint16_t left = 0, extended = 0;
         cip::General general = cip::General::success;
@@ -125,9 +124,9 @@ private:
         ProcessData data;
         Instant until{};
     };
-    /// Of a message: the connection's own where it commands this axis, so that one controller is one client.
+    /// For a message: the connection's client if it commands this axis, so that one controller is one client.
     [[nodiscard]] Origin origin_for(AxisId axis, const cip::Peer& who) const;
-    /// The same, of one that commands: from here on it can be lost.
+    /// The same for a commanding message: from here on its client can be lost.
     [[nodiscard]] Origin commander_for(AxisId axis, const cip::Peer& who);
     [[nodiscard]] bool submit(AxisId axis, CommandBody body, Asked asked, Instant now);
     void carry_out(std::uint32_t output, Owner& owner, AxisId axis, OutputLane::Step step, Instant now);
@@ -137,7 +136,7 @@ private:
 
     DoorPort& port_;
     registers::RegisterImage& image_;
-    registers::RegisterWriter writer_;  // of windows and attributes; its log of refusals and registers 20 and 21 are everybody's
+    registers::RegisterWriter writer_;  // of windows and attributes; its events of refusals and registers 20 and 21 are used by all
     AxisLeases leases_;
     LostClients lost_;
     DoorNumber number_ = 0;
@@ -146,7 +145,7 @@ private:
     mutable std::map<std::uint16_t, std::vector<registers::MapValue>> shown_;  // by instance
     std::map<std::uint32_t, Owner> owners_;                                    // by output assembly
     std::map<Ticket, Asked> asked_;
-    std::map<cip::Token, OwnWrite> own_writes_;          // at most most_asked, with the next
+    std::map<cip::Token, OwnWrite> own_writes_;          // at most most_asked, including the next one
     std::map<cip::Token, MessageWrite> message_writes_;  // of outputs of axes
     MessageClients clients_;
     std::size_t questions_ = 0;
@@ -159,7 +158,7 @@ private:
 [[nodiscard]] std::string text_of(cip::Endpoint endpoint);
 [[nodiscard]] std::string address_text(std::uint32_t address);
 [[nodiscard]] cip::General general_of(Reason reason) noexcept;
-/// Whose commands an output's connection gives: each output is a client of its own.
+/// The client of an output's connection: each output is a client of its own.
 [[nodiscard]] Origin origin_of(std::uint32_t output, const cip::Peer& who);
 
 }  // namespace axisgate::enip

@@ -1,5 +1,4 @@
-// Counters: one line for each thing that an installer asks about: who is refused, what is dropped, what timed out.
-// In: counters. Out: text. Never counts anything itself.
+// One line for each question of an installer: refused clients, dropped data, time-outs.
 #include "gateway/doors/enip/counters.hpp"
 
 #include <fmt/core.h>

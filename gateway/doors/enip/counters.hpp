@@ -1,5 +1,4 @@
-// Counters: the EtherNet/IP door's counters in the text format of Prometheus.
-// In: the adapter's, the values' and the server's counters. Out: text. Any thread: what is read here are Counters alone.
+// The EtherNet/IP door's counters in the text format of Prometheus. Any thread, because only Counters are read.
 #pragma once
 
 #include <string>
@@ -9,7 +8,7 @@
 
 namespace axisgate::enip {
 
-/// `accepts_postponed`: how often a TCP connection had to wait for a descriptor.
+/// `accepts_postponed` counts TCP connections that had to wait for a descriptor.
 [[nodiscard]] std::string metrics_text(const cip::Adapter& adapter, const AxisValues::Counters& values, const Counter& accepts_postponed);
 
 }  // namespace axisgate::enip

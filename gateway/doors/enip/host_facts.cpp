@@ -1,5 +1,5 @@
-// Host facts: one walk over the interfaces, when the door is opened.
-// In: an address. Out: facts. The serial number is made of the hardware address, or of the host's name where there is none.
+// Reads the interfaces once, when the door is opened. The serial number is derived from the hardware address, or from the host's name if
+// there is none.
 #include "gateway/doors/enip/host_facts.hpp"
 
 #include <arpa/inet.h>

@@ -1,5 +1,5 @@
-// Layout: instances by axis number, parameters by axis and catalogue. Axes of one catalogue share its list.
-// In: a site's axes. Out: the description. Never depends on the order in which axes were added.
+// Instances by axis number, parameters by axis and catalogue; axes of one catalogue share its list. The order in which axes were added has
+// no effect.
 #include "gateway/doors/enip/layout.hpp"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ Span span_of(DataType type) noexcept {
     }
 }
 
-/// A bound that is no number of the type stands at its nearest end.
+/// A bound that the type cannot represent is replaced by the type's nearest end.
 Bytes bound(const std::optional<double>& value, double otherwise, DataType type) {
     if (type == DataType::short_string) return {};
     const Span s = span_of(type);
@@ -166,7 +166,7 @@ Layout::List Layout::list_of(const Catalogue& catalogue) {
 }
 
 namespace {
-/// Of a range of a unit's registers: the entries that touch it, in the words of the site's document, without what is for people alone.
+/// The entries that touch a range of a unit's registers, as in the site's document, without members for people.
 std::string content_of(const Site& site, const AssemblySpec& a) {
     std::string text;
     const auto add = [&](boost::json::object entry) {
@@ -217,11 +217,11 @@ Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, con
     std::ranges::sort(windows_, {}, [](const LayoutWindow& w) { return w.spec.instance; });
     std::erase_if(axes_, [](const LayoutAxis& a) { return a.number == 0; });
     std::ranges::sort(axes_, {}, &LayoutAxis::number);
-    device_.vendor = 0xFFFF;  // no number of an association is claimed
+    device_.vendor = 0xFFFF;  // no number of an organization is claimed
     device_.device_type = 0x0C;
     device_.product_code = 1;
-    // The device's own, whatever the site is: an originator's electronic key asks which device it is. What its program was made for is
-    // compared where a connection is opened, by the assemblies that it names and their sizes.
+    // The device's own revision for every site, because an originator's electronic key asks which device it is. Whether its program fits is
+    // checked when a connection is opened, by the assemblies that it names and their sizes.
     device_.major = device_major;
     device_.minor = device_minor;
     device_.consistency = static_cast<std::uint16_t>(mapping_revision ^ mapping_revision >> 16);
@@ -276,7 +276,7 @@ bool Layout::same_bytes(std::uint32_t instance, const Layout& there) const {
     if (here_info->role != there_info->role || here_info->size != there_info->size) return false;
     const LayoutWindow *const w = window(instance), *const x = there.window(instance);
     if (w || x) return w && x && w->axes == x->axes && w->content == x->content;
-    // An axis that was made anew is another one, though it looks the same.
+    // An axis that was made anew is another one, although it looks the same.
     const Range r = range_of(instance), s = there.range_of(instance);
     if (r.first != s.first || r.count != s.count) return false;
     for (std::uint16_t i = 0; i < r.count; ++i) {

@@ -1,7 +1,5 @@
-// Layout: what the EtherNet/IP device is made of by the site in force: its name, its assemblies, its parameters.
-// In: axes with their catalogues, the revision of the mapping (the device's configuration consistency value), facts of the host. Out: the
-// description that objects and EDS show. Never a value of an axis. Parameters are numbered through, axis after axis; 65535 at most, those
-// beyond are not served.
+// The EtherNet/IP device for the site in force: name, assemblies, parameters, as objects and EDS describe them. It contains no values.
+// Parameters are numbered consecutively, axis after axis; at most 65535, further ones are not served.
 #pragma once
 
 #include <map>
@@ -27,15 +25,15 @@ struct LayoutAxis {
     std::uint16_t number = 0;  ///< 1..1024
     AxisId id = no_axis;
     std::string name;
-    const Catalogue* catalogue = nullptr;  ///< outlives the layout; nullptr: no parameters
+    const Catalogue* catalogue = nullptr;  ///< must outlive the layout; nullptr: no parameters
 };
-/// An assembly that shows or takes a range of a unit's registers.
+/// An assembly for a range of a unit's registers.
 struct LayoutWindow {
     AssemblySpec spec;
     std::vector<AxisId> axes;
     std::string name;           ///< for people
     std::uint16_t partner = 0;  ///< of an output
-    std::string content;        ///< what stands in its bytes, as text to compare: mappings of the range, or the profile
+    std::string content;        ///< the content of its bytes, as text for comparison: mappings of the range, or the profile
 };
 [[nodiscard]] std::vector<LayoutWindow> windows_of(const SiteState& site);
 /// Classes of another maker's device: an instance of them is a profile.
@@ -49,7 +47,7 @@ struct LayoutObjects {
 [[nodiscard]] std::vector<LayoutObjects> objects_of(const SiteState& site, const registers::Languages& pages);
 struct HostFacts {
     std::string host_name;
-    std::uint32_t address = 0, mask = 0, router = 0;  ///< as numbers of the host
+    std::uint32_t address = 0, mask = 0, router = 0;  ///< in host byte order
     std::array<std::uint8_t, 6> mac{};
     std::uint32_t serial = 1;
     std::uint16_t port = 44818, io_port = 2222;
@@ -72,12 +70,12 @@ public:
         Point point;
     };
     [[nodiscard]] ParameterPlace place_of(std::uint32_t instance) const;
-    /// Axes that an assembly shows or commands, by number from `first` on; numbers that no axis has are gaps.
+    /// The axes of an assembly, by number from `first` on; numbers without an axis are gaps.
     struct Range {
         std::uint16_t first = 0, count = 0;
     };
     [[nodiscard]] Range range_of(std::uint32_t instance) const;
-    /// `each(i, id)` for all axes that an assembly shows or commands, in the order of its bytes; no_axis: a gap.
+    /// Calls `each(i, id)` for all axes of an assembly in the order of its bytes; no_axis: a gap.
     template <class Each>
     void each_axis(std::uint32_t instance, Each&& each) const {
         if (const auto* w = window(instance)) {
@@ -102,17 +100,17 @@ public:
     /// nullptr: no axis has this number.
     [[nodiscard]] const LayoutAxis* axis(std::uint16_t number) const;
     [[nodiscard]] const std::vector<LayoutAxis>& axes() const noexcept { return axes_; }
-    /// nullptr: this assembly is none of the site's own.
+    /// nullptr: this assembly is not one of the site's own.
     [[nodiscard]] const LayoutWindow* window(std::uint32_t instance) const;
     [[nodiscard]] const std::vector<LayoutObjects>& objects() const noexcept { return objects_; }
     struct ObjectRow {
         const LayoutObjects* object = nullptr;
         const registers::LanguageRow* row = nullptr;
     };
-    /// Attribute 0: whether there is the instance, with any row of the class.
+    /// Attribute 0: whether the instance exists, with any row of the class.
     [[nodiscard]] ObjectRow object_row(std::uint32_t class_id, std::uint32_t instance, std::uint32_t attribute) const;
     [[nodiscard]] std::uint32_t mapping_revision() const noexcept { return mapping_revision_; }
-    /// Whether this assembly has the same bytes there: size, what each of them is, and whose.
+    /// True if this assembly has the same bytes there: size, meaning and axis of each.
     [[nodiscard]] bool same_bytes(std::uint32_t instance, const Layout& there) const;
     /// For people: "axis feeder to the originator".
     [[nodiscard]] std::string name_of(std::uint32_t instance) const;
@@ -139,7 +137,7 @@ private:
 /// The electronic data sheet of a layout.
 [[nodiscard]] std::string eds_of(const Layout& layout);
 
-/// A value as CIP has it, and back. Nothing: it does not fit its type.
+/// A value in CIP's form, and back. Empty if it does not fit its type.
 [[nodiscard]] std::optional<cip::Bytes> to_bytes(const Value& value, cip::DataType type);
 [[nodiscard]] std::optional<Value> from_bytes(cip::View bytes, cip::DataType type);
 

@@ -1,4 +1,4 @@
-// Lost clients: commands are counted by client; the loss of one that has some is kept until their count is zero.
+// Commands are counted by client; the loss of a client with outstanding ones is kept until their number is zero.
 #include "gateway/doors/enip/lost_clients.hpp"
 
 namespace axisgate::enip {

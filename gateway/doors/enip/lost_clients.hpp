@@ -1,6 +1,5 @@
-// Lost clients: tells that a client is gone, and again when what it had sent before has been answered: a controller that says goodbye while
-// its last command is on its way to the drive would else leave behind what that command begins.
-// In: commands begun and answered, losses. Out: DoorPort::client_lost. Bounded by the commands that are on their way.
+// Reports that a client is gone, and again when its outstanding commands have been answered: a controller that disconnects while its last
+// command is on its way would otherwise leave the motion that this command begins. Bounded by the outstanding commands.
 #pragma once
 
 #include <functional>
@@ -14,7 +13,7 @@ namespace axisgate::enip {
 
 class LostClients {
 public:
-    /// `back`: it commands again by another way; then nothing is told a second time.
+    /// `back` says whether the client commands again by another way; then nothing is reported a second time.
     LostClients(DoorPort& port, std::function<bool(const AuthorityClient&)> back) : port_(port), back_(std::move(back)) {}
     void begun(const Origin& by) { ++on_their_way_[AuthorityClient::of(by).name]; }
     void answered(const Origin& by);

@@ -1,4 +1,4 @@
-// Message clients: a short list, looked through from its begin: few controllers command by messages.
+// A short list with linear search, because few controllers command by messages.
 #include "gateway/doors/enip/message_clients.hpp"
 
 #include <algorithm>

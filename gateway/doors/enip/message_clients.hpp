@@ -1,6 +1,5 @@
-// Message clients: who commands by EtherNet/IP messages, and by which sessions and connections.
-// In: each command with the way by which it came, each end of a way. Out: the client whose last way has ended. Pure.
-// Bounds: a way is a session or a connection of explicit messages, of which the adapter has at most so many.
+// The clients that command by EtherNet/IP messages, with their sessions and connections; returns the client whose last one has ended. Pure.
+// Bounded by the adapter's number of sessions and connections of explicit messages.
 #pragma once
 
 #include <string>
@@ -13,12 +12,12 @@ namespace axisgate::enip {
 
 class MessageClients {
 public:
-    /// This client has commanded by this way. A datagram is no way: it carries no commands.
+    /// This client has commanded by this session or connection. Datagrams carry no commands.
     void commanded(const AuthorityClient& who, const cip::Peer& way);
-    /// A session (its connection is 0: all that came by it) or one of its connections has ended. Those who commanded by it and have no
-    /// other way left; they are forgotten.
+    /// A session (its connection is 0: everything of it) or one of its connections has ended. Returns the clients that commanded by it and
+    /// have no other one; they are forgotten.
     [[nodiscard]] std::vector<AuthorityClient> ended(const cip::Peer& way);
-    /// The sessions by which this client has commanded; none: it is none of these.
+    /// The sessions by which this client has commanded; empty for other clients.
     [[nodiscard]] std::vector<cip::SessionKey> sessions_of(const AuthorityClient& who) const;
     [[nodiscard]] bool knows(const AuthorityClient& who) const noexcept;
     [[nodiscard]] bool commands_by(cip::SessionKey session) const noexcept;

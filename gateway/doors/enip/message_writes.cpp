@@ -1,5 +1,5 @@
-// Axis values, outputs written by messages: each write is answered when all that it ordered has been answered, by what was said of it;
-// whoever commands so is a client that can be lost. In: writes, results, ends of sessions. Out: commands, late answers, losses.
+// AxisValues, outputs written by messages: each write is answered when all of its commands have been answered; its sender is a client that
+// can be lost.
 #include <algorithm>
 
 #include "gateway/doors/enip/axis_values.hpp"
@@ -8,7 +8,7 @@ namespace axisgate::enip {
 namespace {
 using cip::General;
 
-/// An output is there and can be set: what speaks against this write is its value, the state of the device, or somebody who holds it.
+/// The output exists and can be set, so a refusal concerns the value, the state of the device, or another holder.
 General of_output(Reason why) {
     switch (why) {
         case Reason::authority:

@@ -1,5 +1,5 @@
-// Output lane: the last word that was sent is compared with the newest one; between them nothing is kept.
-// In: wanted registers. Out: what has changed. Never sends a value without a mode or word that uses it.
+// Compares the last word that was sent with the newest one; images in between are not kept. A value is never sent without a mode or word
+// that uses it.
 #include "gateway/doors/enip/output_lane.hpp"
 
 #include "gateway/axis/cia402.hpp"
@@ -75,7 +75,7 @@ void overlay(Wanted& w, const ProcessData& d) noexcept {
     w.homing_method = d.homing_method.value_or(w.homing_method);
 }
 
-/// What the first image wanted counts when it wants something else, or when the originator itself enables the axis or ends its halt.
+/// A value of the first image counts when it changes, or when the originator itself enables the axis or ends its halt.
 void OutputLane::compare(const Wanted& image, const AxisPicture& axis) {
     constexpr std::uint16_t halt = cia402::cw_halt;
     if (!any_) {
@@ -151,7 +151,7 @@ OutputLane::Step OutputLane::next() {
         any = true;
     };
     put(has_controlword, d.controlword, wanted_.controlword, sent_.controlword);
-    // A profile takes its values with an edge; a speed and its ramps are followed as they change, one command at a time.
+    // A profile takes its values at an edge; a speed and its ramps are followed as they change, one command at a time.
     const bool edge = !streamed && (word || mode), follows = !streamed && wanted_.mode == velocity_mode && on_their_way_ == 0;
     if (edge) {
         put(has_mode, d.mode, wanted_.mode, sent_.mode);

@@ -1,10 +1,9 @@
-// Output lane: what becomes of the 32 bytes that an originator renews for one axis: edges are commands, what is streamed are set-points.
-// In: registers 32..45 as they were sent, the axis' picture. Out: a ProcessData where something has changed, a SetPoint in modes 8 and 9.
-// The first image is handed on whole, zeros too: a control word of 0 switches off what others have switched on.
-// Never moves anything by the first image: bits 4 and 7 of its control word count as held until they were low once, an axis that stands
-// halted stays so, and its speed and positions are a base: another one counts. Values wait while a command is on its way; a word does not.
-// Where a drive begins to answer, or another drive, channel or twin speaks for the axis, the next image is a first one: what was sent was
-// sent to nobody, or to the one before.
+// Turns the 32 bytes that an originator renews for one axis (registers 32..45) into commands at changes, and into set-points in modes 8 and
+// 9. The first image is passed on as a whole, including zeros: a control word of 0 switches off an axis that others have switched on. The
+// first image never moves anything: bits 4 and 7 of its control word count as held until they were low once, an axis that stands halted
+// stays so, and its speed and positions are a base, so that only other values count. Values wait while a command is outstanding; a word
+// does not. When a drive begins to answer, or another drive, channel or twin serves the axis, the next image is a first one, because the
+// earlier ones were not meant for it.
 #pragma once
 
 #include <optional>
@@ -26,7 +25,7 @@ struct Wanted {
     std::int16_t homing_method = 0;
     bool operator==(const Wanted&) const = default;
 };
-/// Members of it that an output has; what it has not is never sent, and its mode is the axis' own.
+/// The members that an output has; others are never sent, and a missing mode is that of the axis.
 enum WantedMember : std::uint8_t {
     has_controlword = 1,
     has_mode = 2,
@@ -38,13 +37,13 @@ enum WantedMember : std::uint8_t {
     has_homing_method = 128,
     has_all = 255
 };
-/// None: it is no set-point.
+/// 0 if the point is not a set-point.
 [[nodiscard]] std::uint8_t member_of(AxisPoint point) noexcept;
-/// The members that `data` has replace those of `wanted`.
+/// The members in `data` replace those of `wanted`.
 void overlay(Wanted& wanted, const ProcessData& data) noexcept;
-/// Of 32 bytes.
+/// `bytes` has 32 bytes.
 [[nodiscard]] Wanted read_wanted(cip::View bytes) noexcept;
-/// All of it, for a write that stands by itself.
+/// All members, for a single write.
 [[nodiscard]] ProcessData all_of(const Wanted& wanted) noexcept;
 
 class OutputLane {
@@ -53,13 +52,13 @@ public:
     explicit OutputLane(std::uint8_t members = has_all) : members_(members) {}
     struct Step {
         std::optional<ProcessData> command;
-        std::optional<SetPoint> set_point;  ///< axis, times and origin are the caller's
+        std::optional<SetPoint> set_point;  ///< the caller sets axis, times and origin
     };
-    /// From here on as if nothing had been sent.
+    /// Starts again as if nothing had been sent.
     void reset() { *this = OutputLane(members_); }
     [[nodiscard]] Step take(const Wanted& wanted, const AxisPicture& axis);
-    /// A command of step() was handed on / has its result: then what waited may go. Not taken: its values are not known to the axis, and go
-    /// with the next image that differs; the same image is not refused again and again.
+    /// A command of step() was passed on, or has its result: then waiting values may be sent. If it was refused, its values are unknown to
+    /// the axis and are sent with the next different image; the same image is not refused again and again.
     void begun() noexcept { ++on_their_way_; }
     [[nodiscard]] Step done(bool taken);
 
@@ -68,15 +67,15 @@ private:
     [[nodiscard]] Step next();
     [[nodiscard]] bool has(WantedMember m) const noexcept { return (members_ & m) != 0; }
     std::uint8_t members_;
-    Wanted base_, newest_;  // images as they came: the first, and the one before the newest
+    Wanted base_, newest_;  // received images: the first, and the one before the newest
     Wanted wanted_;
-    std::optional<Wanted> refused_;  // what was wanted when a command came back that was not taken
-    ProcessData sent_;               // what was handed on last; what never was is not known to the axis, not 0
+    std::optional<Wanted> refused_;  // the values of the last refused command
+    ProcessData sent_;               // the values passed on last; values that were never passed on are unknown to the axis, not 0
     std::uint16_t held_ = 0;         // bits that were set from the start
     bool halt_held_ = false;         // the axis stood halted at the start, and the first word would have released it
     bool speed_counts_ = false, stream_counts_ = false;
     std::uint32_t on_their_way_ = 0;
-    std::uint32_t source_ = 0;  // who spoke for the axis when something was sent last; 0: nobody yet
+    std::uint32_t source_ = 0;  // the serving side at the last command; 0: none yet
     bool any_ = false;
 };
 

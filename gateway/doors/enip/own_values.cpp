@@ -1,6 +1,5 @@
-// Axis values, the classes of another maker's device: an attribute is a register of a profile, read and written as over Modbus.
-// In: classes, instances, attributes. Out: values little endian, at once; a write is answered when what it ordered is. Never a second
-// translator: the unit's map says what a register means.
+// AxisValues, the classes of another maker's device: an attribute is a register of a profile, read and written as over Modbus. The unit's
+// map defines the meaning of a register, so there is no second translation.
 #include <algorithm>
 
 #include "gateway/doors/enip/axis_values.hpp"
@@ -106,7 +105,7 @@ General AxisValues::set_own(const OwnPlace& place, cip::View value, cip::Token t
                                      found.row->address, found.row->width(), words, note, now);
     auto why = map->take_refused();
     const Reason reason = why.reason;
-    // A language may take a write and say in its own error word that it did not do it.
+    // A language may accept a write and report in its own error word that it was not carried out.
     if (reason != Reason::none) writer_.refused(*origin.who, std::move(why), note, {}, now);
     if (begun.verdict == Verdict::good && begun.outstanding > 0) {
         it->second.left = begun.outstanding;

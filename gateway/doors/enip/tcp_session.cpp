@@ -1,5 +1,4 @@
-// TCP session: a request costs one recv and one send; only what the kernel does not take waits for the socket.
-// In: readiness. Out: bytes. Never reads on while its answers wait.
+// A request costs one recv and one send; only bytes that the kernel does not accept wait for the socket. Reading stops while answers wait.
 #include "gateway/doors/enip/tcp_session.hpp"
 
 #include <sys/epoll.h>
@@ -17,15 +16,15 @@ bool would_block() noexcept { return errno == EAGAIN || errno == EWOULDBLOCK || 
 void TcpSession::on_ready(std::uint32_t events) {
     if (!open_) return end();
     if (!unsent_.empty()) {
-        // Whoever hangs up while answers wait for him is not watched for reading: his end is told with these.
+        // A peer that has closed while answers wait is not watched for reading; its end is reported together with these.
         if (events & (EPOLLOUT | EPOLLERR | EPOLLHUP)) write();
     } else if (events & (EPOLLIN | EPOLLRDHUP | EPOLLERR | EPOLLHUP)) {
         read((events & (EPOLLRDHUP | EPOLLERR | EPOLLHUP)) != 0);
     }
 }
 
-/// Readiness is told when something comes, not as long as something is there: that spares the kernel a second look at the socket for each
-/// request. Where one read may have left something it is asked for again, behind the others that are ready.
+/// Readiness is reported when bytes arrive, and not as long as bytes are available, which saves the kernel a second check of the socket for
+/// each request. If a read may have left bytes, it is scheduled again, behind the other ready sockets.
 void TcpSession::read(bool other_end_gone) {
     std::array<std::uint8_t, 4096> bytes;
     const auto n = ::recv(fd_, bytes.data(), bytes.size(), 0);
@@ -36,8 +35,8 @@ void TcpSession::read(bool other_end_gone) {
     if (!open_) end();
 }
 
-/// Whoever waits for an answer is woken by the first that goes out. When all of a turn's go together he finds the others there, instead of
-/// being woken for each.
+/// A peer that waits is woken by the first answer. If all answers of a turn are sent together, it finds the others at once instead of being
+/// woken for each.
 void TcpSession::flush() {
     const bool again = std::exchange(asks_again_, false);
     release();
@@ -48,7 +47,7 @@ void TcpSession::flush() {
     }
 }
 
-/// What was gathered goes out; what the kernel does not take waits for it.
+/// Sends the collected bytes; those that the kernel does not accept wait.
 void TcpSession::release() {
     if (!std::exchange(gathers_, false) || !open_ || unsent_.empty()) return;
     push();
@@ -82,7 +81,7 @@ void TcpSession::hang_up() {
     if (!open_) return;
     release();
     open_ = false;
-    (void)::shutdown(fd_, SHUT_RDWR);  // the poller tells of it, and the session ends then
+    (void)::shutdown(fd_, SHUT_RDWR);  // the poller reports it, and the session ends then
 }
 
 void TcpSession::end() {

@@ -1,5 +1,4 @@
-// TCP session: one originator's TCP connection: bytes in, bytes out, and what it does not read.
-// In: a connected non-blocking socket, its readiness. Out: bytes by a callback. Never keeps more unsent than its bound.
+// One originator's TCP connection: received bytes go to a callback, unsent bytes are kept up to a bound.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +13,22 @@ namespace axisgate::enip {
 
 class TcpSession {
 public:
-    static constexpr std::uint32_t watched = EPOLLIN | EPOLLRDHUP | EPOLLET;  ///< what the poller tells of while nothing is unsent
+    static constexpr std::uint32_t watched = EPOLLIN | EPOLLRDHUP | EPOLLET;  ///< the events that the poller reports while nothing is
+                                                                              ///< unsent
 
-    /// Owns `fd`, which `poller` watches for `watched` under `token`. `arrived` gets what came; `ended` is called once, when the other end
-    /// is gone or does not read; it does not destroy the session, which is still busy.
+    /// Owns `fd`, which `poller` watches for `watched` under `token`. `arrived` gets the received bytes; `ended` is called once, when the
+    /// other end is gone or does not read; it must not destroy the session, which is still working.
     TcpSession(int fd, Poller& poller, std::uint64_t token, std::size_t most_unsent, std::function<void(cip::View)> arrived,
                std::function<void()> ended)
         : fd_(fd), poller_(poller), token_(token), most_unsent_(most_unsent), arrived_(std::move(arrived)), ended_(std::move(ended)) {}
     ~TcpSession() { close(); }
     TcpSession(const TcpSession&) = delete;
     TcpSession& operator=(const TcpSession&) = delete;
-    /// What is answered from within waits for `flush`, which belongs to each call.
+    /// Answers given from within wait for `flush`, which must follow each call.
     void on_ready(std::uint32_t events);
     void flush();
     void send(cip::View bytes);
-    /// What was sent still goes out, as far as the kernel takes it.
+    /// Sent bytes are still transmitted, as far as the kernel accepts them.
     void hang_up();
 
 private:
@@ -48,7 +48,7 @@ private:
     cip::Bytes unsent_;
     bool open_ = true;
     bool gathers_ = false;     // from a read to the end of its turn
-    bool asks_again_ = false;  // the read may have left something
+    bool asks_again_ = false;  // the read may have left bytes
 };
 
 }  // namespace axisgate::enip

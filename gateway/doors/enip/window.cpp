@@ -1,5 +1,5 @@
-// Window: values are taken apart by the map behind the unit; what changed is planned value by value, or by a language as one order.
-// In: images. Out: bytes, plans. Never keeps a map: it may be another one after each change of the site.
+// The map of the unit splits the bytes into values; changes are planned value by value, or by a language as one order. No map is kept,
+// because each change of the site may replace it.
 #include "gateway/doors/enip/window.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using registers::MapValue;
 using registers::UnitMap;
 using registers::Verdict;
 
-/// A number's bytes turn round; where its low word stands first, each word does. Its own inverse.
+/// Reverses the bytes of a number; if its low word comes first, those of each word. Its own inverse.
 void turn(const MapValue& v, const std::uint8_t* from, std::uint8_t* to) {
     const std::size_t n = 2 * std::size_t{v.registers};
     if (v.text) {
@@ -98,7 +98,7 @@ WindowWritten write_window(registers::RegisterImage& image, registers::RegisterW
     const Reason why = refused.empty() ? Reason::none : refused.front().reason == Reason::none ? Reason::internal : refused.front().reason;
     for (auto& r : refused)
         writer.refused(*origin.who, std::move(r), note, {}, now);
-    // A language has taken what was not refused; values of a user map wait for each other.
+    // A language has accepted the values that were not refused; values of a user map wait for each other.
     if (why != Reason::none && !map->takes_images()) return {why, 0};
     const auto begun = writer.give(client_of(&owner, origin), 0, *map, plan, note, now);
     return begun.verdict == Verdict::good ? WindowWritten{why, begun.outstanding} : WindowWritten{Reason::busy, 0};
@@ -159,7 +159,7 @@ void WindowOutput::take(cip::View data, Instant now) {
     UnitMap* const map = image_.unit(spec_.unit);
     if (!map || data.size() != spec_.bytes()) return;
     from_assembly(spec_, values_, data.data(), newest_.data());
-    // A language that a change of the site has made anew knows nothing of the images before.
+    // A language that a change of the site has made anew does not know the earlier images.
     if (std::exchange(seen_, map) != map && map->takes_images()) any_ = false;
     const bool first = !std::exchange(any_, true);
     if (map->takes_images()) {

@@ -1,8 +1,7 @@
-// Window: an assembly of the site's own: a range of a unit's registers as bytes, value by value; and an output's way into the register map.
-// In: the assembly, images as an originator renews them. Out: bytes; set-points per axis for the lanes; writes of what is no set-point, by
-// the register writer. Never writes what has not changed, and nothing of the first image: it is a base. A value that is refused spoils
-// itself alone. Bounds: of each parameter one write is on its way, then the newest value waits; the writer's tickets bound the rest (then
-// busy).
+// One of the site's own assemblies: a range of a unit's registers as bytes, value by value; and the way of an output into the register map.
+// Set-points go to the lanes of their axes, other values are written by the register writer. Only changes are written, and nothing of the
+// first image, which is a base. A refused value affects only itself. Bounds: one outstanding write per parameter, then the newest value
+// waits; the writer's tickets bound the rest (then busy).
 #pragma once
 
 #include <map>
@@ -18,23 +17,23 @@
 
 namespace axisgate::enip {
 
-/// Registers as Modbus has them (big-endian, words in each value's order) into the assembly's bytes, and back. Both have 2 * registers
-/// bytes; what belongs to no value is 0.
+/// Converts registers in Modbus form (big-endian, words in each value's order) to the assembly's bytes, and back. Both have 2 * registers
+/// bytes; bytes without a value are 0.
 void to_assembly(const AssemblySpec& a, const std::vector<registers::MapValue>& values, const std::uint8_t* from, std::uint8_t* to);
 void from_assembly(const AssemblySpec& a, const std::vector<registers::MapValue>& values, const std::uint8_t* from, std::uint8_t* to);
 
-/// The values that a read of the assembly shows: of an output, too, those that can be read. Another list after a change of the site.
+/// The values that a read of the assembly shows, also of an output: those that can be read. The list changes with the site.
 [[nodiscard]] std::vector<registers::MapValue> shown_values(registers::RegisterImage& image, const AssemblySpec& a);
-/// Appends the assembly's bytes; zeros where nothing is behind it. `values`: shown_values(). Allocates nothing where `to` has the room.
+/// Appends the assembly's bytes; zeros where nothing is mapped. `values` is shown_values(). Allocates nothing if `to` has the capacity.
 void show_window(registers::RegisterImage& image, const AssemblySpec& a, const std::vector<registers::MapValue>& values, Instant now,
                  cip::Bytes& to);
-/// Another number after each change of what it shows, but for ages and heartbeats.
+/// Changes with each change of the shown values, except ages and heartbeats.
 [[nodiscard]] std::uint64_t window_revision(registers::RegisterImage& image, const AssemblySpec& a,
                                             const std::vector<registers::MapValue>& values, Instant now);
-/// A write of the whole at once, that of a message.
+/// A write of the whole assembly at once, by a message.
 struct WindowWritten {
-    Reason why = Reason::none;      ///< none: every value of it was handed on; else nothing was, but what a language has taken
-    std::uint16_t outstanding = 0;  ///< so many calls of the owner's on_written follow
+    Reason why = Reason::none;      ///< none: every value was passed on; otherwise none was, except those that a language has accepted
+    std::uint16_t outstanding = 0;  ///< number of calls of the owner's on_written that follow
 };
 [[nodiscard]] WindowWritten write_window(registers::RegisterImage& image, registers::RegisterWriter& writer, const AssemblySpec& a,
                                          registers::WriteOwner& owner, const Origin& origin, cip::View data, Instant now);
@@ -47,11 +46,11 @@ public:
     WindowOutput(const WindowOutput&) = delete;
     WindowOutput& operator=(const WindowOutput&) = delete;
 
-    /// Axes whose set-points are in it, with the members that are.
+    /// The axes with set-points in it, and their members.
     [[nodiscard]] const std::map<AxisId, std::uint8_t>& members() const noexcept { return members_; }
-    /// From here on as if nothing had been sent.
+    /// Starts again as if nothing had been sent.
     void reset();
-    /// A new image, as long as the assembly. Then `wanted` has the newest set-points.
+    /// A new image of the assembly's length. `wanted` has the newest set-points afterwards.
     void take(cip::View data, Instant now);
     [[nodiscard]] const Wanted& wanted(AxisId axis) { return wanted_[axis]; }
 
@@ -81,10 +80,10 @@ private:
     };
     std::vector<Write> writes_;  // of values_
     bool any_ = false;
-    const registers::UnitMap* seen_ = nullptr;  // whose image it was
-    registers::WritePlan plan_;                 // kept, so that nothing is allocated for it
-    std::vector<registers::MapValue> changed_;  // as well
-    std::vector<registers::Refused> refused_;   // as well
+    const registers::UnitMap* seen_ = nullptr;  // the map of the last image
+    registers::WritePlan plan_;                 // kept, so that no memory is allocated for it
+    std::vector<registers::MapValue> changed_;  // kept as well
+    std::vector<registers::Refused> refused_;   // kept as well
 };
 
 }  // namespace axisgate::enip

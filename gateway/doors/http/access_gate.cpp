@@ -1,5 +1,5 @@
-// Access gate: reads cookies, Authorization and the headers by which proxies speak for somebody else.
-// In: headers. Out: identities and refusals. Never takes an unknown scheme for no credentials.
+// Reads cookies, Authorization and the headers by which proxies forward requests. An unknown scheme does not count as a request without
+// credentials.
 #include "gateway/doors/http/access_gate.hpp"
 
 #include <fmt/core.h>
@@ -14,7 +14,7 @@
 
 namespace axisgate::http {
 namespace {
-constexpr std::size_t most_cookies = 8;  // of our name; further ones are not looked at
+constexpr std::size_t most_cookies = 8;  // with our name; further ones are ignored
 
 std::vector<std::string_view> cookies_of(const Request& request, std::string_view name) {
     std::vector<std::string_view> out;
@@ -32,7 +32,7 @@ std::vector<std::string_view> cookies_of(const Request& request, std::string_vie
     return out;
 }
 
-/// What proxies, balancers and content networks write when they speak for somebody else.
+/// The headers that proxies, load balancers and content networks add to forwarded requests.
 constexpr std::array<std::string_view, 14> forwarding{"forwarded",           "via",
                                                       "x-real-ip",           "x-client-ip",
                                                       "x-cluster-client-ip", "x-originating-ip",
@@ -46,7 +46,9 @@ bool was_forwarded(const Request& request) {
     if (host_is_outer_address(host_meant(request))) return true;
     for (const auto& [key, value] : request.headers.fields) {
         const char first = key.empty() ? ' ' : static_cast<char>(key.front() | 0x20);
-        if (std::string_view("cfptvx").find(first) == std::string_view::npos) continue;  // most fields of most requests
+        if (std::string_view("cfptvx").find(first) == std::string_view::npos)
+            continue;  // rejects the most frequent fields of most
+                       // requests
         const std::string name = lower(key);
         if (std::ranges::find(forwarding, name) != forwarding.end()) return true;
         if (std::ranges::any_of(forwarding_begins, [&name](auto begin) { return name.starts_with(begin); })) return true;
@@ -61,7 +63,7 @@ Identity identify(AccessPort* port, const Request& request, std::int64_t now_ns,
     c.forwarded = was_forwarded(request);
     if (port) c.cookies = cookies_of(request, port->accounts().settings().cookie);
     if (request.headers.count("Authorization") > 0) {
-        // Any other scheme is a credential that we do not know: it is not taken for nothing.
+        // Any other scheme is an unknown credential, and does not count as none.
         const auto value = trimmed(request.headers.get("Authorization"));
         c.bearer = lower(value.substr(0, 7)) == "bearer " ? trimmed(value.substr(7)) : std::string_view();
     }

@@ -1,5 +1,4 @@
-// Accounts: members of bodies one by one, so that all that is wrong is told at once.
-// In: bodies. Out: documents, answers. Bounds: 20 s for a hash and the disk together.
+// Reads bodies member by member, so that all faults are reported together. Bound: 20 s for a hash and the disk together.
 #include "gateway/doors/http/accounts.hpp"
 
 #include <fmt/core.h>
@@ -9,7 +8,7 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-constexpr std::chrono::seconds longest{20};  // a queue of hashes on a slow processor, and the disk
+constexpr std::chrono::seconds longest{20};  // for the queue of hashes on a slow processor, and the disk
 
 json::value time_or_null(std::int64_t ns) { return ns == 0 ? json::value(nullptr) : json::value(format_time(ns)); }
 }  // namespace

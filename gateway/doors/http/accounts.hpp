@@ -1,5 +1,5 @@
-// Accounts: what the handlers of sessions, users and tokens share: bodies, the session's document, what is said where there are none.
-// In: calls. Out: documents and answers. Never holds a password longer than a call and the hash that it becomes.
+// The common parts of the handlers of sessions, users and tokens: bodies, the session's document, the answer of a door without users. A
+// password is kept only for the call and until its hash is made.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -15,11 +15,11 @@
 
 namespace axisgate::http {
 
-/// A body's members; each fault becomes part of one 422.
+/// The members of a body; all faults together become one 422.
 class BodyReader {
 public:
     BodyReader(const boost::json::object& body, std::initializer_list<std::string_view> known);
-    /// Nothing if it is not there, or not a text of at most `most` bytes (then a fault). `needed`: absence is a fault.
+    /// Empty if it is absent, or not a text of at most `most` bytes (then a fault). `needed`: absence is a fault.
     std::optional<std::string> text(std::string_view key, bool needed, std::size_t most = 1024);
     std::optional<bool> flag(std::string_view key);
     std::optional<Role> role(std::string_view key, bool needed);
@@ -32,14 +32,14 @@ public:
 private:
     const boost::json::object& body_;
     std::vector<Fault> faults_;
-    std::size_t more_ = 0;  ///< beyond those that are told; nobody has signed in yet, so they are not even kept
+    std::size_t more_ = 0;  ///< faults beyond the limit are only counted, because the client has not signed in yet
 };
 
 /// The answer of /session.
 [[nodiscard]] boost::json::object session_document(AccessPort* port, const Identity& identity);
 /// 503: the door has no users; for the handlers that need them.
 [[nodiscard]] Response no_accounts();
-/// A promise for what waits for a hash and the disk.
+/// A promise for requests that wait for a hash and the disk.
 [[nodiscard]] Handled soon();
 
 }  // namespace axisgate::http

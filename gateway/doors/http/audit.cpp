@@ -1,5 +1,4 @@
-// Audit: the words of events about requests.
-// In: requests, answers. Out: events. Never reads a body.
+// The texts of events about requests. Bodies are not read.
 #include "gateway/doors/http/audit.hpp"
 
 #include <fmt/core.h>
@@ -8,7 +7,7 @@
 
 namespace axisgate::http {
 namespace {
-constexpr std::size_t most_path_bytes = 200;  // of a stranger's path
+constexpr std::size_t most_path_bytes = 200;  // of the path of an unknown client
 
 Event event_of(const Audit::Asked& asked, std::string_view kind, Severity severity, std::string text) {
     Event e;

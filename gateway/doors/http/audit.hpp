@@ -1,6 +1,5 @@
-// Audit: what this door writes down by itself: changes that nobody else tells of, and refusals.
-// In: requests as they were asked, their answers. Out: events. A refusal is one of 401 or 403, or a 409 to what would change something;
-// bounded as EventRows says, with strangers' requests in one row whatever they asked for. Never holds a body, a query or a header.
+// The events of the HTTP door itself: changes that no service reports, and refusals (401, 403, or a 409 to a request that would change
+// something). They are bounded by EventRows, with all requests of unknown clients in one row. They contain no body, query or header.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace axisgate::http {
 
 class Audit {
 public:
-    /// Rows of a page that asks on without a session, or of a scraper without a token, go on for days.
+    /// Rows of a page that continues without a session, or of a scraper without a token, last for days.
     static constexpr Duration row_period = std::chrono::minutes(1);
 
     explicit Audit(EventPort& events)
@@ -27,16 +26,16 @@ public:
         bool changes = false;  ///< neither GET nor HEAD
         std::string what;      ///< "POST /api/v1/axes/feeder/commands", without the query
         std::string who, peer;
-        std::string_view kind{};  ///< of the event that a good answer is; empty: somebody else tells of it
+        std::string_view kind{};  ///< of the event for a good answer; empty: another part reports it
         std::string told{};       ///< its text
     };
     [[nodiscard]] static bool is_refusal(unsigned status, bool changes) noexcept {
         return status == 401 || status == 403 || (status == 409 && changes);
     }
     void answered(const Asked& asked, const Response& response, Instant now);
-    /// Tells the counts of rows that have lasted. To be called now and then.
+    /// Reports the counts of rows that have lasted for the period. Must be called periodically.
     void flush(Instant now) { refusals_.flush(now); }
-    /// Refusals without an event of their own.
+    /// Number of refusals without an event of their own.
     [[nodiscard]] std::uint64_t counted_only() const noexcept { return refusals_.counted_only(); }
 
 private:
@@ -44,7 +43,7 @@ private:
     EventRows refusals_;
 };
 
-/// "POST /api/v1/lines", shortened where it is long.
+/// "POST /api/v1/lines", shortened if it is long.
 [[nodiscard]] std::string what_is_asked(const Request& request);
 
 }  // namespace axisgate::http

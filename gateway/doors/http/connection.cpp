@@ -1,6 +1,5 @@
-// Connection: Beast parses requests; the text of every answer's head is made here, and leaves in one gathered write with the body.
-// In: bytes. Out: bytes. What is read after a last answer is thrown away for a while, so that the answer is not lost in a reset.
-// Never takes a line end within a header's value.
+// Beast parses requests; the head of every answer is made here, and is sent in one gathered write with the body. After a last answer,
+// received bytes are discarded for a while, so that the answer is not lost in a reset. A header's value never contains a line end.
 #include "gateway/doors/http/connection.hpp"
 
 #include <fmt/format.h>
@@ -18,15 +17,16 @@ namespace axisgate::http {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace {
-constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the request that is answered
+constexpr std::size_t most_buffered = 64 * 1024;         // read ahead of the present request
 constexpr std::size_t first_read_bytes = 4 * 1024;       // of a request; an idle connection holds them
-constexpr int most_empty_lines = 2;                      // in front of a request, sent by themselves
+constexpr int most_empty_lines = 2;                      // before a request, sent by themselves
 constexpr std::uint8_t tls_handshake_record = 0x16;      // RFC 8446 5.1
 constexpr std::size_t least_bytes_per_ms = 16;           // an answer of 1 MiB may take about a minute more than the limit of a step
-constexpr std::size_t small_bytes = 64 * 1024;           // of a body or an answer that is not counted: so much a connection may always have
+constexpr std::size_t small_bytes = 64 * 1024;           // of a body or an answer that is not counted: every connection may always have
+                                                         // this much
 constexpr std::size_t usual_head_bytes = 768;            // of an answer
-constexpr std::size_t written_at_once = 64 * 1024;       // of an answer, then others have their turn
-constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and thrown away so that the last answer arrives
+constexpr std::size_t written_at_once = 64 * 1024;       // of an answer, then other connections have their turn
+constexpr std::size_t most_discarded = 2 * 1024 * 1024;  // read and discarded so that the last answer arrives
 
 /// RFC 9110 5.6.7: "Sun, 06 Nov 1994 08:49:37 GMT". Made once per second and thread.
 const std::string& http_date(std::int64_t unix_s) {
@@ -57,7 +57,7 @@ std::string response_head(const Response& r, bool keep, std::int64_t now_unix_s)
     for (const auto& [k, v] : r.headers.fields) {
         s += k;
         s += ": ";
-        // A line end in a value would begin a header of its own.
+        // A line end in a value would begin another header.
         const auto begin = static_cast<std::ptrdiff_t>(s.size());
         s += v;
         std::replace_if(
@@ -86,7 +86,7 @@ void Connection::start() {
     await_request();
 }
 
-/// Looks at the first byte without taking it: a TLS record of a handshake begins with 0x16, no HTTP request does.
+/// Peeks at the first byte: a TLS record of a handshake begins with 0x16, no HTTP request does.
 void Connection::await_handshake() {
     phase_ = Phase::handshake;
     since_ = std::chrono::steady_clock::now();
@@ -119,7 +119,7 @@ Guest Connection::guest() const {
     Guest g;
     g.holder = holder_;
     g.since = Instant{since_.time_since_epoch()};
-    // Half a request and an answer that is not read are silence as well: else a few slow clients could hold all places.
+    // Half a request and an unread answer count as silence, because a few slow clients could otherwise occupy all places.
     const bool works = phase_ == Phase::answering || (known_ && phase_ == Phase::writing);
     g.standing = stop_path_ ? Standing::stop_path
                  : known_   ? (works ? Standing::knowns_work : Standing::known)
@@ -137,7 +137,7 @@ void Connection::stop() {
         case Phase::body:
         case Phase::lingering:
             return close();
-        case Phase::answering:  // who still waits then hears what he would have heard at his own limit
+        case Phase::answering:  // a waiting client gets the answer of its own time limit
             set_timer(std::min<std::chrono::nanoseconds>(host_->settings.answer_limit_at_stop, due_ - std::chrono::steady_clock::now()));
             return;
         case Phase::writing:
@@ -206,8 +206,8 @@ void Connection::on_timer() {
 void Connection::await_request() {
     if (stopping_ || host_->stopping) return close();
     parser_.emplace();
-    parser_->header_limit(static_cast<std::uint32_t>(2 * host_->settings.max_header_bytes));  // scan_head keeps the bound, to the byte
-    parser_->body_limit(boost::none);  // on_header says how much, before any of it is read
+    parser_->header_limit(static_cast<std::uint32_t>(2 * host_->settings.max_header_bytes));  // scan_head keeps the exact bound
+    parser_->body_limit(boost::none);  // on_header sets it before any of the body is read
     empty_lines_ = 0;
     phase_ = Phase::idle;
     since_ = std::chrono::steady_clock::now();
@@ -217,8 +217,8 @@ void Connection::await_request() {
 }
 
 void Connection::await_bytes() {
-    // Reading instead of waiting: over TLS bytes may be deciphered already while the socket below is silent, and plain it spares a call of
-    // the system per request. They are counted when the parser takes them.
+    // Reads instead of waiting: over TLS bytes may be decrypted already while the socket is silent, and without TLS this saves a system
+    // call per request. The bytes are counted when the parser takes them.
     socket_.async_read_some(buffer_.prepare(first_read_bytes), [self = shared_from_this()](ErrorCode ec, std::size_t bytes) {
         if (self->phase_ != Phase::idle) return;
         if (ec) return self->close();
@@ -266,11 +266,11 @@ void Connection::read_more_header() {
 
 void Connection::parse_header(std::size_t bytes) {
     ErrorCode ec;
-    parser_->eager(false);  // the header alone: its limits come before the body
+    parser_->eager(false);  // only the header: its limits come before the body
     const auto used = parser_->put(asio::buffer(buffer_.data(), bytes), ec);
     buffer_.consume(used);
     host_->counters.bytes_in += used;
-    // "need more" of a whole head cannot be: it would be a head that this parser ends elsewhere.
+    // A complete head cannot need more bytes unless this parser would end it elsewhere.
     on_header(ec == beast::http::error::need_more ? make_error_code(beast::http::error::bad_value) : ec);
 }
 
@@ -284,8 +284,8 @@ void Connection::on_header(ErrorCode ec) {
     if (!expect.empty() && !parser_->is_done() && !beast::iequals(expect, "100-continue"))
         return fail(417, "bad_request", "the only expectation that is met is 100-continue");
     most_body_bytes_ = host_->settings.max_stranger_bytes;
-    // A small body is read before anything is decided: the connection can then be kept, and its answer cannot be lost. But nobody who may
-    // not is waited for with a long one, with one that does not say how long it is, or when he asks first.
+    // A small body is read before anything is decided: the connection can then be kept, and its answer cannot be lost. A long body, one
+    // without a length, or one that is announced by Expect is not awaited if the client has no permission.
     const bool small = expect.empty() && request_.announced_bytes && *request_.announced_bytes <= most_body_bytes_;
     if (!parser_->is_done() && !small) {
         auto admission = host_->router.admit(request_);
@@ -312,8 +312,8 @@ void Connection::read_body() {
     phase_ = Phase::body;
     timed_out_ = false;
     if (buffer_.size() > 0 && !parser_->is_done()) {
-        // What came with the head is taken at once: a read that finds all of it here would call back behind everything that is ready by
-        // then.
+        // Bytes that arrived with the head are taken at once: a read that is satisfied by them would call back behind everything that is
+        // ready by then.
         ErrorCode ec;
         parser_->eager(true);
         const auto used = parser_->put(buffer_.data(), ec);
@@ -368,7 +368,7 @@ void Connection::fail(unsigned status, std::string_view reason, std::string deta
     write(std::move(r), false);
 }
 
-/// Everything of the request but its body. Fields of a trailer that comes after the body are not taken: the role was decided without them.
+/// Takes the request without its body. Fields of a trailer behind the body are ignored, because the role was decided without them.
 void Connection::take_head() {
     const auto& m = parser_->get();
     request_ = {};
@@ -384,7 +384,7 @@ void Connection::take_head() {
     close_after_ = false;
 }
 
-/// Counts what a large body or answer will hold; false: no room for it now.
+/// Counts the memory of a large body or answer; returns false if there is no capacity now.
 bool Connection::hold(std::size_t bytes) {
     if (!host_->budget.take(bytes)) return false;
     held_ += bytes;
@@ -401,7 +401,7 @@ Response Connection::too_much_held() const {
     return r;
 }
 
-/// Answers before the body has come. The connection ends with it; what the client has already sent is read for a while and thrown away.
+/// Answers before the body has arrived. The connection ends with this answer; bytes of the client are read for a while and discarded.
 void Connection::refuse(Response response) {
     phase_ = Phase::answering;
     since_ = std::chrono::steady_clock::now();
@@ -425,7 +425,7 @@ void Connection::answer_request() {
 }
 
 void Connection::answer(std::uint64_t serial, Response response) {
-    if (phase_ != Phase::answering || serial != serial_) return;  // too late: the limit has answered already
+    if (phase_ != Phase::answering || serial != serial_) return;  // too late: the time limit has answered already
     const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
     const auto method = request_.method == Method::other ? std::string_view("other") : name_of(request_.method);
     host_->counters.answered(route_, method, response.status, took_s);
@@ -453,7 +453,8 @@ void Connection::write(Response response, bool keep) {
 }
 
 void Connection::write_on(bool keep, bool upgraded) {
-    // The limit is for each step, so that a long answer may take its time on a slow link; a reader that only trickles is cut all the same.
+    // The limit applies to each step, so that a long answer may take its time on a slow link; a reader that makes almost no progress is cut
+    // all the same.
     set_timer(std::min<std::chrono::nanoseconds>(host_->settings.write_limit, write_end_ - std::chrono::steady_clock::now()));
     const auto part = beast::buffers_prefix(written_at_once, *unsent_);
     socket_.async_write_some(part, [self = shared_from_this(), keep, upgraded](ErrorCode ec, std::size_t bytes) {
@@ -483,14 +484,15 @@ void Connection::upgrade() {
     const auto data = static_cast<const std::uint8_t*>(buffer_.data().data());
     auto session = std::make_shared<WebSocketSession>(std::move(socket_), host_, std::move(request_), holder_);
     std::vector<std::uint8_t> early(data, data + buffer_.size());
-    auto self = shared_from_this();  // this connection ends here; its place is the session's
+    auto self = shared_from_this();  // this connection ends here, and the session takes its place
     host_->add(session);
     host_->remove(this);
     session->start(early);
 }
 
 void Connection::linger() {
-    // Closing with unread bytes resets the connection, and the client may lose the answer: say the end, read on for a while.
+    // Closing with unread bytes resets the connection, and the client may lose the answer: the end is sent first, and reading continues for
+    // a while.
     phase_ = Phase::lingering;
     buffer_.clear();
     discarded_ = 0;

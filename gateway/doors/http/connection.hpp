@@ -1,7 +1,6 @@
-// Connection: one TCP connection that speaks HTTP/1.1: requests one after the other, answers in the same order.
-// In: bytes. Out: bytes; a WebSocket session when a request was upgraded.
-// Bounds: header and body bytes, time for each step (see Settings). While one request is answered nothing is read, so a client that sends
-// many at once (pipelining) waits in its own socket. A fault is answered once and the connection is closed.
+// One TCP connection with HTTP/1.1: requests one after the other, answers in the same order; a WebSocket session after an upgrade. Bounds:
+// bytes of header and body, time for each step (Settings). While one request is answered nothing is read, so pipelined requests wait in the
+// client's socket. A fault is answered once and the connection is closed.
 #pragma once
 
 #include <array>
@@ -66,13 +65,13 @@ private:
     std::shared_ptr<SessionHost> host_;
     std::string peer_;
     PlaceHolder holder_;
-    bool known_ = false;      ///< the last request came from somebody who had signed in, or from this machine
-    bool stop_path_ = false;  ///< something was set in motion over it
+    bool known_ = false;      ///< the last request came from a signed-in client, or from this machine
+    bool stop_path_ = false;  ///< a motion was started over it
     std::size_t held_ = 0;    ///< of the host's budget
-    int empty_lines_ = 0;     ///< in front of the request, when nothing else came
+    int empty_lines_ = 0;     ///< before the request, when nothing else has arrived
     boost::asio::steady_timer timer_;
-    /// The limit of the phase is a value. The timer itself is only touched when it would come too late: when it comes too early, it is set
-    /// anew, so that a request costs none of the system's timers.
+    /// The limit of the phase is a value. The timer is set only if it would expire too late; if it expires too early, it is set again. So a
+    /// request needs no timer of the system.
     SteadyTime due_{}, timer_due_{};
     bool timer_runs_ = false;
     std::uint64_t timer_serial_ = 0;
@@ -81,20 +80,20 @@ private:
     Request request_;
     std::string_view route_ = "none";  ///< of the request, for the counters
     std::optional<Response> at_limit_;
-    std::uint64_t serial_ = 0;  ///< of the request that is answered; a late answer to another one is ignored
-    SteadyTime since_{};        ///< phases handshake, idle, header: when they began; later: when the request was whole
+    std::uint64_t serial_ = 0;  ///< of the present request; a late answer to another one is ignored
+    SteadyTime since_{};        ///< phases handshake, idle, header: their begin; later ones: when the request was complete
     Phase phase_ = Phase::idle;
-    bool first_ = true;  ///< no request yet on this connection
+    bool first_ = true;  ///< no request on this connection yet
     bool timed_out_ = false;
-    bool commands_ = false;            ///< the request is of a route that may set something in motion
-    bool close_after_ = false;         ///< the answer is the last: a body that was not read may still be coming
-    std::size_t most_body_bytes_ = 0;  ///< of the request that is read
+    bool commands_ = false;            ///< the route of the request may start a motion
+    bool close_after_ = false;         ///< the answer is the last one: an unread body may still be arriving
+    std::size_t most_body_bytes_ = 0;  ///< of the request that is being read
     bool stopping_ = false;
     std::size_t discarded_ = 0;
     std::string head_;  ///< of the answer that is being written
     std::string body_;
-    std::optional<boost::beast::buffers_suffix<std::array<boost::asio::const_buffer, 2>>> unsent_;  ///< what is left of both
-    SteadyTime write_end_{};  ///< when the answer must be out at the latest
+    std::optional<boost::beast::buffers_suffix<std::array<boost::asio::const_buffer, 2>>> unsent_;  ///< the unsent rest of both
+    SteadyTime write_end_{};                                                                        ///< the deadline of the answer
 };
 
 /// Status line and headers of a response, up to and with the empty line.

@@ -1,5 +1,4 @@
-// Counters: Prometheus text, exposition format 0.0.4.
-// In: what the door has counted. Out: lines with HELP and TYPE. Never a label that a client chose.
+// Prometheus text, exposition format 0.0.4. No label contains text of a client.
 #include "gateway/doors/http/counters.hpp"
 
 #include <fmt/core.h>

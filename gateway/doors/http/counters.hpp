@@ -1,6 +1,5 @@
-// Counters: what the HTTP door counts about itself, and how it is told to Prometheus.
-// In: increments by the router, the server and the live feed, all on the warm thread. Out: text with HELP and TYPE.
-// Labels are bounded: routes as the description writes them, never what a client sent.
+// The counters of the HTTP door, incremented by the router, the server and the live feed on the service thread. Labels are bounded: routes
+// as in the description.
 #pragma once
 
 #include <array>
@@ -21,18 +20,18 @@ struct Counters {
     double duration_sum_s = 0;
 
     std::uint64_t connections_accepted = 0, connections_refused = 0, connections_timed_out = 0, connections_gave_way = 0;
-    std::uint64_t malformed = 0;                                  ///< requests that were not HTTP, or over a bound
-    std::uint64_t tls_handshakes = 0, tls_handshakes_failed = 0;  ///< failed: also those that did not come to an end in time
+    std::uint64_t malformed = 0;                                  ///< requests that were not HTTP, or exceeded a bound
+    std::uint64_t tls_handshakes = 0, tls_handshakes_failed = 0;  ///< failed: including those that did not end in time
     std::uint64_t refusals_counted_only = 0;                      ///< without an event of their own
     std::uint64_t bytes_in = 0, bytes_out = 0;
-    std::uint64_t connections = 0;     ///< open now, live-feed clients included
+    std::uint64_t connections = 0;     ///< open now, including live-feed clients
     std::uint64_t stream_clients = 0;  ///< open now
     std::uint64_t stream_frames_sent = 0;
-    std::uint64_t stream_states_replaced = 0;  ///< a newer state took the place of one that waited
+    std::uint64_t stream_states_replaced = 0;  ///< a newer state replaced a waiting one
     std::uint64_t stream_requests_wrong = 0;
     std::map<std::uint16_t, std::uint64_t> stream_closed;  ///< by close code sent
 
-    /// `route`, `method`: words that live as long as the program.
+    /// `route` and `method` must live as long as the program.
     void answered(std::string_view route, std::string_view method, unsigned status, double duration_s);
     [[nodiscard]] std::string text() const;
 };

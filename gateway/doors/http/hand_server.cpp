@@ -1,5 +1,4 @@
-// HandServer: Beast's server in its plainest form; a PATCH looks up all names first, so that all items are set or none.
-// In: requests. Out: the hand's items as JSON. Never keeps a connection past its time.
+// Beast's server in its simplest form; a PATCH looks up all names first, so that all conditions are set or none.
 #include "gateway/doors/http/hand_server.hpp"
 
 #include <fmt/core.h>

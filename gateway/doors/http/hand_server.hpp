@@ -1,6 +1,6 @@
-// HandServer: the tester's hand of drives that run by themselves (`axisgate twin --hand`): a small HTTP server for it alone.
-// In: GET /hand, PATCH or PUT /hand with {"name": value, ...}; /hand/{address} where there are several drives. Out: all items as JSON.
-// Bounded: 16 connections, 64 KiB per body, 10 s per request. Never listens on anything but what it is given.
+// A small HTTP server for the conditions of drives that run by themselves (`axisgate twin --hand`): GET /hand, PATCH or PUT /hand with
+// {"name": value, ...}; /hand/{address} if there are several drives. Every answer has all conditions as JSON. Bounded: 16 connections, 64
+// KiB per body, 10 s per request.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -19,14 +19,14 @@ public:
     struct Drive {
         std::string address;
         std::function<std::vector<HandItem>()> items;
-        /// Empty: all were set; else what is wrong.
+        /// Empty if all were set, otherwise the fault.
         std::function<std::string(const std::vector<std::pair<std::string, Value>>&)> set;
     };
     HandServer(boost::asio::io_context& io, std::string bind, std::vector<Drive> drives);
     ~HandServer();
-    /// Empty: it listens; else what is wrong and what to do.
+    /// Empty if it listens, otherwise the fault and the remedy.
     [[nodiscard]] std::string open();
-    /// "127.0.0.1:9100", with the port that was really taken.
+    /// "127.0.0.1:9100", with the actual port.
     [[nodiscard]] std::string address() const;
 
 private:

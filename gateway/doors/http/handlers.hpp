@@ -1,6 +1,5 @@
-// Handlers: one function per route: a call in, an answer out, now or later. Beside the call each takes the ports that it uses, by their
-// types. In: the taken-apart request, ports. Out: Handled. Callbacks of ports keep copies and ports only, never the Call or the Context.
-// Never touches a socket, and never waits.
+// One function per route: a call in, an answer out, now or later. Each takes, beside the call, the ports that it uses, by their types.
+// Callbacks of ports keep copies and ports only, never the Call or the Context. Handlers never wait and use no socket.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -39,55 +38,56 @@
 
 namespace axisgate::http {
 
-/// For a change queue: 500 to whoever waits for a job that threw.
+/// For a change queue: answers 500 if the job threw.
 [[nodiscard]] inline ChangeQueue::Failed thrown(Respond respond) {
     return [respond = std::move(respond)](const std::string& what) {
         respond(problem(500, "internal", "a fault of the gateway itself: " + what));
     };
 }
 
-/// What all handlers share; outlives every call.
+/// The common data of all handlers; outlives every call.
 struct Context {
-    Ports ports;  ///< handlers do not look here: take<> gives each its own
+    Ports ports;  ///< not used by handlers directly: take<> gives each its own
     const Settings& settings;
     AssetLookup asset;
-    std::function<std::string()> own_metrics;                                ///< the door's own counters as Prometheus text
-    std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();  ///< of the site
-    std::shared_ptr<RecipeService> recipes{};                               ///< runs recipes; whoever makes a context for service gives one
-    std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();          ///< many parameters of one axis, one after the other
-    std::shared_ptr<AccessPort> access = nullptr;                           ///< users; without it this machine alone is let in
-    std::shared_ptr<AlarmService> alarms{};                                 ///< the list of alarms; as with recipes
-    std::shared_ptr<Rehearsals> rehearsals{};                               ///< of loss of command; as with recipes
-    std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();  ///< what GET /axes/{name} answers
-    std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();    ///< whose the staged site is
-    std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< to whom an axis can be handed over
+    std::function<std::string()> own_metrics;                                     ///< the door's own counters as Prometheus text
+    std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();       ///< of the site
+    std::shared_ptr<RecipeService> recipes{};                                     ///< runs recipes; must be set for the service
+    std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();                ///< many parameters of one axis, one after the other
+    std::shared_ptr<AccessPort> access = nullptr;                                 ///< users; without it only requests from this machine are
+                                                                                  ///< accepted
+    std::shared_ptr<AlarmService> alarms{};                                       ///< the list of alarms; must be set for the service
+    std::shared_ptr<Rehearsals> rehearsals{};                                     ///< of loss of command; must be set for the service
+    std::shared_ptr<AxisTexts> axis_texts = std::make_shared<AxisTexts>();        ///< the answers of GET /axes/{name}
+    std::shared_ptr<StageOwner> stages = std::make_shared<StageOwner>();          ///< the owner of the staged site
+    std::shared_ptr<ClientsSeen> clients = std::make_shared<ClientsSeen>();       ///< the candidates for a hand-over
     std::shared_ptr<WritesUnderWay> writes = std::make_shared<WritesUnderWay>();  ///< of parameters, each until the drive has answered
-    /// An answer that takes long is made in pieces by it, each in its turn with what others ask. Here: at once.
+    /// Runs the pieces of a long answer, each in its turn with other requests. Default: at once.
     std::function<void(std::function<void()>)> later = [](const std::function<void()>& piece) { piece(); };
     std::function<Instant()> now = [] { return Instant{std::chrono::steady_clock::now().time_since_epoch()}; };
 };
 
-/// One request on its way. Lives only as long as the handler's call.
+/// One request in progress. Lives only as long as the handler's call.
 struct Call {
     const Context& context;
     const Request& request;
     const Target& target;
     std::vector<std::string> names;  ///< the path's `{...}` segments, decoded, in order
-    boost::json::value body;         ///< of routes that take JSON: what was sent
+    boost::json::value body;         ///< of routes that take JSON: the body
     Respond respond;
     Identity identity{};
 
-    /// Who and from where, for events and the history: as API says it; the peer alone where there are no users.
+    /// The client and its address, for events and the history; without users only the peer.
     [[nodiscard]] std::string who() const { return context.access ? axisgate::who(identity, request.peer) : request.peer; }
     [[nodiscard]] Origin origin() const;  ///< in handlers_authority.cpp
 };
 
-/// Who commands by such a request, `who` as Call has it. In handlers_authority.cpp.
+/// The client of such a request; `who` as in Call. In handlers_authority.cpp.
 [[nodiscard]] Origin origin_of(const Request& request, const Identity& identity, std::string who);
 
 using Handler = Handled (*)(Call&);
 
-/// One parameter of a handler: a port, a set of some, or a service that is made of ports and what is shared.
+/// One parameter of a handler: a port, a set of some, or a service that is made of ports and shared data.
 template <class Part>
 struct Picked {
     static Part from(const Context& context) { return context.ports.get<std::remove_cvref_t<Part>>(); }
@@ -116,7 +116,7 @@ template <class... Parts>
 Handled call_with_ports(Handled (*handler)(Call&, Parts...), Call& call) {
     return handler(call, Picked<Parts>::from(call.context)...);
 }
-/// A function with the ports that it takes, as the router calls it.
+/// A function with its ports, as the router calls it.
 template <auto handler>
 Handled take(Call& call) {
     return call_with_ports(handler, call);
@@ -242,7 +242,7 @@ Handled get_recording(Call&, RecorderPort&);
 Handled play_back_recording(Call&, RecorderPort&);
 Handled rename_recording(Call&, RecorderPort&);
 Handled remove_recording(Call&, RecorderPort&);
-/// What is wrong with a wish for a capture or a recording (`kind`) of that name.
+/// The refusal of a request for a capture or a recording (`kind`) of that name.
 [[nodiscard]] Response kept_refusal(std::string_view kind, const RecordingFault& fault, std::string_view name);
 // --- handlers_captures.cpp --------------------------------------------------------------------------------------------
 Handled list_captures(Call&, CapturePort&);
@@ -309,30 +309,30 @@ Handled remove_token(Call&, AxisPort&, const SitePort&);
 
 // --- shared -----------------------------------------------------------------------------------------------------------
 
-/// What a service gives, or the problem that its refusal is.
+/// The answer for a service's result, or the problem for its refusal.
 template <class T, class Show>
 [[nodiscard]] Response given(const Refusable<T>& answer, Show&& show) {
     const auto* refusal = std::get_if<ServiceRefusal>(&answer);
     return refusal ? problem_of(*refusal) : show(std::get<T>(answer));
 }
-/// 200 with it, for given().
+/// 200 with the document, for given().
 inline constexpr auto json_answer = [](const auto& document) { return json_response(document); };
 /// 204.
 [[nodiscard]] Response nothing_left();
-/// 200 with a file to be kept under this name.
+/// 200 with a file under this name.
 [[nodiscard]] Response file_answer(std::string_view media, std::string_view name, std::string text);
-/// Of what is JSON or a text: by ?format=json or `other`, else by Accept. On a fault (400, 406): `fault` holds the answer.
+/// For content that is JSON or a text: by ?format=json or `other`, otherwise by Accept. On a fault (400, 406) `fault` has the answer.
 [[nodiscard]] bool wants_json(const Call& call, std::string_view other, std::optional<Response>& fault);
-/// A job on an axis' parameters has begun: its answer, or 202 with the place of its progress when it takes longer.
+/// A job on an axis' parameters has begun: its answer, or 202 with the place of its progress if it takes longer.
 [[nodiscard]] Handled job_later(const std::string& axis);
-/// The answer to many parameters that were written.
+/// The answer after many parameters were written.
 [[nodiscard]] std::function<void(const Refusable<WrittenParameters>&)> show_written(Respond respond);
 
-/// 404 that names what there is none of: "there is no axis slide".
+/// 404 with the missing name: "there is no axis slide".
 [[nodiscard]] Response nothing_named(std::string_view what, std::string_view name);
-/// 400 for a query parameter that is wrong.
+/// 400 for a wrong query parameter.
 [[nodiscard]] Response bad_query(std::string_view name, std::string_view must);
-/// A flag of the query; false if it is not given. On nothing: `fault` holds the answer.
+/// A flag of the query; false if it is absent. If empty, `fault` has the answer.
 [[nodiscard]] bool query_flag(const Call& call, std::string_view name, std::optional<Response>& fault);
 /// A whole number of the query.
 [[nodiscard]] std::int64_t query_whole(const Call& call, std::string_view name, std::int64_t low, std::int64_t high, std::int64_t otherwise,
@@ -341,20 +341,21 @@ inline constexpr auto json_answer = [](const auto& document) { return json_respo
 /// Body of a 200 to a command.
 [[nodiscard]] boost::json::object command_answer(Ticket ticket, std::string_view result, std::string_view reason, std::string_view axis,
                                                  std::string_view command);
-/// Hands a command to the gateway; a good result goes through `show`, another becomes a problem. `wait_s` > 0: until it is done, or for
-/// that long, whichever is sooner.
+/// Gives a command to the gateway; a good result goes through `show`, another becomes a problem. `wait_s` > 0: until it is done, or for
+/// that time.
 [[nodiscard]] Handled submit_command(Call& call, AxisPort& axes, Command command, std::string axis, std::string name, double wait_s,
                                      std::function<Response(const Result&)> show);
 /// The result of a command as a 200.
 [[nodiscard]] Response answer_of(const Result& result, std::string_view axis, std::string_view command);
-/// `?state=` of alarms; nothing if it is not given (handlers_alarms.cpp).
+/// `?state=` of alarms; empty if it is absent (handlers_alarms.cpp).
 [[nodiscard]] std::optional<AlarmFilter> query_alarm_state(const Call& call, std::optional<Response>& fault);
-/// `?wait=`: 0 if it is not given.
+/// `?wait=`: 0 if it is absent.
 [[nodiscard]] double query_wait(const Call& call, std::optional<Response>& fault);
 
-/// Longest time that a handler waits for the gateway when the client gave none: a result must come, this is for when it does not.
+/// Longest time that a handler waits for the gateway without a time of the client: a result always comes, and this is for the case that it
+/// does not.
 inline constexpr std::chrono::seconds gateway_limit{30};
-/// The hot thread did not say how the Modbus door stands.
+/// The hot thread did not report the state of the Modbus door.
 [[nodiscard]] inline Response late_modbus() {
     return problem(504, "no_answer", "the Modbus door did not say in time; come again in a moment");
 }

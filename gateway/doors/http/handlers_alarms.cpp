@@ -1,6 +1,4 @@
-// Handlers of alarms: the list, and what people do about it.
-// In: calls. Out: the list or one alarm; answers come when it is on disk.
-// Never decides what an alarm is: AlarmList does.
+// Handlers of alarms: the list and its actions. Answers come when the change is on the disk.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -19,7 +17,7 @@ Response none(const Call& c) { return nothing_named("alarm", c.names[0]); }
 
 Handled later() { return {gateway_limit, problem(504, "no_answer", "the store has not answered")}; }
 
-/// Answers with the alarm as it is then; one that is off the list is told as it was, in the state `normal`.
+/// Answers with the alarm after the change; one that has left the list is shown with the state `normal`.
 AlarmService::Then answer_with(Call& c, std::uint64_t id) {
     const auto* a = c.context.alarms->list().find(id);
     auto before = a ? alarm_document(*a) : json::object();

@@ -1,6 +1,5 @@
-// Handlers of assemblies: the EtherNet/IP instances of the site's own and of its profiles, and what stands at which byte of them.
-// In: calls. Out: entries in their full form, the site's own also as CSV; changes go through parse_site as a whole, like every change of
-// the site. Never those that every site has: of axes, heartbeats, configuration.
+// Handlers of assemblies: the EtherNet/IP instances of the site and of its profiles, with the content of their bytes; the site's own also
+// as CSV. Changes go through parse_site as a whole. The assemblies that every site has (axes, heartbeats, configuration) are not included.
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/services/site/register_edits.hpp"
 

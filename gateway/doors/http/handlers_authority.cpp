@@ -1,5 +1,4 @@
-// Handlers of who may command: the leases of axes.
-// In: calls. Out: JSON; a refusal names the holder and how long it has the axis still.
+// Handlers of authority: the leases of axes. A refusal names the holder and the remaining time.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 namespace {
 
-/// Hands a wish to the hot thread and answers with what holds then.
+/// Gives a request to the hot thread and answers with the resulting state.
 Handled submit_hold(Call& c, AxisPort& axes, const ClockPort& clock, const SitePort& sites, HoldAxis wish, bool empty_answer) {
     const auto place = find_axis(sites, c.names[0]);
     if (!place) return nothing_named("axis", c.names[0]);
@@ -30,7 +29,7 @@ Handled submit_hold(Call& c, AxisPort& axes, const ClockPort& clock, const SiteP
                           });
 }
 
-/// Reads the members of a small body; what is wrong with it as faults.
+/// Checks the members of a small body; the faults are collected.
 void check_members(const json::object& body, std::initializer_list<std::string_view> known, std::vector<Fault>& faults) {
     for (const auto& [k, v] : body) {
         if (std::ranges::find(known, std::string_view(k)) == known.end()) {
@@ -44,8 +43,8 @@ Origin Call::origin() const { return origin_of(request, identity, who()); }
 
 Origin origin_of(const Request& request, const Identity& identity, std::string who) {
     Origin o{Door::http, std::make_shared<const std::string>(std::move(who)), {}};
-    // Who has signed in is one client wherever from, and each of his tokens another one; without a name, several connections of one page
-    // are one client: the host, and the name that the client gives itself.
+    // A signed-in user is one client from every address, and each of the user's tokens is another one. Without a name, several connections
+    // of one page are one client: the host, and the name that the client gives itself.
     std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;
     if (!identity.token.empty()) name += ' ' + identity.token;
     if (const auto own = trimmed(request.headers.get("X-Client")); !own.empty()) {

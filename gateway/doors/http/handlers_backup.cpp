@@ -1,5 +1,4 @@
-// Handlers of backups: the gateway as one file, one laid down for the next start, what waits, and the way back.
-// In: calls. Out: the file; what waits; 202 where something will happen later. Never replaces the database while it is served.
+// Handlers of backups: the gateway as one file, a backup stored for the next start, and its removal. The database in use is never replaced.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -10,13 +9,13 @@ namespace axisgate::http {
 namespace json = boost::json;
 
 namespace {
-/// A header, because it must neither stand in an address, which is logged on the way, nor in a body that is the backup itself.
+/// A header, because a passphrase must not be in an address, which is logged on the way, and the body is the backup itself.
 constexpr std::string_view passphrase_header = "X-Backup-Passphrase";
 /// For making and checking a backup: the storage thread does it, which gives way to all others, and the key of a sealed backup takes a second
 /// of processor time.
 constexpr std::chrono::seconds backup_limit{120};
 
-/// Empty: none was sent. Nothing: it is not text that was percent-encoded.
+/// Empty text: none was sent. No value: it is not percent-encoded text.
 std::optional<std::string> passphrase_of(const Call& c) { return percent_decode(c.request.headers.get(passphrase_header)); }
 Handled not_encoded() {
     return invalid({{"", fmt::format("the header {} is not percent-encoded", passphrase_header),
@@ -28,9 +27,9 @@ Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
     const auto passphrase = passphrase_of(c);
     if (!passphrase) return not_encoded();
     auto note_sent = [&events, who = c.who(), sent = c.request.method == Method::get, sealed = !passphrase->empty()](std::size_t bytes) {
-        if (!sent) return;  // HEAD: nothing leaves
+        if (!sent) return;  // HEAD: nothing is sent
         Event e;
-        e.kind = "site";  // as of a backup that is laid down
+        e.kind = "site";  // the kind of a stored backup's event
         e.text = fmt::format("a backup was handed out: the whole database, {} bytes, with users, tokens and all that was stored, {}", bytes,
                              sealed ? "and private keys, sealed with a passphrase" : "in the open");
         e.who = who;

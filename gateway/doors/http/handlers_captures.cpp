@@ -1,5 +1,4 @@
-// Handlers of fast captures: armed, looked at, handed out as JSON or CSV, renamed, cancelled and deleted.
-// In: calls, in units of the axes. Out: wishes in increments; documents. Never waits for a trigger.
+// Handlers of fast captures: started, shown as JSON or CSV, renamed, cancelled and deleted. Requests are in units of the axes.
 #include <fmt/format.h>
 
 #include <algorithm>

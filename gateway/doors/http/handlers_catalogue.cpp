@@ -1,12 +1,11 @@
-// Handlers of the catalogue: families, their parameters, commands and error codes.
-// In: calls. Out: answers at once; constant while the program runs.
+// Handlers of the catalogue: families, their parameters, commands and error codes, which are constant while the program runs.
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// The list of a family's things, each through `show`.
+/// A list of the family, each entry through `show`.
 template <class List, class Show>
 Handled list_of(Call& c, const SitePort& sites, List list, Show show) {
     const auto entry = sites.families().find(c.names[0]);

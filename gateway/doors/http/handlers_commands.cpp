@@ -1,5 +1,5 @@
-// Handlers of motion: commands, actions, and starting prepared axes together.
-// In: calls with JSON bodies. Out: answers when the drive has acknowledged, or when it is done, or when the wait is over.
+// Handlers of motion: commands, actions, and the common start of prepared axes. The answer comes when the drive has acknowledged, when the
+// command is done, or when the time has passed.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace json = boost::json;
 namespace {
 constexpr std::size_t most_axes_together = 64;
 
-/// 422 for a command that was never sent: also readable as a command's answer.
+/// 422 for a command that was never sent; it also has the members of a command's answer.
 Response refused(std::vector<Fault> faults, std::string_view axis, std::string_view command, bool range_only) {
     Problem p;
     p.status = 422;
@@ -56,7 +56,7 @@ Handled command_axis(Call& c, AxisPort& axes, const SitePort& sites) {
     if (fault) return *fault;
     const auto* word = c.body.get_object().if_contains("command");
     const std::string_view wanted = word && word->is_string() ? std::string_view(word->get_string()) : std::string_view();
-    // Whoever sees a machine may stop it. To switch it off is no stop: what hangs on it falls.
+    // A client that may see a machine may stop it. Switching off is not a stop, because a suspended load would fall.
     if (!is_stop(wanted)) {
         if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
     }

@@ -1,5 +1,5 @@
-// Handlers of connections: who is connected over EtherNet/IP and Modbus, and the end of one by hand.
-// In: calls. Out: the list; the answer once the connection is closed. Never closes a connection of this door.
+// Handlers of connections: the clients that are connected over EtherNet/IP and Modbus, and the closing of one. Connections of this door are
+// not included.
 #include <boost/json/array.hpp>
 
 #include "gateway/doors/http/handlers.hpp"

@@ -1,5 +1,4 @@
-// Handlers of drive descriptions: EDS and DCF files that drives of the site may name: kept, shown, removed.
-// In: calls. Out: what is in a file, the file itself, what is wrong with it and in which line. Never looks into a file.
+// Handlers of drive descriptions: EDS and DCF files that drives of the site may name: stored, shown, removed. DescriptionFiles reads them.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"

@@ -1,5 +1,4 @@
-// Handlers of drives: one exchange in the drive's own language, and the tester's hand of simulated drives.
-// In: calls. Out: what the drive answered; the outside conditions as they are.
+// Handlers of drives: one exchange in the drive's own language, and the conditions of simulated drives.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -22,7 +21,7 @@ Handled exchange_native(Call& c, AxisPort& axes, const ClockPort& clock, const S
     command.axis = drive->site->axis_ids[index];
     command.body = std::move(*native);
     const std::int64_t begun_ns = clock.now_unix_ns();
-    // To the microsecond: on a fast line an exchange is over within one millisecond.
+    // In microseconds, because on a fast line an exchange takes less than one millisecond.
     const auto took_ms = [&clock, begun_ns] {
         return number(static_cast<double>(std::max<std::int64_t>(0, (clock.now_unix_ns() - begun_ns) / 1'000)) / 1000.0);
     };
@@ -31,7 +30,7 @@ Handled exchange_native(Call& c, AxisPort& axes, const ClockPort& clock, const S
     const Ticket ticket = axes.submit(std::move(command), [took_ms, axis, respond = c.respond](const Result& r) {
         if (good(r)) return respond(json_response(json::object{{"reply", r.text}, {"reply_hex", to_hex(r.bytes)}, {"took_ms", took_ms()}}));
         if (r.reason != Reason::drive_refused || r.bytes.empty()) return respond(problem_of(r, axis, "native"));
-        // The drive has answered, if with its error: what it said belongs to the answer.
+        // The drive has answered, although with an error: the answer is included.
         respond(to_response(Problem{.status = 409,
                                     .reason = std::string(name_of(r.reason)),
                                     .detail = r.text,

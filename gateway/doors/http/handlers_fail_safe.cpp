@@ -1,5 +1,5 @@
-// Handlers of loss of command: the matrix of cause and action per axis, its change, and its rehearsal on models.
-// In: calls. Out: what the site names, what holds where it names nothing, and the last report. Never stops or moves anything.
+// Handlers of loss of command: the matrix of cause and action per axis, its change, and its rehearsal on models. Nothing is stopped or
+// moved here.
 #include <boost/json/array.hpp>
 
 #include "gateway/doors/http/handlers.hpp"

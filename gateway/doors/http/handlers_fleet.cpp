@@ -1,5 +1,5 @@
-// Handlers of the fleet: the gateways of the domain with their axes, and commands to an axis of any of them.
-// In: calls. Out: what the fleet port knows; one result per command. Never asks another gateway's page or API.
+// Handlers of the fleet: the gateways of the domain with their axes, and commands to an axis of any of them. Everything goes over the fleet
+// port.
 #include <algorithm>
 #include <utility>
 
@@ -73,7 +73,7 @@ Handled command_fleet_axis(Call& c, FleetPort& fleet) {
     FleetOrder order;
     order.wish = read_command_wish(c.body.get_object());
     const std::string name = order.wish.name;
-    // As for an axis of this gateway: whoever sees a machine may stop it.
+    // As for an axis of this gateway: a client that may see a machine may stop it.
     if (!is_stop(order.wish.word)) {
         if (auto refusal = refuse_below(c.identity, Role::operating)) return *refusal;
     }

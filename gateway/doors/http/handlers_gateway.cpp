@@ -1,5 +1,5 @@
-// Handlers of the program itself: health, metrics, description, about, and the handshake of the live feed; and what all handlers share.
-// In: calls. Out: answers at once.
+// Handlers of the program itself: health, metrics, description, about, and the handshake of the live feed; and the common functions of all
+// handlers.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ Handled get_health(Call&, const StatusPort& status) {
 
 Handled get_ready(Call& c, const StatusPort& status) {
     auto missing = status.not_ready();
-    // Names of lines, drives and interfaces are for who is known here; whether all is well is for everybody.
+    // Names of lines, drives and interfaces are only for known clients; whether everything is ready is for all.
     if (!missing.empty() && c.context.access && c.identity.role == Role::none)
         missing = {fmt::format("{} {} missing or not as it should be; sign in to read which", missing.size(),
                                missing.size() == 1 ? "thing is" : "things are")};

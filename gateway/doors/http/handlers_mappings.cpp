@@ -1,6 +1,5 @@
-// Handlers of the site's own register maps: the list, one entry, the whole as CSV, and the points that can be mapped.
-// In: calls. Out: entries in their full form; changes go through parse_site as a whole, like every change of the site.
-// Never reads a register: what an address shows is the Modbus door's.
+// Handlers of the site's own register maps: the list, one entry, all as CSV, and the mappable points. Changes go through parse_site as a
+// whole.
 #include <fmt/core.h>
 
 #include "gateway/axis/points.hpp"
@@ -11,7 +10,7 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// An edited entry as a plan: shown as it is then, or nothing where it is gone.
+/// An edited entry as a plan: shown after the change, or 204 if it was removed.
 Planned entry_plan(Refusable<EditedMapping> edited, bool created) {
     if (auto* refusal = std::get_if<ServiceRefusal>(&edited)) return std::move(*refusal);
     auto& [site, entry] = std::get<EditedMapping>(edited);

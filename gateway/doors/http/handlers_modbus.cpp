@@ -1,5 +1,4 @@
-// Handlers of the Modbus door: its locks and clients, and the lock that can be changed here.
-// In: calls. Out: the door as it is, with an ETag over its locks. What it answers to its own clients is not decided here.
+// Handlers of the Modbus door: its locks and clients, and the lock that can be changed here, with an ETag of the locks.
 
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/preconditions.hpp"
@@ -9,7 +8,7 @@ namespace json = boost::json;
 namespace {
 using Report = std::optional<ModbusReport>;
 
-/// Over what can be set, not over who is connected: a client that comes does not make a change of the locks another one.
+/// Of the settings, not of the connected clients, so that a new client does not change the tag.
 std::string modbus_tag(const ModbusReport& r) {
     std::string allow, functions;
     for (const auto& a : r.allow)
@@ -78,7 +77,7 @@ Handled change_modbus_door(Call& c, ModbusPort& modbus) {
         });
     };
     const std::string if_match(c.request.headers.get("If-Match"));
-    // In the queue of the site's changes: of two that mean the same state one comes first, and the other is told so.
+    // In the queue of the site's changes, so that the second of two requests for the same state is refused.
     const bool taken = c.context.changes->run(
         [&modbus, set, if_match, respond = c.respond](std::function<void()> done) {
             if (if_match.empty()) return set(std::move(done));

@@ -1,5 +1,4 @@
 // Handlers of parameters as a table: the history of one, all as CSV, and a table written back.
-// In: calls. Out: rows, files, what was changed. Never looks into a table.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -15,7 +14,7 @@ std::function<void(const Refusable<WrittenParameters>&)> show_written(Respond re
 }
 
 Handled job_later(const std::string& axis) {
-    /// A job that takes longer goes on, and is asked after at .../snapshot-progress.
+    /// A job that takes longer continues, and is shown at .../snapshot-progress.
     constexpr std::chrono::seconds job_wait{20};
     Response r = json_response(boost::json::object{{"state", "running"}, {"text", "it goes on: ask for its progress"}}, 202);
     r.headers.set("Location", fmt::format("/api/v1/axes/{}/snapshot-progress", percent_encode(axis)));

@@ -1,5 +1,5 @@
-// Handlers of an axis' parameters: the list without an exchange, one read from the drive now, one written and answered by the drive.
-// In: calls. Out: catalogue, live value, stored value, and who wrote it when; entity tags of the last write.
+// Handlers of an axis' parameters: the list without an exchange, one read from the drive, one written and answered by the drive; with the
+// entity tag of the last write.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -10,20 +10,21 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// Of the last write: the same value written again is another state, since somebody meant it. What nobody wrote has a tag too.
+/// Of the last write: the same value written again is another state, because it was written on purpose. A parameter without a write has a
+/// tag, too.
 std::string parameter_tag(const StoredParameter* s) {
     if (!s) return "\"never-written\"";
     return tag_over({json_text(to_json(s->value)), s->who, s->door, std::to_string(s->at_unix_ns)});
 }
 
-/// What is answered for one parameter, from copies, so that it can be made after the exchange.
+/// The answer for one parameter, from copies, so that it can be made after the exchange.
 Response whole(const ParameterPort& parameters, const ParameterPlace& place, const LiveParameter& live, std::string_view text,
                std::int64_t history) {
     const auto stored = parameters.stored(place.axis.spec().name);
     return with_tag(json_response(parameter_now(parameters, place, live, text, history)), parameter_tag(stored_of(stored, place.id)));
 }
 
-/// 412 with the last write, if If-Match means another one: nothing goes to the drive.
+/// 412 with the last write, if If-Match refers to another one: nothing is sent to the drive.
 std::optional<Response> refuse_other(const Call& c, const ParameterPort& parameters, const ParameterPlace& place) {
     const std::string if_match(c.request.headers.get("If-Match"));
     if (if_match.empty()) return std::nullopt;
@@ -93,7 +94,7 @@ Handled write_parameter(Call& c, AxisPort& axes, const ParameterPort& parameters
     auto value = value_to_write(parameters, place, c.body.get_object());
     if (const auto* refusal = std::get_if<ServiceRefusal>(&value)) return problem_of(*refusal);
     if (auto refusal = refuse_other(c, parameters, place)) return *std::move(refusal);
-    // Until the drive has answered and it is stored, nobody knows what If-Match of another client would be compared with.
+    // Until the drive has answered and the value is stored, another client's If-Match cannot be compared.
     const std::pair key(c.names[0], place.id);
     ++(*c.context.writes)[key];
     c.respond = [writes = c.context.writes, key, respond = std::move(c.respond)](Response r) {

@@ -1,6 +1,5 @@
-// Handlers of profiles: which units speak another device's language, and what stands where in each language.
-// In: calls. Out: the site's profiles with their registers; changes go through parse_site as a whole, like every change of the site.
-// Never reads a register.
+// Handlers of profiles: the units with another device's language, and the registers of each language. Changes go through parse_site as a
+// whole.
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/services/site/register_edits.hpp"
 

@@ -1,5 +1,4 @@
-// Handlers of recipes: the stored documents, their runs, and the reports of those.
-// In: calls. Out: documents as they were put, reports as the recipe service keeps them. Never looks into a document.
+// Handlers of recipes: the stored documents, their runs, and the reports. The services read the documents.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"

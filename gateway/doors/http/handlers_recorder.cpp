@@ -1,5 +1,5 @@
-// Handlers of the recorder: trends of axes as JSON or CSV; recordings: made, listed, handed out, renamed, deleted.
-// In: calls. Out: what was told by drives, in units of the axes; files. Never waits for the disk.
+// Handlers of the recorder: trends of axes as JSON or CSV; recordings made, listed, downloaded, renamed, deleted. The disk is not waited
+// for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> comma_list(std::string_view text) {
     return out;
 }
 
-/// The axes that are asked for, else all, the first of them.
+/// The requested axes, otherwise the first ones of all.
 std::vector<std::string> asked_axes(Call& c, const SiteState& site) {
     std::vector<std::string> names = comma_list(c.target.query.get("axes").value_or(""));
     if (!names.empty()) return names;
@@ -37,7 +37,7 @@ std::vector<std::string> asked_axes(Call& c, const SiteState& site) {
     return names;
 }
 
-/// Two instants, ms since 1970; left out: now, and a minute before the end.
+/// Two instants, ms since 1970; defaults: now, and a minute before the end.
 std::pair<std::int64_t, std::int64_t> asked_stretch(Call& c, const ClockPort& clock, std::optional<Response>& fault) {
     constexpr std::int64_t ms_limit = INT64_MAX / 1'000'000;
     const std::int64_t to = query_whole(c, "to", 0, ms_limit, clock.now_unix_ns() / 1'000'000, fault);
@@ -49,7 +49,7 @@ const RecordingInfo* recording_in(const std::vector<RecordingInfo>& list, std::s
     return it == list.end() ? nullptr : &*it;
 }
 
-/// The members of a body that may be there, each a text.
+/// The optional text members of a body.
 std::vector<Fault> texts_of(const json::object& body, std::initializer_list<std::pair<std::string_view, std::string*>> into) {
     std::vector<Fault> faults;
     for (const auto& [key, value] : body) {
@@ -129,7 +129,7 @@ Handled get_recorded_steps(Call& c, const ClockPort& clock, RecorderPort& record
     }
     const std::int64_t offset = clock.to_unix_ns(at_ns(0));
     const Instant begin = at_ns(saturated_difference(from * 1'000'000, offset));
-    // The last word of `to` counts whole.
+    // The last millisecond of `to` is included completely.
     const Instant end = at_ns(saturated_difference(saturated_sum(to * 1'000'000, 999'999), offset));
     auto record = std::make_shared<RecipeRecord>(std::move(places), begin, end);
     const auto begins = recorder.recorder_state().from;

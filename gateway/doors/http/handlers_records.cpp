@@ -1,5 +1,4 @@
-// Handlers of what is recorded: the frames of a line, and the events.
-// In: calls. Out: JSON, or files that other tools read.
+// Handlers of recorded data: the frames of a line, and the events, as JSON or as files for other tools.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -20,7 +19,7 @@ constexpr std::int64_t json_frames = 1000;
 
 enum class Format : std::uint8_t { json, candump, pcapng, text };
 
-/// By `?format=`, else by Accept.
+/// By `?format=`, otherwise by Accept.
 std::optional<Format> format_of(const Call& c, std::optional<Response>& fault) {
     if (const auto name = c.target.query.get("format")) {
         if (*name == "json") return Format::json;
@@ -41,8 +40,8 @@ std::optional<Format> format_of(const Call& c, std::optional<Response>& fault) {
     return formats[*best];
 }
 
-/// One answer to a question for frames, made in pieces: thousands of frames take longer than a command should wait. A piece is read as the
-/// oldest that are left; what the line overwrites meanwhile is counted as missed.
+/// One answer to a request for frames, made in pieces, because thousands of frames take longer than a command should wait. Each piece reads
+/// the oldest remaining frames; those that the line overwrites meanwhile are counted as missed.
 class TraceWork {
 public:
     /// `since` < 0: the newest `limit` frames.
@@ -71,7 +70,7 @@ public:
 private:
     static constexpr std::uint64_t piece = 64, json_piece = 16;
 
-    /// False: that was the last.
+    /// Returns false after the last piece.
     bool read_some() {
         const std::uint64_t most = std::min({decoder_ ? json_piece : piece, left_, until_ - std::min(at_, until_)});
         Trace t = lines_.trace(line_, at_, static_cast<std::size_t>(most));
@@ -84,7 +83,7 @@ private:
     }
     void put(const std::vector<TraceEntry>& entries) {
         if (entries.empty()) return;
-        // A run of bytes has no candump form; the text form is what comes nearest. A line carries the one or the other.
+        // A run of bytes has no candump form; the text form is the closest. A line has one kind of frames.
         if (format_ == Format::candump && entries.front().frame.kind == Frame::Kind::bytes) as_text_ = true;
         if (decoder_) {
             for (const auto& e : entries)
@@ -109,7 +108,7 @@ private:
     bool newest_, as_text_ = false;
     std::function<void(std::function<void()>)> later_;
     Respond respond_;
-    std::uint64_t until_;  ///< what comes after it is the next question's
+    std::uint64_t until_;  ///< later frames belong to the next request
     std::uint64_t at_, left_, missed_ = 0;
     std::optional<FrameDecoder> decoder_;  ///< of JSON
     json::array frames_;
@@ -190,7 +189,7 @@ Handled list_events(Call& c, EventPort& events) {
     const auto state = query_alarm_state(c, fault);
     const auto form = event_form(c, fault);
     if (fault) return *fault;
-    // Who has just done something finds it here, even though events share their way to the disk.
+    // A client finds the consequences of its last action here, although events wait for the disk.
     events.events_settled([&context = c.context, &events, query, state, form = *form, respond = c.respond] {
         auto list = state ? events_of_alarms(context.alarms->list(), events, query, *state) : events.events(query);
         std::ranges::sort(list, {}, &Event::id);

@@ -1,6 +1,5 @@
-// Handlers of registers as a client of a register door sees them, and of what helps to lay a register map out: printable lists, free
-// places, templates. In: calls. Out: words and bits of the register image, decoded by the site's mappings; lists with the revision of
-// registers 18-19. Never renders a register.
+// Handlers of registers as a client of a register door sees them, and of aids for a register map: printable lists, free places, templates.
+// The words come from the register image and are decoded by the site's mappings; lists have the revision of registers 18-19.
 #include <fmt/core.h>
 
 #include <array>
@@ -74,7 +73,7 @@ Handled get_next_free(Call& c, const SitePort& sites) {
     std::optional<Response> fault;
     const auto unit = query_whole(c, "unit", 2, 254, 2, fault);
     const auto words = query_whole(c, "words", 1, 1024, 1, fault);
-    // A whole block of an axis begins where the standard map would have one.
+    // A block of a whole axis is aligned as in the standard map.
     const auto align = query_whole(c, "align", 1, 1024, words == registers_per_axis ? registers_per_axis : 1, fault);
     if (fault) return *fault;
     const auto table = query_table(c);

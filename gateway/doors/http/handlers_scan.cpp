@@ -1,5 +1,4 @@
-// Handlers of a line's scan: begin it, look at it, end it; and where on this machine a line can be.
-// In: calls. Out: the report as the engine has it at that moment; the system's ports as they are now.
+// Handlers of a line's scan: begin, report, end; and the ports of this machine at which a line can be.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"

@@ -1,5 +1,5 @@
-// Handlers of the session: who am I, sign in, sign out, and the first sign-in of a new gateway.
-// In: calls. Out: the session's document and its cookie. One answer for a wrong user and a wrong password, in the same time.
+// Handlers of the session: the present identity, sign in, sign out, and the first sign-in of a new gateway. A wrong user and a wrong
+// password have the same answer after the same time.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"
@@ -20,13 +20,13 @@ Response signed_in(AccessPort& port, const AccessRegister::NewSession& session, 
     return r;
 }
 
-/// For an event: what was typed as a user's name may be a password in the wrong field, so only names that could be one are written down.
+/// For an event: the text typed as a user's name may be a password in the wrong field, so only possible names are written.
 std::string shown_name(std::string_view typed) { return user_name_fault(typed).empty() ? std::string(typed) : "a name that is none"; }
 }  // namespace
 
 Handled get_session(Call& c) {
     Response r = json_response(session_document(c.context.access.get(), c.identity));
-    // Said once: without the cookie the next request is this machine's again, as far as local access goes.
+    // Sent once: without the cookie the next request is local access again, if that is permitted.
     if (c.identity.session_ended) r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     return r;
 }
@@ -39,7 +39,7 @@ Handled sign_in(Call& c, const ClockPort& clock) {
     const auto password = body.text("password", true);
     if (!body.good()) return body.refusal();
     const std::string peer = c.request.peer, name = lower(trimmed(*user));
-    // Known names alone are told apart in events; the table of pauses treats all alike.
+    // Only known names are distinguished in events; the table of pauses treats all alike.
     const auto attempt = port->accounts().begin_sign_in(name, peer, clock.now_unix_ns());
     if (attempt.pause_s > 0) return paused(attempt.pause_s);
     const bool taken =
@@ -51,7 +51,7 @@ Handled sign_in(Call& c, const ClockPort& clock) {
                               note_access(*port, Door::http, peer, fmt::format("sign-in refused: {}", shown_name(name)), Severity::warning);
                               return respond(problem(401, "wrong_sign_in", "the user or the password is wrong"));
                           }
-                          if (!old.empty()) port->accounts().sign_out(old);  // another cookie takes the old one's place
+                          if (!old.empty()) port->accounts().sign_out(old);  // another cookie replaces the old one
                           note_access(*port, Door::http, who(session->identity, peer), fmt::format("{} signed in", name));
                           keep_uses(port);
                           respond(signed_in(*port, *session, secure));

@@ -1,5 +1,5 @@
-// Handlers of the site: lines, drives and axes one by one, and the whole document.
-// In: calls. Out: documents with their live state; changes go through parse_site as a whole and through the site port.
+// Handlers of the site: lines, drives and axes one by one, and the whole document. Changes go through parse_site as a whole and through the
+// site port.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"
@@ -25,7 +25,7 @@ Handled get(Call& c, const EntryPorts& ports, Collection collection) {
     if (!i) return nothing_named(item_name(collection), c.names[0]);
     if (collection == Collection::axes) {
         Response r;
-        r.headers.fields.reserve(12);  // with what the router adds
+        r.headers.fields.reserve(12);  // including the fields that the router adds
         r.headers.set("Content-Type", "application/json");
         r.body = c.context.axis_texts->text(ports, site, *i);
         put_revision(r, *site);
@@ -34,7 +34,7 @@ Handled get(Call& c, const EntryPorts& ports, Collection collection) {
     return site_answer(*site, entry_document(ports, site, collection, *i));
 }
 
-/// A change of one entry: made on the document, checked as a whole, shown by its entry.
+/// A change of one entry: made on the document, checked as a whole, answered by its entry.
 Handled change_entry(Call& c, SitePort& sites, const StagePort& staging, std::function<Edited(json::object document)> make,
                      std::function<Response(const std::shared_ptr<const SiteState>& now, const Edit& edit)> show) {
     return change_site(
@@ -48,7 +48,7 @@ Handled change_entry(Call& c, SitePort& sites, const StagePort& staging, std::fu
         });
 }
 
-/// 200, or 201 with its place, with the entry as it is now.
+/// 200, or 201 with its place, with the present entry.
 auto show_entry(const EntryPorts& ports, Collection collection, bool created) {
     return [ports, collection, created](const std::shared_ptr<const SiteState>& now, const Edit& edit) {
         const auto i = entry_named(now->site, collection, edit.name);

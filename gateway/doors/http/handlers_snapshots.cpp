@@ -1,5 +1,4 @@
 // Handlers of snapshots: calls of the snapshots' service, and its answers as HTTP.
-// In: calls. Out: snapshots, differences, what was changed and what was not and why. Never looks into a snapshot.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/handlers.hpp"

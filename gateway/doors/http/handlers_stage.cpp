@@ -1,5 +1,4 @@
-// Handlers of staged site changes and of the site's history.
-// In: calls. Out: the stage with its differences; revisions. Never changes a site: that is the staging's.
+// Handlers of staged site changes and of the site's history. SiteStaging carries them out.
 #include "gateway/doors/http/site_change.hpp"
 #include "gateway/services/site/site_staging.hpp"
 
@@ -14,7 +13,7 @@ Response stage_answer(const SitePort& sites, const json::object& document) {
     return r;
 }
 
-/// The stage, with what the doors say of it.
+/// The stage, with the connections that the doors would close.
 Handled staged_answer(const Call& c, const SitePort& sites, const SiteStaging& staging) {
     staging.ask([&sites, respond = c.respond](const json::object& document) { respond(stage_answer(sites, document)); });
     return {gateway_limit, stage_answer(sites, staging.document(std::nullopt))};

@@ -1,5 +1,4 @@
-// Handlers of tokens: secrets for programs, each belonging to a user, never above his role, shown once.
-// In: calls. Out: tokens without their secrets, except in the answer that makes one.
+// Handlers of tokens: secrets for programs that belong to a user, never above the user's role, shown once.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"

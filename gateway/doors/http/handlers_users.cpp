@@ -1,5 +1,5 @@
-// Handlers of users: made, changed and removed by administrators; everybody changes his own password.
-// In: calls. Out: users without their hashes. What a change is, is the service's.
+// Handlers of users: made, changed and removed by administrators; every user changes the own password. AccountChanges carries the changes
+// out.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"
@@ -61,7 +61,7 @@ Handled change_user(Call& c, AxisPort& axes, const SitePort& sites) {
     if (!port) return no_accounts();
     const std::string name = c.names[0];
     const AccountChanges accounts(port);
-    const auto known = accounts.find(name, meant_state(c.request));  // before a password is hashed for nothing
+    const auto known = accounts.find(name, meant_state(c.request));  // checked before a password is hashed in vain
     if (const auto* refusal = std::get_if<ServiceRefusal>(&known)) return problem_of(*refusal);
     BodyReader body(c.body.get_object(), {"role", "enabled", "password"});
     const auto role = body.role("role", false);
@@ -74,7 +74,7 @@ Handled change_user(Call& c, AxisPort& axes, const SitePort& sites) {
     accounts.change_user(
         name, {role, enabled, password}, meant_state(c.request), c.origin(),
         [&axes, &sites, by = c.who(), respond = c.respond](const Refusable<User>& answer) {
-            // Who may not command any more holds nothing any more.
+            // A user that may not command any more loses all leases.
             const auto* now = std::get_if<User>(&answer);
             if (now && (!now->enabled || now->role < Role::operating)) end_leases_of(axes, sites, now->name, by);
             respond(given(answer, [](const User& user) { return user_answer(user); }));
@@ -113,7 +113,7 @@ Handled change_password(Call& c, const ClockPort& clock) {
         if (const auto fault = password_fault(*fresh, name); !fault.empty()) body.fault("new", fault, "choose a longer sentence");
     }
     if (!body.good()) return body.refusal();
-    // The same counting as for a sign-in: a session that was left open must not become a place to try passwords.
+    // The same counting as for a sign-in, so that an open session cannot be used to try passwords.
     const std::string peer = c.request.peer;
     const auto attempt = port->accounts().begin_sign_in(name, peer, clock.now_unix_ns());
     if (attempt.pause_s > 0) {

@@ -1,5 +1,4 @@
-// Head: looks at each byte of a head once when it is whole, and only for its end before.
-// In: bytes and fields. Out: where it ends, or what two programs could read in two ways. Never takes a folded line or a bare line end.
+// Examines each byte of a complete head once, and an incomplete one only for its end. Folded lines and bare line ends are refused.
 #include "gateway/doors/http/head.hpp"
 
 #include <fmt/core.h>
@@ -12,12 +11,12 @@ namespace axisgate::http {
 namespace {
 constexpr std::size_t most_empty_bytes = 4;  // two empty lines
 
-/// Fields of which a request has one at most (RFC 9110 5.3): which one of two would count, nobody can say.
+/// Fields of which a request has at most one (RFC 9110 5.3), because it would be unclear which one counts.
 constexpr std::array<std::string_view, 13> single{
     "host",     "content-length", "transfer-encoding", "content-type",      "authorization",         "origin",        "x-csrf-token",
     "x-client", "expect",         "upgrade",           "sec-websocket-key", "sec-websocket-version", "sec-fetch-site"};
 
-/// A line that goes on in the next (obs-fold), a line end that is not CR LF, or a NUL.
+/// A line that continues on the next one (obs-fold), a line end that is not CR LF, or a NUL.
 bool has_odd_lines(std::string_view head) noexcept {
     for (std::size_t i = 0; i < head.size(); ++i) {
         const char c = head[i];
@@ -46,7 +45,7 @@ HeadScan scan_head(std::string_view bytes, std::size_t most) noexcept {
     }
     bytes.remove_prefix(scan.empty_lines);
     if (bytes.empty() || bytes == "\r") return scan;
-    if (!begins_a_request(bytes.front())) {  // no need to wait for the end of what is no request
+    if (!begins_a_request(bytes.front())) {  // these bytes cannot be a request, so their end is not awaited
         scan.verdict = HeadScan::Verdict::malformed;
         return scan;
     }

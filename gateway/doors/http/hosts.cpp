@@ -1,5 +1,5 @@
-// Hosts: upper case, a port and a final dot make no other name; an Origin and a Host are compared with the scheme's port filled in.
-// In: texts of headers. Out: yes or no. Never takes what is written wrongly for a name.
+// Upper case, a port and a final dot do not change a name; an Origin and a Host are compared after adding the scheme's port. Malformed text
+// is never a name.
 #include "gateway/doors/http/hosts.hpp"
 
 #include <algorithm>

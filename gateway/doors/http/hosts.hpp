@@ -1,5 +1,5 @@
-// Hosts: what Host and Origin headers may say, so that a page of another site cannot reach this door by a name of its own.
-// In: headers, the settings. Out: yes or no. Never looks a name up.
+// The allowed values of Host and Origin headers, so that a page of another site cannot reach this door under a name of its own. Names are
+// not looked up.
 #pragma once
 
 #include <string_view>
@@ -9,18 +9,18 @@
 
 namespace axisgate::http {
 
-/// The host that a request is for: an absolute target says so in place of the header, whatever that says (RFC 9112 3.2.2).
+/// The host of a request: an absolute target replaces the header (RFC 9112 3.2.2).
 [[nodiscard]] std::string_view host_meant(const Request& request);
-/// Whether an Origin header names the same host and port as the Host header.
+/// True if an Origin header names the same host and port as the Host header.
 [[nodiscard]] bool same_host(std::string_view origin, std::string_view host);
-/// Whether a Host header's value is one at all (RFC 9110 7.2: uri-host and perhaps a port); an empty one is.
+/// True if a Host header's value is well-formed (RFC 9110 7.2: uri-host and an optional port); an empty one is.
 [[nodiscard]] bool host_is_written_right(std::string_view host);
-/// Whether a Host header may name this gateway: any IP address (a name alone can be bound to another address by whoever owns it), the names
-/// of the machine to itself (localhost, *.localhost), and those of Settings::allowed_hosts, with or without a port.
+/// True if a Host header may name this gateway: any IP address (a name could be bound to another address by its owner), the names of the
+/// machine for itself (localhost, *.localhost), and those of Settings::allowed_hosts, with or without a port.
 [[nodiscard]] bool host_allowed(std::string_view host, const Settings& settings);
-/// Whether it names the machine to itself: localhost, *.localhost, 127.0.0.0/8, [::1].
+/// True for the machine itself: localhost, *.localhost, 127.0.0.0/8, [::1].
 [[nodiscard]] bool host_is_loopback(std::string_view host);
-/// Whether it is an address at which nobody reaches the machine from itself over loopback: whoever comes so came through something else.
+/// True for an address under which the machine does not reach itself over loopback: such a request came through another program.
 [[nodiscard]] bool host_is_outer_address(std::string_view host);
 
 }  // namespace axisgate::http

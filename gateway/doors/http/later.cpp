@@ -1,5 +1,4 @@
-// Later: a handler in the io_context's queue, given again behind what is ready as long as there are jobs.
-// In: jobs. Out: their calls. Never runs one inside `put`.
+// A handler in the io_context's queue, posted again behind the ready ones as long as there are jobs. A job is never run inside `put`.
 #include "gateway/doors/http/later.hpp"
 
 #include <boost/asio/post.hpp>
@@ -12,7 +11,7 @@ void Later::put(std::function<void()> job) {
     if (!awake_) wake();
 }
 
-// Given twice: what the io_context finds at the sockets it puts behind what waits already, so behind the first and before the second.
+// Posted twice: the io_context puts handlers of ready sockets behind waiting ones, so behind the first and before the second.
 void Later::wake() {
     awake_ = true;
     boost::asio::post(context_, [self = weak_from_this()] {

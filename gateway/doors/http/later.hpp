@@ -1,7 +1,6 @@
-// Later: what moves nothing waits here for the turn of what commands. Between two looks at the sockets some of it is done, at most 15 us
-// and one job more: so a command that has come is taken up before the requests that came before it and that nothing moves by. In: jobs of
-// this thread. Out: their calls, in order, from the io_context. Bound: one job for each connection and one for the live feed, kept by those
-// who give them.
+// Requests that move nothing wait here for commands. Between two polls of the sockets jobs run for at most 15 us and one job more, so that
+// a new command is served before earlier requests that move nothing. Bound: one job for each connection and one for the live feed, which
+// the callers keep.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -14,13 +13,13 @@ namespace axisgate::http {
 
 class Later : public std::enable_shared_from_this<Later> {
 public:
-    /// Between two looks at the sockets; a job that has begun is ended.
+    /// Between two polls of the sockets; a job that has begun is completed.
     static constexpr std::chrono::microseconds most_at_once{15};
 
     explicit Later(boost::asio::io_context& context) : context_(context) {}
     Later(const Later&) = delete;
     Later& operator=(const Later&) = delete;
-    /// To be called once, soon, unless this object is gone by then. The job keeps nobody alive who keeps this object.
+    /// To be called once, soon, unless this object is gone by then. The job must not keep an owner of this object alive.
     void put(std::function<void()> job);
 
 private:

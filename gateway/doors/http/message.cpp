@@ -1,5 +1,4 @@
-// Message: lookups in headers and the names of methods.
-// In: a request or a response. Out: values of fields. Never changes what came.
+// Looks up headers and the names of methods.
 #include "gateway/doors/http/message.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Message: a request and a response as values, and the shape of a handler's answer, which may come later.
-// In: made by the connection from bytes, or by a test. Out: read by the router and the handlers.
-// Never holds a socket: the same values go through the router in a test and in service.
+// A request and a response as values, and the form of a handler's answer, which may come later. There is no socket, so the router works in
+// the same way in a test and in service.
 #pragma once
 
 #include <chrono>
@@ -30,13 +29,13 @@ struct Headers {
 
 struct Request {
     Method method = Method::get;
-    std::string target;  ///< as it came: "/api/v1/axes/feeder?x=1"
+    std::string target;  ///< as received: "/api/v1/axes/feeder?x=1"
     bool http_1_0 = false;
     Headers headers;
     std::string body;
-    std::optional<std::uint64_t> announced_bytes{};  ///< Content-Length; nothing: none, or chunks
+    std::optional<std::uint64_t> announced_bytes{};  ///< Content-Length; empty: none, or chunks
     std::string peer;                                ///< "192.0.2.7:51123"
-    bool secure = false;                             ///< came over TLS
+    bool secure = false;                             ///< received over TLS
 };
 
 struct Response {
@@ -45,8 +44,8 @@ struct Response {
     std::string body;
     /// The body is only measured, not sent (answers to HEAD, and 304).
     bool without_body = false;
-    bool changed_nothing = false;  ///< though it is a good answer to what could have: there is nothing to write down
-    /// Of an error, what the body says, for whoever writes it down.
+    bool changed_nothing = false;  ///< although it is a good answer to a request that could change something: no event is necessary
+    /// For an error, the content of the body for the event.
     struct Told {
         std::string reason, detail, axis;
     } told{};
@@ -54,13 +53,13 @@ struct Response {
 
 using Respond = std::function<void(Response)>;
 
-/// What a handler gives back: an answer now, or a promise that its Respond will be called once, and what to say if it is not in time.
+/// The result of a handler: an answer now, or a promise that its Respond will be called once, with the answer for the case that it is late.
 struct Handled {
     std::optional<Response> now;
-    std::chrono::nanoseconds limit{};  ///< if `now` is empty: answer `at_limit` when this has passed without a call
+    std::chrono::nanoseconds limit{};  ///< if `now` is empty: `at_limit` is the answer after this time without a call
     Response at_limit;
-    std::optional<bool> known{};      ///< whether it came from somebody: signed in, a token, or this machine; nothing: not looked at
-    bool commands = false;            ///< of a route that may set something in motion
+    std::optional<bool> known{};      ///< whether the client is known: signed in, a token, or this machine; empty: not determined
+    bool commands = false;            ///< of a route that may start a motion
     std::string_view route = "none";  ///< for a counter, set by the router: a path of its table, "static" for files, "none"
 
     Handled() = default;

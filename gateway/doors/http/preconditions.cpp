@@ -1,5 +1,4 @@
-// Preconditions: what a request says of the state that it means.
-// In: states, headers. Out: 412. Keeps nothing; never decides for the site, which has its revision.
+// Compares the state that a request names with the present one, and makes the 412. For the site the revision is compared elsewhere.
 #include "gateway/doors/http/preconditions.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Problem: one table from a refusal's reason to the status and the title that HTTP gives it.
-// In: faults and results. Out: responses. Texts that may repeat what a client sent are cut at 1024 bytes. Never drops the drive's code.
+// One table from the reason of a refusal to its HTTP status and title. Texts that may repeat a client's input are cut at 1024 bytes.
 #include "gateway/doors/http/problem.hpp"
 
 #include <fmt/core.h>
@@ -13,9 +12,9 @@ namespace axisgate::http {
 namespace json = boost::json;
 
 namespace {
-constexpr std::size_t most_text_bytes = 1024;  // of one text: it may repeat what the client sent
+constexpr std::size_t most_text_bytes = 1024;  // of one text, because it may repeat the client's input
 
-/// The beginning of a text that is too long, cut between two letters.
+/// The beginning of a long text, cut between two characters.
 std::string shortened(const std::string& text) {
     if (text.size() <= most_text_bytes) return text;
     std::size_t end = most_text_bytes;
@@ -150,7 +149,7 @@ unsigned status_of(Reason reason) noexcept {
             return 504;
         case Reason::not_stored:
             return 507;
-        case Reason::none:  // a refusal without a reason is a fault of ours
+        case Reason::none:  // a refusal without a reason is a fault of the gateway
         case Reason::internal:
             return 500;
     }
@@ -158,7 +157,7 @@ unsigned status_of(Reason reason) noexcept {
 }
 
 std::int64_t shown(Ticket ticket) noexcept {
-    // The upper byte of a ticket names its door; what is left counts up from 1.
+    // The upper byte of a ticket is its door; the rest increases from 1.
     return static_cast<std::int64_t>(ticket & 0x001F'FFFF'FFFF'FFFFull);
 }
 

@@ -1,5 +1,4 @@
-// Request checks: by the list at the route; packed bodies are refused, since a few bytes can unpack to any number.
-// In: a request, its route's list. Out: a refusal, or nothing. Never knows a route by its name.
+// Checks a request by the list of its route. Compressed bodies are refused, because a few bytes can expand to any length.
 #include "gateway/doors/http/request_checks.hpp"
 
 #include <fmt/core.h>
@@ -12,7 +11,7 @@ namespace axisgate::http {
 namespace json = boost::json;
 using Takes = Route::Takes;
 
-/// What is wrong with the media type that is announced for the body.
+/// Checks the media type of the body.
 std::optional<Response> check_media(const Request& request, Takes takes) {
     const auto given = request.headers.get("Content-Type");
     const auto media = media_of(given);
@@ -46,7 +45,7 @@ std::optional<Response> check_media(const Request& request, Takes takes) {
     return std::nullopt;
 }
 
-/// What is packed is not taken: unpacking a few bytes can give any number of them. `identity` is no packing (RFC 9110 8.4).
+/// Compressed bodies are refused, because a few bytes can expand to any length. `identity` is no compression (RFC 9110 8.4).
 std::optional<Response> check_coding(const Request& request, Takes takes) {
     if (takes == Takes::nothing) return std::nullopt;
     for (const auto& [name, value] : request.headers.fields) {
@@ -63,7 +62,7 @@ std::optional<Response> check_coding(const Request& request, Takes takes) {
     return std::nullopt;
 }
 
-/// Reads the body where the route takes JSON; what is wrong with it otherwise. Tables and files are read by their handlers.
+/// Reads the body if the route takes JSON, and returns its faults. Handlers read tables and files.
 std::optional<Response> read_body(const Request& request, Takes takes, json::value& into) {
     const bool json_file = takes == Takes::eds && media_of(request.headers.get("Content-Type")) == "application/json";
     if (takes != Takes::json && takes != Takes::patch && !json_file) return std::nullopt;
@@ -81,7 +80,7 @@ std::optional<Response> read_body(const Request& request, Takes takes, json::val
     return std::nullopt;
 }
 
-/// What is wrong with the names of the query: each must be one of the route's, and none may stand twice.
+/// Checks the names of the query: each must be one of the route's, and none may occur twice.
 std::optional<Response> check_query(const Query& query, std::string_view known) {
     const auto is_known = [known](std::string_view name) {
         for (std::string_view rest = known; !rest.empty();) {

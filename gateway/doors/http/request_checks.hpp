@@ -1,5 +1,5 @@
-// Request checks: what holds for the query and the body of every route: known names, media types, no packing, JSON without doubt.
-// In: a request and what its route takes. Out: a refusal, or nothing. Never looks at what a value means: that is the handler's.
+// Checks of query and body for every route: known names, media types, no compression, unambiguous JSON. The meaning of values is checked by
+// the handlers.
 #pragma once
 
 #include <boost/json/value.hpp>
@@ -10,13 +10,13 @@
 
 namespace axisgate::http {
 
-/// 415 if the media type that is announced for the body is not the route's.
+/// 415 if the media type of the body is not that of the route.
 [[nodiscard]] std::optional<Response> check_media(const Request& request, Route::Takes takes);
 /// 415 for a Content-Encoding other than identity.
 [[nodiscard]] std::optional<Response> check_coding(const Request& request, Route::Takes takes);
-/// 400 for a name that is not among `known` (with blanks between them), or stands twice.
+/// 400 for a name that is not in `known` (separated by blanks), or occurs twice.
 [[nodiscard]] std::optional<Response> check_query(const Query& query, std::string_view known);
-/// Reads the body where the route takes JSON; 400 if it is none, no object, or has two members of one name.
+/// Reads the body if the route takes JSON; 400 if it is not JSON, not an object, or has two members of one name.
 [[nodiscard]] std::optional<Response> read_body(const Request& request, Route::Takes takes, boost::json::value& into);
 
 }  // namespace axisgate::http

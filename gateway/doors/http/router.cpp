@@ -1,5 +1,4 @@
-// Router: the table of routes and the rules that hold for all of them.
-// In: requests. Out: answers.
+// Applies the table of routes and the rules for all of them.
 #include "gateway/doors/http/router.hpp"
 
 #include <fmt/core.h>
@@ -18,14 +17,14 @@ namespace {
 using Takes = Route::Takes;
 using Gives = Route::Gives;
 
-constexpr std::size_t most_told_bytes = 128;  // of a text that a body has for an event
+constexpr std::size_t most_told_bytes = 128;  // of a text of the body in an event
 constexpr std::array<Method, 5> listed_methods{Method::get, Method::post, Method::put, Method::patch, Method::remove};
 
-/// One path of the table with all its routes, taken apart once.
+/// One path of the table with all its routes, split once.
 struct Shape {
     std::string_view path;
     std::vector<std::string_view> parts;
-    std::size_t names = 0;  ///< how many of them are `{...}`
+    std::size_t names = 0;  ///< number of `{...}` segments
     std::vector<const Route*> routes;
 };
 
@@ -58,14 +57,14 @@ std::vector<std::vector<Shape>> make_shapes() {
 }
 
 bool fits(const Shape& shape, const std::vector<std::string>& segments) {
-    // From the end: there paths differ.
+    // From the end, where paths differ.
     for (std::size_t i = segments.size(); i-- > 0;) {
         if (is_name(shape.parts[i]) ? segments[i].empty() : shape.parts[i] != segments[i]) return false;
     }
     return true;
 }
 
-/// The path that a target means: of those that fit, the one with the fewest names in it, so that /mappings/list is no mapping.
+/// The path of a target: of several that fit, the one with the fewest names in it, so that /mappings/list is not a mapping.
 const Shape* shape_of(const std::vector<std::string>& segments) {
     static const std::vector<std::vector<Shape>> shapes = make_shapes();
     const Shape* best = nullptr;
@@ -76,7 +75,7 @@ const Shape* shape_of(const std::vector<std::string>& segments) {
     return best;
 }
 
-/// What the `{...}` segments hold.
+/// The values of the `{...}` segments.
 std::vector<std::string> names_in(const Shape& shape, const std::vector<std::string>& segments) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -164,7 +163,7 @@ std::optional<Response> Router::check_origin(const Request& request) {
                    fmt::format("the request comes from a page of another host ({})", origin.empty() ? "cross-site" : origin));
 }
 
-/// What the head of a request leads to: an answer, or a route with everything that its handler needs beside the body.
+/// The result of a request's head: an answer, or a route with everything that its handler needs except the body.
 struct Router::Entry {
     std::optional<Response> answer;
     const Route* route = nullptr;
@@ -213,7 +212,7 @@ Router::Entry Router::enter(const Request& request, std::optional<Target> target
         return answer(std::move(r));
     }
     e.names = names_in(*shape, e.target->segments);
-    // Who it is, and whether he may: before anything of the request is looked at further.
+    // Identity and role are checked before anything else of the request.
     e.identity = http::identify(context_.access.get(), request, context_.ports.get<ClockPort>().now_unix_ns(), touch);
     if (const Role needed = e.route->needed(); needed != Role::none) {
         if (auto refusal = refuse_below(e.identity, needed)) {
@@ -256,7 +255,7 @@ Admission Router::admit(const Request& head) const {
     return a;
 }
 
-/// What the audit may have to say of it; of what is only read, nothing but refusals.
+/// The data for a possible event; for requests that only read, only refusals.
 void Router::fill(Audit::Asked& asked, const Request& request, const Entry& e) const {
     asked.changes = request.method != Method::get && request.method != Method::head && request.method != Method::options;
     if (!asked.changes && !(e.answer && Audit::is_refusal(e.answer->status, false))) return;
@@ -278,7 +277,7 @@ Handled Router::dispatch(const Request& request, std::optional<Target> target, c
     const bool known = *handled.known;
     Call call{context_, request, *e.target, std::move(e.names), nullptr, respond, std::move(e.identity)};
     if (auto refusal = read_body(request, e.route->takes, call.body)) return *std::move(refusal);
-    // Named clients that may command: to one of them an axis can be handed over.
+    // Named clients that may command are candidates for a hand-over.
     if (call.identity.role >= Role::operating && (!call.identity.user.empty() || request.headers.count("X-Client") != 0)) {
         context_.clients->note(*call.origin().client, context_.ports.get<ClockPort>().now_unix_ns());
     }
@@ -305,7 +304,7 @@ void Router::finish(Response& r, bool is_head) {
 }
 
 Handled Router::handle(const Request& request, Respond respond) const {
-    // A command may be answered from inside a call: then the promise is an answer at once.
+    // A command may be answered from inside a call: then the promise is an immediate answer.
     struct Once {
         bool inside = true, answered = false;
         std::optional<Response> early;

@@ -1,6 +1,5 @@
-// Router: from a request to the handler of its route, with everything that holds for all routes: hosts, origins, methods, media types.
-// In: a Request. Out: Handled: an answer, or a promise of one through the Respond that came with the request.
-// Never touches a socket. The routes are a table, so that a test can compare it with schema/openapi.yaml.
+// From a request to the handler of its route, with the rules for all routes: hosts, origins, methods, media types. The result is an answer,
+// or a promise of one through the request's Respond. The routes are a table that a test compares with schema/openapi.yaml.
 #pragma once
 
 #include <span>
@@ -22,25 +21,25 @@ struct Route {
         csv,
         bytes,
         eds
-    };  ///< patch: also application/merge-patch+json; csv, bytes: the handler reads it; eds: a file as it is, or JSON that holds it
-    enum class Gives : std::uint8_t { json, text, yaml, nothing, own };  ///< own: the handler looks at Accept itself
+    };  ///< patch: also application/merge-patch+json; csv, bytes: the handler reads it; eds: a file, or JSON that contains it
+    enum class Gives : std::uint8_t { json, text, yaml, nothing, own };  ///< own: the handler reads Accept itself
 
-    std::string_view path;  ///< as the description writes it: "/api/v1/axes/{axis}/commands"
+    std::string_view path;  ///< as in the description: "/api/v1/axes/{axis}/commands"
     Method method = Method::get;
     Handler handler = nullptr;
     Takes takes = Takes::nothing;
     Gives gives = Gives::json;
-    bool same_origin_only = false;  ///< even though it is a GET: the live feed
-    /// The lowest role that may; nothing: viewer for GET, engineer for all other methods. Role::none: open to all. Where it depends on the
-    /// body, the table has the lowest one and the handler asks for more with refuse_below.
+    bool same_origin_only = false;  ///< although it is a GET: the live feed
+    /// The lowest sufficient role; empty: viewer for GET, engineer for all other methods. Role::none: open to all. If it depends on the
+    /// body, the table has the lowest one and the handler checks the rest with refuse_below.
     std::optional<Role> least = std::nullopt;
-    /// Names that its query may have, with blanks between them; any other is refused with 400, so that nobody believes in a `dry_run` or
-    /// a filter that does not exist. What a value may be is the handler's.
+    /// The names of its query, separated by blanks; any other is refused with 400, so that nobody relies on a `dry_run` or a filter that
+    /// does not exist. Values are checked by the handler.
     std::string_view query = {};
-    /// The event that a good answer leaves: what no handler, service or engine tells of. In the text `{}` is the next name of the path,
-    /// `{word}` a text of the body.
+    /// The event for a good answer, if no handler, service or engine reports it. In the text `{}` is the next name of the path, `{word}` a
+    /// text of the body.
     std::string_view event_kind = {}, event_text = {};
-    bool commands = false;  ///< may set something in motion: the connection is then a path on which it is stopped
+    bool commands = false;  ///< may start a motion: the connection is then one over which the motion can be stopped
 
     [[nodiscard]] constexpr Route asks(std::string_view names) const {
         Route r = *this;
@@ -66,32 +65,33 @@ struct Route {
     [[nodiscard]] constexpr Role needed() const { return least.value_or(method == Method::get ? Role::viewer : Role::engineer); }
 };
 
-/// What is known of a request before its body has been read.
+/// The decision about a request before its body is read.
 struct Admission {
     std::optional<Response> refusal;  ///< the answer, if the body is not wanted
-    std::size_t max_body_bytes = 0;   ///< otherwise: of the body
+    std::size_t max_body_bytes = 0;   ///< otherwise the limit of the body
 };
 
-/// Every route of this door, HEAD and OPTIONS apart: those follow from these.
+/// Every route of this door, without HEAD and OPTIONS, which follow from these.
 [[nodiscard]] std::span<const Route> all_routes() noexcept;
 
 class Router {
 public:
     explicit Router(Context context) : context_(std::move(context)), audit_(std::make_shared<Audit>(context_.ports.get<EventPort>())) {}
 
-    /// `respond` is called at most once, later, and only if the answer is not in the result. It may be called after the promise's limit:
-    /// then it is the caller's to ignore it.
+    /// `respond` is called at most once, later, and only if the result has no answer. It may be called after the promise's limit; the
+    /// caller must ignore it then.
     [[nodiscard]] Handled handle(const Request& request, Respond respond) const;
     /// Everything that is decided without the body: host, route, role, CSRF, origin, announced length, query, media type. A refusal here is
-    /// the one that handle() would give, and is written down as there. Changes nothing: no session is renewed by it.
+    /// the one of handle(), with the same event. Nothing is changed, and no session is renewed.
     [[nodiscard]] Admission admit(const Request& head) const;
-    /// Whether it may set something in motion, or stop it: such a request is taken up before all others.
+    /// True if it may start or stop a motion: such a request is served before all others.
     [[nodiscard]] bool moves(const Request& request) const;
-    /// Why a live feed that was opened by this request may not go on, for its close frame; empty: its session or token still holds.
+    /// The reason why a live feed that was opened by this request must be closed, for its close frame; empty: its session or token is still
+    /// valid.
     [[nodiscard]] std::string_view why_not_watched_on(const Request& request) const;
-    /// Who commands over a live feed that was opened by this request; nothing: it has no role that may.
+    /// The client that commands over a live feed opened by this request; empty: it has no sufficient role.
     [[nodiscard]] std::optional<Origin> commander_of(const Request& request) const;
-    /// The route's path for a counter: as in the table, "static" for files, "none" where nothing matched.
+    /// The route's path for a counter: as in the table, "static" for files, "none" if nothing matched.
     [[nodiscard]] std::string_view route_of(const Request& request) const;
     [[nodiscard]] Audit& audit() const noexcept { return *audit_; }
 
@@ -106,7 +106,7 @@ private:
     static void finish(Response& response, bool is_head);
 
     Context context_;
-    std::shared_ptr<Audit> audit_;  // kept by answers that come late
+    std::shared_ptr<Audit> audit_;  // kept alive by late answers
 };
 
 }  // namespace axisgate::http

@@ -1,5 +1,5 @@
-// Routes: every path of this door with its method, who may, what it takes and gives, and the event that it leaves.
-// In: nothing. Out: the table, which tests compare with schema/openapi.yaml.
+// Every path of this door with its method, role, input and output, and the event of a good answer. Tests compare it with
+// schema/openapi.yaml.
 #include "gateway/doors/http/router.hpp"
 
 #include <array>

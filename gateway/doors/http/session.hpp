@@ -1,6 +1,5 @@
-// Session: what a server sees of one open socket, be it plain requests or the live feed; and what a session sees of its server.
-// In and out: interfaces alone.
-// The bytes go through `Transport`, plain or TLS.
+// The interface between the server and one open socket, for plain requests and for the live feed. The bytes go through `Transport`, plain
+// or TLS.
 #pragma once
 
 #include <chrono>
@@ -18,7 +17,7 @@
 
 namespace axisgate::http {
 
-/// Of what large answers and bodies hold of the memory, all connections together.
+/// The memory of large answers and bodies, of all connections together.
 struct ByteBudget {
     std::size_t most = 0, held = 0;
     [[nodiscard]] bool take(std::size_t bytes) noexcept {
@@ -35,9 +34,9 @@ struct ByteBudget {
 using SteadyTime = std::chrono::steady_clock::time_point;
 
 struct Session {
-    /// Whose it is, and whether it may be closed to make room for another.
+    /// Its holder, and whether it may be closed for another connection.
     [[nodiscard]] virtual Guest guest() const = 0;
-    /// Ends after what is in progress; at once if nothing is.
+    /// Ends after the work in progress; at once if there is none.
     virtual void stop() = 0;
     /// Ends now.
     virtual void abort() = 0;
@@ -50,10 +49,10 @@ struct SessionHost {
     const Router& router;
     Counters& counters;
     StreamHub& hub;
-    std::shared_ptr<TlsIdentity> tls;  ///< nothing: plain HTTP
+    std::shared_ptr<TlsIdentity> tls;  ///< null: plain HTTP
     bool stopping = false;
     ByteBudget budget;
-    std::shared_ptr<Later> later;  ///< for what moves nothing
+    std::shared_ptr<Later> later;  ///< for requests that move nothing
 
     virtual void add(std::shared_ptr<Session> session) = 0;
     virtual void remove(const Session* session) = 0;
@@ -64,7 +63,7 @@ struct SessionHost {
     virtual ~SessionHost() = default;
 };
 
-/// The steady clock as the pure parts of this door take it.
+/// The steady clock in the form of the pure parts of this door.
 [[nodiscard]] inline Instant steady_instant() { return Instant{std::chrono::steady_clock::now().time_since_epoch()}; }
 
 }  // namespace axisgate::http

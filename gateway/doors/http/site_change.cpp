@@ -1,5 +1,4 @@
-// Site changes as requests: what If-Match names is a list of revisions.
-// In: calls, plans. Out: answers. Never changes a site: that is the service's.
+// If-Match names a list of revisions. The service makes the change.
 #include "gateway/doors/http/site_change.hpp"
 
 #include <fmt/core.h>
@@ -7,7 +6,7 @@
 namespace axisgate::http {
 namespace json = boost::json;
 namespace {
-/// The revisions that If-Match names.
+/// The revisions in If-Match.
 std::vector<std::uint64_t> revisions_in(std::string_view if_match) {
     std::vector<std::uint64_t> out;
     while (!if_match.empty()) {

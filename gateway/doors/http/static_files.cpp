@@ -1,5 +1,4 @@
-// Static files: packed when the page was built; the packed form is a representation with a tag of its own.
-// In: targets, Accept fields. Out: responses. Never packs during a request.
+// Files are compressed when the page is built; the compressed form is a representation with a tag of its own.
 #include "gateway/doors/http/static_files.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +12,7 @@
 
 namespace axisgate::http {
 namespace {
-/// FNV-1a, 64 bits: names the content, nothing depends on it being hard to forge.
+/// FNV-1a, 64 bits: identifies the content; it need not be hard to forge.
 std::uint64_t hash_of(std::string_view bytes) noexcept {
     std::uint64_t h = 14695981039346656037ull;
     for (const unsigned char c : bytes)
@@ -29,7 +28,7 @@ bool is_hidden_or_upward(const Target& target) {
     });
 }
 
-/// Whether an Accept-Encoding field takes gzip (RFC 9110 12.5.3): by its name, else by "*", and not with a quality of 0.
+/// True if an Accept-Encoding field accepts gzip (RFC 9110 12.5.3): by its name, otherwise by "*", and not with a quality of 0.
 bool takes_gzip(std::string_view field) {
     bool by_star = false;
     while (!field.empty()) {
@@ -47,7 +46,7 @@ bool takes_gzip(std::string_view field) {
     return by_star;
 }
 
-/// Whether an Accept field names text/html itself, as browsers do when a page is opened: what asks for anything wants no page.
+/// True if an Accept field names text/html itself, as browsers do when a page is opened; requests that accept anything want no page.
 bool asks_for_html(std::string_view field) {
     while (!field.empty()) {
         const auto end = std::min(field.find(','), field.size());
@@ -91,10 +90,10 @@ std::string_view media_for(std::string_view path) noexcept {
 Response static_file(const AssetLookup& asset, const Target& target, const Headers& headers) {
     if (is_hidden_or_upward(target)) return problem(404, "not_found", "there is no such file");
     std::string path = target.path;
-    if (path == "/help") path += '/';  // the handbook's contents; the links in it are whole paths
+    if (path == "/help") path += '/';  // the contents of the handbook; its links are whole paths
     if (path.ends_with('/')) path += "index.html";
     std::string_view bytes = asset ? asset("web/dist" + path) : std::string_view();
-    // The page has addresses of its own, with names in them ("/axes/portal.x"): whoever opens one in a browser gets the page.
+    // The page has addresses of its own, with names in them ("/axes/portal.x"): a browser that opens one gets the page.
     const bool opened = bytes.data() == nullptr && is_address_of_page(target) && asks_for_html(headers.get("Accept"));
     if (opened) {
         path = "/index.html";
@@ -107,7 +106,7 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
                 ? "this build holds no page; the interface is described at /api/v1/openapi.yaml"
                 : fmt::format("there is no {} here: the interface is at /api/v1, described by /api/v1/openapi.yaml", target.path));
     }
-    // Packed when the page was built, and not again for each request. What comes packed is another representation: it has its own tag.
+    // Compressed when the page was built, not for each request. The compressed form has its own tag.
     Response r;
     if (opened) r.headers.set("Vary", "Accept");
     const auto packed = asset("web/dist" + path + ".gz");
@@ -120,7 +119,7 @@ Response static_file(const AssetLookup& asset, const Target& target, const Heade
     }
     const std::string tag = fmt::format("\"{:016x}\"", hash_of(bytes));
     r.headers.set("ETag", tag);
-    r.headers.set("Cache-Control", "no-cache");  // kept, but asked for each time: the tag makes that cheap
+    r.headers.set("Cache-Control", "no-cache");  // cached, but validated each time; the tag makes this cheap
     if (tag_listed(headers.get("If-None-Match"), tag, true)) {
         r.status = 304;
         r.headers.remove("Content-Encoding");  // there is no content

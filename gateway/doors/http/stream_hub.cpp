@@ -1,6 +1,5 @@
-// Stream hub: asks each source for its version once per period and hands the same frame to all who subscribed to it.
-// In: requests, events, time. Out: frames in queues, one client at a time. A period that was missed is not made up for. Never waits for a
-// slow client.
+// Asks each source for its version once per period and gives the same frame to all subscribers. A missed period is not repeated, and a slow
+// client is not waited for.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <fmt/core.h>
@@ -76,8 +75,8 @@ std::shared_ptr<StreamClient> StreamHub::add(std::function<void()> wake) {
 
 void StreamHub::remove(const std::shared_ptr<StreamClient>& client) {
     clients_.remove(client);
-    // Not waited for until its set-points have run out; unless the same client gives some over another feed, which this one cannot tell
-    // apart.
+    // Its loss is reported at once, without waiting until its set-points expire; unless the same client sends some over another feed, which
+    // this feed cannot know.
     const auto& who = client->gives_set_points_;
     if (attached_ && who && std::ranges::none_of(clients_, [&](const auto& c) { return c->gives_set_points_ == who; }))
         axes_.client_lost(*who, LossCause::set_points_silent);
@@ -132,7 +131,7 @@ bool StreamHub::may_ask(StreamClient& c, const StreamRequest& request, Instant n
     return c.asked_ <= allowance;
 }
 
-/// Handed on without an answer; only what could not be handed on is told to the client.
+/// Passed on without an answer; only a refusal is reported to the client.
 void StreamHub::give_set_point(StreamClient& c, const json::object& body, Instant now) {
     auto origin = c.commander ? c.commander() : std::nullopt;
     if (!origin) return send_error(c, "set-points need the role operator or a higher one");
@@ -255,8 +254,8 @@ void StreamHub::on_deadline(Instant now) {
         if (at > now) continue;
         const auto period = std::chrono::milliseconds(period_ms);
         at += period;
-        if (at <= now) at = now + period;  // late: periods are not made up for
-        // Not all of the period before are told yet: this one is left out, as for one that comes late.
+        if (at <= now) at = now + period;  // late: missed periods are not repeated
+        // The previous period is not finished: this one is left out, as for a late call.
         if (std::ranges::find(due_, period_ms, &Due::period_ms) != due_.end()) continue;
         for (const auto& c : clients_) {
             const bool watches = c->watches_.contains(period_ms) ||
@@ -267,7 +266,7 @@ void StreamHub::on_deadline(Instant now) {
     tell_next();
 }
 
-/// Some looks at what the next client watches, or the client itself when all is looked at: whoever comes after it finds them made.
+/// A few looks at the subscriptions of the next client, or its messages when all looks are done, which later clients share.
 void StreamHub::tell_next() {
     if (due_.empty()) return;
     Due& d = due_.front();
@@ -311,7 +310,7 @@ void StreamHub::send_states(StreamClient& c, std::vector<StreamClient::Watch>& l
     c.has_work_ = true;
 }
 
-/// What has changed as the bytes of one write. Clients that watch the same axes share it: made once, it spares each of them the queue.
+/// The changes as the bytes of one write. Clients with the same subscriptions share them, which saves each of them the queue.
 SharedFrame StreamHub::joined() {
     auto& last = last_joined_;
     if (last.parts == changed_) return last.all;
@@ -327,7 +326,7 @@ void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {
     const LineId id = line_id(watch.line);
     if (id == no_line) return;
     watch.id = id;
-    // The newest ones, whatever the number of kept frames is: read up to the end, keep the last stretch.
+    // The newest ones, whatever the number of stored frames is: reads to the end, keeps the last part.
     Trace trace = lines_.trace(id, 0, most_frames);
     for (int i = 0; i < 64 && trace.entries.size() == most_frames; ++i) {
         Trace more = lines_.trace(id, trace.next, most_frames);
@@ -341,7 +340,7 @@ void StreamHub::begin_frames(StreamClient& c, StreamClient::FrameWatch& watch) {
         stream_message(watch.topic, clock_.now_unix_ns(), frames_document(decoder_for(watch.line, 0, trace.next), trace.entries, from, 0)));
 }
 
-/// The reader that has read this line up to `since`, or a new one. At most one per line is kept.
+/// The decoder that has read this line up to `since`, or a new one. At most one per line is kept.
 FrameDecoder& StreamHub::decoder_for(const std::string& line, std::uint64_t since, std::uint64_t next) {
     auto& kept = decoders_[line];
     if (!kept.decoder || since == 0 || kept.next != since) {
@@ -352,7 +351,8 @@ FrameDecoder& StreamHub::decoder_for(const std::string& line, std::uint64_t sinc
 }
 
 void StreamHub::send_frames(StreamClient& c, StreamClient::FrameWatch& watch, Instant now) {
-    // The list before is still waiting: this client is slow. Its place in the recording is kept; what is overwritten meanwhile is counted.
+    // The previous list is still waiting, because this client is slow. Its position in the recording is kept; overwritten frames are
+    // counted.
     if (c.queue.state_waits(watch.number)) return;
     const LineId id = line_id(watch.line);
     if (id == no_line) return;
@@ -443,7 +443,7 @@ void StreamHub::on_event(const Event& event) {
 }
 
 void StreamHub::on_site(const std::shared_ptr<const SiteState>& site) {
-    // Snapshots need an instant; the next on_deadline has one, and it is due at once.
+    // Snapshots need an instant, which the next on_deadline has; it is due at once.
     new_site_ = site;
     if (rearm_) rearm_();
 }

@@ -1,5 +1,4 @@
-// Stream queue: a newer state takes the place of the one that waits, so the order of topics stays.
-// In: frames. Out: batches. Never drops an event without saying so: one too many is refused.
+// A newer state replaces the waiting one, so the order of topics stays. An event is never dropped silently.
 #include "gateway/doors/http/stream_queue.hpp"
 
 namespace axisgate::http {

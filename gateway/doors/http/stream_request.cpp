@@ -1,5 +1,4 @@
-// Stream request: a JSON object whose members are all known.
-// In: text. Out: a request or a fault. Never reads on behind the first fault.
+// Reads a JSON object whose members are all known; stops at the first fault.
 #include "gateway/doors/http/stream_request.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Stream sources: what is compared leaves out the age, which belongs to the message and is no news by itself.
-// In: pictures and reports. Out: shared frames with a version. Drives and lines are looked at slowly, axes when their picture changed.
-// Never makes a new version of what reads the same.
+// The comparison leaves out the age, which belongs to the message and is no change by itself. Drives and lines are examined rarely, axes
+// when their picture has changed.
 #include "gateway/doors/http/stream_sources.hpp"
 
 #include <fmt/format.h>
@@ -76,8 +75,8 @@ bool StreamSources::look_axis(Source& s, Instant now, bool force) {
     const bool moved_on = picture.at != s.picture.at && now - s.built >= time_only_period;
     s.picture_revision = revision;
     if (!changed && !moved_on && !force) {
-        // The revision is noted, but not the instant: it is compared with the one that was sent. So that it is told later without
-        // another change, the picture must be looked at again.
+        // The revision is noted, but not the instant, which is compared with the one that was sent. The picture must be examined again, so
+        // that it is sent later without another change.
         if (picture.at != s.picture.at) s.picture_revision = revision - 1;
         return false;
     }
@@ -88,7 +87,7 @@ bool StreamSources::look_axis(Source& s, Instant now, bool force) {
     s.picture = picture;
     s.fresh = false;
     if (!differs && !force) return true;
-    // The age belongs to the message, not to what is compared: alone it is no news.
+    // The age belongs to the message, not to the comparison: alone it is no change.
     const std::int64_t at = clock_.now_unix_ns();
     std::string shown = data;
     shown.pop_back();

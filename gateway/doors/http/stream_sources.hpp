@@ -1,6 +1,5 @@
-// Stream sources: the states that the live feed can show, each as one prepared frame that all its clients share.
-// In: the site in force, pictures, drive and line reports. Out: per topic a version number and the frame that shows it.
-// Never sends: it is asked by the hub, and looks at each source at most once per instant.
+// The states of the live feed, each as one prepared frame with a version number that all its clients share. The hub asks; each source is
+// examined at most once per instant.
 #pragma once
 
 #include <cstdint>
@@ -27,24 +26,24 @@ struct Source {
     enum class Kind : std::uint8_t { axis, drive, line };
     Kind kind = Kind::axis;
     std::string topic;          ///< "axes/feeder"
-    std::uint32_t number = 0;   ///< of the topic, for queues; never given twice
+    std::uint32_t number = 0;   ///< of the topic, for queues; never used twice
     std::size_t index = 0;      ///< in the site's list
-    std::uint64_t version = 0;  ///< grows with each frame worth sending
+    std::uint64_t version = 0;  ///< increases with each frame worth sending
     SharedFrame frame;          ///< the newest
 
-    // what the frame was made from
+    // the data from which the frame was made
     std::uint64_t picture_revision = 0;
     AxisPicture picture{};
     std::string text;  ///< of drives and lines: the serialised data
     Instant built{}, looked{};
-    bool fresh = true;  ///< nothing was built since the site was put in force
+    bool fresh = true;  ///< nothing was made since the site came into force
 };
 
 class StreamSources {
 public:
-    /// When only the instant of an axis' data moves on, a frame is worth sending this often.
+    /// If only the instant of an axis' data advances, a frame is sent at this period.
     static constexpr std::chrono::milliseconds time_only_period{1000};
-    /// Drives and lines are looked at this often at most.
+    /// Drives and lines are examined at this period at most.
     static constexpr std::chrono::milliseconds slow_period{250};
 
     using Needs = PortSet<AxisPort, ClockPort, DrivePort, LinePort, SitePort>;
@@ -63,8 +62,8 @@ public:
     /// A number for a topic that is not a source ("lines/can0/frames" of one client).
     [[nodiscard]] std::uint32_t next_number() noexcept { return ++last_number_; }
 
-    /// Looks at the source and makes a new frame if it changed. `force`: makes one in any case (a snapshot; the version does not grow
-    /// for that alone). Returns whether that was any work.
+    /// Examines the source and makes a new frame if it changed. `force`: makes one in any case (a snapshot; this alone does not increase
+    /// the version). Returns whether this was any work.
     bool look(Source& source, Instant now, bool force = false);
 
 private:

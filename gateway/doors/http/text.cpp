@@ -1,5 +1,4 @@
-// Text: small readers and writers of HTTP's languages, each by the section of its RFC.
-// In: bytes. Out: values or valid UTF-8. Every function depends on its arguments alone. Never guesses at bad input.
+// Small readers and writers of HTTP's grammars, each by the section of its RFC. The result depends only on the arguments.
 #include "gateway/doors/http/text.hpp"
 
 #include <fmt/core.h>
@@ -26,7 +25,7 @@ bool same_word(std::string_view a, std::string_view b) noexcept {
     return std::ranges::equal(a, b, [](char x, char y) { return lower(x) == lower(y); });
 }
 
-/// How well the Accept header likes the type, 0..1000; -1: not at all. The most specific range decides (RFC 9110 12.5.1).
+/// The quality of the type in the Accept header, 0..1000; -1: not accepted. The most specific range decides (RFC 9110 12.5.1).
 int liking(std::string_view accept, std::string_view media) noexcept {
     if (trimmed(accept).empty()) return 1000;
     const auto kind = media.substr(0, media.find('/'));

@@ -1,5 +1,5 @@
-// TLS identity: OpenSSL 3; a certificate of our own begins an hour back, because clients' clocks differ.
-// In: PEM texts, names, the time. Out: an identity, or faults in words. Never asks for a passphrase: a locked key cannot be read.
+// OpenSSL 3. A certificate made here is valid from an hour ago, because clients' clocks differ. There is no passphrase, so a locked key
+// cannot be read.
 #include "gateway/doors/http/tls.hpp"
 
 #include <fmt/core.h>
@@ -37,7 +37,7 @@ Bio reader(const std::string& text) {
     const auto size = text.size() > std::size_t{std::numeric_limits<int>::max()} ? 0 : static_cast<int>(text.size());
     return Bio(BIO_new_mem_buf(text.data(), size));
 }
-/// Nobody sits before a gateway to type a passphrase: a locked key is a key that cannot be read.
+/// Gateways start unattended: a locked key is a key that cannot be read.
 int no_passphrase(char*, int, int, void*) { return -1; }
 
 Certificate read_certificate(const TlsPem& pem) {
@@ -67,7 +67,7 @@ bool is_address(const std::string& name) {
     (void)boost::asio::ip::make_address(name, ec);
     return !ec;
 }
-/// Names go into an extension's text, where a comma would begin another one.
+/// Names are written into an extension's text, where a comma would begin another one.
 bool is_plain_name(std::string_view name) {
     return !name.empty() && name.size() <= 253 &&
            name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_") == std::string_view::npos;

@@ -1,6 +1,5 @@
-// Transport: the bytes of one connection, plain at first, over TLS once a handshake has been asked for.
-// In: a connected socket. Out: a stream as Beast and Asio take it; whether it is secure.
-// Never decides: who speaks TLS when, and how long anything may take, is the session's matter. One read and one write at a time.
+// The bytes of one connection, plain at first, over TLS after a handshake. The session decides about TLS and time limits. One read and one
+// write at a time.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -30,7 +29,7 @@ public:
     }
     void close(ErrorCode& ec) { socket().close(ec); }
 
-    /// From here on everything is TLS. `context` outlives this.
+    /// From here on everything is TLS. `context` must outlive this object.
     template <class Handler>
     void async_handshake(boost::asio::ssl::context& context, Handler handler) {
         tls_ = std::make_unique<Tls>(std::move(*plain_), context);
@@ -47,7 +46,7 @@ public:
         if (tls_) return tls_->async_write_some(buffers, std::forward<Token>(token));
         return plain_->async_write_some(buffers, std::forward<Token>(token));
     }
-    /// Says that nothing more will come (close_notify, then FIN), then calls `then`; plain: at once, from within this call.
+    /// Sends the end (close_notify, then FIN), then calls `then`; plain: at once, from within this call.
     template <class Then>
     void end_sending(Then then) {
         if (!tls_) {
@@ -55,7 +54,7 @@ public:
             plain_->shutdown(Socket::shutdown_send, ignored);
             return then();
         }
-        tls_->async_shutdown([this, then = std::move(then)](ErrorCode) mutable {  // `then` holds this one's owner
+        tls_->async_shutdown([this, then = std::move(then)](ErrorCode) mutable {  // `then` holds the owner of this object
             ErrorCode ignored;
             socket().shutdown(Socket::shutdown_send, ignored);
             then();

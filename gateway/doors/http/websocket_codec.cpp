@@ -1,5 +1,4 @@
-// WebSocket codec: section numbers are RFC 6455's; SHA-1 is here because the handshake asks for it, no secret depends on it.
-// In: bytes. Out: messages, frames, close codes. Never reads on behind the first fault.
+// Section numbers are those of RFC 6455. Reading stops at the first fault.
 #include "gateway/doors/http/websocket_codec.hpp"
 
 #include <algorithm>
@@ -27,7 +26,7 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     return out;
 }
 
-/// SHA-1 (FIPS 180-4 6.1): asked for by the handshake, no secret depends on it.
+/// SHA-1 (FIPS 180-4 6.1): required by the handshake, no secret depends on it.
 std::array<std::uint8_t, 20> sha1(std::string_view text) {
     std::vector<std::uint8_t> m(text.begin(), text.end());
     const std::uint64_t bits = std::uint64_t{m.size()} * 8;
@@ -72,7 +71,7 @@ std::array<std::uint8_t, 20> sha1(std::string_view text) {
 
 constexpr bool is_control(Opcode o) noexcept { return static_cast<std::uint8_t>(o) >= 8; }
 
-/// Codes that may stand in a close frame (7.4).
+/// Codes that may occur in a close frame (7.4).
 constexpr bool is_close_code(unsigned code) noexcept {
     return (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) || (code >= 3000 && code <= 4999);
 }

@@ -1,7 +1,6 @@
-// WebSocket codec: the server's side of RFC 6455 as pure functions of bytes: handshake answer, frames in, frames out.
-// In: bytes from a client, in any pieces. Out: messages and control frames in order, or the close code of the first fault.
-// Never holds a socket. Own code in place of a library's stream, because one prepared frame can so be shared by every client and many
-// frames leave in one write; the tests judge it with an independent client.
+// The server's side of RFC 6455 as pure functions of bytes: handshake answer, frames in, frames out. A library's stream is not used,
+// because one prepared frame can be shared by all clients and many frames are sent in one write; the tests check it with an independent
+// client.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ inline constexpr std::uint16_t close_normal = 1000, close_going_away = 1001, clo
                                close_no_status = 1005, close_not_utf8 = 1007, close_policy = 1008, close_too_big = 1009,
                                close_try_later = 1013;
 
-/// Whether this is base64 of 16 bytes, as Sec-WebSocket-Key must be.
+/// True if this is base64 of 16 bytes, as Sec-WebSocket-Key must be.
 [[nodiscard]] bool is_handshake_key(std::string_view key) noexcept;
 /// Sec-WebSocket-Accept for a Sec-WebSocket-Key (RFC 6455 4.2.2).
 [[nodiscard]] std::string handshake_accept(std::string_view key);
@@ -47,8 +46,8 @@ public:
     /// `max_message`: bytes of one message, over all its fragments; beyond: 1009.
     explicit WebSocketParser(std::size_t max_message) : max_message_(max_message) {}
 
-    /// Takes bytes and adds what they completed to `out`. On a fault: its close code; nothing is taken after it, nor after a close frame.
-    /// Binary messages are a fault here (1003): this door speaks JSON.
+    /// Takes bytes and adds the completed messages to `out`. On a fault: its close code; nothing is taken after it, nor after a close
+    /// frame. Binary messages are a fault here (1003), because this door uses JSON.
     [[nodiscard]] std::optional<WebSocketFault> take(std::span<const std::uint8_t> bytes, std::vector<WebSocketMessage>& out);
 
 private:
@@ -56,7 +55,7 @@ private:
     [[nodiscard]] std::optional<WebSocketFault> frame_done(std::vector<WebSocketMessage>& out);
 
     std::size_t max_message_;
-    std::vector<std::uint8_t> header_;  // of the frame that is being read, at most 14 bytes
+    std::vector<std::uint8_t> header_;  // of the present frame, at most 14 bytes
     std::uint64_t payload_left_ = 0;
     std::size_t payload_at_ = 0;  // position within the mask
     std::string control_;         // payload of a control frame
@@ -64,7 +63,7 @@ private:
     Opcode opcode_ = Opcode::text;
     bool in_payload_ = false;
     bool final_ = false;
-    bool in_message_ = false;  // a message was begun and is not finished
+    bool in_message_ = false;  // a message was begun and is not complete
     bool ended_ = false;
     std::uint8_t mask_[4] = {};
 };

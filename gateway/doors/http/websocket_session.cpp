@@ -1,5 +1,5 @@
-// WebSocket session: one write carries at most 64 KiB and the kernel holds 128 KiB, so that old states do not wait before new ones.
-// In: bytes. Out: bytes. Asks with a ping also who sends much: only a pong shows that a client reads. Never two writes at once.
+// One write has at most 64 KiB and the kernel holds 128 KiB, so that old states do not wait before new ones. Pings are also sent to a
+// client that sends much, because only a pong shows that it reads.
 #include "gateway/doors/http/websocket_session.hpp"
 
 #include <boost/asio/write.hpp>
@@ -9,9 +9,9 @@
 namespace axisgate::http {
 namespace asio = boost::asio;
 namespace {
-/// What one write carries at most: enough to make the call worth it, not so much that a newer state waits long behind it.
+/// Size of one write: large enough to be worth the call, small enough that a newer state does not wait long.
 constexpr std::size_t batch_bytes = 64 * 1024;
-/// What the kernel may hold for one client. A large buffer would keep old states long after newer ones are known.
+/// Limit of the kernel's buffer for one client. A large buffer would keep old states long after newer ones are known.
 constexpr int send_buffer_bytes = 128 * 1024;
 }  // namespace
 
@@ -31,7 +31,7 @@ void WebSocketSession::start(std::span<const std::uint8_t> early) {
     client_ = host_->hub.add([self = weak_from_this()] {
         if (const auto me = self.lock()) me->pump();
     });
-    // Looked up once, and again whenever the right to watch is: a set-point comes perhaps a thousand times a second.
+    // Looked up once, and again whenever the session is checked, because set-points may come a thousand times a second.
     client_->commander = [self = weak_from_this()]() -> std::optional<Origin> {
         const auto me = self.lock();
         if (!me) return std::nullopt;
@@ -103,7 +103,8 @@ void WebSocketSession::begin_close(std::uint16_t code, std::string_view reason) 
 
 void WebSocketSession::pump() {
     if (closed_ || finished_) return;
-    // Closed by the hub, over a bound: the time for the close runs from now on, also while a write to a client that does not read hangs.
+    // Closed by the hub because of a bound: the time for the close runs from now on, also while a write to a client that does not read is
+    // blocked.
     if (client_->closing() && !closing_) return begin_close(client_->closing(), {});
     if (writing_) return;
     batch_ = client_->queue.take(batch_bytes);
@@ -131,16 +132,16 @@ void WebSocketSession::on_written(ErrorCode ec, std::size_t bytes) {
 }
 
 void WebSocketSession::finish() {
-    // Our close frame is out. If the client's is here too, the connection ends; else its answer is waited for, but not for long.
+    // Our close frame was sent. If the client's has arrived too, the connection ends; otherwise its answer is awaited for a short time.
     if (close_received_) {
         finished_ = true;
-        socket_.end_sending([self = shared_from_this()] {});  // the read ends when the client's end comes
+        socket_.end_sending([self = shared_from_this()] {});  // the read ends when the client's end arrives
     }
     close_began_ = std::chrono::steady_clock::now();
     arm();
 }
 
-/// A client that has stopped reading finds the reason behind the batch in its way if it goes on within half the write limit.
+/// A client that has stopped reading gets the reason behind the waiting batch if it continues within half the write limit.
 SteadyTime WebSocketSession::close_due() const {
     return close_began_ + (writing_ ? host_->settings.write_limit / 2 : host_->settings.linger_limit);
 }
@@ -174,7 +175,7 @@ void WebSocketSession::on_timer() {
     } else if (!closing_ && now >= received_ + host_->settings.silence_limit) {
         begin_close(close_policy, "no sign of life");
     } else if (!closing_ && now >= pinged_ + host_->settings.ping_period) {
-        // Asked regularly, also of a client that sends much: only a pong shows that it reads.
+        // Sent regularly, also to a client that sends much, because only a pong shows that it reads.
         pinged_ = now;
         client_->queue.push_control(std::make_shared<const std::string>(server_frame(Opcode::ping, {})));
         pump();

@@ -1,6 +1,5 @@
-// WebSocket session: one live-feed client: moves bytes between its socket, the codec and its queue in the hub.
-// In: bytes. Out: bytes. One write at a time, of many frames together.
-// Bounds: message size, time for a write, silence, time for the closing handshake (see Settings); the queue's own.
+// One live-feed client: moves bytes between its socket, the codec and its queue in the hub. One write at a time, of many frames together.
+// Bounds: message size, time for a write, silence, time for the closing handshake (Settings); those of the queue.
 #pragma once
 
 #include <array>
@@ -18,12 +17,12 @@ namespace axisgate::http {
 
 class WebSocketSession final : public Session, public std::enable_shared_from_this<WebSocketSession> {
 public:
-    /// `opened_by`: the handshake; when its session or token no longer holds, the feed is closed with 1008 (looked at every
+    /// `opened_by` is the handshake; when its session or token is not valid any more, the feed is closed with 1008 (checked every
     /// `right_period`).
     WebSocketSession(Transport socket, std::shared_ptr<SessionHost> host, Request opened_by, PlaceHolder holder);
     ~WebSocketSession() override;
 
-    /// `early`: bytes that came with the handshake.
+    /// `early`: bytes that arrived with the handshake.
     void start(std::span<const std::uint8_t> early);
     [[nodiscard]] Guest guest() const override { return {holder_, Standing::knowns_work, Instant{received_.time_since_epoch()}}; }
     void stop() override;
@@ -53,12 +52,12 @@ private:
     std::array<std::uint8_t, 8192> buffer_{};
     std::vector<SharedFrame> batch_;  ///< being written
     SteadyTime received_{}, pinged_{}, looked_{}, write_began_{}, close_began_{};
-    std::optional<Origin> commander_;  ///< who gives set-points by it; nothing: its user may not
+    std::optional<Origin> commander_;  ///< the client for set-points; empty: its user may not command
     bool commander_known_ = false;
     bool writing_ = false;
     bool closing_ = false;  ///< a close frame is in the queue or was sent
     bool close_received_ = false;
-    bool finished_ = false;  ///< our side of the stream is shut
+    bool finished_ = false;  ///< our side of the stream is closed
     bool closed_ = false;
 };
 

@@ -1,5 +1,4 @@
-// Access: addresses are compared as IPv6 (IPv4 as ::ffff:a.b.c.d); a pure stop is told by function, register and bits of the control word.
-// In: texts of the configuration, addresses, requests. Out: yes or no. Never throws on a bad text.
+// Addresses are compared as IPv6 (IPv4 as ::ffff:a.b.c.d); a pure stop is recognized by function, register and bits of the control word.
 #include "gateway/doors/modbus/access.hpp"
 
 #include <arpa/inet.h>
@@ -82,7 +81,7 @@ bool Access::admits(std::string_view endpoint) const {
 }
 
 bool stops_only(std::uint8_t unit, std::span<const std::uint8_t> pdu) noexcept {
-    if (unit > 1 && unit != 255) return false;  // user maps may scale, or put anything anywhere
+    if (unit > 1 && unit != 255) return false;  // user maps may scale values, and map anything anywhere
     std::size_t value = 0;
     if (pdu.size() == 5 && pdu[0] == function::write_single_register) {
         value = 3;

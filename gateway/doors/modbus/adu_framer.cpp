@@ -1,5 +1,4 @@
-// ADU framer: the buffer is linear; what is left of it moves to the front only when the free end has become short.
-// In: bytes. Out: whole ADUs, or that this is not Modbus. Never copies an ADU to hand it out.
+// The buffer is linear; its content moves to the front only when the free end has become short. ADUs are not copied.
 #include "gateway/doors/modbus/adu_framer.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// ADU framer: cuts a TCP byte stream into Modbus ADUs.
-// In: bytes as they arrive, in pieces of any size. Out: whole ADUs in order, or the verdict that this is not Modbus.
-// Never waits, never allocates, never looks into the PDU, and never looks for a new beginning after garbage: on TCP that cannot be found.
+// Splits a TCP byte stream into Modbus ADUs, from pieces of any size. It never allocates and does not read the PDU. After garbage no new
+// beginning is searched for, because it cannot be found on TCP: the verdict is that this is not Modbus.
 #pragma once
 
 #include <array>
@@ -12,7 +11,7 @@
 
 namespace axisgate::modbus {
 
-/// One request as it stands in the framer's buffer; `pdu` is valid until the next call of space().
+/// One request in the framer's buffer; `pdu` is valid until the next call of space().
 struct Adu {
     std::uint16_t transaction = 0;
     std::uint8_t unit = 0;
@@ -27,20 +26,20 @@ public:
     enum class Verdict : std::uint8_t {
         need_more,
         adu,
-        bad_protocol,  ///< the protocol id is not 0: the connection is worthless
+        bad_protocol,  ///< the protocol id is not 0: the connection cannot be used
         bad_length     ///< the length field is outside 2..254: likewise
     };
 
-    /// Where received bytes go: the free end of the buffer. Empty only if `capacity` bytes wait.
+    /// The place for received bytes: the free end of the buffer. Empty only if `capacity` bytes wait.
     [[nodiscard]] std::span<std::uint8_t> space() noexcept;
-    /// So many bytes were put at the beginning of space().
+    /// This number of bytes was written at the beginning of space().
     void filled(std::size_t n) noexcept { end_ += n; }
-    /// Copies as much as fits and returns how much that was.
+    /// Copies as much as fits and returns the number of bytes.
     std::size_t feed(std::span<const std::uint8_t> bytes) noexcept;
 
-    /// Looks at the oldest ADU without taking it. A bad header is told as soon as its bytes are there, before the ADU is whole.
+    /// Examines the oldest ADU without removing it. A bad header is reported as soon as its bytes have arrived, before the ADU is complete.
     [[nodiscard]] Verdict peek(Adu& out) const noexcept;
-    /// Takes the ADU that peek() showed.
+    /// Removes the ADU that peek() returned.
     void pop() noexcept;
 
     [[nodiscard]] std::size_t buffered() const noexcept { return end_ - begin_; }
@@ -48,7 +47,7 @@ public:
 private:
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
-    std::array<std::uint8_t, capacity> buffer_;  // not initialised: an idle connection touches one page of it
+    std::array<std::uint8_t, capacity> buffer_;  // not initialised, so that an idle connection uses one page of it
 };
 
 }  // namespace axisgate::modbus

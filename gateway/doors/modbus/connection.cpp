@@ -1,5 +1,5 @@
-// Connection: in the steady state a request costs one recv and one send, and no change of what epoll waits for.
-// In: readiness. Out: answers. Never reads from a client whose answers wait: TCP holds it back.
+// In the steady state a request costs one recv and one send, and no change of the epoll events. A client whose answers wait is not read
+// from: TCP holds it back.
 #include "gateway/doors/modbus/connection.hpp"
 
 #include <sys/socket.h>
@@ -47,7 +47,7 @@ void Connection::resume() {
 }
 
 void Connection::on_ready(std::uint32_t events) {
-    if ((events & (EPOLLERR | EPOLLHUP)) != 0 && (events & EPOLLIN) == 0) return close();  // else recv tells
+    if ((events & (EPOLLERR | EPOLLHUP)) != 0 && (events & EPOLLIN) == 0) return close();  // otherwise recv reports it
     if ((events & EPOLLIN) != 0) read();
     if ((events & EPOLLOUT) != 0 && !backlog_.empty()) write();
     choose_events();
@@ -79,7 +79,7 @@ void Connection::write() {
         host_.times(token_).deadline = host_.now() + host_.stall_timeout;
         return;
     }
-    backlog_ = {};  // a client that was slow once does not keep 64 KiB for ever
+    backlog_ = {};  // a client that was slow once does not keep 64 KiB
     sent_ = 0;
     host_.times(token_).deadline = never;
     pump();
@@ -99,7 +99,7 @@ void Connection::pump() {
         if (answered > 0) counters_.request_times.observe(host_.now() - now, answered);
     } while (work == Session::Work::output_full && backlog_.empty());
     if (work == Session::Work::not_modbus) {
-        // Unread bytes would make the close a reset, which may overtake the answers to what was asked before the garbage.
+        // Unread bytes would make the close a reset, which may overtake the answers to the requests before the garbage.
         ::shutdown(fd_, SHUT_WR);
         [[maybe_unused]] const auto drained = ::recv(fd_, out.bytes.data(), out.bytes.size(), 0);
         return close(&counters_.closed_not_modbus);

@@ -1,7 +1,5 @@
-// Connection: one TCP client of the Modbus door: a non-blocking socket around a Session.
-// In: readiness of the socket, results of the client's writes. Out: all answers of one wake-up in one send.
-// Never reads ahead of what it may begin, and never keeps more unsent than one AnswerBuffer (64 KiB): a client that does not take its
-// answers is not read from, and is closed by the server's sweep.
+// One TCP client of the Modbus door: a non-blocking socket around a Session. All answers of one wake-up are sent together. At most one
+// AnswerBuffer (64 KiB) is unsent: a client that does not read its answers is not read from, and is closed by the server's sweep.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +12,21 @@
 
 namespace axisgate::modbus {
 
-/// When something is to be done about a connection that does nothing itself. Kept apart from it, so that a sweep over a thousand
-/// connections reads two instants each and nothing else.
+/// The deadlines of a connection without activity. They are kept apart from it, so that a sweep over a thousand connections reads only two
+/// instants each.
 struct ConnectionTimes {
     Instant last_request = time_zero;  ///< or when it was accepted
-    Instant deadline = never;          ///< of half a request, or of answers that the client does not take
+    Instant deadline = never;          ///< of half a request, or of unread answers
 };
 
-/// Names a connection for as long as the server lives: its place in the lower 32 bits, a count of the place's users in the upper.
+/// Identifies a connection for the life of the server: its place in the lower 32 bits, a count of the place's users in the upper.
 using ConnectionToken = std::uint64_t;
 
 /// The server, as a connection sees it.
 struct ConnectionHost {
     [[nodiscard]] virtual Instant now() const = 0;
     [[nodiscard]] virtual ConnectionTimes& times(ConnectionToken token) = 0;
-    /// The connection can go on; the server calls resume() soon, but not from inside this call.
+    /// The connection can continue; the server calls resume() soon, but not from inside this call.
     virtual void ready(ConnectionToken token) = 0;
     /// The connection is closed. It is destroyed later, not from inside this call.
     virtual void closed(ConnectionToken token) = 0;
@@ -49,7 +47,7 @@ public:
 
     void on_ready(std::uint32_t events);
     void resume();
-    /// Closes now. Writes on their way go on. `why` is counted if it is not nullptr.
+    /// Closes now. Outstanding writes continue. `why` is counted if it is not nullptr.
     void close(Counter* why = nullptr);
 
     [[nodiscard]] ConnectionToken token() const noexcept { return token_; }
@@ -60,10 +58,10 @@ public:
     [[nodiscard]] std::uint64_t writes() const noexcept { return session_.writes(); }
     [[nodiscard]] std::uint64_t exceptions() const noexcept { return session_.exceptions(); }
     [[nodiscard]] bool has_commanded() const noexcept { return session_.has_commanded(); }
-    /// Half a request came last, and nothing since.
+    /// The last bytes were half a request.
     [[nodiscard]] bool holds_half() const noexcept { return had_partial_; }
     [[nodiscard]] bool has_asked() const noexcept { return session_.requests() > 0; }
-    /// Why it stands still, for whoever closes it at its deadline.
+    /// The reason why it stands still, for closing it at its deadline.
     [[nodiscard]] bool has_unsent() const noexcept { return !backlog_.empty(); }
 
 private:
@@ -84,7 +82,7 @@ private:
     bool ended_ = false;     // the client will send nothing more
     bool resuming_ = false;  // ready() was called and resume() was not
     bool had_partial_ = false;
-    std::vector<std::uint8_t> backlog_;  // what the socket did not take
+    std::vector<std::uint8_t> backlog_;  // bytes that the socket did not accept
     std::size_t sent_ = 0;               // of it
     Session session_;
 };

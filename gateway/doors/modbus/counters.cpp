@@ -1,5 +1,4 @@
-// Counters: the door's counters in the text format of Prometheus.
-// In: counters. Out: text. Never counts anything itself.
+// The door's counters in the text format of Prometheus.
 #include "gateway/doors/modbus/counters.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Endpoint: `localhost` is 127.0.0.1, an IPv6 address stands in brackets, the port is needed.
-// In: a text. Out: the endpoint, or a sentence with an example. Never asks a name server.
+// `localhost` is 127.0.0.1, an IPv6 address is in brackets, the port is required. A fault includes an example; no name server is asked.
 #include "gateway/doors/modbus/endpoint.hpp"
 
 #include <boost/asio/ip/address.hpp>

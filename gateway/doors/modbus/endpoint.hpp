@@ -1,6 +1,5 @@
-// Endpoint: the text of `[modbus] bind` as a TCP address.
-// In: "127.0.0.1:1502", "[::1]:1502", "localhost:1502", "0.0.0.0:502". Out: the endpoint, or what is wrong with the text and how it should
-// be. Never asks a name server: a bind address is a number.
+// Reads `[modbus] bind` ("127.0.0.1:1502", "[::1]:1502", "localhost:1502", "0.0.0.0:502") as a TCP address, or reports the fault with the
+// correct form. A bind address is a number, so no name server is asked.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>

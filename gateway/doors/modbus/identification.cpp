@@ -1,5 +1,5 @@
-// Identification: objects by category (basic, regular, extended), streamed or one by one (Modbus application protocol V1.1b3, 6.21).
-// In: objects, a checked request. Out: the answer's bytes. Never cuts an object in two.
+// Objects by category (basic, regular, extended), streamed or one by one (Modbus application protocol V1.1b3, 6.21). An object is never
+// split.
 #include "gateway/doors/modbus/identification.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace axisgate::modbus {
 namespace {
 constexpr std::uint8_t stream_basic = 1, stream_regular = 2, stream_extended = 3, individual = 4;
-constexpr std::uint8_t individual_access = 0x80;  // bit of the conformity level: individual access too, not streams alone
+constexpr std::uint8_t individual_access = 0x80;  // bit of the conformity level: individual access in addition to streams
 constexpr std::size_t head = 7;                   // function, MEI type, code, conformity, more follows, next object, number of objects
 
 constexpr std::uint8_t last_of_category(std::uint8_t category) noexcept {

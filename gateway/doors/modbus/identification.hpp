@@ -1,6 +1,5 @@
-// Identification: what functions 17 (report server id) and 43/14 (read device identification) tell of the gateway.
-// In: a list of objects; a checked request. Out: the answer's bytes.
-// Never cuts a value in two: an object that does not fit goes into the next answer (more follows).
+// The answers to functions 17 (report server id) and 43/14 (read device identification). A value is never split: an object that does not
+// fit is in the next answer (more follows).
 #pragma once
 
 #include <cstdint>
@@ -21,20 +20,20 @@ struct IdentityObject {
 struct Identity {
     std::string server_name = "axisgate";
     std::string version;
-    std::vector<IdentityObject> objects;  ///< ascending ids; 0, 1 and 2 are there
+    std::vector<IdentityObject> objects;  ///< ascending ids; 0, 1 and 2 are present
 
-    /// The gateway's own: vendor, product code, revision, product name, model name; 0x80 mapping revision (8 hex digits, as register
-    /// 18), 0x81 word order. No vendor URL: there is none.
+    /// The gateway's own: vendor, product code, revision, product name, model name; 0x80 mapping revision (8 hex digits, as register 18),
+    /// 0x81 word order. There is no vendor URL.
     [[nodiscard]] static Identity gateway(std::string version, WordOrder order);
     void set_mapping_revision(std::uint32_t revision);
 };
 
-/// Function 17: byte count, server id (one byte, as client libraries read it: the unit that was asked), run indicator 0xFF, then the text
+/// Function 17: byte count, server id (one byte, as client libraries expect: the requested unit), run indicator 0xFF, then the text
 /// "axisgate 1.2.3". Returns the size of the PDU in `out` (max_pdu bytes).
 [[nodiscard]] std::size_t report_server_id(const Identity& identity, std::uint8_t unit, std::uint8_t* out) noexcept;
 
-/// Function 43/14 for read code 1..4 and an object id. Stream access (1..3) starts again at object 0 if the id is not one of the asked
-/// category, as the standard has it; individual access (4) to an unknown object is an illegal address; other codes are illegal values.
+/// Function 43/14 for read code 1..4 and an object id. Stream access (1..3) starts again at object 0 if the id is not in the requested
+/// category, as the standard says; individual access (4) to an unknown object is an illegal address; other codes are illegal values.
 struct IdentityAnswer {
     Exception exception = Exception::none;
     std::size_t size = 0;

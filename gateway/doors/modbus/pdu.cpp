@@ -1,6 +1,5 @@
-// PDU: a read is answered at once; a write leaves a LateAnswer and as many tickets as it has commands.
-// In: a request PDU. Out: an answer, an exception, or nothing yet. Faults of address and state go before "busy": one fault is told one way.
-// Never carries out a part of a write that it must refuse.
+// A read is answered at once; a write leaves a LateAnswer and one ticket per command. Faults of address and state are reported before
+// "busy", so that a fault always has the same answer. A write is never carried out in part.
 #include "gateway/doors/modbus/pdu.hpp"
 
 #include <fmt/core.h>
@@ -12,7 +11,7 @@ namespace axisgate::modbus {
 namespace {
 constexpr bool overflows(std::uint16_t address, std::uint16_t count) noexcept { return std::uint32_t{address} + count > 0x1'0000u; }
 constexpr bool outside(std::uint16_t count, std::uint16_t most) noexcept { return count == 0 || count > most; }
-/// What an exception means where nobody said more.
+/// The text of an exception without a more specific reason.
 Refused in_words(Exception e) {
     switch (e) {
         case Exception::illegal_function:
@@ -104,7 +103,7 @@ std::size_t Responder::answer(const Client& client, std::uint8_t slot, std::uint
     late.function = pdu[0];
     Request r{client, slot, *map, pdu, now, out, late};
     const Answer a = dispatch(r);
-    // A refused read is told where its address leads nowhere; a write always, also where the parameter channel alone shows it.
+    // A refused read is reported if its address is not served; a refused write always, also if only the parameter channel shows it.
     if (a.exception != Exception::none || write) {
         Refused why = map->take_refused();
         const bool reported = why.reason != Reason::none;
@@ -151,7 +150,7 @@ std::size_t Responder::finish(const LateAnswer& late, Instant now, std::uint8_t*
     const Exception e = map ? exception_of(map->read_registers(Table::holding_registers, late.read_address, late.read_count, now, out + 2))
                             : Exception::no_path;
     if (e != Exception::none) {
-        if (map) (void)map->take_refused();  // of a read that was good when its write was taken: the axis has gone meanwhile
+        if (map) (void)map->take_refused();  // of a read that was possible when its write was accepted: the axis was removed meanwhile
         return exception_answer(late.function, e, out);
     }
     out[0] = late.function;
@@ -263,7 +262,7 @@ Responder::Answer Responder::read_write(Request& r) {
     if (outside(read_count, limit::read_write_read) || outside(write_count, limit::read_write_write)) return {Exception::illegal_value, 0};
     if (r.pdu[9] != bytes || r.pdu.size() != 10 + bytes) return {Exception::illegal_value, 0};
     if (overflows(read_address, read_count) || overflows(write_address, write_count)) return {Exception::illegal_address, 0};
-    // Both halves are checked before anything is written: a request that cannot be answered shall not have moved something.
+    // Both halves are checked before anything is written, because a request that cannot be answered must not move anything.
     if (const auto e = r.map.check_write(Table::holding_registers, write_address, write_count); e != Verdict::good)
         return {exception_of(e), 0};
     if (const auto e = r.map.check_read(Table::holding_registers, read_address, read_count); e != Verdict::good)

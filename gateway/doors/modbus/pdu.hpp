@@ -1,6 +1,6 @@
-// PDU: function codes to answers. The Responder is the one place where requests of all connections become reads, Commands and exceptions.
-// In: one request PDU with its unit id and the moment. Out: the answer PDU, or a LateAnswer that is finished when the drives have answered.
-// Never knows a socket: the RTU line and the TCP server ask the same Responder. Checks go function, count, address, then state.
+// From function codes to answers: the Responder turns the requests of all connections into reads, commands and exceptions. A request PDU
+// with its unit id gives the answer PDU, or a LateAnswer that is finished when the drives have answered. It knows no socket, so Modbus RTU
+// and TCP share it. The order of checks is function, count, address, state.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@
 
 namespace axisgate::modbus {
 
-/// The answer to a write whose commands are on their way.
+/// The answer to a write whose commands are outstanding.
 struct LateAnswer {
     std::uint8_t unit = 0;
     std::uint8_t function = 0;
@@ -28,7 +28,7 @@ struct LateAnswer {
     bool reads = false;                     ///< function 23: the registers are read when the write has succeeded
     std::uint16_t read_address = 0;
     std::uint16_t read_count = 0;
-    std::uint16_t outstanding = 0;  ///< results that have not come
+    std::uint16_t outstanding = 0;  ///< number of outstanding results
     std::uint8_t echo_size = 0;
     std::array<std::uint8_t, 8> echo{};  ///< the good answer of every other function
 
@@ -43,25 +43,26 @@ public:
     struct Settings {
         Access access;  ///< allow list, functions, read-only
         std::string version = "0";
-        Duration result_timeout = std::chrono::seconds(30);  ///< a result that has not come by then is taken for "no answer"
-        std::size_t max_commands = 4096;                     ///< on their way at once, of all clients; a write beyond is answered busy (6)
+        Duration result_timeout = std::chrono::seconds(30);  ///< a result that has not arrived after this time counts as "no answer"
+        std::size_t max_commands = 4096;                     ///< limit of outstanding commands of all clients; further writes are answered
+                                                             ///< busy (6)
     };
     Responder(DoorPort& port, registers::RegisterImage& image, Settings settings);
     Responder(const Responder&) = delete;
     Responder& operator=(const Responder&) = delete;
 
     using Client = registers::RegisterWriter::Client;
-    /// Answers a request PDU of 1..253 bytes. Returns the size of the answer in `out` (max_pdu bytes); 0: it comes later: `late` is filled
-    /// and client.owner is told with `slot` once per outstanding command, never from inside this call; then finish() makes the answer.
+    /// Answers a request PDU of 1..253 bytes. Returns the size of the answer in `out` (max_pdu bytes). 0: it comes later; `late` is filled,
+    /// client.owner is called with `slot` once per outstanding command, never from inside this call, and finish() then makes the answer.
     [[nodiscard]] std::size_t answer(const Client& client, std::uint8_t slot, std::uint8_t unit, std::span<const std::uint8_t> pdu,
                                      Instant now, std::uint8_t* out, LateAnswer& late);
     [[nodiscard]] std::size_t finish(const LateAnswer& late, Instant now, std::uint8_t* out);
 
-    /// Whether this request may be begun while earlier writes of the same client wait for their drives: plain writes only. Everything that
-    /// reads must see what was written before it.
+    /// True if this request may begin while earlier writes of the same client are outstanding: plain writes only, because a read must see
+    /// the earlier writes.
     [[nodiscard]] static bool may_overtake_waiting(std::span<const std::uint8_t> pdu) noexcept;
 
-    /// Results of the door's tickets go to it, and time.
+    /// Must get the results of the door's tickets, and the time.
     [[nodiscard]] registers::RegisterWriter& writer() noexcept { return writer_; }
 
     [[nodiscard]] const Access& access() const noexcept { return settings_.access; }
@@ -88,9 +89,9 @@ private:
     /// Carries a write out. Size 0 without an exception: it waits.
     [[nodiscard]] Answer carry_out(Request& r, Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data,
                                    std::size_t echo_size);
-    /// Leaves an event and the axis' registers 20 and 21.
+    /// Causes an event and sets the axis' registers 20 and 21.
     void refused(const std::string& who, Refused refused, const RequestNote& request, Exception e, Instant now);
-    /// Of the standard map; else no_axis.
+    /// Of the standard map; otherwise no_axis.
     [[nodiscard]] AxisId axis_of(std::uint8_t unit, const RequestNote& request) const;
     [[nodiscard]] Refused refused_by_access(std::uint8_t unit, const RequestNote& request) const;
     std::size_t exception_answer(std::uint8_t function, Exception e, std::uint8_t* out) noexcept;

@@ -1,5 +1,4 @@
-// Request note: address, count and data of each function that reads or writes.
-// In: a PDU of at least one byte. Out: as much as it tells. Never reads beyond its end.
+// Reads address, count and data of each function that reads or writes, as far as the PDU contains them.
 #include "gateway/doors/modbus/request_note.hpp"
 
 #include <algorithm>

@@ -1,13 +1,12 @@
-// RTU session: the one master of the line, its addresses and its answers. In: frames and results. Out: answers.
-// A serial line has one request at a time: whatever is heard after a request ends the right to answer it, or two would speak at once.
-// Writes whose answers are given up go on; only nobody is told.
+// The one master of the line, its addresses and its answers. A serial line has one request at a time: any data after a request end the
+// permission to answer it, because two nodes would send at once. Writes without an answer continue.
 #include "gateway/doors/modbus/rtu_session.hpp"
 
 #include <algorithm>
 
 namespace axisgate::modbus {
 namespace {
-/// What a broadcast may do: writes alone. 23 reads as well, and nobody could answer.
+/// A broadcast may only write. Function 23 also reads, and could not be answered.
 constexpr bool may_be_broadcast(std::uint8_t f) noexcept {
     return f == function::write_single_coil || f == function::write_single_register || f == function::write_multiple_coils ||
            f == function::write_multiple_registers || f == function::mask_write_register;

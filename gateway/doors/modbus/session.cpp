@@ -1,5 +1,5 @@
-// Session: answers leave in the order of the requests; writes may be on their way together, so that a stop that follows a
-// slow write is not held up by it. In: bytes, results. Out: answers. Never begins a read while a write before it has no answer.
+// Answers are sent in the order of the requests. Writes may be outstanding together, so that a slow write does not delay a stop behind it;
+// a read waits for the writes before it.
 #include "gateway/doors/modbus/session.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ Session::Work Session::work(Instant now, AnswerBuffer& out) {
                 return Work::need_bytes;
             case AduFramer::Verdict::bad_protocol:
             case AduFramer::Verdict::bad_length:
-                // What was asked before the garbage is still answered.
+                // The requests before the garbage are still answered.
                 return count_ > 0 ? Work::waits_for_results : Work::not_modbus;
             case AduFramer::Verdict::adu:
                 break;
@@ -76,7 +76,7 @@ void Session::begin(const Adu& adu, Instant now, AnswerBuffer& out) {
         ++at_once_;
         return;
     }
-    if (size > 0) {  // known already, but earlier answers are not: it queues up behind them
+    if (size > 0) {  // known already, but earlier answers are not: it is queued behind them
         slot.late.unit = adu.unit;
         slot.late.outstanding = 0;
         slot.late.reads = false;
@@ -104,7 +104,7 @@ bool Session::commands_now(const Image& image) const {
         const AxisId id = image.by_number(static_cast<std::uint32_t>(number));
         if (id == no_axis) continue;
         const AxisPicture& p = image.picture(id);
-        // Its lease may have ended while the axis still runs by its word.
+        // Its lease may have ended while the axis still moves by its command.
         const bool by_modbus = p.authority == Door::modbus || std::string_view(p.authority_commander.data()).starts_with("modbus ");
         if ((p.flags & flag_moving) != 0 && by_modbus) return true;
     }

@@ -1,6 +1,5 @@
-// Session: one client's conversation: its bytes in, its answers out, in the order of its requests.
-// In: bytes, results of its writes. Out: answer bytes into a bounded buffer; whether it waits, and for what.
-// Never touches a socket or a clock. Bounds: 8320 bytes of requests not yet begun, 32 writes on their way; then it takes no more bytes.
+// One client's conversation: bytes in, answers out, in the order of its requests, without socket and clock. Bounds: 8320 bytes of requests
+// not yet begun, 32 outstanding writes; then it takes no more bytes.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@
 
 namespace axisgate::modbus {
 
-/// Where answers are put together; shared by all sessions of a server, since one works at a time.
+/// The buffer for answers, shared by all sessions of a server, because one works at a time.
 struct AnswerBuffer {
     static constexpr std::size_t capacity = 64 * 1024;
     std::size_t size = 0;
@@ -24,7 +23,7 @@ struct AnswerBuffer {
 };
 
 class Session;
-/// Told when a session that waited for results can go on.
+/// Is informed when a session that waited for results can continue.
 struct SessionWaker {
     virtual void wake(Session& session) = 0;
     virtual ~SessionWaker() = default;
@@ -43,32 +42,32 @@ public:
     [[nodiscard]] AduFramer& input() noexcept { return framer_; }
 
     enum class Work : std::uint8_t {
-        need_bytes,         ///< everything that was there is begun; nothing or less than one ADU is left
+        need_bytes,         ///< everything is begun; nothing or less than one ADU is left
         waits_for_results,  ///< the next request must wait for earlier writes; wake() will be called
         output_full,        ///< send `out`, then call work again
-        not_modbus          ///< the stream is worthless from here on: send what is in `out` and close
+        not_modbus          ///< the stream cannot be used from here on: send `out` and close
     };
-    /// Appends answers to `out` and begins requests, as far as it can.
+    /// Appends answers to `out` and begins requests, as far as possible.
     [[nodiscard]] Work work(Instant now, AnswerBuffer& out);
 
-    /// Writes whose answers have not been given.
+    /// Number of writes without an answer.
     [[nodiscard]] std::size_t in_flight() const noexcept { return count_; }
-    /// Whole requests that work() has taken so far.
+    /// Number of whole requests that work() has taken so far.
     [[nodiscard]] std::uint64_t requests() const noexcept { return requests_; }
-    /// Requests that the last work() answered without having to wait for a drive.
+    /// Number of requests that the last work() answered without waiting for a drive.
     [[nodiscard]] std::uint64_t answered_at_once() const noexcept { return at_once_; }
     [[nodiscard]] std::uint64_t writes() const noexcept { return writes_; }
     [[nodiscard]] std::uint64_t exceptions() const noexcept { return exceptions_; }
     [[nodiscard]] const std::string& who() const noexcept { return *client_.who; }
-    /// The stream broke off within a request: work() said need_bytes and some bytes are left.
+    /// The stream ended within a request: work() returned need_bytes and some bytes are left.
     [[nodiscard]] bool holds_partial() const noexcept { return partial_; }
 
-    /// This client commands: a write is on its way, or an axis that it wrote to successfully moves under Modbus' authority. Such a client
-    /// is neither closed for being idle nor to make room.
+    /// True if this client commands: a write is outstanding, or an axis to which it has written moves under Modbus' authority. Such a
+    /// client is neither closed for being idle nor for another one.
     [[nodiscard]] bool commands_now(const Image& image) const;
-    /// A write of this client was carried out on some axis.
+    /// A write of this client was carried out on an axis.
     [[nodiscard]] bool has_commanded() const noexcept { return commanded_.any(); }
-    /// The client has gone: its writes go on, but nobody waits for them, and the Responder is not used again.
+    /// The client has gone: its writes continue without an answer, and the Responder is not used again.
     void abandon() noexcept;
 
     void on_written(std::uint8_t slot, AxisId axis, Verdict verdict) override;

@@ -1,6 +1,5 @@
-// Modbus wire: the numbers of the protocol, shared by the door's files, and the words of the register room that it speaks.
-// In: nothing. Out: constants (Modbus Application Protocol 1.1b3, Modbus Messaging on TCP/IP 1.0b), verdicts as exceptions.
-// Never holds state.
+// The numbers of the protocol (Modbus Application Protocol 1.1b3, Modbus Messaging on TCP/IP 1.0b), and the verdicts of the register room
+// as exceptions.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +38,7 @@ inline constexpr std::uint16_t read_bits = 2000, read_registers = 125, write_bit
                                read_write_write = 121;
 }
 
-/// The exception codes that this door gives; all but the first are verdicts of the register room under the protocol's numbers.
+/// The exception codes of this door; all except the first are verdicts of the register room with the protocol's numbers.
 enum class Exception : std::uint8_t {
     none = 0,
     illegal_function = 1,

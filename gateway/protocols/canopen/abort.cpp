@@ -1,5 +1,4 @@
-// SDO abort codes: the table.
-// In: codes. Out: words. Never keeps anything.
+// The table of SDO abort codes and their meanings.
 #include "gateway/protocols/canopen/abort.hpp"
 
 #include <fmt/core.h>

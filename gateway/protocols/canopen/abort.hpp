@@ -1,5 +1,5 @@
-// SDO abort codes (CiA 301, 7.2.4.3.17): why a transfer ended, as both sides say it, with words for people.
-// In: codes of an abort message. Out: words. Never refuses a code: makers use others, and they are shown as they are.
+// SDO abort codes (CiA 301, 7.2.4.3.17): the reason with which either side ends a transfer, and its meaning in words.
+// Unknown codes are accepted and shown as numbers, because manufacturers use codes of their own.
 #pragma once
 
 #include <cstdint>
@@ -43,9 +43,9 @@ enum class Abort : std::uint32_t {
     no_dictionary = 0x08000023,
     no_data = 0x08000024
 };
-/// All that the standard has, without `none`.
+/// All codes of the standard, without `none`.
 [[nodiscard]] std::span<const Abort> all_aborts() noexcept;
-/// The standard's meaning in our words; empty for codes that it does not have.
+/// The standard's meaning in our words; empty for other codes.
 [[nodiscard]] std::string_view words_of(Abort code) noexcept;
 /// "the object does not exist (06020000h)", "abort code 12345678h, which CiA 301 does not have".
 [[nodiscard]] std::string to_text(Abort code);

@@ -1,5 +1,4 @@
-// CANopen data types: one table, and values by it.
-// In: bytes, values. Out: values, bytes. Never guesses: a wrong length is no value.
+// The table of CANopen data types, and the conversion of values with it. Bytes of the wrong length give no value.
 #include "gateway/protocols/canopen/data_type.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ enum class Kind : std::uint8_t { boolean, signed_whole, unsigned_whole, real, te
 struct Row {
     DataType type;
     Kind kind;
-    std::uint8_t bytes;  ///< 0: any
+    std::uint8_t bytes;  ///< 0: any length
     std::string_view name;
 };
 constexpr std::array table{
@@ -48,7 +47,7 @@ constexpr std::array table{
     Row{DataType::unsigned56, Kind::unsigned_whole, 7, "UNSIGNED56"},
     Row{DataType::unsigned64, Kind::unsigned_whole, 8, "UNSIGNED64"},
 };
-constexpr auto rows = [] {  // by number: it is asked for with each value of a PDO
+constexpr auto rows = [] {  // indexed by type number, because it is looked up for each value of a PDO
     std::array<const Row*, 0x1C> list{};
     for (const Row& r : table)
         list[static_cast<std::size_t>(r.type)] = &r;

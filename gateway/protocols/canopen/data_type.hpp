@@ -1,6 +1,5 @@
-// CANopen data types (CiA 301, 7.4.7): their numbers, names and widths, and values of them as bytes.
-// In: type numbers, bytes of a dictionary entry, values. Out: values of gateway/core, bytes low byte first.
-// Never cuts a value to fit: what does not fit its type is refused.
+// CANopen data types (CiA 301, 7.4.7): their numbers, names and widths, and the conversion between values and bytes.
+// Bytes are in little-endian order. A value that does not fit its type is refused, never truncated.
 #pragma once
 
 #include <cstddef>
@@ -41,23 +40,23 @@ enum class DataType : std::uint16_t {
     unsigned56 = 0x1A,
     unsigned64 = 0x1B
 };
-/// Nothing for numbers that CiA 301 has not given to a simple type (records, a maker's own).
+/// Nothing for numbers that CiA 301 does not assign to a simple type (records, manufacturer types).
 [[nodiscard]] std::optional<DataType> data_type_of(std::uint64_t number) noexcept;
-/// "INTEGER16", as EDS files and the standard write it.
+/// "INTEGER16", as it is spelled in EDS files and in the standard.
 [[nodiscard]] std::string_view name_of(DataType type) noexcept;
 
-/// On the wire by SDO: 1 byte for a BOOLEAN; nothing for strings and domains, which have any length.
+/// Length in an SDO: 1 byte for a BOOLEAN; nothing for strings and domains, which have any length.
 [[nodiscard]] std::optional<std::size_t> bytes_of(DataType type) noexcept;
-/// In a PDO: 1 bit for a BOOLEAN; nothing for what has no fixed length.
+/// Length in a PDO: 1 bit for a BOOLEAN; nothing for types without a fixed length.
 [[nodiscard]] std::optional<std::size_t> bits_of(DataType type) noexcept;
 [[nodiscard]] bool is_signed(DataType type) noexcept;
-/// Smallest and largest whole number; the upper end of UNSIGNED64 is cut at 2^63 - 1, as a Value has no more. Nothing for other types.
+/// Smallest and largest whole number; the maximum of UNSIGNED64 is cut to 2^63 - 1, the largest number of a Value. Nothing for other types.
 [[nodiscard]] std::optional<IntegerRange> range_of(DataType type) noexcept;
 
-/// Nothing if the length is not the type's, or an UNSIGNED64 is above 2^63 - 1. Numbers become int64 or double, VISIBLE_STRING text (up to
-/// its first zero), all other types hex pairs.
+/// Nothing if the length is not that of the type, or if an UNSIGNED64 is above 2^63 - 1. Numbers become int64 or double, VISIBLE_STRING
+/// becomes text (up to its first zero), all other types become hex pairs.
 [[nodiscard]] std::optional<Value> decode(DataType type, std::span<const std::uint8_t> bytes);
-/// Nothing if the value is none of the type.
+/// Nothing if the value does not belong to the type.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> encode(DataType type, const Value& value);
 
 }  // namespace axisgate::canopen

@@ -1,5 +1,5 @@
-// DCF writer: a description with the values of one device as CiA 306-1 has it; what `read_eds` reads again is the same.
-// In: a description, values by place. Out: text with CR LF; what had to be left out, in words. Never writes a line that ends early.
+// DCF writer: writes a description with the values of one device as CiA 306-1 defines it, so that `read_eds` reads the same again.
+// The text has CR LF line ends; values that had to be left out are reported in words.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace axisgate::canopen {
 namespace {
 
-/// One line, without blanks at its ends: a file has no way to write others.
+/// Whether the text is one line without blanks at its ends: the file format cannot hold any other.
 bool is_line(std::string_view text) {
     return std::ranges::none_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }) &&
            trimmed(text).size() == text.size();
@@ -95,7 +95,7 @@ void write_head(Writer& w, const Eds& eds, const Commissioning& c, const DcfDate
         w.number(fmt::format("BaudRate_{}", rate), std::ranges::count(eds.kbits, rate) > 0 ? 1 : 0);
     w.number("NrOfRXPDO", eds.receive_pdos);
     w.number("NrOfTXPDO", eds.transmit_pdos);
-    w.section("DeviceComissioning");  // the standard writes it so
+    w.section("DeviceComissioning");  // the standard spells it so
     w.number("NodeID", c.node);
     w.key("NodeName", as_line(c.node_name));
     if (c.kbit != 0) w.number("Baudrate", c.kbit);
@@ -119,7 +119,7 @@ std::string write_dcf(const Eds& eds, const Commissioning& c, const std::map<Add
             left_out.push_back(fmt::format("{} ({}): a DCF cannot hold this value", to_text(address), name_of(e.type)));
             continue;
         }
-        // As it is read again: numbers in the type's own form, an empty text is none.
+        // The value as it will be read again: numbers in the form of the type; an empty text counts as no value.
         e.configured = {bytes->empty() ? Value{} : decode(e.type, *bytes).value_or(Value{}), false};
     }
     Writer w;

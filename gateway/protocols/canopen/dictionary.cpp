@@ -1,5 +1,4 @@
-// Dictionary: the checks of reads and writes in the standard's order: existence, access, length, bounds, and then the owner's word.
-// In: places, bytes. Out: abort codes, bytes. Never stores what it has refused.
+// Dictionary: checks reads and writes in the order of the standard: existence, access, length, bounds, then the owner's hook.
 #include "gateway/protocols/canopen/dictionary.hpp"
 
 #include <array>
@@ -77,7 +76,7 @@ Abort Dictionary::fits(const Entry& e, std::span<const std::uint8_t> bytes) {
     if (length != Abort::none || (!e.low && !e.high) || !range_of(e.type)) return length;
     const auto value = decode(e.type, bytes);
     const auto n = value ? as_integer(*value) : std::nullopt;
-    // Without a number it is an UNSIGNED64 above all that a bound can name.
+    // A value without a number is an UNSIGNED64 above every bound.
     if (e.high && (!n || *n > *e.high)) return Abort::too_high;
     if (e.low && n && *n < *e.low) return Abort::too_low;
     return Abort::none;

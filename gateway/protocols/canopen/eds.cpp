@@ -1,5 +1,4 @@
-// EDS: what was read, as values and as an object dictionary.
-// In: a description, a node number. Out: values, entries. Never writes a file.
+// EDS: the values of a description, and the object dictionary made from it.
 #include "gateway/protocols/canopen/eds.hpp"
 
 #include <utility>

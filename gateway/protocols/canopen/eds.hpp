@@ -1,7 +1,7 @@
-// EDS and DCF (CiA 306-1): a maker's description of a device as a text file, and the same with the values of one device in it.
-// In: text of any origin and size; values. Out: the device and its objects, or all faults with their lines; a DCF; an object dictionary.
-// Bounded as Ini is, and to 50,000 entries. Never guesses a type, an access or a number: what cannot be read is a fault, what is odd and
-// can be used all the same is a note.
+// EDS and DCF (CiA 306-1): the manufacturer's description of a device as a text file, and the same with the values of one device.
+// Text of any origin and size is read into the device and its objects, or into a list of all faults with their lines. A description can
+// be written as a DCF and made into an object dictionary. The size is bounded as in Ini, and to 50,000 entries. No type, access or number
+// is guessed: text that cannot be read is a fault; text that is unusual but usable gives a note.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace axisgate::canopen {
 
-/// A number or text of the file: `$NODEID+0x180` is 0x180 with `plus_node`.
+/// A number or text of the file: `$NODEID+0x180` is 0x180 with `plus_node` set.
 struct EdsValue {
     Value value;
     bool plus_node = false;
@@ -28,17 +28,17 @@ struct EdsValue {
     bool operator==(const EdsValue&) const = default;
 };
 
-/// One subindex; a variable is its subindex 0.
+/// One subindex; a variable has subindex 0 only.
 struct EdsEntry {
     std::string name;
     DataType type = DataType::unsigned32;
     EntryAccess access = EntryAccess::read_write;
     bool mappable = false;
     EdsValue low, high, fallback;  ///< LowLimit, HighLimit, DefaultValue
-    EdsValue configured;           ///< ParameterValue of a DCF
-    std::uint32_t flags = 0;       ///< ObjFlags: bit 0 not written by a download of the configuration, bit 1 not read by an upload
-    std::size_t line = 0;          ///< of its section; 0: it was made by CompactSubObj or by hand
-    bool operator==(const EdsEntry& o) const;  ///< the line does not count
+    EdsValue configured;           ///< ParameterValue in a DCF
+    std::uint32_t flags = 0;       ///< ObjFlags: bit 0: not written by a download of the configuration; bit 1: not read by an upload
+    std::size_t line = 0;          ///< line of its section; 0: the entry comes from CompactSubObj or was made by the program
+    bool operator==(const EdsEntry& o) const;  ///< ignores the line
 };
 enum class EdsShape : std::uint8_t { variable = 7, array = 8, record = 9, domain = 2 };
 struct EdsObject {
@@ -47,18 +47,18 @@ struct EdsObject {
     bool operator==(const EdsObject&) const = default;
 };
 
-/// DeviceComissioning of a DCF (the standard writes it so).
+/// DeviceComissioning in a DCF (the standard spells it so).
 struct Commissioning {
     std::uint8_t node = 0;  ///< 1..127
     std::string node_name;
-    std::uint32_t kbit = 0;  ///< Baudrate; 0: not told
+    std::uint32_t kbit = 0;  ///< Baudrate; 0: not given
     bool operator==(const Commissioning&) const = default;
 };
 
 struct Eds {
     std::string vendor, product, order_code;
-    std::optional<std::uint32_t> vendor_number, product_number, revision_number;  ///< as 1018h holds them
-    std::vector<std::uint32_t> kbits;                                             ///< bit rates that the device has, rising
+    std::optional<std::uint32_t> vendor_number, product_number, revision_number;  ///< in the form of object 1018h
+    std::vector<std::uint32_t> kbits;                                             ///< supported bit rates, ascending
     std::uint32_t receive_pdos = 0, transmit_pdos = 0;
     std::map<std::uint16_t, EdsObject> objects;
     std::map<Address, EdsEntry> entries;
@@ -68,18 +68,19 @@ struct Eds {
     static constexpr std::size_t most_entries = 50'000;
 };
 
-/// Nothing if there are faults. `notes`: what is odd.
+/// Nothing if there are faults. `notes` lists unusual entries.
 [[nodiscard]] std::optional<Eds> read_eds(std::string_view text, std::vector<FileFault>& faults, std::vector<FileFault>& notes);
 
-/// The description with these values as ParameterValue and this commissioning: a DCF. A value that is none of its entry's type, or for
-/// which there is no entry, is left out and told. `made`: for FileInfo, "02:15PM" and "11-22-2026" in the standard's form, or empty.
+/// Writes the description with these values as ParameterValue and with this commissioning as a DCF. A value that does not fit the type of
+/// its entry, or that has no entry, is left out and reported. `made` is for FileInfo: "02:15PM" and "11-22-2026" as in the standard, or
+/// empty.
 struct DcfDate {
     std::string time, date;
 };
 [[nodiscard]] std::string write_dcf(const Eds& eds, const Commissioning& commissioning, const std::map<Address, Value>& values,
                                     const DcfDate& made, std::vector<std::string>& left_out);
 
-/// The object dictionary of such a device with this node number: configured values, else defaults, else zero.
+/// The object dictionary of such a device with this node number: configured values, otherwise defaults, otherwise zero.
 [[nodiscard]] Dictionary dictionary_of(const Eds& eds, std::uint8_t node);
 
 }  // namespace axisgate::canopen

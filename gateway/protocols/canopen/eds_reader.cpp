@@ -1,5 +1,4 @@
-// EDS reader: sections to objects and entries, with every fault that can be told at once.
-// In: text. Out: a description, faults, notes. Never takes a part of a file that has faults.
+// EDS reader: turns sections into objects and entries, and reports all faults of a file at once. A file with faults gives no description.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 namespace axisgate::canopen {
 namespace {
 
-/// As C writes them: decimal, 0x hex, 0 octal; a sign before any. Nothing after it but a comment.
+/// A number as in C: decimal, 0x hex or 0 octal, each with an optional sign. Only a comment may follow it.
 struct Number {
     bool negative = false;
     std::uint64_t size = 0;
@@ -47,7 +46,7 @@ std::optional<std::uint64_t> whole(std::string_view text, std::uint64_t most) {
     return n->size;
 }
 
-/// A whole number of the type. Hex digits may be the bits of a negative one: 0xFFFF is -1 for an INTEGER16.
+/// A whole number of the type. Hex digits may be the bit pattern of a negative number: 0xFFFF is -1 for an INTEGER16.
 std::optional<std::int64_t> whole_of(DataType type, std::string_view text) {
     const auto n = number_of(text);
     const auto range = range_of(type);
@@ -96,7 +95,7 @@ private:
     void fault(std::size_t line, std::string text) { add_fault(faults_, line, std::move(text)); }
     void note(std::size_t line, std::string text) { add_fault(notes_, line, std::move(text)); }
 
-    /// A number of a key that may be missing or empty.
+    /// The number of a key that may be missing or empty.
     std::optional<std::uint64_t> whole_in(const IniSection& s, std::string_view key, std::uint64_t most) {
         const IniKey* k = s.find(key);
         if (!k || k->value.empty()) return std::nullopt;
@@ -151,7 +150,7 @@ private:
         }
     }
 
-    /// "1018", "1018sub1", "1018name", "1018value"; other sections are none of objects.
+    /// Reads "1018", "1018sub1", "1018name" and "1018value"; other sections do not describe objects.
     void section(const IniSection& s) {
         const auto digits = std::min(s.name.find_first_not_of("0123456789abcdef"), s.name.size());
         if (digits != 4) return;
@@ -176,7 +175,7 @@ private:
         }
     }
 
-    /// Of a type: no object that can be read.
+    /// Whether the object is the definition of a type, which cannot be read from a device.
     static bool is_definition(std::uint64_t shape) { return shape == 5 || shape == 6; }
 
     void object(const IniSection& s, std::uint16_t index) {
@@ -288,7 +287,7 @@ private:
         }
     }
 
-    /// An empty value is none, and no fault: many files leave keys empty.
+    /// An empty value means that there is none; it is not a fault, because many files leave keys empty.
     EdsValue value(const IniKey& k, DataType type, Address address, std::string_view what) {
         EdsValue v;
         if (k.value.empty() || type == DataType::domain) return v;
@@ -300,7 +299,7 @@ private:
                 v.value = type == DataType::boolean ? Value{*n != 0} : Value{*n};
                 if (!v.plus_node || type != DataType::boolean) return v;
             }
-            // Ends of the type that a Value cannot hold limit nothing.
+            // A bound at an end of the type that a Value cannot hold is ignored.
             const auto large = number_of(text);
             if (type == DataType::unsigned64 && large && !large->negative && !v.plus_node) {
                 note(k.line, fmt::format("{} of {} is above 2^63 - 1 and left out", what, to_text(address)));
@@ -326,7 +325,7 @@ private:
                     return v;
                 }
             } else if (decimal && encode(type, Value{*decimal})) {
-                // As the drive holds it.
+                // The value as the drive holds it.
                 v.value = *decode(type, *encode(type, Value{*decimal}));
                 return v;
             }

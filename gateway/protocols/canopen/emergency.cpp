@@ -1,5 +1,4 @@
-// EMCY: frames and the table of code classes.
-// In: frames, codes. Out: values, words. Never keeps anything.
+// EMCY: reads frames, and holds the table of error code classes.
 #include "gateway/protocols/canopen/emergency.hpp"
 
 #include <fmt/core.h>
@@ -12,7 +11,7 @@ struct Class {
     std::uint16_t code, mask;
     std::string_view words;
 };
-// The first that fits counts, so that what is special stands before its class. CiA 301 table 26, and the classes of CiA 402-2.
+// The first match counts, so special codes stand before their class. CiA 301 table 26, and the classes of CiA 402-2.
 constexpr std::array classes{
     Class{0x0000, 0xFF00, "no error any more"},
     Class{0x8110, 0xFFFF, "CAN overrun: messages were lost"},

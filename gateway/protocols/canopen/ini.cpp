@@ -1,5 +1,4 @@
-// Ini: lines to sections and keys.
-// In: text. Out: sections, faults. Never reads further than its bounds.
+// Ini: splits text into sections and keys, within its bounds.
 #include "gateway/protocols/canopen/ini.hpp"
 
 #include <fmt/core.h>
@@ -65,7 +64,7 @@ std::optional<Ini> Ini::read(std::string_view text, std::vector<FileFault>& faul
     }
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     Ini ini;
-    std::unordered_set<std::string> names;  // of the keys of the present section
+    std::unordered_set<std::string> names;  // names of the keys of the present section
     std::size_t line = 0, keys = 0;
     while (!text.empty()) {
         ++line;

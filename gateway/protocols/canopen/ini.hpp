@@ -1,6 +1,6 @@
-// Ini: the text form of EDS and DCF files (CiA 306-1, 4): sections of keys, each with its line.
-// In: text of any origin and size. Out: sections and keys as they stand, names in lower case for comparing; faults with their line.
-// Bounded: 4 MiB, 20,000 sections, 500,000 keys; what is larger is refused as a whole. Never knows what a key means.
+// Ini: the text form of EDS and DCF files (CiA 306-1, 4): sections with keys, each with its line number.
+// Text of any origin and size is read; names are converted to lower case for comparison, and faults are reported with their line. A file
+// above 4 MiB, 20,000 sections or 500,000 keys is refused as a whole. The meaning of the keys is not known here.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace axisgate::canopen {
 
-/// What is wrong in a file, and where. Line 0: the file as a whole.
+/// A fault of a file and its line. Line 0: the file as a whole.
 struct FileFault {
     std::size_t line = 0;
     std::string text;
@@ -20,14 +20,14 @@ struct FileFault {
 
 struct IniKey {
     std::string name;   ///< in lower case
-    std::string value;  ///< without blanks around it; valid UTF-8 (other bytes are taken as Latin-1), control characters as blanks
+    std::string value;  ///< without blanks around it; valid UTF-8 (other bytes are read as Latin-1), control characters replaced by blanks
     std::size_t line = 0;
 };
 struct IniSection {
     std::string name;  ///< in lower case
     std::size_t line = 0;
     std::vector<IniKey> keys;
-    /// nullptr: it is not there. `name` in lower case.
+    /// Returns nullptr if the key is missing. `name` is in lower case.
     [[nodiscard]] const IniKey* find(std::string_view name) const noexcept;
 };
 
@@ -35,8 +35,8 @@ class Ini {
 public:
     static constexpr std::size_t most_bytes = 4u * 1024 * 1024, most_sections = 20'000, most_keys = 500'000;
 
-    /// Nothing if there is a fault. A line that is neither a section, a key, empty nor a comment (`;`, `#`) is one; so is a section or a
-    /// key that stands twice: which of them counts would be a guess.
+    /// Nothing if there is a fault. A line that is no section, key, blank line or comment (`;`, `#`) is a fault; so is a section or a key
+    /// that occurs twice, because choosing one of them would be a guess.
     [[nodiscard]] static std::optional<Ini> read(std::string_view text, std::vector<FileFault>& faults);
     [[nodiscard]] const std::vector<IniSection>& sections() const noexcept { return sections_; }
     [[nodiscard]] const IniSection* find(std::string_view name) const;  ///< in lower case
@@ -46,12 +46,12 @@ private:
     std::unordered_map<std::string, std::size_t> places_;
 };
 
-/// The beginning of somebody's text, for a message.
+/// The beginning of a text of the file, for a message.
 [[nodiscard]] std::string shown_text(std::string_view text);
 
-/// Most faults that a reader of a file tells; the last one says that there are more.
+/// The largest number of faults that a reader reports; the last one says that there are more.
 inline constexpr std::size_t most_file_faults = 50;
-/// Adds a fault as long as there is room. False: there is none, and reading on tells nothing new.
+/// Adds a fault while there is room. Returns false if the list is full and reading on would report nothing new.
 bool add_fault(std::vector<FileFault>& faults, std::size_t line, std::string text);
 
 }  // namespace axisgate::canopen

@@ -1,5 +1,4 @@
-// CANopen messages: the predefined connection set as arithmetic.
-// In: identifiers. Out: services, frames. Never keeps anything.
+// CANopen messages: computes identifiers and services of the predefined connection set.
 #include "gateway/protocols/canopen/message.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// NMT and error control: frames, and who has heard whom when.
-// In: frames, time. Out: frames, news of a node. Never sends by itself.
+// NMT and error control: frames, and the supervision of heartbeats and guarding by time.
 #include "gateway/protocols/canopen/nmt.hpp"
 
 #include <algorithm>
@@ -116,14 +115,14 @@ NodeNews GuardMaster::on_frame(const Frame& frame, Instant now) noexcept {
     const std::uint8_t byte = frame.storage[0];
     const auto state = nmt_state_of(byte & 0x7Fu);
     if (!state) return NodeNews::nothing;
-    if (byte == 0) {  // boot-up: its next answer has the toggle bit cleared
+    if (byte == 0) {  // boot-up: the toggle bit of the next answer is clear
         toggle_ = false;
         lost_ = false;
         state_ = *state;
         silent_since_ = now;
         return NodeNews::started;
     }
-    // A node that was silent may have been reset, so that its toggle bit says nothing.
+    // A node that was silent may have been reset, so that its toggle bit carries no information.
     if (((byte & 0x80u) != 0) != toggle_ && !lost_) {
         ++wrong_toggles_;
         return NodeNews::nothing;

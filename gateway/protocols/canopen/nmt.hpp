@@ -1,6 +1,6 @@
 // NMT and error control (CiA 301, 7.2.8): commands to nodes, their states, heartbeat and node guarding, each from both sides.
-// In: frames, time. Out: frames, the next deadline, and what became known of a node: it has started, its state is another, it has fallen
-// silent. Never starts or resets a node by itself: that is its owner's.
+// Frames and time come in; frames, the next deadline, and the events of a node come out: it has started, has changed its state, or has
+// fallen silent. No node is started or reset from here: the owner does that.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +20,27 @@ enum class NmtState : std::uint8_t { boot_up = 0, stopped = 4, operational = 5, 
 [[nodiscard]] std::optional<NmtCommand> nmt_command_of(std::uint8_t byte) noexcept;
 [[nodiscard]] std::optional<NmtState> nmt_state_of(std::uint8_t byte) noexcept;
 
-/// `node` 0: all of them.
+/// `node` 0 addresses all nodes.
 [[nodiscard]] Frame nmt_frame(NmtCommand command, std::uint8_t node) noexcept;
-/// The command, if the frame is one for this node or for all.
+/// The command, if the frame addresses this node or all nodes.
 [[nodiscard]] std::optional<NmtCommand> nmt_for(const Frame& frame, std::uint8_t node) noexcept;
-/// A heartbeat, or with boot_up the message of a node that has started.
+/// A heartbeat; with the state boot_up, the message of a node that has started.
 [[nodiscard]] Frame heartbeat_frame(std::uint8_t node, NmtState state) noexcept;
 
-/// What a watcher has learnt.
+/// The events of a supervised node.
 enum class NodeNews : std::uint8_t {
     nothing,
-    started,  ///< its boot-up message: whatever was configured may be gone
-    state,    ///< it is in another state than before, or known for the first time
-    lost,     ///< silent for too long; told once
-    back      ///< it is heard again, in the state that `state` says
+    started,  ///< its boot-up message: its configuration may be lost
+    state,    ///< it has changed its state, or its state is known for the first time
+    lost,     ///< silent for too long; reported once
+    back      ///< it sends again; `state` is its state
 };
 
-/// Listens for one node's heartbeats. With a time of 0 it only listens, and never calls a node lost.
+/// Receives the heartbeats of one node. With a time of 0, a node never counts as lost.
 class HeartbeatWatch {
 public:
     explicit HeartbeatWatch(std::uint8_t node, Duration time = {}) noexcept : node_(node), time_(time) {}
-    /// The watch begins with the first message after it is set, as the standard has it.
+    /// Supervision begins with the first message after the time is set, as the standard requires.
     void set_time(Duration time) noexcept {
         time_ = time;
         deadline_ = never;
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] Instant deadline() const noexcept { return deadline_; }
     [[nodiscard]] std::optional<NmtState> state() const noexcept { return state_; }
     [[nodiscard]] bool lost() const noexcept { return lost_; }
-    [[nodiscard]] std::uint64_t malformed() const noexcept { return malformed_; }  ///< wrong length, or no state
+    [[nodiscard]] std::uint64_t malformed() const noexcept { return malformed_; }  ///< messages with a wrong length or an unknown state
 
 private:
     std::uint8_t node_;
@@ -61,7 +61,7 @@ private:
     std::uint64_t malformed_ = 0;
 };
 
-/// A node's own heartbeat. With a period of 0 there is none.
+/// Sends a node's own heartbeat; a period of 0 switches it off.
 class HeartbeatProducer {
 public:
     void set_period(Duration period, Instant now) noexcept {
@@ -69,7 +69,7 @@ public:
         next_ = period_ > Duration{} ? now + period_ : never;
     }
     [[nodiscard]] Instant deadline() const noexcept { return next_; }
-    /// One message when it is due; whoever comes late sends one and not those that were missed.
+    /// Returns a message when it is due; a late call returns one message and not the missed ones.
     [[nodiscard]] std::optional<Frame> on_deadline(Instant now, std::uint8_t node, NmtState state) noexcept;
 
 private:
@@ -77,11 +77,11 @@ private:
     Instant next_ = never;
 };
 
-/// Asks one node for its state by remote frames, and checks that its answers alternate their toggle bit.
+/// Requests the state of one node with remote frames, and checks that the toggle bit of its answers alternates.
 class GuardMaster {
 public:
     explicit GuardMaster(std::uint8_t node) noexcept : node_(node) {}
-    /// `guard_time` 0: off. Lost after `life_factor` (at least 1) times that without a good answer.
+    /// `guard_time` 0: off. The node is lost after `life_factor` (at least 1) times that without a valid answer.
     void set(Duration guard_time, std::uint8_t life_factor, Instant now) noexcept;
     [[nodiscard]] NodeNews on_frame(const Frame& frame, Instant now) noexcept;
     struct Step {
@@ -92,7 +92,8 @@ public:
     [[nodiscard]] Instant deadline() const noexcept { return next_; }
     [[nodiscard]] std::optional<NmtState> state() const noexcept { return state_; }
     [[nodiscard]] bool lost() const noexcept { return lost_; }
-    [[nodiscard]] std::uint64_t wrong_toggles() const noexcept { return wrong_toggles_; }  ///< such an answer counts as none
+    /// answers with the wrong toggle bit; they do not count as valid
+    [[nodiscard]] std::uint64_t wrong_toggles() const noexcept { return wrong_toggles_; }
 
 private:
     std::uint8_t node_;
@@ -105,20 +106,20 @@ private:
     std::uint64_t wrong_toggles_ = 0;
 };
 
-/// The guarded node: answers, and notices when nobody asks any more (a life guarding event; told once, after the first question).
+/// The guarded node: answers requests, and detects when they stop (a life guarding event; reported once, after the first request).
 class GuardSlave {
 public:
     void set(Duration guard_time, std::uint8_t life_factor) noexcept {
         life_ = guard_time * life_factor;
         deadline_ = never;
     }
-    /// After a reset of the communication the toggle bit begins anew.
+    /// After a communication reset the toggle bit is clear again.
     void reset() noexcept {
         toggle_ = false;
         deadline_ = never;
     }
     [[nodiscard]] std::optional<Frame> on_frame(const Frame& frame, Instant now, std::uint8_t node, NmtState state) noexcept;
-    [[nodiscard]] bool on_deadline(Instant now) noexcept;  ///< true: nobody has asked for the life time
+    [[nodiscard]] bool on_deadline(Instant now) noexcept;  ///< true: no request has come for the life time
     [[nodiscard]] Instant deadline() const noexcept { return deadline_; }
 
 private:

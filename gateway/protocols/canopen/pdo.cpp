@@ -1,5 +1,4 @@
-// PDO: mapping words, bits of a frame, and the walks through a node's dictionary.
-// In: words, values, bytes. Out: the same, packed and unpacked. Never trusts a mapping that it has not checked.
+// PDO: mapping words, the bits of a frame, and the reads and writes of a node's dictionary. Every mapping is checked before it is used.
 #include "gateway/protocols/canopen/pdo.hpp"
 
 #include <algorithm>
@@ -166,7 +165,7 @@ void PdoReader::on_value(std::span<const std::uint8_t> bytes) {
             step_ = Step::count;
             return;
         case Step::count:
-            // 254 and 255 stand for multiplexed PDOs, which carry no such mapping.
+            // 254 and 255 mean multiplexed PDOs, which have no such mapping.
             if (n > most_mapped) return fail(Abort::pdo_length);
             count_ = static_cast<std::uint8_t>(n);
             step_ = count_ == 0 ? Step::over : Step::entries;

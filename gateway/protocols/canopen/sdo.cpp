@@ -1,5 +1,4 @@
-// SDO, what client and server have in common: checksum, messages, the two ends of a block transfer.
-// In: segments and acknowledgements. Out: the same of the other direction, bytes, abort codes. Never sends by itself.
+// SDO, the common part of client and server: checksum, messages, and both ends of a block transfer.
 #include "gateway/protocols/canopen/sdo.hpp"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ BlockReceiver::Step BlockReceiver::on_segment(const Frame& frame) {
     if (sequence == 0 || sequence > limits_.block_size) return {false, 0, Abort::sequence};
     bool over = false;
     if (sequence == good_ + 1) {
-        // The last segment is filled up to seven bytes, so that much more than the value may come.
+        // The last segment is padded to seven bytes, so that much more than the value may arrive.
         const std::size_t most = std::min<std::size_t>(announced_.value_or(UINT32_MAX), limits_.most_bytes);
         if (data_.size() >= most && !(data_.empty() && last)) return {false, 0, announced_ ? Abort::length : Abort::memory};
         const auto bytes = frame.data().subspan(1, segment_bytes);

@@ -1,5 +1,4 @@
-// SdoClient: the phases of a transfer as its messages come in.
-// In: answers of the node, time. Out: requests, ends. Never believes a length before the bytes are there.
+// SdoClient: the phases of a transfer, driven by the messages of the node. A length is trusted only when its bytes have arrived.
 #include "gateway/protocols/canopen/sdo_client.hpp"
 
 #include <fmt/core.h>
@@ -118,7 +117,7 @@ std::optional<SdoEnd> SdoClient::on_frame(const Frame& f, Instant now, std::vect
         return std::nullopt;
     }
     if (f.storage[0] == 0x80) return on_abort(f, now, out);
-    // What is left of a transfer that was given up carries another place, or none.
+    // The remainder of a transfer that was given up names another entry, or none.
     if (beginning()) {
         const unsigned command = f.storage[0] >> 5;
         const bool answers = phase_ == Phase::read_begin          ? command == 2
@@ -151,7 +150,7 @@ std::optional<SdoEnd> SdoClient::on_frame(const Frame& f, Instant now, std::vect
 }
 
 std::optional<SdoEnd> SdoClient::on_abort(const Frame& f, Instant now, std::vector<Frame>& out) {
-    // Nodes that do not know the command at all name no place.
+    // Nodes that do not know the command at all answer without an entry.
     if (address_of(f) != address_ && address_of(f) != Address{}) {
         ++strays_;
         return std::nullopt;
@@ -217,7 +216,7 @@ std::optional<SdoEnd> SdoClient::on_read_segment(const Frame& f, std::vector<Fra
     if (((b & 0x10u) != 0) != toggle_) return stop(Abort::toggle, out);
     const std::size_t n = segment_bytes - (b >> 1 & 7u);
     const bool last = (b & 1u) != 0;
-    // Empty segments could go on for ever.
+    // Empty segments could continue for ever.
     if (n == 0 && !last) return stop(Abort::length, out);
     if (data_.size() + n > announced_.value_or(UINT32_MAX)) return stop(Abort::length, out);
     if (data_.size() + n > limits_.most_bytes) return stop(Abort::memory, out);

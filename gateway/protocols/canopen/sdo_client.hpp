@@ -1,7 +1,8 @@
 // SdoClient: reads and writes entries of one node's object dictionary, one transfer at a time (CiA 301, 7.2.4): expedited, segmented,
-// block. In: what to read or write, frames of the node, time. Out: frames, the next deadline, and how each transfer ended: with bytes, or
-// with an abort code and who gave it. Bounded by SdoLimits: a server that lies about lengths, repeats or never ends is aborted. Never
-// repeats a transfer by itself (that is its user's to decide), and never knows what an entry means.
+// block.
+// Frames of the node and time come in; frames, the next deadline and the result of each transfer come out: the bytes, or an abort code and
+// the side that gave it. SdoLimits bounds every transfer, so a server that sends wrong lengths, repeats itself or never ends is aborted.
+// A transfer is never repeated from here: that is decided by the user of the client.
 #pragma once
 
 #include <algorithm>
@@ -16,22 +17,22 @@
 
 namespace axisgate::canopen {
 
-/// How a transfer ended.
+/// The result of a transfer.
 struct SdoEnd {
     Address address;
     bool write = false;
-    Abort abort = Abort::none;       ///< none: it is done
-    bool by_node = false;            ///< the abort came from the node; otherwise we gave it: silence is `timeout` and not `by_node`
-    std::vector<std::uint8_t> data;  ///< what was read, in full; empty after writes and aborts
+    Abort abort = Abort::none;       ///< none: success
+    bool by_node = false;            ///< the abort came from the node, otherwise from us; silence is `timeout` without `by_node`
+    std::vector<std::uint8_t> data;  ///< the complete value that was read; empty after writes and aborts
 
     [[nodiscard]] bool done() const noexcept { return abort == Abort::none; }
 };
-/// "1018h:01 could not be read: the node refused: the object does not exist (06020000h)"; "read" when it is done.
+/// "1018h:01 could not be read: the node refused: the object does not exist (06020000h)"; "read" after success.
 [[nodiscard]] std::string to_text(const SdoEnd& end);
 
 class SdoClient {
 public:
-    /// The default identifiers of a node. Others (1200h ff. of the node): `set_ids`.
+    /// Uses the default identifiers of the node. Others (1200h ff. of the node) are set by `set_ids`.
     explicit SdoClient(std::uint8_t node, SdoLimits limits = {}) noexcept
         : limits_(limits), request_id_(sdo_request_base + node), answer_id_(sdo_answer_base + node) {}
     void set_ids(std::uint16_t request, std::uint16_t answer) noexcept {
@@ -43,29 +44,29 @@ public:
     [[nodiscard]] Instant deadline() const noexcept { return busy() ? deadline_ : never; }
     [[nodiscard]] std::uint64_t strays() const noexcept { return strays_; }  ///< frames of the node that belong to no transfer
 
-    /// Begins; only while not `busy` (otherwise nothing happens and it is false). `block`: by blocks, with the plain protocol after all if
-    /// the node does not know them.
+    /// Begins a transfer; returns false and does nothing while `busy`. `block`: a block transfer, with the plain protocol as a fallback if
+    /// the node does not know block transfers.
     bool read(Address address, Instant now, std::vector<Frame>& out, bool block = false);
     bool write(Address address, std::vector<std::uint8_t> data, Instant now, std::vector<Frame>& out, bool block = false);
 
-    /// Waits so long for the node's next message, from the next transfer or repeat on.
+    /// The time-out for each message of the node, from the next transfer or repetition on.
     void set_patience(Duration patience) noexcept { limits_.patience = patience; }
-    /// The node is still busy with what it was asked before: its answer may take until then.
+    /// Extends the deadline for a node that is still busy with an earlier request.
     void extend(Instant until) noexcept {
         if (busy()) deadline_ = std::max(deadline_, until);
     }
-    /// The node has not answered the first request yet.
+    /// Whether the node has not yet answered the first request.
     [[nodiscard]] bool beginning() const noexcept;
-    /// Sends the first request once more, for as long as the node has not answered it: nothing is aborted, and an answer to either is one.
-    /// False: the transfer is beyond that, by blocks, or there is none.
+    /// Sends the first request again while the node has not answered it: nothing is aborted, and an answer to either request counts.
+    /// Returns false if there is no transfer, or if it is a block transfer or has been answered.
     bool repeat(Instant now, std::vector<Frame>& out);
-    /// Ends the transfer without a word to the node: the next request takes its place there.
+    /// Ends the transfer without a message to the node: the next request replaces it there.
     void abandon() noexcept;
 
-    /// Any frame; others than this node's answers are not looked at. At most one transfer ends.
+    /// Takes any frame and ignores all but this node's answers. At most one transfer ends.
     [[nodiscard]] std::optional<SdoEnd> on_frame(const Frame& frame, Instant now, std::vector<Frame>& out);
     [[nodiscard]] std::optional<SdoEnd> on_deadline(Instant now, std::vector<Frame>& out);
-    /// Ends the transfer under way, and tells the node why.
+    /// Ends the present transfer with an abort message to the node.
     [[nodiscard]] std::optional<SdoEnd> stop(Abort why, std::vector<Frame>& out);
 
 private:
@@ -103,9 +104,9 @@ private:
     bool write_ = false, block_ = false;
     bool toggle_ = false;
     bool node_crc_ = false;
-    std::vector<std::uint8_t> data_;          ///< to be written, or read so far
+    std::vector<std::uint8_t> data_;          ///< bytes to write, or read so far
     std::size_t at_ = 0;                      ///< bytes that have been written
-    std::optional<std::uint32_t> announced_;  ///< size of what is read, if the node has told it
+    std::optional<std::uint32_t> announced_;  ///< size of the value to read, if the node has given it
     BlockReceiver receiver_;
     BlockSender sender_;
     Instant deadline_ = never;

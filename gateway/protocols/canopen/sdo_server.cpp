@@ -1,6 +1,5 @@
-// SdoServer: one transfer as its requests come in.
-// In: requests, time. Out: answers. A request that begins another transfer ends the one under way; only within a block it cannot be told
-// apart.
+// SdoServer: one transfer, driven by the client's requests.
+// A request that begins a new transfer ends the present one, except within a block, where it cannot be distinguished from a segment.
 #include "gateway/protocols/canopen/sdo_server.hpp"
 
 #include <algorithm>
@@ -92,7 +91,7 @@ void SdoServer::begin_read(const Frame& f, bool block, std::vector<Frame>& out) 
     const Abort fault = store_.read(address_, data_);
     if (fault != Abort::none) return abort(fault, out);
     const auto size = static_cast<std::uint32_t>(data_.size());
-    // A client may name a size up to which it takes the plain protocol.
+    // A client may give a size up to which it accepts the plain protocol.
     if (block && size > f.storage[5]) {
         sender_.begin(std::move(data_), limits_.stalls);
         out.push_back(sdo_frame(answer_id_, 0xC6, address_, size));

@@ -1,7 +1,7 @@
 // SdoServer: answers one client's reads and writes of an object dictionary (CiA 301, 7.2.4): expedited, segmented, block.
-// In: requests, time. Out: answers, the next deadline; the values go to and come from an SdoStore. Bounded by SdoLimits: one transfer, as
-// many bytes as the store admits and the limits allow; a client that falls silent is given up with an abort. Never applies half a value:
-// the store is written when the last byte is here and right.
+// Requests and time come in; answers and the next deadline come out; values are read from and written to an SdoStore. SdoLimits and the
+// store bound each transfer, and the transfer of a client that falls silent is aborted. The store is written only when all bytes of a
+// value have arrived and are valid.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@
 
 namespace axisgate::canopen {
 
-/// What a server reads from and writes to. `Abort::none` is a yes.
+/// The values that a server reads and writes. `Abort::none` means success.
 class SdoStore {
 public:
     virtual ~SdoStore() = default;
     /// The present bytes of an entry.
     [[nodiscard]] virtual Abort read(Address address, std::vector<std::uint8_t>& into) = 0;
-    /// Asked before the bytes of a longer write come. `size`: if the client has told it.
+    /// Called before the bytes of a longer write arrive. `size`: as given by the client, if it is.
     [[nodiscard]] virtual Abort admits(Address address, std::optional<std::size_t> size) = 0;
-    /// `sized`: the client has told the length; otherwise (expedited, four bytes) the store takes as many as the type has.
+    /// `sized`: the client has given the length; otherwise (expedited, four bytes) the store uses as many bytes as the type has.
     [[nodiscard]] virtual Abort write(Address address, std::span<const std::uint8_t> bytes, bool sized) = 0;
 };
 
@@ -31,15 +31,15 @@ class SdoServer {
 public:
     /// `store` outlives the server.
     SdoServer(std::uint8_t node, SdoStore& store, SdoLimits limits = {}) noexcept : store_(store), limits_(limits) { set_node(node); }
-    /// Default identifiers of this node; what was under way is forgotten.
+    /// Sets the default identifiers of this node and discards the present transfer.
     void set_node(std::uint8_t node) noexcept;
-    /// Forgets what is under way without a word: the node was reset.
+    /// Discards the present transfer without a message, for a node that was reset.
     void reset() noexcept { phase_ = Phase::idle; }
 
     [[nodiscard]] bool busy() const noexcept { return phase_ != Phase::idle; }
     [[nodiscard]] Instant deadline() const noexcept { return busy() ? deadline_ : never; }
 
-    /// Any frame; others than requests to this node are not looked at. True: it was one.
+    /// Takes any frame and ignores all but requests to this node. Returns whether it was one.
     bool on_frame(const Frame& frame, Instant now, std::vector<Frame>& out);
     void on_deadline(Instant now, std::vector<Frame>& out);
 
@@ -55,7 +55,7 @@ private:
     void on_block_write(const Frame& f, std::vector<Frame>& out);
     void on_block_write_end(const Frame& f, std::vector<Frame>& out);
     void abort(Abort why, std::vector<Frame>& out);
-    /// The bytes are here: the store's word is the answer, `yes` if it takes them.
+    /// Writes the complete bytes to the store, and answers with `yes` or with the abort code of the store.
     void store(std::span<const std::uint8_t> bytes, bool sized, const Frame& yes, std::vector<Frame>& out);
 
     SdoStore& store_;
@@ -65,7 +65,7 @@ private:
     Address address_;
     bool toggle_ = false;
     bool client_crc_ = false;
-    std::uint8_t block_size_ = 0;  ///< that the client takes
+    std::uint8_t block_size_ = 0;  ///< accepted by the client
     std::vector<std::uint8_t> data_;
     std::size_t at_ = 0;
     std::optional<std::uint32_t> announced_;

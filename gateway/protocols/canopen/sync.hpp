@@ -1,6 +1,6 @@
-// SyncProducer: the SYNC messages of a bus at even distances, with a counter if it has one (CiA 301, 7.2.5; objects 1005h, 1006h, 1019h).
-// In: period, time. Out: frames, the next deadline, how many were missed. Never sends two at once to make up for a late turn: nodes would
-// take them for two cycles; and never drifts: the next one is due by the plan and not by when the last was sent.
+// SyncProducer: the SYNC messages of a bus at equal intervals, with an optional counter (CiA 301, 7.2.5; objects 1005h, 1006h, 1019h).
+// It returns frames, the next deadline and the number of missed messages. After a late turn it does not send two at once, because nodes
+// would take them for two cycles. It does not drift: the next message is due by the schedule, not by the time of the last one.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ public:
         counter_ = 0;
         next_ = period_ > Duration{} ? now + period_ : never;
     }
-    /// Another period from the last message on, at once if that is over; one that was off begins at once.
+    /// Changes the period from the last message on; the next one is due at once if that time is over, or if SYNC was off.
     void set_period(Duration period, Instant now) noexcept {
         if (period == period_) return;
         period_ = period;
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }  ///< cycles that went by before their message could be sent
     [[nodiscard]] std::optional<Frame> on_deadline(Instant now) noexcept {
         if (now < next_) return std::nullopt;
-        // One that comes in the second half of its cycle stands for the next one, too.
+        // A message that is sent in the second half of its cycle counts for the next cycle, too.
         const auto behind = (now - next_ + period_ / 2 - Duration(1)) / period_;
         missed_ += static_cast<std::uint64_t>(behind);
         last_ = next_ + period_ * behind;

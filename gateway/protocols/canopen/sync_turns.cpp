@@ -1,5 +1,5 @@
-// SYNC turns: the plan: the shortest round in which all nodes fit, and the places of targets.
-// In: a wish. Out: slots, places. Never more in a beat than its share, but for a node that is alone in a beat that cannot be longer.
+// SYNC turns: plans the shortest round in which all nodes fit, and assigns the places of targets.
+// No beat has more than its share, except for a node that is alone in a beat which cannot be longer.
 #include "gateway/protocols/canopen/sync_turns.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ std::uint64_t bits_in(Duration time, std::uint32_t bit_rate) {
     return static_cast<std::uint64_t>(time.count() / 1000) * rate / 1'000'000;
 }
 
-/// Slots for all nodes with at most `axes` in a beat, the emptiest one for each; empty: they do not fit.
+/// Slots for all nodes with at most `axes` in a beat, each in the emptiest one; empty if they do not fit.
 std::vector<int> slots_of(const TurnsWish& wish, int turns, int axes, bool keep) {
     std::vector<int> used(static_cast<std::size_t>(turns), 0), slots(wish.nodes.size(), 0);
     const auto put = [&](std::size_t node, int slot) {
@@ -42,7 +42,7 @@ SyncTurns plan_turns(const TurnsWish& wish) {
     }
     const auto sync = most_bits(0);
     const auto targets = [&](int n) { return static_cast<std::uint64_t>(n) * wish.target_bits; };
-    const auto room = [&](Duration beat) {  // for so many axes
+    const auto room = [&](Duration beat) {  // for this many axes
         const auto share = pdo_share(beat, wish.bit_rate);
         const std::uint64_t pdos = share > sync ? share - sync : 0;
         const std::uint64_t kept = std::max({targets(1), targets(wish.places), std::min(targets(4), pdos / 4)});

@@ -1,5 +1,5 @@
-// Adapter: packets are served in the order in which they come; an answer that waits for a drive comes when it can.
-// In: bytes, values, time. Out: answers, implicit data. Never trusts an order on a session that has not registered it.
+// Adapter: packets are served in their order of arrival; an answer that waits for a drive is sent when the drive has answered.
+// A command on a session that is not registered is not trusted.
 #include "gateway/protocols/cip/adapter.hpp"
 
 #include <algorithm>
@@ -7,10 +7,10 @@
 namespace axisgate::cip {
 namespace {
 constexpr Duration look_period = std::chrono::seconds(1);
-constexpr unsigned token_shift = 8;  // below: the part of a message
+constexpr unsigned token_shift = 8;  // lower bits: the part of a message
 constexpr std::size_t most_unconnected = 504;
 
-/// A part of the asked delay that two devices will hardly share: of what only this one has.
+/// A fraction of the requested delay, computed from a number of this device only, so that two devices rarely answer together.
 Duration spread(std::uint16_t asked_ms, std::uint32_t own) {
     const std::uint32_t most_ms = asked_ms == 0 ? 2000u : std::max<std::uint32_t>(asked_ms, 500u);
     own ^= own >> 15;
@@ -48,8 +48,8 @@ bool Adapter::give_way(Instant now) {
     return find_room({}, true, now) && sessions_.size() < before;
 }
 
-/// Who knocks first gives way, then who is silent, from the address that has most sessions; what works goes only if its address has more
-/// than an eighth of all.
+/// First a session that is not registered gives way, then a silent one, from the address with most sessions; an active session only if its
+/// address has more than an eighth of all.
 bool Adapter::find_room(Endpoint newcomer, bool full, Instant now) {
     const PlaceRules rules{most_sessions - kept_sessions, kept_sessions};
     std::vector<Guest> guests;
@@ -168,7 +168,7 @@ bool Adapter::listing(const Header& header, View data, Bytes& to) const {
 }
 
 void Adapter::packet_from(SessionKey key, Session& s, const Header& header, View data, Instant now) {
-    if (header.options != 0) return counters_.wrong_packets.add();  // to be thrown away, says the standard
+    if (header.options != 0) return counters_.wrong_packets.add();  // the standard requires to discard such a packet
     counters_.requests.add();
     Bytes list;
     if (listing(header, data, list)) return output_.stream(key, list);
@@ -233,7 +233,7 @@ void Adapter::unit_data(SessionKey key, const Header& header, View data, Instant
     const std::uint32_t interface = r.u32();
     r.skip(2);
     const auto items = r.bad() || interface != 0 ? std::nullopt : read_items(r.rest());
-    // No answer: this order has none of its own, and an originator without one repeats or ends its connection.
+    // No answer: this request has no error answer, and an originator without an answer repeats it or closes its connection.
     if (!items || items->count < 2 || items->list[0].type != item::connected_address || items->list[0].data.size() != 4 ||
         items->list[1].type != item::connected_data || items->list[1].data.size() < 2)
         return counters_.wrong_packets.add();
@@ -248,7 +248,7 @@ void Adapter::unit_data(SessionKey key, const Header& header, View data, Instant
     route.connection = c->ot_id;
     route.count = count;
     route.most = c->request.to.size - 2u;
-    if (c->asked_any && c->asked == count) {  // a repetition: the same answer again, when there is one
+    if (c->asked_any && c->asked == count) {  // a repetition: the same answer is sent again, if there is one
         if (!c->answered.empty()) output_.stream(key, c->answered);
         return;
     }
@@ -285,7 +285,7 @@ void Adapter::message(View bytes, Route route, Context context) {
     }
 }
 
-/// Written where it is sent from: an answer is copied once, by the kernel.
+/// Composed in the output buffer: an answer is copied once, by the kernel.
 void Adapter::answer(const Route& route, const Router::Parts& parts) {
     Connection* const c = route.connection == 0 ? nullptr : manager_.explicit_connection(route.connection, route.session);
     if (route.connection != 0 && !c) return;  // closed meanwhile

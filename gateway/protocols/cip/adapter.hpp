@@ -1,8 +1,7 @@
-// Adapter: one EtherNet/IP device: its sessions, its objects, its connections.
-// In: what arrives on TCP and on the two UDP ports, values that were asked for, time. Out: bytes by `Output`; the next deadline.
-// Never has a socket or a clock. Bounds: `most_sessions` (then one that is not registered, or else does nothing, gives way, from the
-// address that has most; `kept_sessions` of them for addresses that command),
-// `most_waiting` messages that wait for values (then 0x02), `most_late` answers to broadcasts that wait for their delay (then none).
+// Adapter: one EtherNet/IP device with its sessions, objects and connections. It has neither a socket nor a clock.
+// Bytes from TCP and from both UDP ports, requested values and time come in; bytes go out through `Output`. Bounds: `most_sessions`
+// (then an unregistered or idle session gives way, from the address that has most; `kept_sessions` of them are for addresses that
+// command), `most_waiting` messages that wait for values (further ones get 0x02), `most_late` delayed answers to broadcasts.
 #pragma once
 
 #include <map>
@@ -17,9 +16,9 @@ namespace axisgate::cip {
 
 struct Output : Carrier, DeviceListener {
     virtual void stream(SessionKey session, View bytes) = 0;
-    /// From the explicit port.
+    /// Sends a datagram from the explicit port.
     virtual void datagram(Endpoint to, View bytes) = 0;
-    /// Closes the TCP connection once what was sent is out. on_disconnected() follows, not from inside this call.
+    /// Closes the TCP connection once all bytes have been sent. on_disconnected() follows, not from inside this call.
     virtual void hang_up(SessionKey session) = 0;
 };
 
@@ -36,26 +35,26 @@ public:
     Adapter(const Adapter&) = delete;
     Adapter& operator=(const Adapter&) = delete;
 
-    /// `key`: any number but 0 that no other session has. False: there is no room; close it.
+    /// `key`: any number but 0 that no other session has. Returns false if there is no room: close the connection.
     [[nodiscard]] bool on_connected(SessionKey key, Endpoint from, Instant now);
-    /// Hangs up a session that does nothing, for somebody else's sake: one that never registered, else one that
-    /// has been silent, and for a second at least. False: all of them work, or command.
+    /// Closes an idle session to make room: one that never registered, otherwise one that has been silent for at least a second. Returns
+    /// false if all of them are active or command.
     [[nodiscard]] bool give_way(Instant now);
     void on_stream(SessionKey key, View bytes, Instant now);
     void on_disconnected(SessionKey key);
-    /// On the explicit UDP port. `broadcast`: it was sent to everybody, whose answers shall not come at once.
+    /// A datagram on the explicit UDP port. `broadcast`: it was sent to all devices, which must not answer at once.
     void on_datagram(View bytes, Endpoint from, bool broadcast, Instant now);
     void on_implicit(View datagram, Endpoint from, Instant now) { manager_.on_implicit(datagram, from, now); }
-    /// The value that was asked for under this token, or why there is none. Of a written one: no value.
+    /// Delivers the value that was requested under this token, or the reason why there is none. After a write there is no value.
     /// `extended`: a word that follows a bad status; 0: none.
     void answered(Token token, General general, View value, std::uint16_t extended = 0);
-    /// When something came on this session; nothing: there is no such session.
+    /// When the last bytes arrived on this session; nothing if there is no such session.
     [[nodiscard]] std::optional<Instant> last_received(SessionKey key) const;
 
     void on_deadline(Instant now);
     [[nodiscard]] Instant deadline() const;
 
-    /// Sessions and connections as other doors show them, and their ends by a person.
+    /// The sessions and connections as other doors show them, and closing them by an operator.
     struct SessionReport {
         SessionKey key = 0;
         Endpoint from;
@@ -65,7 +64,7 @@ public:
     [[nodiscard]] std::vector<SessionReport> session_reports() const;
     /// False: there is no such session.
     bool close_session(SessionKey key);
-    /// Connections are closed by what they were opened for, and by hand.
+    /// Connections are closed when the resource they use changes, and by an operator.
     [[nodiscard]] ConnectionManager& connections() noexcept { return manager_; }
     [[nodiscard]] const ConnectionManager& connections() const noexcept { return manager_; }
     [[nodiscard]] const QosObject& marks() const noexcept { return qos_; }
@@ -80,13 +79,13 @@ private:
         Instant since{}, last_received{};
         bool leaving = false;
     };
-    /// Where an answer goes.
+    /// The destination of an answer.
     struct Route {
         SessionKey session = 0;
         Header header;
         std::uint32_t connection = 0;  ///< O->T id of explicit messages; 0: unconnected
         std::uint16_t count = 0;
-        Bytes items;  ///< beside the two that every answer has
+        Bytes items;  ///< items besides the two of every answer
         std::uint16_t extra = 0;
         std::size_t most = 0;
     };
@@ -125,13 +124,13 @@ private:
     ConnectionConfigurationObject configuration_;
     Router router_;
     std::unordered_map<SessionKey, Session> sessions_;
-    std::map<std::uint64_t, Waiting> waiting_;  // by the upper bits of their tokens
+    std::map<std::uint64_t, Waiting> waiting_;  // keyed by the upper bits of their tokens
     std::vector<Late> late_;
     std::uint64_t exchanges_ = 0;
     std::uint32_t handles_;
-    Instant next_look_ = never;  // at sessions that are silent
+    Instant next_look_ = never;  // next check for silent sessions
     Counters counters_;
-    Bytes out_;  // the packet that is being written; kept for its room
+    Bytes out_;  // the packet being written; kept for its capacity
 };
 
 }  // namespace axisgate::cip

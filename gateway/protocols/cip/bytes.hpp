@@ -1,5 +1,5 @@
-// Bytes: little-endian numbers out of and into byte strings, as CIP has them on the wire.
-// In: bytes. Out: numbers, and back. Never reads beyond its end: what is missing is told once, by `bad`, and reads as 0.
+// Bytes: reads and writes little-endian numbers as CIP transmits them.
+// Nothing is read beyond the end: missing bytes set `bad` and read as 0.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ using View = std::span<const std::uint8_t>;
 
 class Reader {
 public:
-    /// `alone`: one value, that is all of the bytes.
+    /// `alone`: the bytes are to hold exactly one value.
     explicit Reader(View bytes, bool alone = false) noexcept : rest_(bytes), alone_(alone) {}
     /// Whether there are more bytes than its one value has.
     [[nodiscard]] bool too_long_for(std::size_t bytes) const noexcept { return alone_ && rest_.size() > bytes; }
@@ -36,7 +36,7 @@ public:
     void skip(std::size_t n) noexcept { (void)take(n); }
     [[nodiscard]] View rest() const noexcept { return rest_; }
     [[nodiscard]] std::size_t left() const noexcept { return rest_.size(); }
-    [[nodiscard]] bool bad() const noexcept { return bad_; }  ///< more was asked for than there was
+    [[nodiscard]] bool bad() const noexcept { return bad_; }  ///< more bytes were requested than there were
 
 private:
     std::uint64_t number(std::size_t n) noexcept {
@@ -53,7 +53,7 @@ private:
 
 inline void put(Bytes& to, std::uint64_t value, std::size_t bytes) {
     const std::size_t at = to.size();
-    to.resize(at + bytes);  // once, not byte by byte
+    to.resize(at + bytes);  // resized once, not byte by byte
     for (std::size_t i = 0; i < bytes; ++i)
         to[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
@@ -82,13 +82,13 @@ inline void set32(std::uint8_t* p, std::uint32_t v) noexcept {
     set16(p + 2, static_cast<std::uint16_t>(v >> 16));
 }
 
-/// An IPv4 address and a port, both as numbers of the host.
+/// An IPv4 address and a port, both in host byte order.
 struct Endpoint {
     std::uint32_t address = 0;
     std::uint16_t port = 0;
     bool operator==(const Endpoint&) const = default;
 };
-/// sockaddr_in as the standard puts it into items: in network order.
+/// A sockaddr_in as in the standard's items: in network byte order.
 inline void put_sockaddr(Bytes& to, Endpoint e) {
     const std::uint8_t head[] = {0, 2, static_cast<std::uint8_t>(e.port >> 8), static_cast<std::uint8_t>(e.port)};
     put_bytes(to, head);

@@ -1,5 +1,5 @@
-// Connection manager: opening, closing, and what is told of connections.
-// In: requests with who sent them. Out: connections. Never two that command the same, and never two of one triad.
+// Connection manager: opens, closes and describes connections.
+// Two connections never command the same output, and never have the same triad.
 #include "gateway/protocols/cip/connection_manager.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Response opened(const Connection& c) {
     return r;
 }
 
-/// What it is doing, for the choice of who gives way.
+/// The activity of a connection, by which the one to close is chosen.
 Standing standing_of(const Connection& c, const Values& values, Instant now) {
     if (c.kind == Kind::exclusive_owner) return c.received_any ? Standing::stop_path : Standing::known;
     if (!c.is_io()) {
@@ -109,7 +109,7 @@ Response ConnectionManager::open_one(const OpenRequest& request, Context& contex
     return request.transport_class() == 3 ? open_explicit(request, context) : open_io(request, context);
 }
 
-/// Opens nothing: it asks whether the device is there (and configures it, where there is something to configure), or names an open one.
+/// Opens nothing: checks whether the device is there (and configures it, if there is a configuration), or names an open connection.
 Response ConnectionManager::open_null(const OpenRequest& request) {
     if (const Connection* const same = find(request.triad)) {
         if (!same_places(same->request.path, request.path)) return Response::refused(Extended::inconsistent_path_combination);
@@ -137,7 +137,7 @@ bool ConnectionManager::make_room(const Peer& newcomer, bool known, bool message
     const auto verdict = find_place(guests, newcomer.from.address, known, {most - spared, spared, most_connections});
     if (!verdict.let_in || !verdict.closes) return verdict.let_in;
     Connection& goes = *whose[*verdict.closes];
-    // Who has most of them already does not change one of his own for another: he is told that there is no place.
+    // An originator that already has most of them does not replace one of its own: it is told that there is no place.
     if (goes.peer.from.address == newcomer.from.address) return false;
     counters_.evicted.add();
     close(goes, End::to_make_room, now);
@@ -217,7 +217,7 @@ Response ConnectionManager::open_io(const OpenRequest& request, Context& context
         c->sends = true;
         c->next = context.now;
         const Endpoint wanted = context.produce_to.value_or(Endpoint{});
-        // Data go to the originator itself, whatever address it wrote; its port is its own choice.
+        // Data go to the originator's own address, whatever address it wrote; the port is its own choice.
         c->produce_to = {context.peer.from.address, wanted.port != 0 ? wanted.port : default_io_port};
         if (request.trigger() != Trigger::cyclic) {
             const Duration inhibit =
@@ -232,7 +232,7 @@ Response ConnectionManager::open_io(const OpenRequest& request, Context& context
     return opened(*c);
 }
 
-/// Who reads the same by multicast reads the same datagrams, as often as the quickest of them wants.
+/// Originators that read the same data by multicast share the datagrams, at the shortest interval that any of them wants.
 void ConnectionManager::join_group(Connection& c, Context& context) {
     c.to_id = c.ot_id;
     c.produce_to = group_address(values_.device(), c.number);

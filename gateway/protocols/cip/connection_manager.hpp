@@ -1,7 +1,7 @@
-// Connection manager: the connections that originators have with this device, their data, their time-outs and their ends.
-// In: Forward_Open and its like, implicit datagrams, time. Out: answers, implicit datagrams by `Carrier`, word to `Values`.
-// Never opens more than `most_connections`: then 0x0113 (`most_explicit` of explicit messages: 0x011A); no address takes all of them. Data
-// from a wrong address, old, or of a wrong size is dropped and counted.
+// Connection manager: the connections of originators with this device, their data, time-outs and ends.
+// Forward_Open and similar requests, implicit datagrams and time come in; answers come out, implicit datagrams go to `Carrier` and events
+// to `Values`. At most `most_connections` are open (then 0x0113; `most_explicit` of explicit messages, then 0x011A), and no address can
+// take all of them. Data from a wrong address, old data and data of a wrong size are dropped and counted.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@
 
 namespace axisgate::cip {
 
-/// What carries bytes to others.
+/// Sends datagrams to originators.
 struct Carrier {
-    /// A datagram of implicit data. `dscp`: its mark.
+    /// Sends a datagram of implicit data, marked with `dscp`.
     virtual void implicit(Endpoint to, View datagram, std::uint8_t dscp) = 0;
     virtual ~Carrier() = default;
 };
@@ -26,16 +26,16 @@ struct Carrier {
 struct Connection {
     enum class Kind : std::uint8_t { exclusive_owner, input_only, listen_only, explicit_messages };
     Kind kind = Kind::exclusive_owner;
-    std::uint16_t number = 0;  ///< 1.. , of its place
+    std::uint16_t number = 0;  ///< number of its place, from 1
     OpenRequest request;
     IoPlan plan;
-    Peer peer;            ///< the originator's address; the connection's own id as Values know it
-    Endpoint produce_to;  ///< where its data go
+    Peer peer;            ///< the originator's address, and the id by which Values know the connection
+    Endpoint produce_to;  ///< destination of its data
     SessionKey session = 0;
     std::uint32_t ot_id = 0, to_id = 0;
-    bool sends = false;   ///< of a multicast group one connection does
-    Duration interval{};  ///< at which it sends
-    Duration look{};      ///< at which it looks for a change; zero: it is cyclic
+    bool sends = false;   ///< of a multicast group, one connection sends
+    Duration interval{};  ///< interval of sending
+    Duration look{};      ///< interval of checking for a change; zero: cyclic
     Instant since{}, last_received{};
     Instant expires = never, next = never, next_look = never;
     std::uint32_t sent = 0;
@@ -44,11 +44,11 @@ struct Connection {
     bool received_any = false, running = false;
     std::uint32_t received = 0;
     std::uint16_t received_count = 0;
-    std::uint16_t asked = 0;  ///< class 3: count of the newest request ...
+    std::uint16_t asked = 0;  ///< class 3: sequence count of the newest request ...
     bool asked_any = false;
     Bytes answered;  ///< ... and its answer, for a repetition
 
-    /// Something has come.
+    /// Records that data have arrived.
     void touch(Instant now) noexcept {
         last_received = now;
         expires = now + request.time_out();
@@ -63,9 +63,9 @@ struct Connection {
 class ConnectionManager final : public Object, public Connections {
 public:
     static constexpr std::size_t most_connections = 128;
-    static constexpr std::size_t most_explicit = 64;  ///< of them: so that messages never take the last place of an owner
-    /// Of both, a quarter is kept for owners, or for sessions that command: for them one that never brought anything gives way as well, or
-    /// one of the address that has most, if these are more than an eighth (gateway/core/places.hpp). An owner never gives way.
+    static constexpr std::size_t most_explicit = 64;  ///< so that explicit messages never take the last place of an owner
+    /// A quarter of each is kept for owners, or for sessions that command: for them, a connection that never carried data gives way, or one
+    /// of the address that has most, if it has more than an eighth (gateway/core/places.hpp). An owner never gives way.
     static constexpr std::size_t kept = most_connections / 4, kept_explicit = most_explicit / 4;
     static constexpr std::uint16_t most_message = 4002;               ///< bytes of a connection of explicit messages in one direction
     static constexpr Duration first_data = std::chrono::seconds(10);  ///< until the first datagram, whatever the time-out is
@@ -76,7 +76,7 @@ public:
         Counter received, sent, from_wrong_address, stale, wrong_size, unknown_connection;
     };
 
-    /// `marks`: of the datagrams. `incarnation`: another number after each start, so that ids of before mean nothing.
+    /// `marks`: the DSCP values of the datagrams. `incarnation`: a new number after each start, so that old connection ids are not valid.
     ConnectionManager(Values& values, Carrier& carrier, const QosObject& marks, std::uint16_t incarnation);
 
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_manager; }
@@ -88,10 +88,10 @@ public:
     void on_implicit(View datagram, Endpoint from, Instant now);
     void on_deadline(Instant now);
     [[nodiscard]] Instant deadline() const;
-    /// A TCP connection has ended: its explicit connections go with it; implicit ones live on their own.
+    /// For a TCP connection that has ended: its explicit connections are closed; implicit ones are independent of it.
     void on_session_gone(SessionKey session);
 
-    /// Of explicit messages; nullptr: there is none with this id by this session.
+    /// The connection of explicit messages with this id on this session; nullptr if there is none.
     [[nodiscard]] Connection* explicit_connection(std::uint32_t ot_id, SessionKey session);
     [[nodiscard]] bool uses(SessionKey session) const;
 
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] bool running() const override;
     [[nodiscard]] bool owned_by_other(std::uint32_t output, const Peer& than) const override;
     void close_all(End why, Instant now) override;
-    /// Closes those that `goes` says; how many they were.
+    /// Closes the connections for which `goes` returns true, and returns their number.
     template <class Goes>
     std::size_t close_those(Goes&& goes, End why, Instant now) {
         std::size_t closed = 0;
@@ -114,7 +114,7 @@ public:
         }
         return closed;
     }
-    /// One of this address commands.
+    /// Whether a connection of this address commands.
     [[nodiscard]] bool owns(std::uint32_t address) const;
 
     [[nodiscard]] const Counters& counters() const noexcept { return counters_; }
@@ -129,7 +129,7 @@ private:
     [[nodiscard]] Response forward_close(View data, const Context& context);
     [[nodiscard]] Response connection_data(std::uint8_t service, View data) const;
     [[nodiscard]] std::optional<Extended> wrong_owner(const IoPlan& plan, const Peer& who, Instant now) const;
-    /// Room for one more of this kind; false: there is none, and nobody gives way.
+    /// Makes room for one more of this kind; false if there is none and no connection may be closed for it.
     [[nodiscard]] bool make_room(const Peer& newcomer, bool known, bool messages, Instant now);
     [[nodiscard]] Connection* place_for(const OpenRequest& request, const Context& context);
     [[nodiscard]] Connection* find(const Triad& triad) const;
@@ -144,9 +144,9 @@ private:
     const QosObject& marks_;
     std::uint16_t generation_;
     std::array<std::unique_ptr<Connection>, most_connections> places_;
-    std::size_t used_ = 0;  // places from here on have never been taken
+    std::size_t used_ = 0;  // places from here on have never been used
     Counters counters_;
-    Bytes data_, datagram_;  // kept for their room
+    Bytes data_, datagram_;  // kept for their capacity
 };
 
 }  // namespace axisgate::cip

@@ -1,5 +1,5 @@
-// Assembly and Parameter: the objects behind which the axes stand.
-// In: instances. Out: their data and descriptions. Never writes an output that a connection of another originator commands.
+// Assembly and Parameter: the objects that represent the axes.
+// An output that a connection of another originator commands is never written.
 #include <algorithm>
 
 #include "gateway/protocols/cip/objects.hpp"
@@ -35,7 +35,7 @@ Response AssemblyObject::set_single(std::uint32_t instance, std::uint32_t attrib
 }
 
 namespace {
-constexpr std::uint32_t most_own = 255;  // attributes and instances that are looked for
+constexpr std::uint32_t most_own = 255;  // highest attribute and instance number that is searched
 }
 std::uint32_t OwnObject::last_instance() const {
     std::uint32_t last = 0;
@@ -122,7 +122,7 @@ General ParameterObject::get(std::uint32_t instance, std::uint32_t attribute, co
         case 12:
             put_bytes(to, p.fallback);
             break;
-        case 13:  // multiplier, divisor, base: shown as it is
+        case 13:  // multiplier, divisor, base: displayed without scaling
         case 14:
         case 15:
             put16(to, 1);
@@ -161,10 +161,10 @@ General ParameterObject::set(std::uint32_t instance, std::uint32_t attribute, co
 General ParameterObject::get_of_class(std::uint32_t attribute, const Context&, Bytes& to) {
     switch (attribute) {
         case 8:
-            put16(to, 0x0B);  // instances, all their attributes, kept by the drives as their own rules say
+            put16(to, 0x0B);  // instances, all their attributes, stored by the drives under their own rules
             return General::success;
         case 9:
-            put16(to, 0);  // no configuration assembly is made of them
+            put16(to, 0);  // no configuration assembly is built from them
             return General::success;
         case 10:
             put8(to, 1);  // English

@@ -1,5 +1,4 @@
-// EDS: section by section in the order of the standard. Every output stands with the input that is its partner.
-// In: a description. Out: text with CR LF, seven bits alone. Never writes a quotation mark inside a text.
+// EDS: writes the sections in the order of the standard, with CR LF line ends and 7-bit characters. Each output is listed with its input.
 #include "gateway/protocols/cip/eds.hpp"
 
 #include <fmt/core.h>
@@ -15,7 +14,7 @@ namespace axisgate::cip {
 namespace {
 using Role = AssemblyInfo::Role;
 
-/// A character beyond seven bits is one question mark, however many bytes it has.
+/// A character beyond 7-bit ASCII becomes one question mark, for any number of bytes.
 std::string plain(std::string_view text, std::size_t most) {
     std::string out;
     for (const char c : text) {
@@ -47,7 +46,7 @@ std::string number_of(const Bytes& bytes, DataType type) {
     for (std::size_t i = bytes.size(); i-- > 0;)
         raw = raw << 8 | bytes[i];
     if (bytes.empty()) return {};
-    // What is no number has no form in a sheet.
+    // A value that is not a finite number has no form in the sheet.
     const auto finite = [](auto n) { return std::isfinite(n) ? fmt::format("{}", n) : std::string(); };
     if (type == DataType::real) return finite(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
     if (type == DataType::lreal) return finite(std::bit_cast<double>(raw));
@@ -139,7 +138,7 @@ std::string eds_text(const Description& d, const EdsNames& names) {
     constexpr std::uint32_t with_header = 0x44640405, heartbeat = 0x44640305;
     std::uint32_t only_input = 0, only_listen = 0, configuration = 0;
     std::vector<std::uint32_t> inputs;
-    std::multimap<std::uint32_t, std::uint32_t> owners;  // outputs by their partner
+    std::multimap<std::uint32_t, std::uint32_t> owners;  // outputs, keyed by their input
     for (const std::uint32_t instance : d.assemblies()) {
         const AssemblyInfo info = *d.assembly(instance);
         if (info.role == Role::input_only) only_input = instance;

@@ -1,6 +1,5 @@
 // EDS: the electronic data sheet by which engineering tools know the device (CIP volume 1, chapter 7).
-// In: the description that the objects show. Out: the text. Never a value, never a date of its own making: it changes with the layout
-// alone.
+// It is written from the description that the objects show. It contains no present values and no date, so it changes with the layout only.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// Encapsulation: headers and items are read where they lie; nothing is copied but what a stream has cut in two.
-// In: bytes. Out: packets, items, datagrams. Never trusts a length that it has not compared with what is there.
+// Encapsulation: headers and items are read in place; only a packet that the stream has split is copied.
+// Every length is compared with the available bytes before it is used.
 #include "gateway/protocols/cip/encapsulation.hpp"
 
 #include <algorithm>

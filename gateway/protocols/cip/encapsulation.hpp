@@ -1,6 +1,5 @@
-// Encapsulation: the 24 byte header around everything that is no implicit datagram, and the common packet format (CIP volume 2, 2-3 to
-// 2-6). In: bytes of a stream or a datagram. Out: packets and items, or why they are none. Never keeps more than one packet that is not
-// whole.
+// Encapsulation: the 24 byte header of all messages except implicit datagrams, and the common packet format (CIP volume 2, 2-3 to 2-6).
+// Bytes of a stream or a datagram give packets and items, or the reason why they are invalid. At most one incomplete packet is kept.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@ inline constexpr std::uint16_t default_port = 44818;    ///< TCP and UDP, explic
 inline constexpr std::uint16_t default_io_port = 2222;  ///< UDP, implicit
 inline constexpr std::uint16_t protocol_version = 1;
 inline constexpr std::size_t header_size = 24;
-inline constexpr std::size_t most_packet_data = 8192;  ///< bytes behind the header that are taken; the standard allows 65511
+inline constexpr std::size_t most_packet_data = 8192;  ///< largest accepted size of the data behind the header; the standard allows 65511
 
 enum class Order : std::uint16_t {
     nop = 0x00,
@@ -44,26 +43,26 @@ struct Header {
     std::array<std::uint8_t, 8> context{};  ///< echoed
     std::uint32_t options = 0;              ///< must be 0
 };
-/// Of header_size bytes or more.
+/// Reads header_size bytes.
 [[nodiscard]] Header read_header(View bytes) noexcept;
-/// A packet that is written in place: empties `to`, which keeps its room, and leaves room for the header; then the data; then the header.
+/// Begins a packet that is written in place: empties `to`, keeping its capacity, and reserves the header; the data and the header follow.
 void begin_packet(Bytes& to);
 void end_packet(Bytes& to, const Header& header);
-/// A whole packet; the length is that of `data`.
+/// A complete packet; its length is that of `data`.
 [[nodiscard]] Bytes packet(const Header& header, View data);
 [[nodiscard]] inline Bytes packet(Header header, PacketStatus status, View data = {}) {
     header.status = static_cast<std::uint32_t>(status);
     return packet(header, data);
 }
 
-/// Cuts a stream into packets.
+/// Splits a stream into packets.
 class Framer {
 public:
     enum class Verdict : std::uint8_t { need_more, whole, too_long };
     struct Next {
         Verdict verdict = Verdict::need_more;
         Header header;
-        View data;  ///< until the next call; too_long: none
+        View data;  ///< valid until the next call; empty after too_long
     };
     /// At most room() bytes.
     void add(View bytes) { put_bytes(buffer_, bytes); }
@@ -93,20 +92,20 @@ struct Items {
     std::size_t count = 0;
     [[nodiscard]] const Item* find(std::uint16_t type) const noexcept;
 };
-/// Nothing: cut off, or more items than there can be. Bytes behind the last item are not looked at.
+/// Nothing if the bytes are truncated or there are too many items. Bytes behind the last item are ignored.
 [[nodiscard]] std::optional<Items> read_items(View bytes) noexcept;
 void put_item(Bytes& to, std::uint16_t type, View data);
-/// What a sockaddr item says; nothing: it is none (wrong size or family).
+/// The address in a sockaddr item; nothing if its size or family is wrong.
 [[nodiscard]] std::optional<Endpoint> endpoint_of(const Item& item) noexcept;
 
-/// The implicit datagram: a sequenced address and data.
+/// An implicit datagram: a sequenced address and data.
 struct Implicit {
     std::uint32_t connection = 0;
     std::uint32_t sequence = 0;
-    View data;  ///< with the sequence count of class 1
+    View data;  ///< includes the sequence count of class 1
 };
 [[nodiscard]] std::optional<Implicit> read_implicit(View datagram) noexcept;
-/// `to` is emptied first and keeps its room.
+/// `to` is emptied first and keeps its capacity.
 void write_implicit(Bytes& to, std::uint32_t connection, std::uint32_t sequence, std::optional<std::uint16_t> count, View data);
 
 }  // namespace axisgate::cip

@@ -1,5 +1,4 @@
-// Forward_Open: one extended status for each thing that can be wrong, in the order in which an originator would look for it.
-// In: bytes, the device, its assemblies. Out: the plan of a connection. Never opens one.
+// Forward_Open: checks a request in the order in which an originator would look for a fault, with one extended status for each fault.
 #include "gateway/protocols/cip/forward_open.hpp"
 
 #include <algorithm>
@@ -37,7 +36,7 @@ std::optional<Response> wrong_size(const Half& half, std::size_t right, Extended
 
 bool read_open(View data, bool large, OpenRequest& q, Response& refusal) {
     Reader r(data);
-    r.skip(2);  // priority and time-out of the request itself: it is answered at once
+    r.skip(2);  // priority and time-out of the request itself, which is answered at once
     const std::uint32_t ot_id = r.u32(), to_id = r.u32();
     q.triad.serial = r.u16();
     q.triad.vendor = r.u16();
@@ -99,7 +98,7 @@ std::optional<Extended> wrong_route(const Path& path) {
     if (path.ports.empty()) return std::nullopt;
     const Port& p = path.ports.front();
     if (path.ports.size() > 1 || p.number != 1) return Extended::port_not_available;
-    // Slot 0 of a rack of one: tools write it for devices that have none.
+    // Slot 0 of a rack with one slot: tools write it for devices without slots.
     return p.link.size() == 1 && p.link[0] == 0 ? std::nullopt : std::optional(Extended::link_address_not_valid);
 }
 
@@ -144,7 +143,7 @@ std::optional<Response> plan_io(const OpenRequest& q, const Values& values, IoPl
     using Role = AssemblyInfo::Role;
     if (!consumed || consumed->role == Role::input || consumed->role == Role::configuration)
         return Response::refused(Extended::invalid_consuming_path);
-    // An output or input that no axis is behind: the site has none.
+    // The output or input has no axis in this site.
     if (consumed->role == Role::output && consumed->size == 0) return Response::refused(Extended::device_not_configured);
     plan.role = consumed->role;
     plan.consumed = places[0].instance;

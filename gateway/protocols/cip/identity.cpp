@@ -1,5 +1,5 @@
-// Identity: who the device is, whether somebody owns it, and its reset.
-// In: the device, its connections. Out: attributes; the item of ListIdentity. A reset ends connections; it never touches a drive.
+// Identity: the device's description, whether it is owned, and its reset.
+// A reset closes connections; it never affects a drive.
 #include "gateway/protocols/cip/encapsulation.hpp"
 #include "gateway/protocols/cip/objects.hpp"
 
@@ -56,7 +56,7 @@ General IdentityObject::get(std::uint32_t, std::uint32_t attribute, const Contex
 Response IdentityObject::other(std::uint8_t service, std::uint32_t, View data, Context& context) {
     if (service != service::reset) return Response::of(General::service_not_supported);
     if (data.size() > 1) return Response::of(General::too_much_data);
-    // Type 0, as if the power had been cycled. The site is not put back to anything from here.
+    // Type 0, as if the power had been cycled. No setting of the site is reset from here.
     if (!data.empty() && data[0] != 0) return Response::of(General::invalid_parameter);
     if (connections_.owned_by_other(0, context.peer)) return Response::of(General::device_state_conflict);
     connections_.close_all(End::closed, context.now);

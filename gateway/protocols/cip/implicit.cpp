@@ -1,5 +1,5 @@
-// Connection manager, implicit data: what is consumed, what is produced, and when a connection has been silent for too long.
-// In: datagrams, time. Out: data in run mode, the fall to idle, datagrams at their interval. Never sends a burst for what it missed.
+// Connection manager, implicit data: consuming, producing and time-outs.
+// Datagrams are sent at their interval; those that were missed are not sent later in a burst.
 #include <algorithm>
 #include <utility>
 
@@ -12,12 +12,12 @@ void ConnectionManager::on_implicit(View datagram, Endpoint from, Instant now) {
     Connection* const c = number >= 1 && number <= places_.size() ? places_[number - 1].get() : nullptr;
     if (!c || !c->is_io() || c->ot_id != implicit->connection) return counters_.unknown_connection.add();
     if (c->peer.from.address != from.address) return counters_.from_wrong_address.add();
-    // Numbers go round: what is not ahead of the newest is older.
+    // Sequence numbers wrap around: a number that is not ahead of the newest is older.
     if (c->received_any && static_cast<std::int32_t>(implicit->sequence - c->received) <= 0) return counters_.stale.add();
     const std::size_t count = c->request.transport_class() == 1 ? 2 : 0;
     const std::size_t head = count + (c->plan.header ? 4 : 0);
     const std::size_t right = head + c->plan.consumed_size;
-    // In idle mode an originator may leave the data out.
+    // In idle mode an originator may omit the data.
     const bool only_head = c->plan.header && implicit->data.size() == head;
     if (implicit->data.size() != right && !only_head) return counters_.wrong_size.add();
     counters_.received.add();
@@ -59,7 +59,7 @@ void ConnectionManager::produce(Connection& c, Instant now) {
     carrier_.implicit(c.produce_to, datagram_, marks_.implicit_mark(c.request.to.priority));
 }
 
-/// Change of state: sent at once (at most every `look`), and at the interval where nothing changes.
+/// Change of state: data are sent when they change (at most every `look`), and otherwise at the interval.
 void ConnectionManager::look(Connection& c, Instant now) {
     c.next_look = now + c.look;
     if (values_.revision(c.plan.produced) == c.sent_revision) return;
@@ -80,7 +80,7 @@ void ConnectionManager::on_deadline(Instant now) {
         if (c->next <= now) {
             produce(*c, now);
             c->next += c->interval;
-            if (c->next <= now) c->next = now + c->interval;  // what was missed is not sent later
+            if (c->next <= now) c->next = now + c->interval;  // missed datagrams are not sent later
             if (c->look > Duration::zero()) c->next_look = now + c->look;
         } else if (c->next_look <= now) {
             look(*c, now);

@@ -1,5 +1,4 @@
-// Message: a service, a path in words, and the service's own data.
-// In: bytes. Out: the parts; answers with their status. Never copies what a request carries.
+// Message: a service, a path and the data of the service, decoded in place.
 #include "gateway/protocols/cip/message.hpp"
 
 namespace axisgate::cip {

@@ -1,5 +1,4 @@
-// Message: requests to objects and their answers, as the message router has them (CIP volume 1, 2-4).
-// In: bytes. Out: service, path and data; an answer's bytes. Never looks at what a service means.
+// Message: requests to objects and their answers, in the format of the message router (CIP volume 1, 2-4).
 #pragma once
 
 #include <optional>
@@ -11,13 +10,13 @@
 
 namespace axisgate::cip {
 
-/// `path` and `data` lie in the packet.
+/// `path` and `data` point into the packet.
 struct Request {
     std::uint8_t service = 0;
     View path;
     View data;
 };
-/// Nothing: shorter than it says.
+/// Nothing if it is shorter than its length says.
 [[nodiscard]] std::optional<Request> read_request(View bytes) noexcept;
 [[nodiscard]] Bytes request(std::uint8_t service, View path, View data = {});
 
@@ -25,7 +24,7 @@ struct Response {
     General general = General::success;
     std::vector<std::uint16_t> extended;
     Bytes data;
-    bool pending = false;  ///< its value comes later, in front of `data`
+    bool pending = false;  ///< the value comes later, in front of `data`
 
     [[nodiscard]] static Response of(General general) { return {general, {}, {}, false}; }
     [[nodiscard]] static Response refused(Extended why) {
@@ -36,7 +35,7 @@ struct Response {
 /// Appends the answer.
 void put_response(Bytes& to, std::uint8_t service, const Response& response);
 [[nodiscard]] Bytes encode(std::uint8_t service, const Response& response);
-/// What an originator sees: an answer taken apart. Nothing: it is none.
+/// An answer as an originator decodes it; nothing if it is invalid.
 struct Answer {
     std::uint8_t service = 0;  ///< without the reply bit
     General general = General::success;

@@ -1,5 +1,5 @@
-// TCP/IP Interface, Ethernet Link and QoS: what a tool shows of the device's port.
-// In: the device. Out: attributes. Never changes how the host is reached: that is its operating system's.
+// TCP/IP Interface, Ethernet Link and QoS: the data of the device's port that tools display.
+// The network configuration of the host is never changed from here: that is done by its operating system.
 #include <algorithm>
 
 #include "gateway/protocols/cip/objects.hpp"
@@ -21,7 +21,7 @@ General TcpIpObject::get(std::uint32_t, std::uint32_t attribute, const Context&,
             put32(to, 0);
             break;
         case 3:
-            put32(to, 0);  // as it was stored: by the host
+            put32(to, 0);  // the configuration is stored by the host
             break;
         case 4:
             put16(to, 2);
@@ -85,7 +85,7 @@ General EthernetLinkObject::get(std::uint32_t, std::uint32_t attribute, const Co
             put8(to, 1);  // enabled
             break;
         case 9:
-            put8(to, 1);  // by its administrator, too
+            put8(to, 1);  // also enabled by the administrator
             break;
         case 10:
             put_short_string(to, "Port 1");
@@ -98,7 +98,7 @@ General EthernetLinkObject::get(std::uint32_t, std::uint32_t attribute, const Co
 
 General ConnectionConfigurationObject::get_of_class(std::uint32_t attribute, const Context&, Bytes& to) {
     if (attribute != 8 && attribute != 9) return General::attribute_not_supported;
-    attribute == 8 ? put16(to, 0) : put32(to, 0);  // number of the form; signature of the list: nobody has ever edited it
+    attribute == 8 ? put16(to, 0) : put32(to, 0);  // revision of the format; signature of the list, which has never been edited
     return General::success;
 }
 
@@ -113,7 +113,7 @@ std::span<const std::uint16_t> QosObject::all(std::uint32_t) const {
 }
 
 General QosObject::get(std::uint32_t, std::uint32_t attribute, const Context&, Bytes& to) {
-    static constexpr std::uint8_t of_time_synchronization[] = {0, 59, 47};  // no frames of 802.1Q, and no clock that others go by
+    static constexpr std::uint8_t of_time_synchronization[] = {0, 59, 47};  // no 802.1Q frames, and no clock for other devices
     if (attribute < 1 || attribute > last_mark) return General::attribute_not_supported;
     put8(to, attribute < first_mark ? of_time_synchronization[attribute - 1] : marks_[attribute - first_mark]);
     return General::success;

@@ -1,5 +1,5 @@
-// Object: the common services over the attributes that an object gives.
-// In: service, path, data. Out: an answer. Order of what is looked at: instance, service, attribute, data.
+// Object: the common services, carried out with the attributes of an object.
+// A request is checked in this order: instance, service, attribute, data.
 #include "gateway/protocols/cip/object.hpp"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ Response Object::get_all(std::uint32_t instance, const Context& context) {
     if (list.empty()) return Response::of(General::service_not_supported);
     Response r;
     for (const std::uint16_t attribute : list) {
-        if (instance != 0 && is_late(attribute)) {  // such a one is the first, and told in front of the others
+        if (instance != 0 && is_late(attribute)) {  // such an attribute comes first and is sent before the others
             if (const General g = ask(instance, context); g != General::success) return Response::of(g);
             r.pending = true;
         } else if (const General g = read(instance, attribute, context, r.data); g != General::success) {
@@ -115,7 +115,7 @@ Response Object::get_list(std::uint32_t instance, View data, const Context& cont
     for (std::uint16_t i = 0; i < count; ++i) {
         const std::uint16_t attribute = reader.u16();
         Bytes value;
-        // A value that comes later has no place among others: it is read alone.
+        // A value that comes later cannot be part of a list: it is read alone.
         const General g =
             instance != 0 && is_late(attribute) ? General::attribute_not_supported : read(instance, attribute, context, value);
         put16(r.data, attribute);
@@ -142,7 +142,7 @@ Response Object::set_list(std::uint32_t instance, View data, const Context& cont
         const General g = is_late(attribute) ? General::attribute_not_settable : set(instance, attribute, context, reader);
         put16(r.data, attribute);
         put16(r.data, static_cast<std::uint16_t>(g));
-        if (g != General::success) {  // how long its value is nobody knows: what follows cannot be found
+        if (g != General::success) {  // the length of its value is unknown, so that the next one cannot be found
             r.general = General::attribute_list_error;
             set16(r.data.data(), static_cast<std::uint16_t>(i + 1));
             return r;

@@ -1,5 +1,5 @@
-// Object: what all CIP objects have in common: attributes of instances and of the class, read and written alone, in lists and all together.
-// In: a service with its path taken apart. Out: the answer with its status. Never more data in an answer than `most_answer`.
+// Object: the common part of all CIP objects: attributes of instances and of the class, read and written singly, in lists and all together.
+// An answer has at most `most_answer` bytes of data.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,17 @@
 
 namespace axisgate::cip {
 
-/// What an object may want to know beside the request.
+/// The circumstances of a request that an object may need.
 struct Context {
     Instant now{};
     Peer peer;
     SessionKey session = 0;
     const Device* device = nullptr;      ///< whose key a path may name
-    Token token = 0;                     ///< under which a value that comes later is told
+    Token token = 0;                     ///< token for a value that comes later
     std::optional<Endpoint> produce_to;  ///< item sockaddr T->O of the request
-    std::optional<Endpoint> consume_at;  ///< to be told: item sockaddr O->T of the answer
-    std::optional<Endpoint> multicast;   ///< to be told: item sockaddr T->O of the answer
-    std::size_t most_answer = 504 - 4;   ///< bytes of data that the answer may have
+    std::optional<Endpoint> consume_at;  ///< set by the object: item sockaddr O->T of the answer
+    std::optional<Endpoint> multicast;   ///< set by the object: item sockaddr T->O of the answer
+    std::size_t most_answer = 504 - 4;   ///< maximum number of data bytes in the answer
 };
 
 class Object {
@@ -32,28 +32,28 @@ public:
     [[nodiscard]] virtual bool has(std::uint32_t instance) const { return instance == 1; }
     [[nodiscard]] virtual std::uint32_t last_instance() const { return 1; }
     [[nodiscard]] virtual std::uint32_t instances() const { return last_instance(); }
-    /// Attributes of Get_Attributes_All in their order; none: it has not that service.
+    /// The attributes of Get_Attributes_All in their order; empty if the object does not have that service.
     [[nodiscard]] virtual std::span<const std::uint16_t> all(std::uint32_t /*instance*/) const { return {}; }
     [[nodiscard]] virtual std::uint16_t last_attribute() const = 0;
     /// Appends the attribute. `attribute_not_supported` if there is none.
     [[nodiscard]] virtual General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) = 0;
-    /// `data` begins with the attribute; what is taken of it is skipped, so that lists can be read on.
+    /// `data` begins with the attribute; the bytes that were used are skipped, so that a list can be read further.
     [[nodiscard]] virtual General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data);
     [[nodiscard]] virtual std::uint16_t last_attribute_of_class() const { return 7; }
-    /// Of what the class tells of its instances: a UINT, but for a few classes.
+    /// Whether the class attributes about instances are 32 bits wide: they are a UINT except in a few classes.
     [[nodiscard]] virtual bool counts_in_32_bits() const { return false; }
     /// Attributes of the class beyond 1, 2, 3, 6 and 7.
     [[nodiscard]] virtual General get_of_class(std::uint32_t attribute, const Context& context, Bytes& to);
-    /// A service that is not one of those above. Instance 0: the class.
+    /// Any other service. Instance 0 is the class.
     [[nodiscard]] virtual Response other(std::uint8_t service, std::uint32_t instance, View data, Context& context);
-    /// Attributes whose value comes later; `write`: nothing, or the value.
+    /// Whether the value of the attribute comes later; `write`: nothing, or the value.
     [[nodiscard]] virtual bool is_late(std::uint32_t /*attribute*/) const noexcept { return false; }
     [[nodiscard]] virtual General ask(std::uint32_t instance, const Context& context);
 
-    /// Set_Attribute_Single. For those whose writes are answered by something behind them, now or later.
+    /// Set_Attribute_Single, for objects whose writes are answered by a drive or a profile, now or later.
     [[nodiscard]] virtual Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context);
 
-    /// Any service. `path` names this class.
+    /// Carries out any service. `path` names this class.
     [[nodiscard]] Response serve(std::uint8_t service, const Path& path, View data, Context& context);
 
 private:

@@ -1,6 +1,5 @@
 // Objects: Identity, Assembly, Parameter, TCP/IP Interface, Ethernet Link, QoS and Connection Configuration of an adapter.
-// In: the device's values, the state of its connections. Out: attributes (CIP volume 1, chapter 5; volume 2, chapter 5).
-// Never holds a value of its own.
+// Their attributes come from the device's values and the state of its connections (CIP volume 1, chapter 5; volume 2, chapter 5).
 #pragma once
 
 #include <array>
@@ -9,15 +8,15 @@
 
 namespace axisgate::cip {
 
-/// What objects show of the connections, and the one thing that they may do to them.
+/// The state of the connections for the objects, and closing them.
 struct Connections {
     [[nodiscard]] virtual std::size_t open() const = 0;
     [[nodiscard]] virtual std::size_t most() const = 0;
     [[nodiscard]] virtual std::vector<std::uint16_t> numbers() const = 0;
-    [[nodiscard]] virtual bool io_open() const = 0;  ///< one with implicit data
-    [[nodiscard]] virtual bool owned() const = 0;    ///< one commands
+    [[nodiscard]] virtual bool io_open() const = 0;  ///< a connection with implicit data is open
+    [[nodiscard]] virtual bool owned() const = 0;    ///< a connection commands
     [[nodiscard]] virtual bool running() const = 0;  ///< its originator is in run mode
-    /// The output is commanded by a connection of another originator than this; `output` 0: any output.
+    /// Whether a connection of another originator commands the output; `output` 0: any output.
     [[nodiscard]] virtual bool owned_by_other(std::uint32_t output, const Peer& than) const = 0;
     virtual void close_all(End why, Instant now) = 0;
     virtual ~Connections() = default;
@@ -43,7 +42,7 @@ private:
 class AssemblyObject final : public Object {
 public:
     AssemblyObject(Values& values, const Connections& connections) : values_(values), connections_(connections) {}
-    /// Attribute 3 of an output: answered when those who carry it out have answered. In a list it cannot be set.
+    /// Attribute 3 of an output: the answer comes when the drives have answered. In a list it cannot be set.
     [[nodiscard]] Response set_single(std::uint32_t instance, std::uint32_t attribute, View data, const Context& context) override;
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::assembly; }
     [[nodiscard]] std::uint16_t revision() const noexcept override { return 2; }
@@ -58,7 +57,7 @@ private:
     const Connections& connections_;
 };
 
-/// Attribute 1, the value, is the drive's: it comes when the drive has told it.
+/// Attribute 1, the value, comes from the drive and is answered when the drive has reported it.
 class ParameterObject final : public Object {
 public:
     explicit ParameterObject(Values& values) : values_(values) {}
@@ -81,7 +80,7 @@ private:
     Values& values_;
 };
 
-/// The classes of another maker's device, behind which there is a profile. One object for all of them: the router says which is asked.
+/// The classes of another manufacturer's device that a profile reproduces. One object serves all of them: the router passes the class.
 class OwnObject final : public Object {
 public:
     explicit OwnObject(Values& values) : values_(values) {}
@@ -109,7 +108,7 @@ public:
     [[nodiscard]] std::span<const std::uint16_t> all(std::uint32_t instance) const override;
     [[nodiscard]] General get(std::uint32_t instance, std::uint32_t attribute, const Context& context, Bytes& to) override;
     [[nodiscard]] General set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) override;
-    /// Attribute 13: a session that sends nothing for so long is closed; 0: none is. Not while a connection uses it.
+    /// Attribute 13: a session without data for this long is closed, unless a connection uses it; 0: off.
     [[nodiscard]] std::uint16_t inactivity_s() const noexcept { return inactivity_s_; }
 
 private:
@@ -130,8 +129,8 @@ private:
     const Values& values_;
 };
 
-/// What packets are marked with (DSCP): implicit data by the priority that their originator asked for, sessions from their begin on.
-/// Another mark holds until the gateway ends.
+/// The DSCP marks of packets: implicit data by the priority that their originator asked for, sessions from their beginning. A changed mark
+/// holds until the gateway ends.
 class QosObject final : public Object {
 public:
     static constexpr std::uint8_t dscp_urgent = 55, dscp_scheduled = 47, dscp_high = 43, dscp_low = 31, dscp_explicit = 27;
@@ -150,8 +149,8 @@ private:
     std::array<std::uint8_t, 5> marks_{dscp_urgent, dscp_scheduled, dscp_high, dscp_low, dscp_explicit};  // attributes 4 to 8
 };
 
-/// The list of connections that a device originates: an adapter has none. A tool that looks at the list, whether it has changed and in
-/// which form it is kept, learns that.
+/// The list of connections that a device originates, which is empty for an adapter. Tools read its length, whether it has changed, and its
+/// format.
 class ConnectionConfigurationObject final : public Object {
 public:
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::connection_configuration; }

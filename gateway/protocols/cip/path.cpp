@@ -1,5 +1,5 @@
-// Path: one segment after the other; each kind says by itself how long it is.
-// In: padded bytes. Out: the path, or the word that is wrong. Never accepts a segment whose bytes are not all there.
+// Path: decodes one segment after the other; the length of each follows from its kind.
+// A segment with missing bytes is never accepted.
 #include "gateway/protocols/cip/path.hpp"
 
 namespace axisgate::cip {
@@ -92,7 +92,7 @@ bool read_segment(Reader& r, std::uint8_t head, Path& path) {
             return read_logical(r, head, path);
         case 2:
             return read_network(r, head, path);
-        case 3:  // symbolic: a head and its characters fill whole words
+        case 3:  // symbolic: the head and its characters fill whole words
             return read_symbol(r, head & 0x1F, (head & 1) == 0, path);
         case 4:
             if (head == 0x91) {

@@ -1,5 +1,5 @@
-// Router: class by class, and the two services that hold others.
-// In: a message. Out: its parts, answered or pending. Never lets one part's fault hide another's answer.
+// Router: finds the object by its class, and carries out the two services that contain other requests.
+// A fault in one part never suppresses the answer to another.
 #include "gateway/protocols/cip/router.hpp"
 
 #include <algorithm>
@@ -9,15 +9,16 @@
 namespace axisgate::cip {
 namespace {
 bool names(const Path& path, std::uint32_t class_id) { return path.class_id == class_id && path.instance() == 1u; }
-/// Axes and connections tell of themselves.
+/// Changes of axes and connections are reported elsewhere.
 bool changes_the_device(std::uint32_t which, std::uint8_t what, const Response& r) {
     if (which == class_id::assembly || which == class_id::parameter || which == class_id::connection_manager) return false;
-    if (what == service::set_list) return r.good() || r.general == General::attribute_list_error;  // those before the faulty one
+    // those before the faulty one were written
+    if (what == service::set_list) return r.good() || r.general == General::attribute_list_error;
     return r.good() && (what == service::set_single || what == service::set_all || what == service::reset);
 }
 std::uint8_t service_of(View message) { return message.empty() ? std::uint8_t{0} : static_cast<std::uint8_t>(message[0] & 0x7F); }
 
-/// The message inside, where the route ends here.
+/// The embedded message, if the route ends here.
 std::optional<Response> unwrap(View data, View& inside) {
     Reader r(data);
     r.skip(2);
@@ -87,7 +88,7 @@ Response Router::route(const Request& request, const Path& path, Context& contex
     return r;
 }
 
-/// `request` and `path`: what `message` is, as far as it can be read.
+/// `request` and `path` are the decoded parts of `message`, as far as they are valid.
 Response Router::one(View message, const std::optional<Request>& request, const std::optional<Path>& path, Context& context) {
     if (!request) return Response::of(message.size() < 2 ? General::not_enough_data : General::path_size_invalid);
     if (!path || request->path.empty()) return Response::of(General::path_segment_error);

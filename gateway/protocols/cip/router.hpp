@@ -1,5 +1,5 @@
-// Router: finds the object that a request names (CIP volume 1, 5-1), and takes apart what carries several requests or one for further on.
-// In: requests. Out: answers, one for each. Never goes deeper than one Multiple_Service_Packet in one Unconnected_Send.
+// Router: finds the object that a request names (CIP volume 1, 5-1), and unpacks messages with several requests or with a route.
+// Each request gets one answer. At most one Multiple_Service_Packet in one Unconnected_Send is unpacked.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -17,23 +17,23 @@ public:
     Router(const Connections& connections, DeviceListener& listener) : connections_(connections), listener_(listener) { add(*this); }
     /// The object outlives the router.
     void add(Object& object);
-    /// Who is asked for a class that no other object has.
+    /// Sets the object for classes that no other object has.
     void add_own(OwnObject& object) { own_ = &object; }
 
     struct Part {
         std::uint8_t service = 0;
         Response response;
     };
-    /// One message and all that it holds.
+    /// One message with all its parts.
     struct Parts {
-        std::uint8_t service = 0;  ///< of the whole
+        std::uint8_t service = 0;  ///< service of the whole message
         bool multiple = false;
         boost::container::small_vector<Part, 1> parts;
         std::size_t pending = 0;  ///< parts whose value comes later
     };
-    /// `context.token` is that of the first part; each further one counts it up. 0: nothing can come later.
+    /// `context.token` is the token of the first part; it is incremented for each further part. 0: no value can come later.
     [[nodiscard]] Parts handle(View message, Context& context);
-    /// Appends the answer, when nothing is pending.
+    /// Appends the answer, once no part is pending.
     static void put_answer(Bytes& to, const Parts& parts, std::size_t most);
 
     [[nodiscard]] std::uint32_t class_id() const noexcept override { return class_id::message_router; }
@@ -48,7 +48,7 @@ private:
 
     const Connections& connections_;
     DeviceListener& listener_;
-    std::vector<Object*> objects_;  // by class
+    std::vector<Object*> objects_;  // sorted by class
     OwnObject* own_ = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// Status: CIP's general status codes, the extended codes of connections, the services and classes by number (CIP volume 1, appendix B,
-// 3-5, 4-; volume 2). In: nothing. Out: numbers with names. Never decides which one is due.
+// Status: CIP's general status codes, the extended codes of connections, the services and classes by number
+// (CIP volume 1, appendix B, 3-5, 4-; volume 2).
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace axisgate::cip {
 
 enum class General : std::uint8_t {
     success = 0x00,
-    connection_failure = 0x01,  ///< the extended status says why
+    connection_failure = 0x01,  ///< the extended status gives the reason
     resource_unavailable = 0x02,
     invalid_parameter_value = 0x03,
     path_segment_error = 0x04,
@@ -50,7 +50,7 @@ enum class General : std::uint8_t {
     attribute_not_gettable = 0x2C
 };
 
-/// Of General::connection_failure.
+/// The extended status of General::connection_failure.
 enum class Extended : std::uint16_t {
     none = 0,
     duplicate_forward_open = 0x0100,

@@ -1,5 +1,5 @@
-// Values: what the objects of the adapter mean: assemblies, parameters, the names of the device, and who owns an output.
-// In: implemented by a door, or by a test. Out: asked by the objects and the connection manager. Never called from another thread.
+// Values: the data behind the objects of the adapter: assemblies, parameters, the names of the device, and the owner of each output.
+// A door implements the interface (or a test); the objects and the connection manager call it, always on the same thread.
 #pragma once
 
 #include <array>
@@ -18,16 +18,16 @@ struct AssemblyInfo {
     enum class Role : std::uint8_t {
         input,          ///< produced: target to originator
         output,         ///< consumed: originator to target
-        configuration,  ///< goes with Forward_Open
-        input_only,     ///< heartbeat of a connection that reads and owns nothing
-        listen_only     ///< heartbeat of one that lives as long as another that reads the same
+        configuration,  ///< sent with Forward_Open
+        input_only,     ///< heartbeat of a connection that reads and owns no output
+        listen_only     ///< heartbeat of a connection that lives as long as another one that reads the same
     };
     Role role = Role::input;
     std::uint16_t size = 0;     ///< bytes of data, without header and sequence count
     std::uint32_t partner = 0;  ///< of an output: the input that an originator opens with it; 0: none
 };
 
-/// Elementary types by their number in CIP.
+/// Elementary types with their CIP numbers.
 enum class DataType : std::uint8_t {
     boolean = 0xC1,
     sint = 0xC2,
@@ -41,7 +41,7 @@ enum class DataType : std::uint8_t {
     lreal = 0xCB,
     short_string = 0xDA
 };
-/// Bytes; 0: they vary.
+/// Size in bytes; 0: variable.
 [[nodiscard]] constexpr std::uint8_t size_of(DataType type) noexcept {
     switch (type) {
         case DataType::boolean:
@@ -64,32 +64,32 @@ enum class DataType : std::uint8_t {
     return 0;
 }
 struct ParameterInfo {
-    std::string name, units, help;  ///< cut to 16, 4 and 64 characters where the object shows them
+    std::string name, units, help;  ///< cut to 16, 4 and 64 characters when the object shows them
     DataType type = DataType::dint;
     bool readable = true, writable = false;
-    Bytes min, max, fallback;  ///< as many bytes as the type has; of a text: none
+    Bytes min, max, fallback;  ///< as many bytes as the type has; empty for a text
     std::vector<std::pair<std::int64_t, std::string>> allowed;
 };
 
-/// Names an asked value until it is told.
+/// Identifies a requested value until it is answered.
 using Token = std::uint64_t;
 
-/// Number by which whoever carries bytes knows a TCP connection; 0: a datagram.
+/// Identifies a TCP connection; 0: a datagram.
 using SessionKey = std::uint64_t;
 
-/// Who asks: the other end's address, and the connection if it is one.
+/// The sender of a request: its address, and its connection if it has one.
 struct Peer {
     Endpoint from;
-    std::uint32_t connection = 0;  ///< id by which the adapter knows the connection; 0: an unconnected message
-    SessionKey session = 0;        ///< by which it came, or was opened
+    std::uint32_t connection = 0;  ///< id of the connection in the adapter; 0: an unconnected message
+    SessionKey session = 0;        ///< session over which it came, or was opened
 };
 
 enum class End : std::uint8_t {
     closed,        ///< by its originator
     timed_out,     ///< its originator was silent
-    by_gateway,    ///< what it was opened for has changed
-    to_make_room,  ///< for a connection of somebody else
-    by_operator    ///< a person has closed it by another door
+    by_gateway,    ///< the resource that it uses has changed
+    to_make_room,  ///< to make room for another connection
+    by_operator    ///< an operator has closed it through another door
 };
 
 struct Device {
@@ -102,10 +102,10 @@ struct Device {
     std::array<std::uint8_t, 6> mac{};
     std::uint32_t speed_mbit = 1000;
     std::uint16_t port = 44818, io_port = 2222;
-    std::uint16_t consistency = 0;  ///< of the layout: changes with it
+    std::uint16_t consistency = 0;  ///< changes with the layout
 };
 
-/// What there is, without its values: all that an EDS says.
+/// The device without its present values: the content of an EDS.
 struct Description {
     [[nodiscard]] virtual const Device& device() const = 0;
     [[nodiscard]] virtual std::optional<AssemblyInfo> assembly(std::uint32_t instance) const = 0;
@@ -117,20 +117,20 @@ struct Description {
 };
 
 struct Values : Description {
-    /// Appends exactly the assembly's size.
+    /// Appends exactly as many bytes as the assembly has.
     virtual void read(std::uint32_t instance, Instant now, Bytes& to) = 0;
-    /// Another number after each change of what an input shows, but for what time alone changes.
+    /// A number that changes with each change of an input's data, except changes of times alone.
     [[nodiscard]] virtual std::uint64_t revision(std::uint32_t instance) const = 0;
-    /// An explicit write of an output; `data` has the assembly's size. Refused while a connection owns it: the caller sees to that.
-    /// `later`: Adapter::answered(token) follows, not from inside this call. `token` 0: nothing can be answered later.
+    /// An explicit write of an output; `data` has the assembly's size. The caller refuses it while a connection owns the output.
+    /// `later`: Adapter::answered(token) follows, not from inside this call. `token` 0: no later answer is possible.
     [[nodiscard]] virtual General write(std::uint32_t instance, View data, Token token, const Peer& who, Instant now, bool& later) = 0;
-    /// A way by which messages came has ended: a connection of explicit messages, or a session (its connection is 0) with all of them.
+    /// A path for messages has ended: a connection of explicit messages, or a session (its connection is 0) with all its connections.
     virtual void messages_ended(const Peer& /*way*/) {}
-    /// Somebody commands by messages of this session.
+    /// Whether messages of this session command an axis.
     [[nodiscard]] virtual bool commands_by(SessionKey /*session*/) const { return false; }
-    /// Two outputs (or one with itself) that command the same thing.
+    /// Whether two outputs (or one with itself) command the same axis.
     [[nodiscard]] virtual bool overlap(std::uint32_t a, std::uint32_t b) const = 0;
-    /// Another client holds what this output commands.
+    /// Whether another client has control of what this output commands.
     [[nodiscard]] virtual bool held_by_another(std::uint32_t output, const Peer& who, Instant now) const = 0;
 
     // An exclusive owner's connection: `opened`, then new data in run mode, the fall to idle, and one `ended`.
@@ -139,17 +139,17 @@ struct Values : Description {
     virtual void idle(std::uint32_t output, const Peer& who, Instant now) = 0;
     virtual void ended(std::uint32_t output, const Peer& who, End why, Instant now) = 0;
 
-    /// Asks for a value: Adapter::answered(token) follows, not from inside this call. Else why it is not asked.
+    /// Requests a value: Adapter::answered(token) follows, not from inside this call. Any other result is the reason for a refusal.
     [[nodiscard]] virtual General ask(std::uint32_t instance, Token token, const Peer& who, Instant now) = 0;
     /// `value` has the right size.
     [[nodiscard]] virtual General set(std::uint32_t instance, View value, Token token, const Peer& who, Instant now) = 0;
 
-    // Classes of the maker's own (0x64..0xC7), whose instances and attributes are what a device of another maker has there.
+    // Manufacturer specific classes (0x64..0xC7), with instances and attributes as in a device of another manufacturer.
     struct OwnAttribute {
         DataType type = DataType::dint;
         bool readable = true, writable = false;
     };
-    /// Nothing: there is no such class, or not this instance of it. `attribute` 0: whether there is the instance.
+    /// Nothing if there is no such class or instance. `attribute` 0 asks whether the instance exists.
     [[nodiscard]] virtual std::optional<OwnAttribute> own_attribute(std::uint32_t /*class_id*/, std::uint32_t /*instance*/,
                                                                     std::uint32_t /*attribute*/) const {
         return std::nullopt;
@@ -168,9 +168,9 @@ struct Values : Description {
     }
 };
 
-/// Hears of what is written to objects that are the device's own: how it marks its packets, how long it waits for a silent session.
+/// Is called for writes to objects of the device itself: the marks of its packets, and its time-out for silent sessions.
 struct DeviceListener {
-    /// By Set_Attribute_Single and its like, or a reset. `attribute` 0: several.
+    /// A write by Set_Attribute_Single or a similar service, or a reset. `attribute` 0: several.
     virtual void written(const Values::OwnPlace& /*place*/, const Peer& /*who*/, Instant /*now*/) {}
     virtual ~DeviceListener() = default;
 };

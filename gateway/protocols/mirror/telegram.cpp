@@ -1,5 +1,5 @@
-// Telegrams of a mirror line: the words, their order and the check (Fletcher's, 16 bits, over all before the '*').
-// In: values or text. Out: the other. Never guesses: a number with anything behind it is none.
+// Telegrams of a mirror line: their words, order and check (Fletcher's 16-bit checksum over all bytes before the '*').
+// A number must be the whole word: trailing characters make the telegram invalid.
 #include "gateway/protocols/mirror/telegram.hpp"
 
 #include <fmt/core.h>
@@ -28,7 +28,7 @@ std::optional<N> number(std::string_view text, int base = 10) {
     return !text.empty() && error == std::errc{} && end == text.data() + text.size() ? std::optional(n) : std::nullopt;
 }
 
-/// The next word; the rest begins behind one space.
+/// Returns the next word; the rest begins after one space.
 std::string_view word(std::string_view& rest) {
     const auto space = rest.find(' ');
     const std::string_view w = rest.substr(0, space);

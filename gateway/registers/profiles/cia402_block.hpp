@@ -1,5 +1,5 @@
-// CiA 402 block: one axis' 64 registers and bits of the standard map, from address 0 of a unit of its own.
-// In: requests. Out: what unit 1 says of that axis. Never more than a shift of addresses.
+// The 64 registers and bits of one axis of the standard map, from address 0 of a unit of its own. The addresses are shifted; everything
+// else is the standard map.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace axisgate::registers {
 
 class Cia402Block final : public UnitMap {
 public:
-    /// `number`: of the axis in the register map, 1..1024.
+    /// `number` is the axis number in the register map, 1..1024.
     Cia402Block(StandardMap& standard, std::uint16_t number)
         : standard_(standard), base_(static_cast<std::uint16_t>((number - 1) * registers_per_axis)) {}
 
@@ -29,7 +29,7 @@ public:
     Verdict write(Table table, std::uint16_t address, std::uint16_t count, const std::uint8_t* data, WritePlan& plan) override {
         return outside(address, count) ? gap() : pass(standard_.write(table, at(address), count, data, plan));
     }
-    /// Without the parameter channel, which is a conversation and no image.
+    /// The parameter channel is left out, because it is a sequence of requests and not an image.
     std::vector<MapValue> values(Table table, std::uint16_t address, std::uint16_t count, bool written) override {
         std::vector<MapValue> list;
         if (outside(address, count) || (written && table != Table::holding_registers)) return list;

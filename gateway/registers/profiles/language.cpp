@@ -1,5 +1,5 @@
-// Language, reading: strict, since a wrong page would move a machine by a wrong register.
-// In: JSON. Out: a language or its fault. Never fills in what the page leaves out, but for numbers that mean nothing.
+// Reads a page strictly, because a wrong page would move a machine by a wrong register. Missing members are not filled in, except for
+// numbers without a meaning.
 #include "gateway/registers/profiles/language.hpp"
 
 #include <fmt/core.h>

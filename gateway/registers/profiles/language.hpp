@@ -1,6 +1,5 @@
-// Language: a page of data that says which registers another device has: address, type, name, what each stands for.
-// In: JSON (schema/profiles/*.json). Out: rows in order of their addresses, codes of errors; or the fault of the page.
-// Never knows an axis. The page is read once at start, and is what people are shown as the list of registers.
+// The registers of another device as data (schema/profiles/*.json): address, type, name, and the meaning of each, with its error codes. A
+// page is read once at the start and is also shown to people as the list of registers. It knows no axis.
 #pragma once
 
 #include <array>
@@ -17,19 +16,19 @@
 
 namespace axisgate::registers {
 
-/// Where a value stands on EtherNet/IP.
+/// The place of a value on EtherNet/IP.
 struct ObjectPlace {
     std::uint16_t class_id = 0, attribute = 0;
 };
 
 struct LanguageRow {
     std::uint16_t address = 0;
-    bool holding = true, input = true;  ///< in which of the two tables of registers it stands
+    bool holding = true, input = true;  ///< the tables of registers that contain it
     MapType type = MapType::u16;        ///< u16, i16, u32, i32 or f32
     bool readable = true, writable = false;
-    std::string name;       ///< as the device's manual writes it
-    std::string meaning;    ///< by which the translator knows it; see each language
-    std::uint8_t axis = 0;  ///< 1..8: there only if the profile has such an axis; 0: always there
+    std::string name;       ///< as in the device's manual
+    std::string meaning;    ///< the key for the translator of the language
+    std::uint8_t axis = 0;  ///< 1..8: only if the profile has such an axis; 0: always
     std::optional<double> min, max;
     double initial = 0;
     std::optional<ObjectPlace> object;
@@ -41,17 +40,17 @@ struct LanguageRow {
 struct Language {
     std::string name, title, description, source;
     MapWordOrder word_order = MapWordOrder::high_first;
-    std::vector<LanguageRow> rows;      ///< by address; of one address the holding register first
-    std::map<std::string, int> errors;  ///< the device's number for a Reason, and for what the translator names
-    /// The device's number for a refusal; that of "internal" where the page names none.
+    std::vector<LanguageRow> rows;      ///< by address; for equal addresses the holding register first
+    std::map<std::string, int> errors;  ///< the device's number for a Reason, and for conditions that the translator names
+    /// The device's number for a refusal; the number of "internal" if the page has none.
     [[nodiscard]] int error_of(std::string_view what) const;
     [[nodiscard]] int error_of(Reason reason) const { return error_of(name_of(reason)); }
 };
 
-/// All four; absent entries are not served.
+/// All four languages; absent ones are not served.
 using Languages = std::array<std::shared_ptr<const Language>, profile_language_count>;
 
-/// Reads one page; nothing and a fault if it is not as it should be: unknown members, rows that overlap, a type that no register has.
+/// Reads one page. Returns null and a fault for unknown members, overlapping rows, or a type that no register has.
 [[nodiscard]] std::shared_ptr<const Language> read_language(std::string_view text, std::string& fault);
 
 }  // namespace axisgate::registers

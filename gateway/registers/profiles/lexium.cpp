@@ -1,5 +1,5 @@
-// Lexium: settings are kept and go with the next motion, as A, D and VM do in the drive; instructions become commands.
-// In: rows. Out: commands, whose clients wait for the axis behind. What the axis behind has not is refused with "not in this product".
+// Settings are kept and used by the next motion, as A, D and VM in the drive; instructions become commands, whose clients wait for the
+// axis. An instruction that the axis cannot carry out is refused with "not in this product".
 #include "gateway/registers/profiles/lexium.hpp"
 
 #include <fmt/core.h>
@@ -164,7 +164,7 @@ Verdict LexiumMap::taken(std::span<const Written> rows, WritePlan& plan) {
         const Meaning m = meanings_[w.row];
         return w.bits != 0 && w.bits != values_[w.row] && (moves(m) || m == Meaning::enable);
     });
-    for (const Written& w : rows) {  // settings first, so that what stands beside them in one request moves with them
+    for (const Written& w : rows) {  // settings first, so that settings in the same request apply to the motion
         values_[w.row] = w.bits;
         said_[w.row] = true;
     }
@@ -190,8 +190,8 @@ bool LexiumMap::moves(Meaning m) noexcept {
            m == Meaning::home_index;
 }
 
-/// It turns so already, or was told so a moment ago and is not seen to move yet: an axis behind that cannot take a speed on its way would
-/// stop and start for each write of a controller that repeats it.
+/// True if the axis turns at this speed already, or was ordered to and does not move yet. An axis that cannot change its speed while moving
+/// would stop and start at each write of a controller that repeats it.
 bool LexiumMap::turns_at(double counts) const {
     constexpr Duration begins_within = std::chrono::seconds(1);
     if (counts == ordered_speed_ && now() - ordered_at_ < begins_within) return true;
@@ -199,8 +199,8 @@ bool LexiumMap::turns_at(double counts) const {
            picture(0).target_velocity == increments(0, counts);
 }
 
-/// An axis that was moving before its client said anything here is nobody's: the client's first words may be as old as that motion. What
-/// was said while another drive, channel or twin spoke for the axis was said to that one.
+/// The motion of an axis that moved before its client wrote anything belongs to no client: the first words of the client may be as old as
+/// that motion. Words that were written while another drive, channel or twin served the axis are not valid for this one.
 void LexiumMap::look_for_a_stop() noexcept {
     const bool found_moving = !received_ && flag(0, flag_online) && flag(0, flag_moving);
     const bool another = picture(0).current && source_ != 0 && picture(0).source != source_;
@@ -209,15 +209,16 @@ void LexiumMap::look_for_a_stop() noexcept {
     if (!std::exchange(held_, true)) unheard_ = !received_;
 }
 
-/// It would move the axis or give it power, and says nothing that was not said before. What stops or switches off is never held.
+/// True for an instruction that would move the axis or switch it on, and repeats an earlier one. Instructions that stop or switch off are
+/// never held.
 bool LexiumMap::is_held(const Written& w) const {
     const Meaning m = meanings_[w.row];
     const bool stops = (m == Meaning::move_velocity || m == Meaning::enable) && w.bits == 0;
     return held_ && !stops && (moves(m) || m == Meaning::enable) && (w.bits == values_[w.row] || (unheard_ && !said_[w.row]));
 }
 
-/// Settings count from the first image on; instructions, and what the position is called, count when they change. What stops or switches
-/// off counts at once: what the axis was told before is not known here.
+/// Settings count from the first image on. Instructions and a set position count when they change. Instructions that stop or switch off
+/// count at once, because earlier orders to the axis are not known here.
 void LexiumMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     received_ = received_ || flag(0, flag_online) != 0;
     for (const Written& w : rows) {
@@ -251,7 +252,7 @@ void LexiumMap::out_of_range() { error_ = language().error_of(Reason::out_of_ran
 void LexiumMap::on_own_result(std::uint32_t, const Result& result) {
     if (good(result)) return;
     error_ = language().error_of(result.reason);
-    ordered_speed_ = 0;  // whatever it was, nothing is taken for begun
+    ordered_speed_ = 0;  // no order is assumed to be in progress
 }
 
 }  // namespace axisgate::registers

@@ -1,9 +1,8 @@
-// Lexium: the registers of a Schneider Lexium drive with MCode in front of any axis: each is a variable or an instruction of the language.
-// In: reads and writes of registers. Out: values of the axis in counts; commands. Reference: the MCode manual, per instruction "networking
-// protocol equivalents"; word order is a setting since that manual leaves it open.
-// A refusal is answered twice: to the client by its door, and in EF and ER as the drive itself would say it.
-// An instruction acts with every write of it, as in the drive. After a stop of somebody else it does not while it is merely repeated: a
-// controller that writes its registers in cycles would undo the stop.
+// The registers of a Schneider Lexium drive with MCode in front of any axis: each register is a variable or an instruction of the language.
+// Reference: the MCode manual, per instruction "networking protocol equivalents"; the word order is a setting, because the manual leaves it
+// open. A refusal is answered twice: by the door to the client, and in EF and ER as the drive itself would. An instruction acts with every
+// write, as in the drive. After a stop by another client a merely repeated instruction does not act: a controller that writes its registers
+// in cycles would undo the stop.
 #pragma once
 
 #include <vector>
@@ -51,23 +50,23 @@ private:
     void look_for_a_stop() noexcept;
     [[nodiscard]] bool is_held(const Written& w) const;
     [[nodiscard]] static bool moves(Meaning meaning) noexcept;
-    /// ER as it reads now: the language's own, else a fault of the axis.
+    /// The present value of ER: the language's own error, otherwise a fault of the axis.
     [[nodiscard]] int error() const;
     [[nodiscard]] Move move(Move::Kind kind, double counts) const;
 
     std::vector<Meaning> meanings_;                                           // by row
     std::vector<bool> said_;                                                  // by row: written since the start
-    std::vector<std::uint32_t> values_;                                       // by row, of what is kept
-    std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // rows
-    double run_ = 0;                                                          // SL as it was written last
-    double ordered_speed_ = 0;  // of the last SL, if nothing was ordered behind it and it was not refused
+    std::vector<std::uint32_t> values_;                                       // by row, of the settings
+    std::size_t acceleration_ = 0, deceleration_ = 0, maximum_velocity_ = 0;  // indices of rows
+    double run_ = 0;                                                          // the last written SL
+    double ordered_speed_ = 0;  // of the last SL, if no other order followed and it was not refused
     Instant ordered_at_{};
     int error_ = 0;
-    std::vector<Written> acting_;  // of the write that is looked at; kept, so that nothing is allocated for it
-    bool received_ = false;        // something was written since the start, to an axis that is heard
-    std::uint32_t source_ = 0;     // who spoke for the axis when something was written last; 0: nobody yet
-    bool held_ = false;            // somebody else has stopped the axis, and its client has given no fresh word since
-    bool unheard_ = false;         // ... and it had said nothing before that: its first words may be as old as the motion
+    std::vector<Written> acting_;  // of the present write; kept, so that no memory is allocated for it
+    bool received_ = false;        // true if a register was written since the start while the axis was online
+    std::uint32_t source_ = 0;     // the serving side at the last write; 0: none yet
+    bool held_ = false;            // another client has stopped the axis, and its client has written no fresh instruction since
+    bool unheard_ = false;         // the client had written nothing before the stop, so that its first words may be as old as the motion
     bool held_told_ = false;
 };
 

@@ -1,5 +1,4 @@
-// LinMot: the state machine follows the control word at each write, and what the axis shows at each read.
-// In: words. Out: words, commands. A command is taken once per count, a bit at its edge.
+// The state machine follows the control word at each write, and the axis at each read. A command acts once per count, a bit at its edge.
 #include "gateway/registers/profiles/linmot.hpp"
 
 #include <fmt/core.h>
@@ -14,7 +13,8 @@ namespace axisgate::registers {
 namespace {
 constexpr std::uint16_t switch_on = 1u << 0, voltage = 1u << 1, no_quick_stop = 1u << 2, operation = 1u << 3, no_abort = 1u << 4,
                         no_freeze = 1u << 5, acknowledge = 1u << 7, jog_plus_bit = 1u << 8, jog_minus_bit = 1u << 9, home_bit = 1u << 11;
-/// Go to position, special mode, clearance check, go to initial position, phase search: the drive's own configuration, which is not here.
+/// Go to position, special mode, clearance check, go to initial position, phase search: they use the drive's own configuration, which does
+/// not exist here.
 constexpr std::uint16_t unsupported = (1u << 6) | (1u << 10) | (1u << 12) | (1u << 13) | (1u << 15);
 constexpr double counts_per_velocity = 10, counts_per_acceleration = 100;  // 1e-6 m/s and 1e-5 m/s^2 in 0.1 um
 }  // namespace
@@ -125,7 +125,7 @@ void LinMotMap::fail(Reason why, WritePlan& plan) {
                                                     : "the axis behind has no such motion, or a value of it is 0"));
     if (flag(0, flag_moving)) give(QuickStop{}, Asked::nothing, plan);
 }
-/// The error word is for the master's program, the words are for people: whoever carries the write tells them.
+/// The error word is for the master's program, the text for people; the sender of the write reports it.
 void LinMotMap::log(Reason why, std::string text) {
     error_ = static_cast<std::uint16_t>(language().error_of(why));
     (void)refused(0, why, std::move(text));
@@ -151,7 +151,7 @@ Verdict LinMotMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
-/// The count of the motion command and every bit that is set were so before: what is clear switches off, power may come, nothing moves.
+/// The count of the motion command and every set bit count as written before: cleared bits switch off, power may come on, nothing moves.
 void LinMotMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     std::optional<std::uint16_t> control;
     for (const Written& w : rows) {
@@ -165,10 +165,10 @@ void LinMotMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     }
     if (!control) return;
     constexpr std::uint16_t edges = acknowledge | home_bit | jog_plus_bit | jog_minus_bit;
-    // Freezing ends with a motion to the old target when its bit comes back: here it was back before.
+    // Freezing ends with a motion to the old target when its bit returns; here the bit had returned before.
     if (state_ == State::freezing && (*control & no_freeze) != 0) target_known_ = false;
     control_ = static_cast<std::uint16_t>(control_ | (*control & edges));
-    if (enabled(0)) power_asked_ = true;  // whoever asked for the power: a word that is clear takes it away
+    if (enabled(0)) power_asked_ = true;  // a cleared bit removes the power, no matter which client has requested it
     take_control(static_cast<std::uint16_t>(*control & ~unsupported), plan);
 }
 
@@ -184,7 +184,7 @@ void LinMotMap::take_control(std::uint16_t word, WritePlan& plan) {
         if (flag(0, flag_fault)) give(ResetFault{}, Asked::nothing, plan);
         off(State::locked, plan);
     }
-    if (state_ != State::tests && state() == State::switch_on_disabled && powered(state_)) {  // somebody else has taken the power away
+    if (state_ != State::tests && state() == State::switch_on_disabled && powered(state_)) {  // another client has switched the power off
         state_ = State::locked;
         power_asked_ = false;
     }
@@ -293,7 +293,7 @@ void LinMotMap::run(double velocity, WritePlan& plan) {
 void LinMotMap::motion_command(std::uint16_t header, WritePlan& plan) {
     const unsigned group = header >> 8, sub = (header >> 4) & 0xFu;
     const double demand = static_cast<double>(picture(0).position_demand) / axis(0).increments_per_count;
-    const bool own = group == 0x01;  // speed and ramps stand in the command, else they are those of the site's entry
+    const bool own = group == 0x01;  // speed and ramps are in the command, or otherwise in the site's entry
     if (group != 0x01 && group != 0x02) return fail(Reason::not_supported, plan);
     if (sub == 0x7) return give(Halt{}, Asked::motion, plan);
     if (group == 0x02 && (sub == 0xE || sub == 0xF)) {
@@ -330,7 +330,7 @@ void LinMotMap::on_own_result(std::uint32_t note, const Result& result) {
             homed_ = good(result);
             if (!good(result)) log(result.reason, result.text);
             return;
-        case Asked::motion:  // an order that came after it may have ended it
+        case Asked::motion:  // a later order may have ended the motion
             if (!good(result) && (note & 0xFF'FFFFu) == (sequence_ & 0xFF'FFFFu)) log(result.reason, result.text);
             return;
         case Asked::nothing:

@@ -1,8 +1,7 @@
-// LinMot: control word, status and motion command interface of a LinMot drive in front of any axis whose unit is a length.
-// In: the words a master writes, pictures of the axis, results. Out: the words it reads; commands of its write.
-// Reference: E1100/B1100 motion control software: control word [L284], status word [L380], state machine [L105], motion commands by their
-// count nibble [L545]. Power goes on with bit 3, since what "ready to operate" keeps under current is a setting of the drive behind; the
-// tests of state 5 last as long as the drive behind takes to enable. Streaming, curves, events and the command table are refused.
+// The control word, status word and motion command interface of a LinMot drive, in front of any axis whose unit is a length. Reference:
+// E1100/B1100 motion control software: control word [L284], status word [L380], state machine [L105], motion commands by their count nibble
+// [L545]. The power is switched on with bit 3, because the current in "ready to operate" is a setting of the real drive; the tests of state
+// 5 last as long as the real drive takes to enable. Streaming, curves, events and the command table are refused.
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ private:
         header,
         parameter
     };
-    /// Main states of the drive, by their numbers; 8 and what it holds while the axis is enabled.
+    /// Main states of the drive with their numbers; state 8 and its sub-states apply while the axis is enabled.
     enum class State : std::uint8_t {
         locked = 0,
         switch_on_disabled = 1,
@@ -53,7 +52,7 @@ private:
     bool shown(std::size_t row, Instant now, std::uint32_t& bits) override;
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
     void adopted(std::span<const Written> rows, WritePlan& plan) override;
-    /// The part of the state machine that follows what the axis does by itself.
+    /// The part of the state machine that follows the axis.
     [[nodiscard]] State state() const;
     [[nodiscard]] bool powered(State s) const noexcept { return s >= State::enabled; }
     [[nodiscard]] std::uint16_t state_var() const;
@@ -67,21 +66,21 @@ private:
             WritePlan& plan);
     void run(double velocity, WritePlan& plan);
     void give(CommandBody body, Asked asked, WritePlan& plan);
-    /// An error of the page, which ends what moves; log() alone keeps it.
+    /// Sets an error of the page and ends the motion; log() only records it.
     void fail(Reason why, WritePlan& plan);
     void log(Reason why, std::string text);
     void off(State to, WritePlan& plan);
-    [[nodiscard]] double parameter(std::size_t byte) const;  ///< 32 bits, signed, at an offset from the header as the manual counts
+    [[nodiscard]] double parameter(std::size_t byte) const;  ///< 32 bits, signed, at an offset from the header, counted as in the manual
 
     std::vector<Meaning> meanings_;
     std::array<std::uint16_t, parameter_words + 1> buffer_{};  ///< header and parameters
     State state_ = State::locked;
     std::uint16_t control_ = 0;
     std::uint8_t count_ = 0;
-    bool power_asked_ = false;  ///< by this map, and not taken away again
-    bool homed_ = false;        ///< the search that bit 11 started is over
+    bool power_asked_ = false;  ///< the power was requested through this map, and the request was not withdrawn
+    bool homed_ = false;        ///< the homing that bit 11 started is finished
     std::uint32_t sequence_ = 0;
-    std::uint16_t error_ = 0;  ///< logged; 0: none of its own
+    std::uint16_t error_ = 0;  ///< the logged error; 0: none of its own
     double target_ = 0;
     bool target_known_ = false;
 };

@@ -1,5 +1,4 @@
-// Profiles by their language.
-// In: a language, its page, placed axes. Out: a map. Never the CiA 402 block: that is a window on the standard map (cia402_block.hpp).
+// Makes the map of a profile by its language. The CiA 402 block is made elsewhere: it is a part of the standard map (cia402_block.hpp).
 #include "gateway/registers/profiles/lexium.hpp"
 #include "gateway/registers/profiles/linmot.hpp"
 #include "gateway/registers/profiles/pacontrol.hpp"

@@ -1,5 +1,5 @@
-// PA-CONTROL, the image and the operating modes. A write is taken in the order CTRL, axis interfaces, CMD, so that what switches off goes
-// first. In: rows. Out: values, commands. Never starts anything from an image that is all zero: that is how the bus begins.
+// The image and the operating modes of a PA-CONTROL. A write is applied in the order CTRL, axis interfaces, CMD, so that switching off
+// comes first. An image that is all zero starts nothing, because a bus begins with it.
 #include "gateway/registers/profiles/pacontrol.hpp"
 
 #include <algorithm>
@@ -122,8 +122,8 @@ Verdict PaControlMap::taken(std::span<const Written> rows, WritePlan& plan) {
     return Verdict::good;
 }
 
-/// The toggle of CMD stands where it stands, and every set bit of CTRL and of an axis interface was set before: what fell acts, no more.
-/// An interface that is all zero is not configured by that: a master of CMD alone leaves it so.
+/// The toggle of CMD counts as unchanged, and every set bit of CTRL and of an axis interface as set before; only cleared bits act. An
+/// interface that is all zero does not become configured by that: a master that uses CMD alone leaves it so.
 void PaControlMap::adopted(std::span<const Written> rows, WritePlan& plan) {
     if (mode_ == Mode::silent) mode_ = Mode::home;
     std::array<std::uint32_t, 8> control{};
@@ -155,7 +155,7 @@ void PaControlMap::adopted(std::span<const Written> rows, WritePlan& plan) {
 
 void PaControlMap::take_ctrl(std::uint16_t word, WritePlan& plan) {
     const auto fell = [&](std::uint16_t bit) { return (ctrl_ & bit) != 0 && (word & bit) == 0; };
-    // What stands in the first image may be left from before this gateway began: it starts nothing.
+    // Bits in the first image may be older than this gateway's start, so they start nothing.
     const bool online = (ctrl_configured_ || ctrl_based_) && (ctrl_ & ctrl_online) == 0 && (word & ctrl_online) != 0;
     if (fell(ctrl_reset)) reset_faults(plan, Asked::nothing);
     if (fell(ctrl_cancel)) {

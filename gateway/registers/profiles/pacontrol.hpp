@@ -1,10 +1,9 @@
-// PA-CONTROL: the process image of an IEF Werner controller in front of one to eight axes of any family: the CMD interface with its toggle,
-// the CTRL interface with its low-active bits, one axis interface per axis; operating modes, flags, N and R registers.
-// In: the image that a master writes, pictures of the axes, results. Out: the image that it reads; commands of its write.
-// Reference: PA-CONTROL interfaces, chapters 2 (Profibus) and 5 (commands). There are no programs: AUTOMATIC is refused.
-// Decisions where it is silent or has more than an axis here: the CTRL and axis interfaces count as configured from the first write to
-// them on; with one axis interface configured the axis commands of the CMD interface are blocked, as the manual says; without, ONLINE
-// enables the axes whose enable mode (axis parameter 32h) is 1, its value at the start.
+// The process image of an IEF Werner PA-CONTROL in front of one to eight axes of any family: the CMD interface with its toggle, the CTRL
+// interface with its low-active bits, one axis interface per axis; operating modes, flags, N and R registers. Reference: PA-CONTROL
+// interfaces, chapters 2 (Profibus) and 5 (commands). There are no programs: AUTOMATIC is refused.
+// Decisions where the manual is silent, or needs more than an axis: the CTRL and axis interfaces count as configured from the first write
+// to them on. While an axis interface is configured, the axis commands of the CMD interface are blocked, as the manual says; without one,
+// ONLINE enables the axes whose enable mode (axis parameter 32h) is 1, its value at the start.
 #pragma once
 
 #include <array>
@@ -51,28 +50,28 @@ private:
         other
     };
     enum class Mode : std::uint8_t { silent, home, online, stopping };
-    enum class Asked : std::uint8_t { cmd, axis, power, nothing };  ///< who hears of a result
+    enum class Asked : std::uint8_t { cmd, axis, power, nothing };  ///< the part that gets a result
 
     struct AxisState {
         double speed = 0, reference_speed = 0, manual_speed = 0, acceleration = 0;  ///< axis parameters 01, 02, 03, 06; 0: the drive's own
         double online_speed = 0, online_acceleration = 0;                           ///< of 0A8D and 0A8E, until ONLINE ends; 0: none
         double enable_mode = 1, target = 0;
         bool released = false;    ///< may move without a reference run: 0A83, G26
-        bool configured = false;  ///< its axis interface has been written
-        bool based = false;       ///< what it was before the first write is known: the base of an image
+        bool configured = false;  ///< its axis interface was written
+        bool based = false;       ///< the value before the first write is known: the base of an image
         std::uint32_t control = 0;
-        bool active = false;         ///< a task of the axis interface is under way ...
-        std::uint32_t task_bit = 0;  ///< ... by this bit of the control word
-        std::uint32_t sequence = 0;  ///< of tasks: a late result of an older one is nobody's
+        bool active = false;         ///< a task of the axis interface is in progress
+        std::uint32_t task_bit = 0;  ///< the bit of the control word that started it
+        std::uint32_t sequence = 0;  ///< number of the task; the result of an older one is ignored
         std::uint16_t cmd_error = 0, axis_error = 0;
     };
     struct Reply {
         std::uint32_t data = 0;
-        bool done = true, failed = false, live = false;  ///< BF, KF; the data are the axis' position until it is done
+        bool done = true, failed = false, live = false;  ///< BF, KF; the data are the axis' position until the task is done
         std::uint16_t error = 0;
         std::size_t axis = 0;
         std::uint32_t sequence = 0;
-        unsigned waits = 0;  ///< results that it waits for
+        unsigned waits = 0;  ///< number of outstanding results
     };
 
     [[nodiscard]] static Meaning meaning_of(const LanguageRow& row);
@@ -80,7 +79,7 @@ private:
     Verdict taken(std::span<const Written> rows, WritePlan& plan) override;
     void adopted(std::span<const Written> rows, WritePlan& plan) override;
 
-    // modes
+    // operating modes
     void take_ctrl(std::uint16_t word, WritePlan& plan);
     void start_online(WritePlan& plan);
     void stop_all(WritePlan& plan);
@@ -110,10 +109,10 @@ private:
     void start_task(std::size_t i, WritePlan& plan);
     void switch_power(std::size_t i, bool on, WritePlan& plan);
     [[nodiscard]] std::uint32_t axis_status(std::size_t i) const;
-    [[nodiscard]] std::uint16_t axis_number(std::size_t i) const;  ///< as 1910 says it
+    [[nodiscard]] std::uint16_t axis_number(std::size_t i) const;  ///< the value of 1910
     [[nodiscard]] bool referenced(std::size_t i) const { return axes_[i].released || flag(i, flag_referenced); }
     [[nodiscard]] Move move(std::size_t i, Move::Kind kind, double target, double speed, double acceleration) const;
-    /// A position as the axis interface has it: IEEE 754, or 1/1000 as an integer.
+    /// A position in the form of the axis interface: IEEE 754, or an integer in 1/1000.
     [[nodiscard]] std::uint32_t position_bits(double counts) const;
     [[nodiscard]] double position_of(std::uint32_t bits) const;
     [[nodiscard]] std::uint16_t error_of(const Result& result, bool motion) const;
@@ -122,7 +121,7 @@ private:
     }
 
     std::vector<Meaning> meanings_;                          // by row
-    std::vector<std::uint32_t> values_;                      // by row: what the master wrote
+    std::vector<std::uint32_t> values_;                      // by row: the words that the master wrote
     std::array<std::size_t, 3> cmd_rows_{};                  // data, parameter, code
     std::array<std::array<std::size_t, 4>, 8> axis_rows_{};  // control, acceleration, speed, target
     Mode mode_ = Mode::silent;

@@ -1,5 +1,5 @@
-// PA-CONTROL, the axis interfaces: control and status word of each axis in ONLINE.
-// In: control words, pictures. Out: commands at edges, status. Never acts on a level twice: the master writes its image in cycles.
+// The axis interfaces: control and status word of each axis in ONLINE. A level acts only once, because the master writes its image in
+// cycles.
 #include <bit>
 #include <cmath>
 
@@ -50,7 +50,7 @@ void PaControlMap::start_task(std::size_t i, WritePlan& plan) {
         if (what != 0) a.axis_error = inadmissible;
         return;
     }
-    if ((a.control & (while_one | while_zero)) != 0) {  // inputs are the drive's own here
+    if ((a.control & (while_one | while_zero)) != 0) {  // inputs belong to the real drive here
         a.cmd_error = not_executable;
         return;
     }
@@ -120,7 +120,7 @@ std::uint32_t PaControlMap::axis_status(std::size_t i) const {
     const AxisState& a = axes_[i];
     if (!a.configured) return 0;
     const bool powered = enabled(i), fault = flag(i, flag_fault);
-    std::uint32_t s = (1u << 9) | (1u << 10);  // limit switches: 1 is free
+    std::uint32_t s = (1u << 9) | (1u << 10);  // limit switches: 1 means not actuated
     if (powered) s |= 1u << 0;
     if (powered && mode_ == Mode::stopping && !flag(i, flag_moving)) s |= 1u << 1;
     if (!powered) s |= 1u << 2;

@@ -1,6 +1,5 @@
-// PA-CONTROL, the CMD interface: one command per change of its toggle, answered at once or when its axis has done it.
-// In: code, parameter, data. Out: the reply, commands. Codes and errors as in chapter 5 of the interfaces' manual; E numbers are its
-// errata.
+// The CMD interface: one command per change of its toggle, answered at once or when the axis has carried it out. Codes and errors are those
+// of chapter 5 of the interface manual; E numbers are its errata.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -124,7 +123,7 @@ bool PaControlMap::execute_parameter(std::uint16_t code, std::uint16_t parameter
     if (code == 0x0700 || (code >= 0x1700 && code <= 0x1702)) {
         if (mode_ != Mode::home) return fail(inadmissible), true;
         if (parameter != 0x02)
-            return fail(no_system_parameter), true;  // the number of axes; the others are settings of a box that is not here
+            return fail(no_system_parameter), true;  // the number of axes; the others are settings of a controller that does not exist here
         return code == 0x0700 ? fail(not_executable) : answer(static_cast<std::uint32_t>(axes())), true;
     }
     if (code != 0x0800 && (code < 0x1800 || code > 0x1802)) return false;
@@ -192,9 +191,9 @@ bool PaControlMap::execute_read(std::uint16_t code, std::uint16_t n) {
             return axis(i).lowest ? answer(*axis(i).lowest) : fail(no_axis_parameter), true;
         case 0x1914:
             return axis(i).highest ? answer(*axis(i).highest) : fail(no_axis_parameter), true;
-        case 0x1921:  // limit switches are the drive's own affair: not activated
+        case 0x1921:  // limit switches belong to the real drive: not activated
             return answer((flag(i, flag_online) ? 0x0100'0000u : 0u) | 0x0001'0100u | axis_number(i)), true;
-        default:  // what only the controller's own power packs can say
+        default:  // values of the controller's own power packs
             return fail(not_executable), true;
     }
 }
@@ -262,7 +261,7 @@ bool PaControlMap::execute_axis(std::uint16_t code, std::uint16_t parameter, std
             return true;
         case 0x0AA2:
             return data == 1 ? answer(data) : fail(not_executable), true;
-        default:  // 0A90..0A92 need a watch of one second, 0AA3 inputs: neither is here
+        default:  // 0A90..0A92 need a time-out of one second, 0AA3 needs inputs: neither exists here
             return fail(not_executable), true;
     }
 }

@@ -1,5 +1,5 @@
-// Profile map: a request is a walk over the rows of the language that it touches; a gap is treated as in a user map.
-// In: requests. Out: bytes, rows for the language. A write with one wrong value writes nothing.
+// A request walks over the rows of the language that it touches; a gap is treated as in a user map. A write with one wrong value writes
+// nothing.
 #include "gateway/registers/profiles/profile_map.hpp"
 
 #include <fmt/core.h>
@@ -221,7 +221,7 @@ void ProfileMap::renew(Table table, std::uint16_t address, std::span<const MapVa
         if (auto why = take_refused(); why.reason != Reason::none) refused.push_back(std::move(why));
         return;
     }
-    // One of them spoils itself alone: nobody is told, and a stop beside it must not be lost.
+    // In an image a wrong value affects only itself: the client gets no answer, and a stop beside it must not be lost.
     plan.commands.clear();
     refused_ = {};
     for (const Written& w : written_) {

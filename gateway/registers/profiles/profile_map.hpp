@@ -1,7 +1,6 @@
-// Profile map: a unit that speaks another device's language. What is the same for all of them: which registers are there, halves of
-// 32-bit values, ranges, counts of the language against increments, what was refused.
-// In: requests, pictures of the axes, results. Out: registers, commands; each language says what its registers mean.
-// Never does anything by itself: what a language orders is part of a client's write, and goes the one way down.
+// A unit that uses another device's language. This class contains the parts that all languages share: existing registers, halves of 32-bit
+// values, ranges, conversion between counts of the language and increments, refusals. Each language gives its registers their meaning. A
+// command of a language is always a part of a client's write.
 #pragma once
 
 #include <cstdint>
@@ -54,22 +53,22 @@ public:
     [[nodiscard]] const Language& language() const noexcept { return *setup_.language; }
 
 protected:
-    /// A row that a client writes, and the bits it writes there.
+    /// A row that a client writes, and the written bits.
     struct Written {
         std::size_t row;  ///< index in language().rows
         std::uint32_t bits;
     };
     ProfileMap(const DoorPort& port, Setup setup);
 
-    /// The bits that a row shows now; false: this drive cannot say it.
+    /// The bits that a row shows now; false if this drive does not provide the value.
     virtual bool shown(std::size_t row, Instant now, std::uint32_t& bits) = 0;
-    /// A value of a write is out of its row's range: for the language's own error word.
+    /// Called when a value of a write is out of its row's range, for the language's own error word.
     virtual void out_of_range() {}
-    /// What a write means, rows in order of their addresses, each within its range. Unless it is good, nothing has changed.
+    /// Applies a write: rows in order of their addresses, each within its range. Unless the verdict is good, nothing has changed.
     virtual Verdict taken(std::span<const Written> rows, WritePlan& plan) = 0;
 
-    /// The first image of a client that renews one: what is set in it was set before, and only what switches off may act. As `taken`, but
-    /// no row is too much or out of its range: such a one is not among them.
+    /// Applies the first image of a client that renews one: set bits count as set before, and only cleared ones that switch off may act. It
+    /// is like `taken`, but rows that do not exist or are out of range have been left out.
     virtual void adopted(std::span<const Written> rows, WritePlan& plan) = 0;
 
     [[nodiscard]] std::size_t axes() const noexcept { return setup_.axes.size(); }
@@ -79,7 +78,7 @@ protected:
     [[nodiscard]] bool enabled(std::size_t i) const;
     [[nodiscard]] double position(std::size_t i) const { return static_cast<double>(picture(i).position) / axis(i).increments_per_count; }
     [[nodiscard]] double velocity(std::size_t i) const { return static_cast<double>(picture(i).velocity) / axis(i).increments_per_count; }
-    /// Counts as increments, rounded; stops at the ends of 64 bits.
+    /// Converts counts to increments, rounded and limited to 64 bits.
     [[nodiscard]] std::int64_t increments(std::size_t i, double counts) const;
     /// A speed or ramp in counts as increments, at least 1.
     [[nodiscard]] std::int64_t positive_increments(std::size_t i, double counts) const {
@@ -87,9 +86,9 @@ protected:
     }
     [[nodiscard]] Instant now() const { return port_.now(); }
     enum class Answer : std::uint8_t {
-        client,        ///< the client waits for the result; the map hears of it
-        acknowledged,  ///< the map alone hears of it, when the drive has acknowledged
-        done           ///< the map alone hears of it, when it is done
+        client,        ///< the client waits for the result; the map gets it, too
+        acknowledged,  ///< only the map gets the result, when the drive has acknowledged
+        done           ///< only the map gets the result, when the command is done
     };
     void order(WritePlan& plan, std::size_t i, CommandBody body, std::uint32_t note, Answer answer) const;
     Verdict refused(std::size_t i, Reason reason, std::string text);
@@ -97,7 +96,7 @@ protected:
     const Setup setup_;
 
 private:
-    /// The bits of a row in an image; false: they are no number, or out of its range.
+    /// The bits of a row in an image; false if they are not a number, or out of its range.
     [[nodiscard]] bool bits_in(const LanguageRow& row, const std::uint8_t* at, std::uint32_t& bits);
     void put_bits(const LanguageRow& row, std::uint32_t bits, std::uint8_t* at) const noexcept;
     template <class F>
@@ -105,12 +104,12 @@ private:
     [[nodiscard]] bool there(const LanguageRow& row, Table table) const noexcept;
 
     const DoorPort& port_;
-    std::vector<Written> written_;  // kept, so that nothing is allocated for a write
+    std::vector<Written> written_;  // kept, so that no memory is allocated for a write
 };
 
-/// A number within the ends of 32 bits, and as bits of a register's type.
+/// A number, limited to 32 bits, as bits of a register's type.
 [[nodiscard]] std::uint32_t bits_of(MapType type, double value) noexcept;
-/// What bits of a register's type are as a number.
+/// Bits of a register's type as a number.
 [[nodiscard]] double number_of(MapType type, std::uint32_t bits) noexcept;
 
 [[nodiscard]] std::unique_ptr<ProfileMap> make_profile(ProfileLanguage language, const DoorPort& port, ProfileMap::Setup setup);

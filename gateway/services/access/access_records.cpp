@@ -1,5 +1,4 @@
-// Access records: users and tokens as the small JSON documents that the store keeps.
-// In: records. Out: text; and back. Text that is not such a record gives nothing.
+// Converts users and tokens to the small JSON documents of the store and back. Text that is not such a record gives an empty result.
 #include <algorithm>
 #include <boost/json/object.hpp>
 #include <boost/json/parse.hpp>

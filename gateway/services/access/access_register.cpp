@@ -1,5 +1,5 @@
-// Access register: a cookie's session goes before a token, and local access comes last.
-// In: credentials and times. Out: identities. Never lets an unknown cookie or a wrong token pass for local access.
+// The session of a cookie goes before a token, and local access comes last. An unknown cookie or a wrong token is never taken for local
+// access.
 #include "gateway/services/access/access_register.hpp"
 
 #include <arpa/inet.h>
@@ -13,9 +13,10 @@
 
 namespace axisgate {
 namespace {
-constexpr std::int64_t kept_use_ns = std::int64_t{3600} * 1'000'000'000;  // a token's last use is stored once an hour: spares flash
+constexpr std::int64_t kept_use_ns = std::int64_t{3600} * 1'000'000'000;  // a token's last use is stored once an hour, to spare flash
+                                                                          // memory
 
-constexpr std::size_t most_good_places = 8;  // per user; beyond, the one that was not used for longest is forgotten
+constexpr std::size_t most_good_places = 8;  // per user; at the limit, the address that was not used for the longest time is removed
 
 std::string user_key(std::string_view user, std::string_view peer) {
     return fmt::format("user {} at {}", lower(user.substr(0, 64)), network_of(peer));
@@ -101,7 +102,7 @@ Identity AccessRegister::identify(const Credentials& c, std::int64_t now_ns, boo
         return nobody;
     }
     if (!c.cookies.empty()) {
-        // Signed out, expired, or from before a restart: whoever was a viewer here does not become this machine by it.
+        // Signed out, expired, or from before a restart: a former viewer on this machine must not get the role of local access by that.
         Identity nobody;
         nobody.session_ended = true;
         return nobody;
@@ -246,7 +247,7 @@ void AccessRegister::put(User u) {
     if (it != users_.end() && (it->second.role != u.role || it->second.hash != u.hash || it->second.enabled != u.enabled)) {
         end_sessions_of(u.name);
     }
-    if (it != users_.end()) {  // he may have signed in while the change was stored
+    if (it != users_.end()) {  // the user may have signed in while the change was being stored
         u.last_sign_in_ns = std::max(u.last_sign_in_ns, it->second.last_sign_in_ns);
         u.good_from = it->second.good_from;
     }

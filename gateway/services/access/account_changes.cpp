@@ -1,5 +1,5 @@
-// Account changes: all that is stored of users and tokens goes through one queue, so that no older record comes behind a newer.
-// In: wishes. Out: records, events. Never shows a digest of a password.
+// All changes of users and tokens pass one queue, so that no older record is stored after a newer one. The digest of a password is never
+// shown.
 #include "gateway/services/access/account_changes.hpp"
 
 #include <fmt/core.h>
@@ -23,7 +23,7 @@ ServiceRefusal last_administrator(std::string_view name) {
     return {Why::conflict, fmt::format("{} is the last administrator that can sign in: make another one first", name)};
 }
 
-/// With the user as he is, if another state of him is meant.
+/// Refuses, with the present user, if the request refers to another state of it.
 std::optional<ServiceRefusal> refuse_other_user(const MeantState& meant, const User& now) {
     if (!meant.another(tag_of(now))) return std::nullopt;
     return ServiceRefusal{
@@ -42,7 +42,7 @@ std::optional<ServiceRefusal> refuse_new_user(const AccessRegister& accounts, co
 }  // namespace
 
 std::string tag_of(const User& u) {
-    // The digest stands for the stored password: a change of it is a change, but the tag leads nobody to it.
+    // The digest stands for the stored password: a change of it changes the tag, but the password cannot be derived from the tag.
     return tag_over({u.name, name_of(u.role), u.enabled ? "enabled" : "", digest_of(u.hash), std::to_string(u.created_ns)});
 }
 
@@ -261,7 +261,7 @@ void AccountChanges::add_token(NewToken wish, const Origin& by, std::int64_t now
                 then(ServiceRefusal{Why::conflict, fmt::format("there are {} tokens already: remove one first", accounts.tokens().size())});
                 return done();
             }
-            // Whoever reads who did what finds a token by its owner and its name alone.
+            // Events name a token only by its owner and its name, so the name must be unique for the owner.
             if (std::ranges::any_of(accounts.tokens(),
                                     [&](const auto& x) { return x.second.owner == token.owner && x.second.name == token.name; })) {
                 then(ServiceRefusal{Why::conflict, fmt::format("{} has a token {} already: choose another name, or remove that token first",

@@ -1,6 +1,5 @@
-// Account changes: users and tokens made, changed and removed, each in its turn: looked at, stored, put in force, told.
-// In: wishes with passwords in the clear, who wants it. Out: users and tokens as they are then, refusals, an event for each change. A
-// change is in force when it is on the disk; the last administrator stays. Never holds a password longer than until its hash is made.
+// Makes, changes and removes users and tokens, one change after the other: checked, stored, put in force, reported. A change is in force
+// when it is on the disk; the last administrator cannot be removed. A clear-text password is kept only until its hash is made.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -18,14 +17,14 @@
 
 namespace axisgate {
 
-/// Names this state of a user; a sign-in is no other state.
+/// Identifies this state of a user; a sign-in does not change it.
 [[nodiscard]] std::string tag_of(const User& user);
 [[nodiscard]] boost::json::object document_of(const User& user);
 [[nodiscard]] boost::json::object document_of(const Token& token);
 
-/// An event of kind "access".
+/// Reports an event of kind "access".
 void note_access(AccessPort& port, Door door, std::string who, std::string text, Severity severity = Severity::info);
-/// Stores who was here last, in its turn behind the changes that wait. Nobody waits for it, and it may be lost.
+/// Stores last uses, in their turn behind the waiting changes. They may be lost.
 void keep_uses(const std::shared_ptr<AccessPort>& port);
 
 [[nodiscard]] ServiceRefusal too_many_passwords();
@@ -49,10 +48,10 @@ struct NewToken {
 };
 struct MadeToken {
     Token token;
-    std::string secret;  ///< told once
+    std::string secret;  ///< shown once
 };
 
-/// A value: whoever has the port makes one. Each `then` is called once, perhaps at once; `thrown`: the change threw.
+/// A value, made where the port is available. Each `then` is called once, perhaps at once; `thrown` is called if the change threw.
 class AccountChanges {
 public:
     using Thrown = ChangeQueue::Failed;
@@ -60,12 +59,12 @@ public:
     using Ended = std::function<void(std::optional<ServiceRefusal>)>;
     explicit AccountChanges(std::shared_ptr<AccessPort> port) : port_(std::move(port)) {}
 
-    /// The user, if he is the one that is meant.
+    /// The user, if the request refers to its present state.
     [[nodiscard]] Refusable<User> find(const std::string& name, const MeantState& meant = {}) const;
     void add_user(NewUser user, const Origin& by, std::int64_t now_unix_ns, UserEnd then, Thrown thrown) const;
     void change_user(const std::string& name, UserChange change, MeantState meant, const Origin& by, UserEnd then, Thrown thrown) const;
     void remove_user(const std::string& name, MeantState meant, const Origin& by, Ended then, Thrown thrown) const;
-    /// `hash`: of the password that it was until now, which has been compared.
+    /// `hash` is that of the old password, which was already verified.
     void change_password(const std::string& name, std::string password, std::string hash, const Origin& by, Ended then,
                          Thrown thrown) const;
 
@@ -74,7 +73,7 @@ public:
     void remove_token(Token token, const Origin& by, Ended then, Thrown thrown) const;
 
 private:
-    /// What a change makes of the user as he is then, and its event; or why not.
+    /// Applies a change to the present user and composes its event; or returns the refusal.
     using Make = std::function<std::optional<ServiceRefusal>(AccessRegister&, std::optional<User>& user, std::string& text)>;
     void change(const std::string& name, const Origin& by, Make make, std::function<void(Refusable<std::optional<User>>)> then,
                 Thrown thrown) const;

@@ -1,5 +1,4 @@
-// Authority view: read from the axes' pictures.
-// In: pictures, reports. Out: JSON, commands. Keeps nothing.
+// Reads the authority from the pictures of the axes.
 #include "gateway/services/access/authority_view.hpp"
 
 #include <fmt/core.h>

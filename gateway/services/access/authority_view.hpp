@@ -1,6 +1,5 @@
-// Authority view: who may command which axis, from where, until when; to whom it could be handed over; and its end for who may not any
-// more. In: pictures of axes, what the Modbus door says, clients that were seen. Out: documents; releases of leases. Never gives anybody an
-// axis: that is the engine's.
+// Shows which client may command which axis, from where and until when, and the candidates for a hand-over; and releases the leases of
+// users that lose their permission. The authority itself is decided in the engine.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -18,14 +17,14 @@
 namespace axisgate {
 
 [[nodiscard]] boost::json::object authority_document(const AxisPort& axes, const ClockPort& clock, const AxisSpec& spec, AxisId id);
-/// The connections behind a holder that came by Modbus: all of its host, since one client is one address.
+/// Adds the connections of a Modbus holder: all of its host, because one address is one client.
 void add_connections(boost::json::object& document, const std::optional<ModbusReport>& report);
 [[nodiscard]] bool held_by_modbus(const boost::json::object& document);
-/// Who could be named as the next holder: clients that gave themselves a name or signed in, and hosts that are connected by Modbus.
+/// The candidates for the next holder: clients that gave themselves a name or signed in, and hosts that are connected by Modbus.
 [[nodiscard]] boost::json::array clients_document(const ClientsSeen& clients, const ClockPort& clock,
                                                   const std::optional<ModbusReport>& report);
 
-/// Gives up what this user, or this user's token ("anna line3"), holds: he may not command any more. `by`: who did that.
+/// Releases the leases of this user, or of this user's token ("anna line3"), which may not command any more. `by` names the cause.
 void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view client, const std::string& by);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// ClientsSeen: a short list, searched from end to end and sorted when it is asked for.
-// In: names with the moment. Out: the list, newest first, without those that are too old. Never grows beyond its bound.
+// A short list that is searched linearly and sorted on request. It never grows beyond its bound.
 #include "gateway/services/access/clients_seen.hpp"
 
 #include <algorithm>

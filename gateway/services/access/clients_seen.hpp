@@ -1,6 +1,5 @@
-// ClientsSeen: which clients with a name of their own have lately asked a door for anything: to whom an axis can be handed over.
-// In: names with the moment. Out: a list, newest first. Bounded: the one that was seen longest ago makes room.
-// Never says who may command: that is the lease's business.
+// The named clients that have recently sent a request, as candidates for a hand-over of an axis. Bounded: a new client replaces the one
+// with the oldest request. It does not decide who may command; the lease does.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@ public:
     static constexpr std::int64_t forget_after_ns = 600'000'000'000;
 
     struct Client {
-        std::string name;  ///< as AuthorityClient has it: user or host, then the name that it gives itself
+        std::string name;  ///< as in AuthorityClient: user or host, then the name that the client gives itself
         std::int64_t at_unix_ns = 0;
     };
     void note(std::string_view name, std::int64_t now_unix_ns);

@@ -1,5 +1,4 @@
-// Lockout: doubling pauses in a table by key. A clock that was set back holds nobody up for longer than the pause itself.
-// In: keys and times. Out: pauses. Never reads a clock.
+// Doubling pauses in a table by key. After the clock was set back, a pause is no longer than its full length.
 #include "gateway/services/access/lockout.hpp"
 
 #include <algorithm>

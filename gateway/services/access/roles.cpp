@@ -1,5 +1,4 @@
-// Roles: their names, in the order of what they may do.
-// In: a name or a role. Out: the other, or nothing. Never a role for an unknown name.
+// The names of the roles, in order of their permissions. An unknown name has no role.
 #include "gateway/services/access/roles.hpp"
 
 #include <array>

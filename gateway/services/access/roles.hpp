@@ -1,5 +1,5 @@
-// Roles: who may do what, as one ordered scale; each role may do all that those before it may.
-// In: names from configuration, records and requests. Out: a Role. Never decides by itself what a route needs: the router's table does.
+// The roles as one ordered scale; each role includes the permissions of those before it. The role that a route requires is in the router's
+// table.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 namespace axisgate {
 
 enum class Role : std::uint8_t {
-    none,           ///< nobody: what is open to all, nothing else
-    viewer,         ///< reads; may stop what moves
-    operating,      ///< "operator": commands, acknowledges
+    none,           ///< nobody: only what is open to all
+    viewer,         ///< may read, and stop what moves
+    operating,      ///< "operator": may command and acknowledge
     engineer,       ///< parameters, the drive's own language, site and mappings
-    administrator,  ///< users and other people's tokens
+    administrator,  ///< users, and tokens of other users
 };
 
 /// "viewer", "operator", ...; "none".
 [[nodiscard]] std::string_view name_of(Role role) noexcept;
-/// Nothing if it is none of the names; "none" is one.
+/// Empty if it is none of the names; "none" is one of them.
 [[nodiscard]] std::optional<Role> role_named(std::string_view name) noexcept;
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Secrets: libsodium does the work; the rules for names and passwords are here.
-// In: texts. Out: ids, digests, hashes, refusals. Passwords that are tried first are found by rule and a short list. Never stores anything.
+// The rules for names and passwords, and the calls of libsodium. Common passwords are recognized by rules and a short list.
 #include "gateway/services/access/secrets.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +12,7 @@
 
 namespace axisgate {
 namespace {
-/// libsodium must be told to choose its implementations once; the call is safe from several threads.
+/// libsodium must be initialized once to choose its implementations; the call is safe from several threads.
 [[maybe_unused]] bool ready() {
     static const bool good = sodium_init() >= 0;
     return good;
@@ -21,12 +20,32 @@ namespace {
 
 constexpr std::string_view code_letters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 
-/// Of the passwords that are tried first those that are long enough for us. Repetitions and runs are found by rule, not by list.
-// clang-format off
-constexpr std::array<std::string_view, 24> common{
-    "password1234",    "password12345", "password123456", "passwordpassword", "adminadminadmin", "administrator", "administrator1", "qwertyuiop12",
-    "qwertyuiop123",   "qwertyuiopasdf", "1q2w3e4r5t6y",   "1qaz2wsx3edc",     "zaq12wsxcde3",    "letmeinletmein", "iloveyou1234",   "welcome12345",
-    "changeme1234",    "changemechangeme", "correcthorsebatterystaple", "trustno1trustno1", "supervisor12", "maintenance1", "axisgate1234", "axisgateaxisgate"};
+/// The most common passwords of sufficient length. Repetitions and sequences are recognized by rules, not by this list.
+/// clang-format off
+constexpr std::array<std::string_view, 24> common{"password1234",
+                                                  "password12345",
+                                                  "password123456",
+                                                  "passwordpassword",
+                                                  "adminadminadmin",
+                                                  "administrator",
+                                                  "administrator1",
+                                                  "qwertyuiop12",
+                                                  "qwertyuiop123",
+                                                  "qwertyuiopasdf",
+                                                  "1q2w3e4r5t6y",
+                                                  "1qaz2wsx3edc",
+                                                  "zaq12wsxcde3",
+                                                  "letmeinletmein",
+                                                  "iloveyou1234",
+                                                  "welcome12345",
+                                                  "changeme1234",
+                                                  "changemechangeme",
+                                                  "correcthorsebatterystaple",
+                                                  "trustno1trustno1",
+                                                  "supervisor12",
+                                                  "maintenance1",
+                                                  "axisgate1234",
+                                                  "axisgateaxisgate"};
 // clang-format on
 }  // namespace
 

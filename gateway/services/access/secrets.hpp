@@ -1,6 +1,5 @@
-// Secrets: random ids, their digests, passwords' hashes (argon2id) and the rules for passwords and names.
-// In: texts. Out: texts that may be stored (digests, hashes), or that are shown once (ids, codes).
-// Never stores or logs anything. derive_password and password_fits take 0.1 to 1 s: not on a thread that somebody waits for.
+// Random ids, their digests, password hashes (argon2id) and the rules for passwords and names. Digests and hashes may be stored; ids and
+// codes are shown once. derive_password and password_fits take 0.1 to 1 s and must not run on a thread for which others wait.
 #pragma once
 
 #include <string>
@@ -19,13 +18,14 @@ namespace axisgate {
 /// In constant time for texts of one length.
 [[nodiscard]] bool same_secret(std::string_view a, std::string_view b) noexcept;
 
-/// argon2id with libsodium's interactive limits; empty if there is no memory for it.
+/// argon2id with libsodium's interactive limits; empty if there is not enough memory.
 [[nodiscard]] std::string derive_password(const std::string& password);
 [[nodiscard]] bool password_fits(const std::string& password, const std::string& hash);
-/// A hash that no password fits and that costs as much to try as a real one: an unknown user must not be told by the time it takes.
+/// A hash that no password fits and that takes as long to verify as a real one, so that an unknown user cannot be recognized by the
+/// response time.
 extern const std::string_view hash_of_nobody;
 
-/// Empty: good; else what is wrong, a sentence.
+/// Empty if the password is good; otherwise the fault as a sentence.
 [[nodiscard]] std::string password_fault(std::string_view password, std::string_view user);
 [[nodiscard]] std::string user_name_fault(std::string_view name);
 

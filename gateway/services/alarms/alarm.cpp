@@ -1,5 +1,5 @@
-// Alarms: a fault that an axis tells in several ways is one alarm; after another one begins to serve its drive it must show again in time.
-// In: events, acknowledgements, shelves, time. Out: the list and what changed. Never takes the end of one drive's fault for another's.
+// Several reports of one fault of an axis are one alarm. When another side begins to serve a drive, its alarms must occur again within a
+// time. The end of one drive's fault never clears the alarm of another.
 #include "gateway/services/alarms/alarm.hpp"
 
 #include <fmt/core.h>
@@ -10,10 +10,10 @@
 
 namespace axisgate {
 namespace {
-/// What is known of an axis while its drive is in fault, and is over with the fault.
+/// True for alarms of an axis that exist only while its drive is in fault and end with the fault.
 bool ends_with_fault(const Alarm& a) { return !a.axis.empty() && a.kind != "not_stored"; }
 
-/// What a drive says by itself of an axis, beside its fault; what the gateway has to say stands alone.
+/// True for reports of the drive itself, in addition to its fault; reports of the gateway are alarms of their own.
 bool from_drive(const std::string& kind) { return kind != "fault" && kind != "not_stored" && kind != "site"; }
 
 constexpr std::size_t most_text = 400;
@@ -27,7 +27,7 @@ bool same(const Alarm& a, const Event& e) {
     return a.drive == e.drive && (!a.drive.empty() || a.line == e.line);
 }
 
-/// Down and silent are warnings as events, since they may be meant; as long as they last they are on the list.
+/// A line that is down and a silent drive are warnings as events, because they may be intended; while they last they are on the list.
 bool is_loss(const Event& e) { return e.severity != Severity::info && (e.kind == "line" || e.kind == "drive"); }
 
 template <class List>
@@ -115,7 +115,7 @@ bool AlarmList::on_event(const Event& e) {
     if (e.kind == "drive" && e.severity == Severity::info)
         return clear_where([&](const Alarm& a) { return a.kind == "drive" && a.drive == e.drive; });
     if (e.kind == "presence" && !e.drive.empty()) {
-        // Another one serves the drive: what the one before had is not known to be over, but it must show again.
+        // Another side serves the drive: it is unknown whether the alarms of the former one are over, but they must occur again.
         bool any = false;
         for (auto& [id, a] : alarms_) {
             if (!a.active || a.drive != e.drive || !ends_with_fault(a)) continue;
@@ -127,8 +127,8 @@ bool AlarmList::on_event(const Event& e) {
         return clear_where([&](const Alarm& a) { return a.kind == "drive" && a.drive == e.drive; }) || any;
     }
     if (e.severity != Severity::alarm && !is_loss(e)) return false;
-    // What nothing ever takes back has come and gone in one moment; it waits for somebody to have seen it.
-    // The drive's own word about a fault that is on the list already: one alarm, not two to acknowledge.
+    // An alarm without an opposite event is raised and cleared at once and waits for its acknowledgement. If the drive reports a fault that
+    // is on the list already, this is the same alarm.
     const auto known = [&](const auto& a) {
         return a.second.active && a.second.kind == "fault" && a.second.axis == e.axis && a.second.code == e.code;
     };
@@ -139,7 +139,7 @@ bool AlarmList::on_event(const Event& e) {
     return true;
 }
 
-/// A consequence that comes with a fault which nobody has dealt with yet adds its words to the fault's alarm.
+/// A report that follows from an unacknowledged fault adds its text to the alarm of the fault.
 bool AlarmList::joins_fault(const Event& e) {
     if (e.axis.empty() || !from_drive(e.kind)) return false;
     for (auto it = alarms_.rbegin(); it != alarms_.rend(); ++it) {
@@ -153,7 +153,8 @@ bool AlarmList::joins_fault(const Event& e) {
     return false;
 }
 
-/// What the axis told just before its fault, once and unseen: off the list, its words for the fault's alarm.
+/// Removes alarms that the axis reported just before its fault and that nobody has acknowledged; returns their texts for the alarm of the
+/// fault.
 std::string AlarmList::take_forerunners(const Event& fault) {
     std::string text;
     for (auto it = alarms_.begin(); it != alarms_.end();) {
@@ -208,7 +209,7 @@ void AlarmList::raise(const Event& e, bool momentary) {
         return;
     }
     Alarm& a = known->second;
-    // It shows again after a change of who serves, or a start of the gateway: the same one goes on, not a further one.
+    // The alarm occurs again after a change of the serving side or a start of the gateway: it is the same alarm.
     const bool goes_on = a.doubtful_until_unix_ns != 0;
     a.doubtful_until_unix_ns = 0;
     a.text = e.text;
@@ -235,7 +236,7 @@ void AlarmList::clear(Alarm& a, std::int64_t now_unix_ns) {
     settle(a.id);
 }
 
-/// Cleared and acknowledged is normal: off the list. A shelf keeps it until its end, so that it stays quiet if it comes again.
+/// A cleared and acknowledged alarm leaves the list. A shelf keeps it until its end, so that it stays quiet if it occurs again.
 void AlarmList::settle(std::uint64_t id) {
     const auto it = alarms_.find(id);
     if (it != alarms_.end() && !it->second.active && it->second.acknowledged && it->second.shelved_until_unix_ns == 0) alarms_.erase(it);
@@ -243,7 +244,7 @@ void AlarmList::settle(std::uint64_t id) {
 
 void AlarmList::on_start(std::int64_t now_unix_ns) {
     for (auto& [id, a] : alarms_) {
-        // A line says whether it is up, a drive stays silent without saying so again.
+        // A line reports when it is up; a drive stays silent without reporting this again.
         if (a.active && a.kind != "drive" && a.kind != "line") a.doubtful_until_unix_ns = now_unix_ns + settle_ns;
     }
 }

@@ -1,6 +1,5 @@
-// Alarm service: changed alarms go to the disk in batches, one at a time, each with the number of the last event that it knows of.
-// In: events, what people do about alarms, deadlines. Out: documents of the store, answers when they are on disk.
-// Never answers an acknowledgement before it is stored.
+// Stores changed alarms in batches, one batch at a time, each with the number of the last event that it includes. An acknowledgement is
+// answered only when it is stored.
 #include "gateway/services/alarms/alarm_service.hpp"
 
 #include <fmt/core.h>
@@ -16,7 +15,7 @@ namespace axisgate {
 namespace json = boost::json;
 namespace {
 const std::string kind = "alarm";
-const std::string seen_name = "seen";  // no number, so no alarm's name
+const std::string seen_name = "seen";  // not a number, so not the name of an alarm
 
 std::string name_of_document(std::uint64_t id) { return fmt::format("{:016}", id); }
 
@@ -135,7 +134,7 @@ void AlarmService::begin() {
     query.since_id = seen_;
     query.limit = known_before ? 1000 : 1;
     for (const auto& e : events_.events(query)) {
-        // A data directory from before there were alarms: its old events are not news.
+        // A data directory from before the alarms were introduced: its old events raise no alarms.
         if (known_before) list_.on_event(e);
         seen_ = std::max(seen_, e.id);
     }
@@ -143,7 +142,7 @@ void AlarmService::begin() {
     events_.listen(this);
     sites_.listen(this);
     attached_ = true;
-    if (!known_before) waiting_.push_back([](const std::string&) {});  // from here on it is known what is news
+    if (!known_before) waiting_.push_back([](const std::string&) {});  // from here on new events are known
     changed();
 }
 
@@ -185,7 +184,7 @@ std::vector<std::uint64_t> AlarmService::open() const {
 std::string AlarmService::acknowledge(const std::vector<std::uint64_t>& ids, const std::string& comment, const Origin& origin, Then then) {
     if (busy()) return "too many answers wait for the disk: come again in a moment";
     const std::string who = origin.who ? *origin.who : "";
-    // All or none: first on a copy.
+    // All or none, so the change is made on a copy first.
     AlarmList trial = list_;
     for (const auto id : ids) {
         if (auto fault = trial.acknowledge(id, who, comment, wall_.now_unix_ns()); !fault.empty()) return fault;
@@ -249,7 +248,7 @@ void AlarmService::changed() {
     if (rearm) rearm();
 }
 
-/// One batch at a time: what has changed, and up to which event. Those who wait for it are told when all of it is on disk.
+/// One batch at a time: the changes, and the last event that they include. The waiting callers are answered when all of it is on the disk.
 struct AlarmService::Batch {
     std::size_t left = 0;
     std::string fault;
@@ -287,7 +286,7 @@ void AlarmService::keep() {
             documents_.save_document(kind, {name_of_document(id), json::serialize(kept_form(*a)), a->acknowledged_by, now}, done);
         } else {
             documents_.delete_document(kind, name_of_document(id),
-                                       [done](const std::string&) { done({}); });  // it may never have been kept
+                                       [done](const std::string&) { done({}); });  // the document may never have been stored
         }
     }
     documents_.save_document(kind, {seen_name, std::to_string(seen_), "", now}, done);
@@ -296,7 +295,7 @@ void AlarmService::keep() {
 Instant AlarmService::deadline() const {
     Instant next = unpublished_ ? std::max(published_ + publish_period, time_zero) : never;
     if (const auto due = list_.deadline()) {
-        // At most a minute: the wall clock may be set meanwhile.
+        // At most a minute, because the wall clock may be set meanwhile.
         const auto rest = std::clamp<std::int64_t>(*due - wall_.now_unix_ns(), 0, 60'000'000'000);
         next = std::min(next, clock_() + std::chrono::nanoseconds(rest));
     }

@@ -1,8 +1,6 @@
-// Alarm service: keeps the list of alarms: feeds it with events and time, stores what changed, tells the live feed and the events who did
-// what. In: events, sites, acknowledgements and shelves, the clock it is given. Out: the list, documents, progress.
-// Bounds: those of AlarmList; one batch of documents is on its way to the disk, what changes meanwhile is one further batch; at most 64
-// answers wait for a batch, the next one is refused.
-// Never used off the warm thread; never sleeps: whoever owns it calls on_deadline.
+// Maintains the list of alarms: feeds it with events and time, stores the changes, and reports them to the live feed and as events. Bounds:
+// those of AlarmList; one batch of documents is on its way to the disk, and later changes form one further batch; at most 64 answers wait
+// for a batch, and further ones are refused. Service thread only; the owner calls on_deadline.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -23,7 +21,7 @@ namespace axisgate {
 
 class AlarmService final : public EventListener, public SiteListener, public std::enable_shared_from_this<AlarmService> {
 public:
-    static constexpr Duration publish_period = std::chrono::milliseconds(200);  ///< of the list, at most
+    static constexpr Duration publish_period = std::chrono::milliseconds(200);  ///< the shortest time between two publications of the list
     static constexpr std::size_t most_waiting = 64;
 
     using Needs = PortSet<ClockPort, DocumentPort, EventPort, SitePort>;
@@ -31,27 +29,29 @@ public:
     ~AlarmService() override;
     AlarmService(const AlarmService&) = delete;
     AlarmService& operator=(const AlarmService&) = delete;
-    /// Reads what is kept, and the events that came after it was kept; then listens.
+    /// Reads the stored alarms, then the events after them; then listens.
     void begin();
-    /// Listens no more, and asks nothing more.
+    /// Stops listening, and sends no more requests.
     void detach();
 
-    /// Called when deadline() may have changed by another cause than on_deadline.
+    /// Called when deadline() may have changed for another reason than on_deadline.
     std::function<void()> rearm;
-    /// The list, when it has changed.
+    /// Called with the list when it has changed.
     std::function<void(const boost::json::object& list)> publish;
 
     [[nodiscard]] const AlarmList& list() const noexcept { return list_; }
-    /// {"unacknowledged", "dropped", "alarms"}: active ones first, then newest first. The counts are of all, whatever is asked for.
+    /// {"unacknowledged", "dropped", "alarms"}: active alarms first, then newest first. The counts are of all alarms, whatever the filter
+    /// is.
     [[nodiscard]] boost::json::object document(std::optional<AlarmFilter> only = std::nullopt) const;
 
     using Then = std::function<void(std::string fault)>;
-    /// Each: empty, or why not; `then` is called when it is on disk (empty), or why it is not.
+    /// Each returns an empty text, or the reason for a refusal; `then` gets an empty text when the change is on the disk, or the reason why
+    /// not.
     [[nodiscard]] std::string acknowledge(const std::vector<std::uint64_t>& ids, const std::string& comment, const Origin& origin,
                                           Then then);
     [[nodiscard]] std::string shelve(std::uint64_t id, std::int64_t for_s, const std::string& reason, const Origin& origin, Then then);
     [[nodiscard]] std::string unshelve(std::uint64_t id, const Origin& origin, Then then);
-    /// All that can be acknowledged now.
+    /// All alarms that can be acknowledged now.
     [[nodiscard]] std::vector<std::uint64_t> open() const;
 
     [[nodiscard]] Instant deadline() const;
@@ -77,7 +77,7 @@ private:
     bool saving_ = false, fault_published_ = false;
     std::set<std::uint64_t> unsaved_;
     std::vector<Then> waiting_;
-    std::uint64_t seen_ = 0;  ///< newest event that the list knows of
+    std::uint64_t seen_ = 0;  ///< the newest event that the list includes
     bool unpublished_ = false;
     Instant published_{};
 };

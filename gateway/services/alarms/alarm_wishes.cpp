@@ -1,5 +1,4 @@
-// Alarm wishes: every fault is told at once.
-// In: JSON. Out: wishes. Keeps nothing.
+// Reads requests about alarms; all faults are reported together.
 #include "gateway/services/alarms/alarm_wishes.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +16,7 @@ namespace {
 constexpr std::size_t most_wish_text = 500;
 constexpr std::size_t most_acknowledged = AlarmList::most_alarms;
 
-/// A text member; faults if it is none or too long.
+/// A text member; a fault if it is not a text, or too long.
 std::string short_text(const json::object& o, std::string_view key, std::vector<Fault>& faults) {
     const auto* v = o.if_contains(key);
     if (!v) return {};

@@ -1,5 +1,5 @@
-// Alarm wishes: what a body asks to be done about alarms: acknowledged, one or many; shelved.
-// In: JSON, the list of alarms. Out: wishes, or every fault with its place. Never changes an alarm.
+// Reads the bodies of requests about alarms: acknowledge one or several, shelve. Faults are reported with their places. Nothing is changed
+// here.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -13,11 +13,11 @@
 
 namespace axisgate {
 
-/// The comment of one that is acknowledged.
+/// The comment of an acknowledgement.
 [[nodiscard]] std::string read_comment(const boost::json::object& body, std::vector<Fault>& faults);
 
 struct AcknowledgeWish {
-    std::optional<std::vector<std::uint64_t>> ids;  ///< nothing: all that are open
+    std::optional<std::vector<std::uint64_t>> ids;  ///< empty: all unacknowledged alarms
     std::string comment;
 };
 [[nodiscard]] AcknowledgeWish read_acknowledge_wish(const boost::json::object& body, const AlarmList& alarms, std::vector<Fault>& faults);

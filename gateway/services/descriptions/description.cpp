@@ -1,5 +1,4 @@
-// Descriptions: an EDS as facts, and a snapshot as DCF.
-// In: what gateway/protocols/canopen has read. Out: JSON, text. Never guesses: what a file does not say is null.
+// Shows the content of an EDS, and writes a snapshot as a DCF. Values that a file does not contain are null.
 #include "gateway/services/descriptions/description.hpp"
 
 #include <fmt/core.h>
@@ -68,7 +67,7 @@ std::optional<std::int64_t> configured(const Eds& eds, Address a) {
     return as_integer((e.configured.given() ? e.configured : e.fallback).value);
 }
 
-/// PDOs as the file has them mapped from the start.
+/// PDOs as the file has them mapped by default.
 json::array pdos(const Eds& eds) {
     json::array out;
     for (const bool receive : {true, false}) {
@@ -134,7 +133,7 @@ Dcf dcf_of(const Eds& eds, const Catalogue& catalogue, const AxisSnapshot& snaps
         }
         const auto element = p->count == 0 ? 0 : point->element - p->first;
         const Address at{static_cast<std::uint16_t>(index->get_int64()), static_cast<std::uint8_t>(sub->get_int64() + element)};
-        // A DCF is what a drive is set up with: what can only be read is no part of it.
+        // A DCF is used to set up a drive, so read-only objects are left out.
         const auto e = eds.entries.find(at);
         if (e != eds.entries.end() && !canopen::can_write(e->second.access)) continue;
         values[at] = v.value;

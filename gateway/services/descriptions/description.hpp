@@ -1,5 +1,5 @@
-// Descriptions of drives: a maker's EDS or DCF file becomes a description that sites may name, and is shown as facts.
-// In: texts of any origin, names. Out: what is in it, or all faults with their lines. Never takes half of a file, and keeps nothing.
+// Reads a maker's EDS or DCF file as a description that sites may name, and shows its content. The text may have any origin: it is accepted
+// as a whole, or all faults are reported with their lines.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -19,26 +19,27 @@
 namespace axisgate::descriptions {
 
 inline constexpr std::size_t most_bytes = 1u << 20;    ///< of one file
-inline constexpr std::size_t most_entries = 8'000;     ///< of one file: each is a parameter of every axis that is described by it
+inline constexpr std::size_t most_entries = 8'000;     ///< of one file; each entry is a parameter of every axis with this description
 inline constexpr std::size_t most_descriptions = 200;  ///< of one gateway
 
-/// Empty, or what is wrong with the name of a description: letters, digits, - _ and . , up to 64, with the ending .eds or .dcf.
+/// Empty, or the fault in the name of a description: letters, digits, - _ and . , up to 64, with the ending .eds or .dcf.
 [[nodiscard]] std::string check_name(std::string_view name);
 
 struct Read {
-    std::optional<canopen::Eds> eds;  ///< nothing if there is a fault
+    std::optional<canopen::Eds> eds;  ///< empty if there is a fault
     std::vector<canopen::FileFault> faults, notes;
 };
-/// Beside what read_eds finds: too long, too many entries, and a device that is no drive of CiA 402 (its 1000h says so, or it has no
+/// Checks in addition to read_eds: too long, too many entries, and a device that is not a CiA 402 drive (by its 1000h, or because it has no
 /// controlword and statusword).
 [[nodiscard]] Read read(std::string_view text);
 /// "line 12: ..." each; the remedy is the same for all.
 [[nodiscard]] std::vector<Fault> faults_of(const Read& read);
 
-/// Name, vendor, product, ..., PDO mapping, warnings; null where there are faults.
+/// Name, vendor, product, ..., PDO mapping, warnings; null if there are faults.
 [[nodiscard]] std::shared_ptr<const boost::json::object> facts(const Description& d, const Read& read);
 
-/// A DCF of one drive: its description with the values of a snapshot. `left_out`: values that a DCF of this description cannot hold.
+/// A DCF of one drive: its description with the values of a snapshot. `left_out` is the number of values that a DCF of this description
+/// cannot contain.
 struct Dcf {
     std::string text;
     std::vector<std::string> left_out;

@@ -1,5 +1,4 @@
-// Description files: added and removed in the turn of the site's changes, so that no site that is on its way loses a file it names.
-// In: files, sites. Out: documents, events. Never looks into a file by itself.
+// Adds and removes files in the queue of the site's changes, so that a site on its way cannot lose a file that it names.
 #include "gateway/services/descriptions/description_files.hpp"
 
 #include <fmt/core.h>

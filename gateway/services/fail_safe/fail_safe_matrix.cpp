@@ -1,5 +1,4 @@
-// Fail-safe matrix: the words of each cause, and what is known of each axis.
-// In: the site, ports. Out: JSON. Keeps nothing.
+// Names the causes, and shows the data of each axis.
 #include "gateway/services/fail_safe/fail_safe_matrix.hpp"
 
 #include <fmt/core.h>
@@ -16,7 +15,7 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// What happens to a motion without an end, and to one with an end, where the site says nothing.
+/// The default actions, for a motion without an end and for one with an end.
 struct ByDefault {
     FailSafeAction endless, to_a_target;
 };
@@ -70,7 +69,7 @@ json::object choice_of(const FailSafe& chosen) {
     return o;
 }
 
-/// The word of the API for a state of what the drive keeps by itself; null: unknown.
+/// The API's word for the state of a function that the drive carries out by itself; null: unknown.
 template <class Kept>
 json::value state_of(typename Kept::State state) {
     switch (state) {
@@ -86,7 +85,8 @@ json::value state_of(typename Kept::State state) {
     return nullptr;
 }
 
-/// What the drive of an axis keeps by itself: what its family's page says of it, and what is known of this drive where the family has it.
+/// A function that the drive carries out by itself: the data of its family's page, and the state of this drive if the family has the
+/// function.
 struct KeptByDrive {
     bool available = false;
     std::string description;
@@ -104,7 +104,7 @@ KeptByDrive kept_by_drive(const MatrixPorts& ports, const SiteState& site, const
     return kept;
 }
 
-/// What it does when it does not hear the gateway any more, as it was programmed.
+/// The drive's watchdog, as it was programmed.
 json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
     const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_watchdog");
     const DriveWatchdog w = kept.status ? kept.status->watchdog : DriveWatchdog{};
@@ -119,7 +119,7 @@ json::object watchdog_of(const MatrixPorts& ports, const SiteState& site, const 
 /// The site's limits of position, as the drive has acknowledged them.
 json::object limits_of(const MatrixPorts& ports, const SiteState& site, const AxisSpec& spec) {
     const KeptByDrive kept = kept_by_drive(ports, site, spec, "drive_limits");
-    const bool wanted = spec.position_min || spec.position_max;  // the state is the drive's, and another axis of it may be limited
+    const bool wanted = spec.position_min || spec.position_max;  // the state belongs to the drive, and another axis of it may be limited
     const DriveLimits limits = kept.status && wanted ? kept.status->limits : DriveLimits{};
     const bool refused = limits.state == DriveLimits::State::refused;
     return {{"available", kept.available},
@@ -129,7 +129,7 @@ json::object limits_of(const MatrixPorts& ports, const SiteState& site, const Ax
             {"description", kept.description}};
 }
 
-/// A list of names, or nothing and why not.
+/// A list of names, or empty with a fault.
 std::optional<std::vector<std::string>> names_listed(std::string_view key, const json::value& v, std::vector<Fault>& faults) {
     if (!v.is_array() || !std::ranges::all_of(v.get_array(), [](const json::value& one) { return one.is_string(); })) {
         faults.push_back({"/" + std::string(key), fmt::format("{} must be a list of names", key), "leave it out for all"});

@@ -1,6 +1,5 @@
-// Fail-safe matrix: what each axis does when its command is lost, by cause: what the site names, and what holds where it names nothing;
-// what its drive keeps by itself. In: the site, pictures, states of drives. Out: documents; a changed site; which rehearsal is wished for.
-// Never stops or moves anything.
+// The action of each axis for each cause of loss of command: the site's choice or the default, and the functions of its drive. It makes
+// documents, a changed site, and the request for a rehearsal; nothing is stopped or moved here.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -20,11 +19,11 @@ namespace axisgate {
 
 using MatrixPorts = PortSet<AxisPort, DrivePort, RehearsalPort, SitePort>;
 
-/// All causes of a loss, with what is done where the site says nothing.
+/// All causes of loss, with their default actions.
 [[nodiscard]] boost::json::array loss_causes_document();
-/// What the axis with this index does, did, and what its drive would do.
+/// The actions of the axis with this index, the last loss, and the functions of its drive.
 [[nodiscard]] boost::json::object fail_safe_row(const MatrixPorts& ports, const SiteState& site, std::size_t index);
-/// The whole choice of an axis in place of the one before; null is the default, as it is told.
+/// Replaces the whole choice of an axis; null is the default, as in the document.
 [[nodiscard]] Refusable<Site> with_fail_safe(const Site& before, const Families& families, std::string_view axis,
                                              const boost::json::object& choice);
 

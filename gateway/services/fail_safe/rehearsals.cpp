@@ -1,5 +1,5 @@
-// Rehearsals: one cell after the other is asked for, and when the last one is there the report is dated and kept.
-// In: cells from the port. Out: a document per rehearsal, named by its time; one event at its end. Never keeps more than so many.
+// Requests one cell after the other; after the last one the report is dated and stored. There is one event at the end, and a limited number
+// of reports.
 #include "gateway/services/fail_safe/rehearsals.hpp"
 
 #include <fmt/core.h>
@@ -64,7 +64,7 @@ json::object to_json(const RehearsalCell& c) {
             {"text", in_words(c)}};
 }
 
-/// Whether the drive of this axis follows streamed set-points of position or velocity: else they cannot be missed.
+/// True if the drive of this axis follows streamed set-points of position or velocity; otherwise they cannot be lost.
 bool Rehearsals::streams(const SiteState& state, const std::string& axis) const {
     const Site& site = state.site;
     const auto& a = *std::ranges::find(site.axes, axis, &AxisSpec::name);
@@ -96,7 +96,7 @@ std::string Rehearsals::start(std::vector<std::string> axes, RehearsalSteps step
                 run.left.push_back(wish);
             }
         }
-        wish.cause = LossCause::none;  // what the drive does when the gateway is gone without a word
+        wish.cause = LossCause::none;  // the drive's own reaction when the gateway is gone without notice
         run.left.push_back(wish);
         wish.restart = true;
         if (steps.has(RehearsalStep::gateway_restart)) run.left.push_back(wish);

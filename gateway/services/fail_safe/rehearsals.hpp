@@ -1,7 +1,5 @@
-// Rehearsals: the whole matrix of loss of command played on models, cell by cell, and the dated reports that come of it.
-// In: a start by somebody. Out: progress, and the last reports, kept as documents. Bounds: one rehearsal at a time; so many reports kept;
-// a rehearsal that the gateway's end cuts off leaves no report.
-// Never moves anything: the port plays on models of its own.
+// Plays the whole matrix of loss of command on models, cell by cell, and stores the dated reports as documents. Bounds: one rehearsal at a
+// time; a limited number of reports. A rehearsal that the end of the gateway interrupts leaves no report.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -22,12 +20,12 @@
 
 namespace axisgate {
 
-/// One cell as the API shows it.
+/// One cell as shown by the API.
 [[nodiscard]] boost::json::object to_json(const RehearsalCell& cell);
 
 class Rehearsals : public std::enable_shared_from_this<Rehearsals> {
 public:
-    static constexpr std::size_t kept = 20;  ///< reports; the oldest make room
+    static constexpr std::size_t kept = 20;  ///< number of reports; a new one replaces the oldest
 
     using Needs = PortSet<ClockPort, DocumentPort, EventPort, RehearsalPort, SitePort>;
     explicit Rehearsals(const Needs& ports)
@@ -37,10 +35,10 @@ public:
           player_(ports.get<RehearsalPort>()),
           sites_(ports.get<SitePort>()) {}
 
-    /// Every cause of these axes, and what their drives do when the gateway is gone without a word; of all where none is named. `steps`:
-    /// what else happens in each cell where it can. Empty: it has begun; else why not.
+    /// Plays every cause for these axes (all if none is named), and the drives' reaction when the gateway is gone without notice. `steps`
+    /// are the disturbances of each cell, where possible. Empty if it has begun, otherwise the reason why not.
     [[nodiscard]] std::string start(std::vector<std::string> axes, RehearsalSteps steps, const Origin& origin);
-    /// {"state": "none" | "running" | "done", "done", "total", "report"}: the report is the last one that is complete.
+    /// {"state": "none" | "running" | "done", "done", "total", "report"}: the report is the last complete one.
     [[nodiscard]] boost::json::object state() const;
     [[nodiscard]] bool running() const noexcept { return run_.has_value(); }
 
@@ -50,7 +48,7 @@ private:
         std::deque<RehearsalWish> left;
         RehearsalSteps steps{};
         std::vector<RehearsalCell> cells;
-        std::vector<std::string> left_out;  ///< axes whose drives follow no set-points: that cause is none of theirs
+        std::vector<std::string> left_out;  ///< axes whose drives cannot follow set-points, so that this cause does not apply
         std::size_t total = 0;
         std::string who;
         std::int64_t began_unix_ns = 0;
@@ -65,7 +63,7 @@ private:
     RehearsalPort& player_;
     SitePort& sites_;
     std::optional<Run> run_;
-    mutable std::optional<boost::json::object> last_;  ///< as it was read or made
+    mutable std::optional<boost::json::object> last_;  ///< as read from the store, or made
 };
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Axis jobs: each step begins in the answer of the one before; where a command is answered inside submit, a loop goes on, no deeper call.
-// In: points, answers. Out: values and failures, told once. Never blocks.
+// Each step begins in the answer of the previous one. If a command is answered inside submit, a loop continues instead of a deeper call.
 #include "gateway/services/parameters/axis_jobs.hpp"
 
 #include <fmt/core.h>
@@ -52,7 +51,7 @@ struct AxisJob : std::enable_shared_from_this<AxisJob> {
         }
         end.failed.push_back({p.id, why});
     }
-    /// A command may be answered inside submit: the loop then goes round instead of deeper.
+    /// A command may be answered inside submit: then the loop runs once more instead of a deeper call.
     void step() {
         stepping = true;
         for (;;) {

@@ -1,5 +1,5 @@
-// Boot check: one job of reading for each axis of a drive that answers, and one of writing where something differs.
-// In: events. Out: events. Never has two jobs on one axis: where another runs, the comparison is left out and told.
+// One read job for each axis of a drive that answers, and one write job if there are differences. If another job is running on an axis, the
+// comparison is left out, and an event says so.
 #include "gateway/services/parameters/boot_check.hpp"
 
 #include <fmt/core.h>
@@ -11,7 +11,7 @@
 
 namespace axisgate {
 namespace {
-/// 5 and 5.0 are one value, true and 1 are one.
+/// 5 and 5.0 are equal, and so are true and 1.
 bool same(const Value& a, const Value& b) {
     const auto x = as_number(a), y = as_number(b);
     return x && y ? *x == *y : to_text(a) == to_text(b);

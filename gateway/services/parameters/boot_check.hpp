@@ -1,6 +1,6 @@
-// Boot check: when a drive answers, its parameters are compared with those that were written through the gateway, where the site says so.
-// In: events of drives, what was written, what the drive has. Out: an event for an axis that differs; what differs is written, if the
-// site says that, too. Never writes what acts at once or what the drive is reached by, and never while the axis moves.
+// When a drive answers, compares its parameters with those that were written through the gateway, if the site says so. An event reports an
+// axis with differences, and the stored values are written if the site says that, too. Parameters that act at once or by which the drive is
+// reached are never written, and nothing is written while the axis moves.
 #pragma once
 
 #include <memory>
@@ -16,14 +16,14 @@ namespace axisgate {
 
 class BootCheck final : public EventListener, public std::enable_shared_from_this<BootCheck> {
 public:
-    static constexpr std::size_t most_named = 5;  ///< differences that an event names; of the others it tells how many
+    static constexpr std::size_t most_named = 5;  ///< number of differences that an event names; the others are counted
 
     using Needs = PortSet<AxisPort, EventPort, ParameterPort, SitePort>;
     BootCheck(const Needs& ports, std::shared_ptr<AxisJobs> jobs);
     BootCheck(const BootCheck&) = delete;
     BootCheck& operator=(const BootCheck&) = delete;
-    void begin();   ///< listens from now on
-    void detach();  ///< listens no more
+    void begin();   ///< starts listening
+    void detach();  ///< stops listening
 
     void on_event(const Event& event) override;
 

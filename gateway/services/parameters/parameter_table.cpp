@@ -1,5 +1,4 @@
-// Parameter table: a row for each parameter that is not too long an array; a row that is read becomes a change, is left out, or is a fault.
-// In: catalogue, values, CSV. Out: CSV, plans. Never writes.
+// One row for each parameter that is not too long an array. A row that is read becomes a change, is left out, or is a fault.
 #include "gateway/services/parameters/parameter_table.hpp"
 
 #include <fmt/core.h>
@@ -16,9 +15,9 @@
 namespace axisgate {
 namespace {
 constexpr std::uint16_t most_elements_in_table = 256;
-constexpr std::size_t most_faults_of_table = 1000;  // of one file; the first of them are told
+constexpr std::size_t most_faults_of_table = 1000;  // of one file; only the first faults are reported
 
-/// A table on its way to a plan.
+/// The reading of a table into a plan.
 class TableReading {
 public:
     TableReading(const ParameterPort& parameters, const AxisPlace& axis, WriteBack include)
@@ -60,7 +59,7 @@ private:
     [[nodiscard]] bool is_long_enough(const std::vector<std::string>& cells) const {
         return cells.size() > std::max(id_column_, value_column_);
     }
-    /// What the table gives a parameter, for the rows of those that hang on it.
+    /// Notes the table's value of a parameter, for the rows of parameters that depend on it.
     void note(const std::vector<std::string>& cells) {
         const auto point = is_long_enough(cells) ? point_named(trimmed(cells[id_column_])) : std::nullopt;
         const auto value = point ? parse_value(trimmed(cells[value_column_]), axis_.catalogue->parameter(*point)->type) : std::nullopt;
@@ -80,7 +79,7 @@ private:
         if (!p.writable()) return skip("can only be read");
         const auto value = parse_value(text, p.type);
         if (!value) return wrong(line, fmt::format("{}: {} is no {}", id, text, name_of(p.type)));
-        // What the table itself gives another parameter counts before what that has now: it will have been written.
+        // The table's own value of another parameter counts before its present value, because it will have been written by then.
         auto checked = check_write_now(*axis_.catalogue, *point, *value, [&](Point other) {
             const auto it = given_.find(axis_.catalogue->id_of(other));
             return it == given_.end() ? parameters_.live(axis_.id(), other).value : it->second;

@@ -1,6 +1,5 @@
-// Parameter table: all parameters of an axis as CSV, and a table of values for it.
-// In: CSV text, what is known of the axis. Out: text; a plan of what is to be written, or every faulty line. A table is checked as a whole:
-// of one with a wrong line nothing is planned. Never guesses a value.
+// All parameters of an axis as CSV, and the reading of such a table into a plan of writes. A table is checked as a whole: if one line is
+// wrong, nothing is planned, and every faulty line is reported.
 #pragma once
 
 #include <string>

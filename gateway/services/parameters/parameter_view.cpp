@@ -1,5 +1,4 @@
-// Parameter view: made from copies, so that it can be made after an exchange.
-// In: catalogue, values. Out: JSON, readings. Never keeps anything from call to call.
+// Documents are made from copies, so that they can be made after an exchange.
 #include "gateway/services/parameters/parameter_view.hpp"
 
 #include <fmt/core.h>
@@ -15,9 +14,9 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// Arrays up to this length are listed element by element; longer ones are one entry, so that a list stays a list.
+/// Arrays up to this length are listed element by element; longer ones are one entry, so that the list stays short.
 constexpr std::uint16_t most_elements_listed = 256;
-/// Elements answered when one array is asked for.
+/// Elements in the answer when one array is requested.
 constexpr std::size_t most_elements_shown = 1024;
 
 KnownValue known_value_of(const ParameterPort& parameters, AxisId axis) {
@@ -147,7 +146,7 @@ Ticket read_parameter_now(AxisPort& axes, const ClockPort& clock, const Paramete
     return axes.submit(std::move(command), [&clock, &parameters, place, then = std::move(then)](const Result& r) {
         LiveParameter live = parameters.live(place.axis.id(), place.point);
         if (good(r)) {
-            if (known(r.value) && live.value != r.value) {  // the sample has not come this far yet
+            if (known(r.value) && live.value != r.value) {  // the sample has not arrived here yet
                 live.value = r.value;
                 live.at_unix_ns = clock.now_unix_ns();
             }

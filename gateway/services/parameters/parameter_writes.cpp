@@ -1,5 +1,4 @@
-// Parameter writes: planned as a whole, written one after the other.
-// In: points, the axis as it is. Out: documents, one answer. Never writes to an axis that moves.
+// Plans writes as a whole and carries them out one after the other.
 #include "gateway/services/parameters/parameter_writes.hpp"
 
 #include <fmt/core.h>
@@ -90,7 +89,7 @@ void write_planned(const std::shared_ptr<AxisJobs>& jobs, AxisPort& axes, const 
                    std::function<void(Refusable<WrittenParameters>)> then) {
     const std::string name = axis.spec().name;
     auto& points = plan.points;
-    // What decides over the form of others goes before them.
+    // Parameters that decide the form of others are written first.
     if (axis.catalogue) {
         std::set<std::pair<std::uint16_t, std::uint16_t>> deciding;
         for (const auto& p : points) {

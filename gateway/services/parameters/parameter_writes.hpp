@@ -1,6 +1,5 @@
-// Parameter writes: many values for one axis: what is to be changed and what is left out and why, and the job that writes it.
-// In: checked points, what is known of the axis. Out: a plan, its document, what was changed and what was refused. What decides over the
-// form of others is written before them. Never begins to write to an axis that moves; a job itself is AxisJobs'.
+// Many values for one axis: a plan with changes and skipped values (and reasons), its document, and the job that writes it (AxisJobs).
+// Parameters that decide the form of others are written first. A write does not begin while the axis moves.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -19,19 +18,20 @@
 
 namespace axisgate {
 
-/// What is written back only if it is asked for by name.
+/// The parameters that are written back only on explicit request.
 struct WriteBack {
     bool addressing = false;  ///< include_addressing
     bool live = false;        ///< include_live
 };
-/// Why a parameter of the catalogue's `addressing` or `live` is left out when many are written back; empty: it is not.
+/// The reason why a parameter with `addressing` or `live` in the catalogue is left out when many are written back; empty if it is not.
 [[nodiscard]] std::string why_left_out(const Parameter& parameter, WriteBack wanted);
 
-/// What the parameters of an axis are as far as it is known without asking: said by the drive, else written through the gateway.
+/// The values of an axis' parameters as far as they are known without an exchange: reported by the drive, otherwise written through the
+/// gateway.
 class KnownParameters {
 public:
     KnownParameters(const ParameterPort& parameters, const AxisPlace& axis);
-    /// Said by the drive; unknown: it has not been, or there is no such parameter.
+    /// The drive's report; unknown if there was none, or no such parameter.
     [[nodiscard]] Value live(const std::string& id) const;
     [[nodiscard]] const std::map<std::string, Value>& stored() const noexcept { return stored_; }
     [[nodiscard]] Value of(const std::string& id) const;
@@ -57,7 +57,7 @@ struct ParameterPlan {
 
     void change(std::string id, Point point, Value from, Value to);
 };
-/// Of a plan that is not carried out: `dry_run`, `changes`, `skipped`.
+/// For a plan that is not carried out: `dry_run`, `changes`, `skipped`.
 [[nodiscard]] boost::json::object document_of(const ParameterPlan& plan);
 
 struct WrittenParameters {
@@ -68,9 +68,9 @@ struct WrittenParameters {
 [[nodiscard]] boost::json::object document_of(const WrittenParameters& written);
 [[nodiscard]] boost::json::array document_of(const std::vector<JobFailure>& failures);
 
-/// Another job of this axis is under way.
+/// Another job of this axis is running.
 [[nodiscard]] ServiceRefusal job_busy(const std::string& axis);
-/// How far the job came, and what that means; `more`: further members of the answer.
+/// The progress of the job and its consequence; `more` has further members of the answer.
 [[nodiscard]] ServiceRefusal job_broken_off(const JobEnd& end, const std::string& axis, std::string_view consequence,
                                             boost::json::object more = {});
 

@@ -1,5 +1,5 @@
-// Snapshots, compared: with factory values, the drive, what is stored, another snapshot, another axis. What is not known is not one that
-// differs. In: snapshots, values. Out: rows, documents. Never compares words of two families.
+// Compares a snapshot with factory values, the drive, the stored values, another snapshot or another axis. An unknown value is no
+// difference, and parameters of two families are never compared.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Values values_of_snapshot(const std::vector<SnapshotValue>& list) {
     return out;
 }
 
-/// What is missing on the other side, for people: a value that is not known is not one that differs.
+/// The missing values of the other side, as text for people: an unknown value is no difference.
 std::string unknown_text(std::string_view with, std::size_t unknown, std::size_t all) {
     if (unknown == 0) return {};
     const std::string how_many = unknown == all ? std::string("none of the values") : fmt::format("{} of {} values", unknown, all);
@@ -144,7 +144,7 @@ json::object document_of(const SnapshotDifference& difference) {
     json::array rows, live;
     for (const auto& row : difference.rows) {
         const auto* p = row.known_as;
-        // What acts at once is shown apart: it is no setting, and that it is another now is no difference.
+        // Parameters that act at once are listed apart: they are no settings, and another value now is no difference.
         auto& list = p && p->live ? live : rows;
         list.push_back(json::object{{"parameter", row.parameter},
                                     {"name", p ? json::value(p->name) : json::value()},

@@ -1,5 +1,4 @@
-// Snapshots, asked for: what a body says of a snapshot to be taken or restored.
-// In: JSON. Out: wishes; every fault with its place. Never takes what is not known here for a wish.
+// Reads the body of a request to take or restore a snapshot; every fault has its place.
 #include <fmt/core.h>
 
 #include <algorithm>

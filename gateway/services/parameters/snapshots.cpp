@@ -1,5 +1,4 @@
-// Snapshots: what is taken is read as one job and kept as a whole.
-// In: wishes, values of drives. Out: snapshots, DCFs, events. Never writes to a drive but by a plan.
+// The values of a snapshot are read as one job and stored as a whole. Drives are written only by a plan.
 #include "gateway/services/parameters/snapshots.hpp"
 
 #include <fmt/core.h>
@@ -18,8 +17,8 @@ namespace {
 /// Arrays up to this length are part of a snapshot; longer ones (programs, tables) are named in `left_out`.
 constexpr std::uint16_t most_elements_kept = 256;
 
-/// Everything that can be read; what is too long, and what the catalogue says is no matter for a snapshot (`"snapshot": false`: what it is
-/// doing now, on a line that is too slow to ask it all), goes into `left_out`.
+/// All readable parameters. Arrays that are too long, and parameters that the catalogue excludes from snapshots (`"snapshot": false`:
+/// present activity, on a line that is too slow to read everything), are put into `left_out`.
 std::vector<JobPoint> readable_points(const Catalogue& catalogue, std::vector<std::string>& left_out) {
     std::vector<JobPoint> out;
     const auto all = catalogue.parameters();
@@ -60,7 +59,7 @@ Refusable<KeptSnapshot> Snapshots::find(const std::string& axis, std::string_vie
     return KeptSnapshot{std::move(*place), std::move(*s)};
 }
 
-/// The catalogue by which its words are read: that of the family it was taken of, which may not be the axis' any more.
+/// The catalogue for its parameters: that of the family of which it was taken, which may differ from the present one of the axis.
 const Catalogue* Snapshots::catalogue_of(const KeptSnapshot& kept) const {
     const auto& family = kept.snapshot.family;
     return family.empty() || family == kept.axis.family ? kept.axis.catalogue : ports_.get<SitePort>().families().find(family).catalogue;
@@ -92,7 +91,7 @@ json::object Snapshots::document(const TakenSnapshot& taken) const {
     return o;
 }
 
-/// The values in the maker's description of the drive, as a file that CANopen tools read.
+/// The values in the maker's description of the drive, as a file for CANopen tools.
 Refusable<SnapshotDcf> Snapshots::dcf(const KeptSnapshot& kept) const {
     using Why = ServiceRefusal::Why;
     const auto state = ports_.get<SitePort>().site();
@@ -126,7 +125,7 @@ void Snapshots::note(const SnapshotInfo& info, const std::string& axis, const Or
 
 void Snapshots::keep(TakenSnapshot taken, const Origin& origin, std::function<void(Refusable<TakenSnapshot>)> then) const {
     const std::string axis = taken.axis.spec().name;
-    if (!find_axis(ports_.get<SitePort>(), axis)) return then(no_such("axis", axis));  // removed while it was read
+    if (!find_axis(ports_.get<SitePort>(), axis)) return then(no_such("axis", axis));  // the axis was removed during the reading
     taken.snapshot.values = taken.snapshot.parameters.size();
     AxisSnapshot kept = taken.snapshot;
     ports_.get<SnapshotPort>().save_snapshot(std::move(kept), axis,
@@ -193,7 +192,7 @@ std::optional<ServiceRefusal> Snapshots::why_not_restored(const KeptSnapshot& ke
 Refusable<ParameterPlan> Snapshots::plan_restore(const KeptSnapshot& kept, const RestoreWish& wish) const {
     const AxisPlace& axis = kept.axis;
     const AxisSnapshot& snapshot = kept.snapshot;
-    if (snapshot.family.empty()) {  // from before it was told: it fits as long as every word of it does
+    if (snapshot.family.empty()) {  // an older snapshot without a family is accepted if every parameter exists
         for (const auto& v : snapshot.parameters) {
             if (!axis.catalogue || axis.catalogue->find(v.parameter)) continue;
             return ServiceRefusal{
@@ -219,7 +218,7 @@ Refusable<ParameterPlan> Snapshots::plan_restore(const KeptSnapshot& kept, const
             skip("can only be read");
             continue;
         }
-        // What the snapshot itself gives another parameter counts before what that has now: it will have been written.
+        // The snapshot's own value of another parameter counts before its present value, because it will have been written by then.
         auto checked = check_write_now(*axis.catalogue, *point, v.value, [&](Point other) {
             const auto id = axis.catalogue->id_of(other);
             const auto it = std::ranges::find(snapshot.parameters, id, &SnapshotValue::parameter);

@@ -1,7 +1,6 @@
-// Snapshots: sets of an axis' parameters: taken from the drive or from what is stored, compared with anything, restored one parameter at a
-// time, given as a maker's DCF. In: names, wishes, who wants it. Out: snapshots, differences, what was changed and what was not and why; an
-// event for each one that is kept or removed. Never keeps half a snapshot: a drive that falls silent gives a refusal that says how far it
-// came.
+// Sets of an axis' parameters: taken from the drive or from the stored values, compared, restored one parameter at a time, written as a
+// maker's DCF. There is an event for each one that is stored or removed. Half a snapshot is never stored: if a drive falls silent, the
+// refusal states the progress.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -25,52 +24,52 @@ namespace axisgate {
 
 struct SnapshotWish {
     std::string name, comment;
-    bool from_stored = false;  ///< of what was written through the gateway; else the drive is asked
+    bool from_stored = false;  ///< true: the values that were written through the gateway; false: the drive's
 };
 struct RestoreWish {
-    std::optional<std::set<std::string>> parameters;  ///< these alone
+    std::optional<std::set<std::string>> parameters;  ///< only these
     WriteBack include;
     bool dry_run = false;
 };
-/// A snapshot with the axis that it is of.
+/// A snapshot and its axis.
 struct KeptSnapshot {
     AxisPlace axis;
     AxisSnapshot snapshot;
 };
 struct TakenSnapshot : KeptSnapshot {
-    std::vector<std::string> left_out;  ///< too long, or no matter for a snapshot
+    std::vector<std::string> left_out;  ///< too long, or excluded from snapshots
     std::vector<JobFailure> not_read;
 };
 struct SnapshotDifference {
     struct Row {
         std::string parameter;
-        const Parameter* known_as = nullptr;  ///< by the catalogue of the snapshot's family; nothing: it has no such parameter
+        const Parameter* known_as = nullptr;  ///< by the catalogue of the snapshot's family; null: it has no such parameter
         Value snapshot, other;
     };
     std::string with;
     std::vector<Row> rows;
-    std::size_t not_known = 0;  ///< of the other side's
-    std::string text;           ///< what is missing there, for people
+    std::size_t not_known = 0;  ///< number of unknown values of the other side
+    std::string text;           ///< the missing values there, for people
 };
 struct SnapshotDcf {
     std::string file_name, text;
-    std::size_t left_out = 0;  ///< values that a DCF of this description cannot hold
+    std::size_t left_out = 0;  ///< number of values that a DCF of this description cannot contain
 };
 
-/// Two sets of parameters of different families do not fit: the same word is another parameter there. Unknown ("") fits all.
+/// Refuses two sets of parameters of different families, because the same id is another parameter there. An unknown family ("") fits all.
 [[nodiscard]] std::optional<ServiceRefusal> foreign(const AxisSnapshot& snapshot, std::string_view family, const std::string& what,
                                                     const std::string& axis);
-/// As numbers where both are.
+/// Compared as numbers if both are numbers.
 [[nodiscard]] bool equal_values(const Value& a, const Value& b);
 
-/// What a body asks for. Faults by their places; then what is returned means nothing.
+/// Reads a body. Faults have their places; if there are any, the returned value has no meaning.
 [[nodiscard]] SnapshotWish read_snapshot_wish(const boost::json::object& body, std::vector<Fault>& faults);
 [[nodiscard]] RestoreWish read_restore_wish(const boost::json::object& body, const AxisSnapshot& snapshot, std::vector<Fault>& faults);
 
 [[nodiscard]] boost::json::object document_of(const SnapshotInfo& info, const std::string& axis);
 [[nodiscard]] boost::json::object document_of(const SnapshotDifference& difference);
 
-/// A value: whoever has the ports and the jobs makes one.
+/// A value, made where the ports and the jobs are available.
 class Snapshots {
 public:
     using Needs = PortSet<AxisPort, ClockPort, DescriptionPort, EventPort, ParameterPort, SitePort, SnapshotPort>;
@@ -90,9 +89,9 @@ public:
     /// `with`: default, device, stored, snapshot:N, axis:NAME, axis:NAME:N.
     void compare(const std::string& axis, std::string_view number, const std::string& with, const Origin& origin,
                  std::function<void(Refusable<SnapshotDifference>)> then) const;
-    /// What restoring would write; a snapshot of another family is refused.
+    /// The writes of a restore; a snapshot of another family is refused.
     [[nodiscard]] Refusable<ParameterPlan> plan_restore(const KeptSnapshot& kept, const RestoreWish& wish) const;
-    /// Whether it may be restored to its axis at all: before its wish is read.
+    /// Checks whether it may be restored to its axis at all, before the request is read.
     [[nodiscard]] std::optional<ServiceRefusal> why_not_restored(const KeptSnapshot& kept) const;
     void restore(const KeptSnapshot& kept, ParameterPlan plan, const Origin& origin,
                  std::function<void(Refusable<WrittenParameters>)> then) const;
@@ -101,7 +100,7 @@ private:
     void keep(TakenSnapshot taken, const Origin& origin, std::function<void(Refusable<TakenSnapshot>)> then) const;
     void note(const SnapshotInfo& info, const std::string& axis, const Origin& origin, std::string_view what) const;
     [[nodiscard]] const Catalogue* catalogue_of(const KeptSnapshot& kept) const;
-    /// The other side of a comparison, as far as it is known without an exchange; nothing: the drive is to be asked.
+    /// The other side of a comparison, as far as it is known without an exchange; empty if the drive must be asked.
     [[nodiscard]] Refusable<std::optional<std::map<std::string, Value>>> other_side(const KeptSnapshot& kept,
                                                                                     const std::string& with) const;
     [[nodiscard]] Refusable<std::optional<std::map<std::string, Value>>> of_axis(const KeptSnapshot& kept, const std::string& with) const;
@@ -112,7 +111,7 @@ private:
     std::shared_ptr<AxisJobs> jobs_;
 };
 
-/// What is under way on an axis: the newest job. A state "none" where it never had one.
+/// The newest job of an axis; state "none" if it never had one.
 [[nodiscard]] Refusable<boost::json::object> job_progress(const SitePort& sites, const AxisJobs& jobs, const std::string& axis);
 
 }  // namespace axisgate

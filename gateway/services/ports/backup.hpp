@@ -1,6 +1,5 @@
-// Backup port: the whole gateway as one file: taken out, and laid down for the next start.
-// In: bytes of a backup, a passphrase. Out: bytes, or why not, by callbacks on the service thread.
-// Never replaces the database that is in use.
+// The whole gateway as one file: made for a download, and stored for the next start. Results come by callbacks on the service thread. The
+// database in use is never replaced.
 #pragma once
 
 #include <cstdint>
@@ -12,31 +11,31 @@
 
 namespace axisgate {
 
-/// What came of a backup that was asked for or sent. Faults of what was sent name no path.
+/// The outcome of a backup that was requested or sent. Faults of a sent backup name no path.
 struct BackupOutcome {
     std::string fault;     ///< empty: done
-    bool no_room = false;  ///< what was sent or asked for may be good: this machine could not keep or make it
-    std::string note;      ///< what of it is not taken; empty: nothing
+    bool no_room = false;  ///< the request may be good, but this machine could not store or make the backup
+    std::string note;      ///< the parts that are not restored; empty: none
 };
 
-/// A backup that was laid down and waits for the next start.
+/// A backup that is stored for the next start.
 struct WaitingBackup {
     std::int64_t at_unix_ns = 0;
-    std::string who;  ///< empty: not known
+    std::string who;  ///< empty: unknown
     std::uint64_t bytes = 0;
-    int version = 0;                  ///< of the database's structure; 0: not known
-    std::uint64_t site_revision = 0;  ///< in force in it; 0: none, or not known
+    int version = 0;                  ///< of the database's structure; 0: unknown
+    std::uint64_t site_revision = 0;  ///< the revision in force in it; 0: none, or unknown
 };
 
 class BackupPort {
 public:
     virtual ~BackupPort() = default;
-    /// A whole, checked copy, sealed if there is a passphrase, and then with private keys; or nothing and why.
+    /// Makes a complete, checked copy, sealed if there is a passphrase, and then with private keys; or an empty one with the reason.
     virtual void backup(std::string passphrase, std::function<void(std::optional<std::string> bytes, BackupOutcome)> then) = 0;
-    /// Checks a backup and lays it down to be taken at the next start. The passphrase counts for a sealed one alone.
+    /// Checks a backup and stores it for the next start. The passphrase applies only to a sealed one.
     virtual void restore(std::string bytes, std::string passphrase, Origin origin, std::function<void(BackupOutcome)> then) = 0;
     virtual void waiting_backup(std::function<void(std::optional<WaitingBackup>)> then) = 0;
-    /// Takes it away again: empty, or why not; nothing waits: "none".
+    /// Removes the stored backup; returns empty, or the reason why not; "none" if there is none.
     virtual void cancel_restore(Origin origin, std::function<void(std::string fault)> then) = 0;
 };
 

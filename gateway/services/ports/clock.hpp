@@ -1,5 +1,4 @@
-// Clock port: the wall clock of the gateway, and instants of pictures on it.
-// In: an instant. Out: nanoseconds since 1970. Never waits; a test's owner of it has its own time.
+// The wall clock of the gateway, and its relation to the instants of pictures. In tests its owner has a time of its own.
 #pragma once
 
 #include <cstdint>

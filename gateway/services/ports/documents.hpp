@@ -1,6 +1,5 @@
-// Document port: small named texts of services: recipes, reports of their runs, what is kept of alarms.
-// In: texts by kind and name. Out: them again; callbacks on the service thread when a change is on disk.
-// Never looks into a text.
+// Small named texts of services: recipes, reports of their runs, alarms. Callbacks come on the service thread when a change is on the disk.
+// The texts are not interpreted here.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ public:
     /// In order of name.
     [[nodiscard]] virtual std::vector<Document> documents(const std::string& kind) const = 0;
     [[nodiscard]] virtual std::optional<Document> document(const std::string& kind, const std::string& name) const = 0;
-    /// Answers when it is on disk; empty: good, else what is wrong.
+    /// Answers when the document is on the disk; empty if good, otherwise the fault.
     virtual void save_document(const std::string& kind, Document document, std::function<void(std::string)> then) = 0;
     virtual void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) = 0;
 };

@@ -1,6 +1,5 @@
-// Drive port: who serves a drive now, and the tester's hand of its twin.
-// In: drives, items of the hand. Out: the status at once; the hand by callbacks on the service thread.
-// Never touches a real drive.
+// The side that serves a drive now, and the tester's conditions of its twin. The status is returned at once, conditions by callbacks on the
+// service thread. A real drive is never reached.
 #pragma once
 
 #include <functional>
@@ -19,9 +18,9 @@ class DrivePort {
 public:
     virtual ~DrivePort() = default;
     [[nodiscard]] virtual DriveStatus drive_status(DriveId drive) const = 0;
-    /// The tester's hand of a twin; nothing if the drive is not simulated now.
+    /// The conditions of a twin; empty if the drive is not simulated now.
     virtual void hand(DriveId drive, std::function<void(std::optional<std::vector<HandItem>>)> then) = 0;
-    /// Sets several items, all or none; empty: good, else what is wrong.
+    /// Sets several conditions, all or none; empty if good, otherwise the fault.
     virtual void set_hand(DriveId drive, std::vector<std::pair<std::string, Value>> items, Origin origin,
                           std::function<void(std::string)> then) = 0;
 };

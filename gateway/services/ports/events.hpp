@@ -1,6 +1,5 @@
-// Event port: what happened: kept, found again, and sent to who listens.
-// In: events of services and doors, queries. Out: events with their numbers, on the service thread.
-// Bounded: an event that finds its way to the storage full is counted, and the gap is an event itself.
+// Events: stored, queried, and sent to listeners, on the service thread. Bounded: an event that finds the queue to the storage full is
+// counted, and the gap is itself an event.
 #pragma once
 
 #include <functional>
@@ -20,10 +19,10 @@ class EventPort {
 public:
     virtual ~EventPort() = default;
     [[nodiscard]] virtual std::vector<Event> events(const EventQuery& query) const = 0;
-    /// Calls `then` when events() tells of everything that has happened until now: what happened a moment ago may still be on its way to
-    /// the disk. At once if the gateway is too busy to say.
+    /// Calls `then` when events() includes everything until now, because the last events may still be on their way to the disk. At once if
+    /// the gateway is too busy to answer.
     virtual void events_settled(std::function<void()> then) { then(); }
-    /// Something that a door or a service wants to be kept and streamed; id and time are filled in.
+    /// Stores and streams an event of a door or a service; id and time are filled in.
     virtual void note(Event event) = 0;
     virtual void listen(EventListener* listener) = 0;
     virtual void unlisten(EventListener* listener) = 0;

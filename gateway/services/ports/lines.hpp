@@ -1,6 +1,5 @@
-// Line port: reports, recorded frames and searches of lines; where on this machine lines can be.
-// In: lines, wishes. Out: reports at once; what the hot thread has to answer, by callbacks on the service thread.
-// Bounded: a record holds so many frames; what is older is counted as missed.
+// Reports, recorded frames and scans of lines, and the ports of this machine. Reports are returned at once; answers of the hot thread come
+// by callbacks on the service thread. Bounded: older frames of a record are overwritten and counted as missed.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace axisgate {
 /// Frames of a line, in their order.
 struct Trace {
     std::vector<TraceEntry> entries;
-    std::uint64_t missed = 0;  ///< asked for, but already overwritten
+    std::uint64_t missed = 0;  ///< requested, but already overwritten
     std::uint64_t next = 0;    ///< `since` for the next call
 };
 
@@ -29,7 +28,7 @@ public:
     [[nodiscard]] virtual LineReport line_report(LineId line) const = 0;  ///< at most 200 ms old
     /// Frames with sequence >= since, at most `limit`.
     [[nodiscard]] virtual Trace trace(LineId line, std::uint64_t since, std::size_t limit) const = 0;
-    /// Looks for drives on a line; empty: it has begun, else why not.
+    /// Starts a search for drives on a line; empty if it has begun, otherwise the reason why not.
     virtual void start_scan(LineId line, ScanWish wish, Origin origin, std::function<void(std::string)> then) = 0;
     virtual void cancel_scan(LineId line, std::function<void(ScanReport)> then) = 0;
     virtual void scan_report(LineId line, std::function<void(ScanReport)> then) = 0;

@@ -1,6 +1,5 @@
-// Modbus port: the Modbus door's locks and clients, as other doors show and set them.
-// In: the lock that can be set while it runs. Out: a report, by callbacks on the service thread.
-// Never a way to registers: that is the register port.
+// The locks and clients of the Modbus door, for other doors. The report comes by a callback on the service thread. Registers are reached
+// through the register port.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +16,7 @@ struct ModbusConnection {
     std::string peer;
     std::uint64_t requests = 0, writes = 0, exceptions = 0;
     std::int64_t since_unix_ns = 0;
-    std::vector<std::string> holds;  ///< axes
+    std::vector<std::string> holds;  ///< names of axes
 };
 struct ModbusReport {
     std::string bind;
@@ -29,9 +28,9 @@ struct ModbusReport {
 class ModbusPort {
 public:
     virtual ~ModbusPort() = default;
-    /// Nothing: there is no Modbus door, or it is too busy to say.
+    /// Empty if there is no Modbus door, or if it is too busy to answer.
     virtual void modbus_report(std::function<void(std::optional<ModbusReport>)> then) = 0;
-    /// Empty: done and stored; else why not, and whether it was the database that could not keep it.
+    /// Empty if done and stored; otherwise the reason, and whether the database could not store it.
     virtual void set_modbus_read_only(bool on, Origin origin, std::function<void(std::string fault, bool not_stored)> then) = 0;
 };
 

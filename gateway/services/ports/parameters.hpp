@@ -1,6 +1,5 @@
-// Parameter port: what is known of parameters without asking a drive: the value that it reported last, and what was written and
-// acknowledged. In: axes, points. Out: values with their age; who listens is told of each value that a drive reports. Never asks a drive:
-// that is a command.
+// The known values of parameters: the last report of the drive, and acknowledged writes. Listeners get each value that a drive reports.
+// Drives are not asked; that is a command.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +12,7 @@
 namespace axisgate {
 
 struct SampleListener {
-    /// A drive has reported a parameter's value, asked for or not.
+    /// A drive has reported a parameter's value, with or without a request.
     virtual void on_sample(const Sample& sample) = 0;
     virtual ~SampleListener() = default;
 };
@@ -21,9 +20,9 @@ struct SampleListener {
 class ParameterPort {
 public:
     virtual ~ParameterPort() = default;
-    /// Last value that the drive reported, asked for or not.
+    /// The last value that the drive has reported.
     [[nodiscard]] virtual LiveParameter live(AxisId axis, Point point) const = 0;
-    /// Values written through the gateway and acknowledged, newest per parameter.
+    /// Values written through the gateway and acknowledged, the newest per parameter.
     [[nodiscard]] virtual std::vector<StoredParameter> stored(const std::string& axis) const = 0;
     [[nodiscard]] virtual std::vector<StoredParameter> history(const std::string& axis, const std::string& parameter,
                                                                std::size_t limit) const = 0;

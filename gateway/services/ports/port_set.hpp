@@ -1,5 +1,4 @@
-// Port set: some of the ports that one service or door uses, taken out of a larger set by their types.
-// In: owners, or a larger set. Out: each port by its type. Never owns one: the owners outlive it.
+// The ports that one service or door uses, taken from a larger set by their types. It owns none of them; the owners outlive it.
 #pragma once
 
 #include <concepts>

@@ -1,6 +1,6 @@
-// Recorder port: trends of axes, and recordings: what crossed the gateway lately, frozen into files.
-// In: wishes. Out: trends at once; what is on the disk, by callbacks on the service thread. Bounded: trends and the stretch that can be
-// frozen by bytes of memory, recordings by bytes of disk; what is full is said, and stops nothing else.
+// Trends of axes, and recordings: the recent traffic of the gateway, written to files. Trends are returned at once; contents of the disk
+// come by callbacks on the service thread. Bounds: trends and the recorded period by bytes of memory, recordings by bytes on the disk; a
+// full memory is reported and stops nothing else.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -19,22 +19,22 @@ namespace axisgate {
 struct RecordingInfo {
     std::string name, why, who, version;
     std::int64_t at_unix_ns = 0;
-    std::int64_t from_unix_ns = 0, to_unix_ns = 0;  ///< the stretch that it shows
+    std::int64_t from_unix_ns = 0, to_unix_ns = 0;  ///< the period that it shows
     std::uint64_t bytes = 0;
     bool automatic = false;
-    std::string not_replayable;  ///< why not; empty: it can be replayed
-    std::string fault;           ///< the file is not to be trusted, and why; then all but name and bytes are empty
+    std::string not_replayable;  ///< the reason why not; empty: it can be replayed
+    std::string fault;           ///< the reason why the file is not usable; then all members but name and bytes are empty
 };
 
 struct RecorderState {
     std::uint64_t lost = 0;              ///< records that found the hot thread's ring full, since the start
-    std::uint64_t bytes = 0, bound = 0;  ///< of memory, of the stretch that can be frozen
-    std::optional<Instant> from;         ///< where it begins
-    std::string not_replayable;          ///< as RecordingInfo
+    std::uint64_t bytes = 0, bound = 0;  ///< memory of the period that can be written
+    std::optional<Instant> from;         ///< its begin
+    std::string not_replayable;          ///< as in RecordingInfo
     std::uint64_t trend_bytes = 0, trend_bound = 0;
     double trend_minutes = 0;
     std::uint64_t disk_bytes = 0, disk_bound = 0;
-    std::string disk_fault;  ///< why the last recording could not be written; empty: it could
+    std::string disk_fault;  ///< the reason why the last recording could not be written; empty: it could
 };
 
 struct RecordingFault {
@@ -48,12 +48,12 @@ public:
     [[nodiscard]] virtual TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) = 0;
     [[nodiscard]] virtual RecorderState recorder_state() = 0;
     [[nodiscard]] virtual std::vector<RecordingInfo> recordings() const = 0;  ///< newest first
-    /// The stretch up to now becomes a file.
+    /// Writes the period up to now to a file.
     virtual void freeze(std::string name, std::string why, std::string who, std::function<void(RecordingFault, RecordingInfo)> then) = 0;
-    /// Every record of the stretch from an instant on, in order, on a thread of the recorder's own; then `then`, on the service thread.
+    /// Reads every record of the period from an instant on, in order, on a thread of the recorder; then calls `then` on the service thread.
     virtual void read_stretch(Instant from, std::function<void(const FlightRecord&)> each, std::function<void()> then) = 0;
     virtual void load_recording(const std::string& name, std::function<void(std::optional<std::string>)> then) = 0;
-    /// What it shows of an instant, as a document (playback.hpp).
+    /// The state that it shows at an instant, as a document (playback.hpp).
     virtual void play_back(const std::string& name, PlaybackWish wish, std::function<void(RecordingFault, boost::json::object)> then) = 0;
     virtual void rename_recording(const std::string& name, const std::string& to, std::function<void(RecordingFault)> then) = 0;
     virtual void remove_recording(const std::string& name, std::function<void(RecordingFault)> then) = 0;

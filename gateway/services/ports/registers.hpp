@@ -1,6 +1,5 @@
-// Register port: the register image as a client of a register door would read it now.
-// In: unit, table, address, count. Out: bytes or a refusal, by a callback on the service thread.
-// Never writes a register.
+// The register image, as a client of a register door would read it now. The answer comes by a callback on the service thread. No register
+// is written.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@ namespace axisgate {
 class RegisterPort {
 public:
     virtual ~RegisterPort() = default;
-    /// `then`: nothing if too much is asked at once.
+    /// `then` gets an empty value if too much is requested at once.
     virtual void read_registers(std::uint8_t unit, registers::Table table, std::uint16_t address, std::uint16_t count,
                                 std::function<void(std::optional<registers::RegisterRead>)> then) = 0;
 };

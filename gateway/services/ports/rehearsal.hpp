@@ -1,6 +1,5 @@
-// Rehearsal port: plays one loss of command on models of the site, beside the gateway that runs.
-// In: a site, an axis, a cause, what else shall happen. Out: the cell, by a callback on the service thread, after up to a second. One at a
-// time. Never touches a drive or a twin of the gateway itself.
+// Plays one loss of command on models of the site, beside the running gateway. The cell comes by a callback on the service thread, after up
+// to a second; one at a time. Drives and twins of the gateway itself are not involved.
 #pragma once
 
 #include <functional>
@@ -15,9 +14,9 @@ namespace axisgate {
 class RehearsalPort {
 public:
     virtual ~RehearsalPort() = default;
-    /// The gateway's own times are put into the wish.
+    /// The gateway's own times are put into the request.
     virtual void rehearse(std::shared_ptr<const SiteState> site, RehearsalWish wish, std::function<void(RehearsalCell)> then) = 0;
-    /// [modbus] watchdog_ms: where an axis does not say it.
+    /// [modbus] watchdog_ms, for axes without a value of their own.
     [[nodiscard]] virtual Duration watchdog() const = 0;
 };
 

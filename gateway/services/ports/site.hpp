@@ -1,6 +1,5 @@
-// Site port: the site in force, the families that it may name, its change and its history.
-// In: checked sites. Out: what became of them, by callbacks on the service thread; who listens is told of each site that comes into force.
-// Never waits for longer than a local read of the database.
+// The site in force, the families that it may name, its changes and its history. Results come by callbacks on the service thread; listeners
+// get each site that comes into force. Calls wait for local reads of the database at most.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +17,17 @@
 namespace axisgate {
 
 struct SiteListener {
-    /// The site has changed: names and ids must be looked up anew.
+    /// The site has changed: names and ids must be looked up again.
     virtual void on_site(const std::shared_ptr<const SiteState>& site) = 0;
     virtual ~SiteListener() = default;
 };
 
-/// What became of a site that was to be put in force.
+/// The outcome of an attempt to put a site in force.
 struct SiteAnswer {
     bool good = false;
-    std::string fault;                     ///< why it could not be stored or applied
-    std::shared_ptr<const SiteState> now;  ///< the site in force after it
-    bool not_stored = false;               ///< the database could not keep it
+    std::string fault;                     ///< the reason why it could not be stored or applied
+    std::shared_ptr<const SiteState> now;  ///< the site in force afterwards
+    bool not_stored = false;               ///< the database could not store it
 };
 
 class SitePort {
@@ -36,10 +35,10 @@ public:
     virtual ~SitePort() = default;
     [[nodiscard]] virtual std::shared_ptr<const SiteState> site() const = 0;
     [[nodiscard]] virtual const Families& families() const = 0;
-    /// Puts a checked site in force: stored first, then applied without a restart; only what changed is disturbed.
-    /// `expected_revision`: refuse if the site is another by now (0: do not care).
+    /// Puts a checked site in force: stored first, then applied without a restart; only changed parts are disturbed. `expected_revision`:
+    /// refuse if the site has another revision by now (0: any).
     virtual void apply_site(Site site, std::uint64_t expected_revision, Origin origin, std::function<void(SiteAnswer)> then) = 0;
-    /// Newest first, without the documents, at most `limit`; with `before` those of smaller numbers.
+    /// Newest first, without the documents, at most `limit`; with `before` only smaller numbers.
     [[nodiscard]] virtual std::vector<SiteRevision> site_history(std::size_t limit, std::uint64_t before) const = 0;
     [[nodiscard]] virtual std::optional<SiteRevision> site_revision(std::uint64_t revision) const = 0;
     virtual void listen(SiteListener* listener) = 0;

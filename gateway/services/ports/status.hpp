@@ -1,5 +1,4 @@
-// Status port: the program as a whole: its open doors, how long it runs, whether it is ready, its metrics.
-// In: nothing. Out: texts and addresses. Service thread only; never waits.
+// The program as a whole: open doors, running time, readiness, metrics. Service thread only; never waits.
 #pragma once
 
 #include <string>
@@ -18,11 +17,11 @@ public:
     virtual ~StatusPort() = default;
     [[nodiscard]] virtual std::vector<DoorInfo> doors() const = 0;
     [[nodiscard]] virtual double uptime_s() const = 0;
-    /// Not ready: what is missing, one sentence each; empty: ready.
+    /// If not ready: the reasons, one sentence each; empty: ready.
     [[nodiscard]] virtual std::vector<std::string> not_ready() const = 0;
-    /// Prometheus text of everything but the asking door's own counters.
+    /// Prometheus text of everything except the asking door's own counters.
     [[nodiscard]] virtual std::string metrics() const = 0;
-    /// The electronic data sheet by which EtherNet/IP tools know this gateway, as the site in force makes it; empty: that door is shut.
+    /// The electronic data sheet of this gateway for EtherNet/IP tools, made from the site in force; empty if that door is closed.
     [[nodiscard]] virtual std::string eds() const = 0;
 };
 

@@ -1,5 +1,4 @@
-// Recipe: what steps and conditions mean; reading a document is in recipe_read.cpp.
-// In: steps, conditions, values. Out: their words, and whether they hold.
+// The texts of steps and conditions, and the evaluation of conditions. recipe_read.cpp reads the document.
 #include "gateway/services/recipes/recipe.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Recipe arguments: each parameter by its type, then texts with their arguments put in.
-// In: JSON. Out: JSON, faults.
+// Checks each parameter by its type, then replaces its name in texts by the argument.
 #include "gateway/services/recipes/recipe_arguments.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Recipe arguments: what stands for "${name}" in one reading of a recipe's document.
-// In: the document's parameters, the arguments of a run. Out: values with the arguments put in; faults with their places.
+// The values for "${name}" in one reading of a recipe's document; faults have their places.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -12,12 +11,12 @@
 
 namespace axisgate {
 
-/// The faults of one document; more than 100 are not told.
+/// The faults of one document; at most 100 are listed.
 class RecipeFaults {
 public:
     explicit RecipeFaults(std::vector<SiteFault>& faults) : faults_(faults) {}
     void fault(std::string pointer, std::string text, std::string remedy);
-    /// Members that are not in the list `known`, which has blanks around each word.
+    /// Reports members that are not in the list `known`, which has blanks around each word.
     void unknown(const boost::json::object& o, std::string_view known, const std::string& at);
 
 protected:
@@ -27,9 +26,9 @@ protected:
 class RecipeArguments : public RecipeFaults {
 public:
     using RecipeFaults::RecipeFaults;
-    /// `arguments`: nullptr: every parameter's default, or a value of its type.
+    /// `arguments` is nullptr: every parameter's default, or a value of its type.
     void read_arguments(const boost::json::object& document, const boost::json::object* arguments);
-    /// The value with every "${name}" in it replaced; a text that is nothing else takes the argument's own type.
+    /// The value with every "${name}" in it replaced; a text that consists only of it gets the argument's own type.
     [[nodiscard]] boost::json::value put_in(const boost::json::value& v, const std::string& at, std::size_t depth = 0);
 
 private:

@@ -1,6 +1,5 @@
-// Recipe claims: read from the ticket that the axis' picture names as its motion, and from who holds the axis now.
-// In: commands, results, pictures. Out: whose a motion is.
-// Never claims a motion that went on under another command beside a run's action.
+// The owner of a motion is found by the ticket in the axis' picture and by the holder of the axis. A motion that another command had
+// started before a run's action is not claimed.
 #include "gateway/services/recipes/recipe_claims.hpp"
 
 #include <fmt/core.h>
@@ -17,12 +16,12 @@ using Whose = RecipeWorld::Claim::Whose;
 
 bool has(const std::vector<Ticket>& list, Ticket t) { return std::ranges::find(list, t) != list.end(); }
 
-/// Somebody else who holds the axis at this moment; empty: nobody else does.
+/// Another client that holds the axis at this moment; empty: none.
 std::string other_holder(const AxisPicture& p, const Origin& run, const ClockPort& clock) {
     const std::string_view holder = p.authority_holder.data();
     if (holder.empty() || clock.to_unix_ns(p.authority_until) <= clock.now_unix_ns()) return {};
     const auto me = AuthorityClient::of(run);
-    // Handed over to a user by name, any client of that user may command.
+    // After a hand-over to a user by name, any client of that user may command.
     const bool mine = p.authority == me.door && (me.name == holder || me.name.starts_with(std::string(holder) + " "));
     return mine ? std::string() : fmt::format("{} {}", name_of(p.authority), holder);
 }
@@ -45,7 +44,7 @@ void RecipeClaims::sent(const std::string& axis, Ticket ticket) {
 Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, const Result& r, const AxisPicture& now) {
     Claim& c = claims_[step.axis];
     c.waiting = false;
-    if (r.outcome == Outcome::refused) {  // nothing has reached the drive, or it said no: whose motion it is has not changed
+    if (r.outcome == Outcome::refused) {  // nothing reached the drive, or the drive refused: the owner of its motion has not changed
         std::erase(c.own, r.ticket);
         return Motion::by_result;
     }
@@ -60,7 +59,8 @@ Motion RecipeClaims::answered(const RecipeStep& step, const CommandBody& body, c
         return interrupted ? Motion::interrupted : Motion::unknown;
     }
     if (std::holds_alternative<Action>(body)) {
-        // What an action does is the family's; an axis that moved already by another command goes on as before, for all that is known.
+        // The effect of an action is known only to its family. An axis that another command was moving already is assumed to continue as
+        // before.
         if (c.moved_before && !has(c.own, c.waiting_before)) return Motion::nothing;
         take(false);
         return Motion::by_result;

@@ -1,5 +1,4 @@
-// Recipe documents: changes wait for their turn, so that the state that was meant still holds when it is written.
-// In: documents. Out: the document port's answers. Keeps nothing.
+// Changes wait for their turn, so that the state to which a request refers is still present when it is written.
 #include "gateway/services/recipes/recipe_documents.hpp"
 
 #include <fmt/core.h>
@@ -89,7 +88,7 @@ Refusable<json::object> RecipeDocuments::check(const std::string& name, json::ob
     return document;
 }
 
-/// What is there now is told, if it is not what was meant.
+/// Refuses, with the present document, if the request refers to another one.
 std::optional<ServiceRefusal> RecipeDocuments::refuse_other(const std::string& name, const std::optional<Document>& now,
                                                             const MeantState& meant) const {
     const auto kept = now ? parsed_recipe(*now) : std::nullopt;

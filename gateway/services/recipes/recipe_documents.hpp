@@ -1,6 +1,4 @@
-// Recipe documents: recipes as they are kept: listed, shown, put, removed, checked before a run.
-// In: documents, which state is meant, who wants it. Out: documents with their tags, refusals, an event for each change.
-// Never runs a recipe: that is the recipe service's.
+// The stored recipes: listed, shown, changed, removed, checked before a run, with an event for each change. RecipeService runs them.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -20,16 +18,16 @@ struct KeptRecipe {
     Document kept;
     boost::json::object document;
     [[nodiscard]] std::string tag() const;
-    /// With its name, and by whom it was changed when.
+    /// With its name, and the client and time of its last change.
     [[nodiscard]] boost::json::object shown() const;
 };
 struct CheckedRun {
     Recipe recipe;
-    boost::json::object arguments;  ///< whole: with those that were left out
+    boost::json::object arguments;  ///< complete, with defaults for those that were left out
     bool dry_run = false;
 };
 
-/// A value: whoever has the ports and the recipe service makes one.
+/// A value, made where the ports and the recipe service are available.
 class RecipeDocuments {
 public:
     using Needs = PortSet<AxisPort, ClockPort, DocumentPort, EventPort, SitePort>;
@@ -38,21 +36,21 @@ public:
     [[nodiscard]] boost::json::array list() const;
     [[nodiscard]] Refusable<KeptRecipe> find(const std::string& name) const;
 
-    /// What is to be put, checked by itself and against the site in force; `bytes`: of the document as it came.
+    /// Checks a document by itself and against the site in force; `bytes` is its size as received.
     [[nodiscard]] Refusable<boost::json::object> check(const std::string& name, boost::json::object document, std::size_t bytes) const;
-    /// How many steps a checked document has, if it could be put now.
+    /// Number of steps of a checked document, if it could be stored now.
     [[nodiscard]] Refusable<std::size_t> try_put(const std::string& name, const boost::json::object& document,
                                                  const MeantState& meant) const;
     struct Put {
         KeptRecipe recipe;
         bool created = false;
     };
-    /// Each `then` is called once, perhaps at once; `thrown`: the change threw.
+    /// Each `then` is called once, perhaps at once; `thrown` is called if the change threw.
     void put(const std::string& name, boost::json::object document, MeantState meant, const Origin& origin,
              std::function<void(Refusable<Put>)> then, ChangeQueue::Failed thrown) const;
     void remove(const std::string& name, MeantState meant, const Origin& origin, std::function<void(std::optional<ServiceRefusal>)> then,
                 ChangeQueue::Failed thrown) const;
-    /// A recipe with the arguments of a body, against the site and the drives as they are.
+    /// Checks a recipe with the arguments of a body against the present site and drives.
     [[nodiscard]] Refusable<CheckedRun> check_run(const std::string& name, const boost::json::object& body) const;
 
 private:

@@ -1,6 +1,5 @@
-// Recipe labels: what people call a step: "Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000".
-// In: a step, and its members once, when it is read. Out: one line of bounded length. Never a value that has to be kept secret: a recipe
-// holds none.
+// Makes the label of a step, such as "Step 4.3 (pass 2 of 5): set_parameter AC of feeder = 20000", as one line of bounded length. A recipe
+// contains no secrets.
 #include "gateway/services/recipes/recipe_label.hpp"
 
 #include <fmt/core.h>
@@ -37,7 +36,7 @@ std::string number_of(std::string_view pointer) {
     return out;
 }
 
-/// Members that stand in the body beside those that the line has named already.
+/// Members of the body that are not in the line yet.
 std::string others(const json::object& body, std::string_view named) {
     std::string out;
     for (const auto& [k, v] : body) {
@@ -89,14 +88,14 @@ std::string plain_text(const json::value& v) {
 
 std::string step_text(const RecipeStep& step, const json::object& body) {
     std::string what = what_of(step, body);
-    if (what.size() > most_recipe_label_bytes) what.resize(most_recipe_label_bytes);  // the label, which is longer, is cut before that
+    if (what.size() > most_recipe_label_bytes) what.resize(most_recipe_label_bytes);  // the label is longer and is cut before this length
     return what;
 }
 
 std::string label_of(const RecipeStep& step, std::string_view pass) {
     std::string out = fmt::format("Step {}{}: {}", number_of(step.pointer), pass.empty() ? "" : fmt::format(" (pass {})", pass), step.what);
     if (out.size() <= most_recipe_label_bytes) return out;
-    std::size_t n = most_recipe_label_bytes - 3;  // not in the middle of a letter of several bytes
+    std::size_t n = most_recipe_label_bytes - 3;  // cuts before a character of several bytes, never inside it
     while (n > 0 && (static_cast<unsigned char>(out[n]) & 0xC0u) == 0x80u)
         --n;
     return out.substr(0, n) + "...";

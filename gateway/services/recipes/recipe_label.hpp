@@ -1,5 +1,4 @@
-// Recipe label: what people call a step, made of its members while the document is read.
-// In: JSON with its arguments put in. Out: texts.
+// Makes the label of a step from its members while the document is read.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -10,9 +9,9 @@
 
 namespace axisgate {
 
-/// A value as people write it: texts without quotes, numbers as plain decimals (JSON's own writer has 2.5 as 2.5E0), null as null.
+/// A value as people write it: texts without quotes, numbers as plain decimals (JSON's own writer makes 2.5E0 of 2.5), null as null.
 [[nodiscard]] std::string plain_text(const boost::json::value& value);
-/// What people read of a step behind its number; `body`: the members under its word. It is kept in the step, at most as long as a label.
+/// The text of a step behind its number; `body` contains the members under its word. It is stored in the step, at most as long as a label.
 [[nodiscard]] std::string step_text(const RecipeStep& step, const boost::json::object& body);
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Recipe point: what the table says, but for the age and the axis' number, which no picture has.
-// In: rows and pictures. Out: values that keep no reference to the picture.
+// Reads the value by the table, except for the age and the axis' number, which are not in the picture. The value keeps no reference to the
+// picture.
 #include "gateway/services/recipes/recipe_point.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Value recipe_point(const AxisPointRow& row, const AxisPicture& p, const AxisSpec
     const bool answers = p.ever_seen && (p.flags & flag_stale) == 0 && (p.flags & flag_online) != 0;
     if (row.recipe == PointInRecipe::no || (row.recipe == PointInRecipe::while_answering && !answers)) return {};
     if (row.name == age) return age_ms;
-    if (row.name == axis_number) return std::int64_t{spec.number};  // as the site has it: a picture may not have been made yet
+    if (row.name == axis_number) return std::int64_t{spec.number};  // from the site, because there may be no picture yet
     const PointValue v = said(row, p, spec.increments_per_unit);
     if (const auto* b = std::get_if<bool>(&v)) return *b;
     if (const auto* i = std::get_if<std::int64_t>(&v)) return *i;

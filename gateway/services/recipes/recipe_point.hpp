@@ -1,5 +1,5 @@
-// Recipe point: the one value that a condition of a recipe looks at, by its row of the table of points.
-// In: a row, a picture. Out: a value, as the axis' document shows it. Never makes a document: a wait looks each 20 ms.
+// Reads the one value that a condition of a recipe names, by its row of the table of points, as the axis' document shows it. No document is
+// made, because a wait reads every 20 ms.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace axisgate {
 
-/// Unknown: it is no point of recipes, or not known now. What is said of an axis that does not answer, or was said too long ago, is not
-/// known to a recipe. `age_ms`: of the picture.
+/// Unknown if the row is not a point of recipes, or its value is not known now. For a recipe, values of an axis that does not answer, or
+/// that are too old, are unknown. `age_ms` is that of the picture.
 [[nodiscard]] Value recipe_point(const AxisPointRow& row, const AxisPicture& picture, const AxisSpec& spec, std::int64_t age_ms);
 
 }  // namespace axisgate

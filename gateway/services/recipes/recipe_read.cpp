@@ -1,5 +1,4 @@
-// Reading a recipe: the document and the arguments of a run become steps, or faults with their places.
-// In: JSON. Out: steps, or faults, all at once. Never asks a drive.
+// Makes steps of the document and the arguments of a run, or reports all faults together with their places.
 #include "gateway/services/recipes/recipe_read.hpp"
 
 #include <fmt/core.h>
@@ -29,7 +28,7 @@ constexpr double default_wait_s = 10, default_home_s = 120, default_timeout_s = 
 
 Duration seconds_of(double s) { return Duration{static_cast<std::int64_t>(std::llround(s * 1e9))}; }
 
-/// The same words stand under a field of a form, where nobody writes quotes: they say what such a text looks like.
+/// The same text is shown below a field of a form, where nobody writes quotes, so it shows an example of the value.
 std::string example(std::string_view key) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 6> examples{{{"axis", "feeder"},
                                                                                      {"parameter", "AC"},
@@ -179,7 +178,7 @@ public:
         return s;
     }
 
-    /// What stands under the step's word.
+    /// Reads the members under the step's word.
     void body(RecipeStep& s, const json::value& member, const std::string& in, std::string_view members, std::size_t depth) {
         if (s.kind == Kind::wait || s.kind == Kind::message) {
             const json::object wrapped{{"value", put_in(member, in)}};

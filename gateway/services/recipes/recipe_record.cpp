@@ -1,5 +1,5 @@
-// Recipe record: each command becomes the step that sends it again; times between them become waits where they matter.
-// In: records. Out: steps that read_recipe takes. Never a number that would become another count when the step is run.
+// Each command becomes the step that sends it again; times between commands become waits if they matter. Numbers are written such that the
+// step sends the same count.
 #include "gateway/services/recipes/recipe_record.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +17,7 @@ namespace {
 namespace json = boost::json;
 namespace reg = registers::reg;
 
-/// The shortest decimal that means the same count.
+/// The shortest decimal that gives the same count.
 double in_units(std::int64_t counts, double per_unit) {
     const double exact = static_cast<double>(counts) / per_unit;
     for (int digits = 6; digits < 17; ++digits) {
@@ -33,9 +33,9 @@ json::value number_or_count(double d) {
 double length_s(Duration d) { return std::chrono::duration<double>(d).count(); }
 double tenths(Duration d) { return std::round(length_s(d) * 10) / 10; }
 json::object wait_step(Duration d) { return {{"wait_s", number_or_count(tenths(std::min(d, RecipeRecord::longest_pause)))}}; }
-/// "modbus 192.0.2.7", of what did not come by the page or the API; empty: it did.
+/// "modbus 192.0.2.7" for commands that came neither from the page nor from the API; otherwise empty.
 std::string comment_of(const Origin& o) { return o.door == Door::http ? std::string() : o.text(); }
-/// Steps of a recipe carry its name; what the gateway does of its own accord has no client.
+/// Steps of a recipe carry its name; actions of the gateway itself have no client.
 bool by_hand(const Origin& o) {
     if (o.door == Door::none || o.door == Door::internal) return false;
     return !o.who || !(o.who->starts_with("recipe ") && o.who->find(" by ") != std::string::npos);
@@ -190,7 +190,7 @@ void RecipeRecord::move(const Move& m, std::size_t axis, const Command& c, Insta
     }
 }
 
-/// Registers of the standard map; what a panel writes again and again without a change is written once.
+/// Registers of the standard map; a panel's repetitions without a change become one step.
 void RecipeRecord::set_points(const ProcessData& d, std::size_t axis, const Command& c, Instant at) {
     const AxisSpec& spec = axes_[axis].spec();
     if (spec.number < 1) return leave_out(fmt::format("{}: set-points of an axis without a number have no registers", spec.name));
@@ -235,7 +235,7 @@ void RecipeRecord::action(const Action& a, std::size_t axis, const Command& c, I
 void RecipeRecord::hand(const FlightRecord& r) {
     const auto h = unpack<HandRecord>(r.payload);
     if (!h || !by_hand(h->origin)) return;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {  // the first of its axes stands for the drive
+    for (std::size_t i = 0; i < axes_.size(); ++i) {  // the first of its axes represents the drive
         const auto& site = *axes_[i].site;
         const auto drive = index_of_name(site.site.drives, axes_[i].spec().drive);
         if (!drive || *drive >= site.drive_ids.size() || site.drive_ids[*drive] != DriveId{r.index}) continue;
@@ -262,7 +262,7 @@ json::object RecipeRecord::document() const {
         json::object body = d.body;
         if (d.after == After::motion) {
             const bool ended = d.stood ? *d.stood <= next : !d.seen_moving && pause > unseen_motion;
-            if (ended || last) {  // the last one is waited for, ended or not: a recipe ends when its axes stand
+            if (ended || last) {  // the last motion is always awaited, because a recipe ends when its axes stand
                 const double took = length_s((d.stood ? *d.stood : next) - d.at);
                 if (d.word != "home") body["wait_s"] = static_cast<std::int64_t>(std::clamp(std::ceil(3 * took), 10.0, 3600.0));
                 pause = {};

@@ -1,7 +1,5 @@
-// Recipe record: what people and panels did to axes, as steps of a recipe that does the same.
-// In: records of the recorder, in their order: commands with their results, simulated conditions, pictures. Out: steps, and what is none.
-// Bounds: 500 steps, 50 sentences of what is left out. Never takes a recipe's own steps, what the gateway did by itself, or what was
-// refused.
+// Makes steps of a recipe from the recorded commands of people and panels. Steps of recipes, actions of the gateway itself and refused
+// commands are left out. Bounds: 500 steps, 50 sentences about omissions.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -19,21 +17,21 @@ namespace axisgate {
 class RecipeRecord {
 public:
     static constexpr std::size_t most_left_out = 50;
-    static constexpr Duration shortest_pause = std::chrono::milliseconds(100);  ///< a shorter one is no step
-    static constexpr Duration longest_pause = std::chrono::hours(1);            ///< a longer one is cut
-    /// A motion that was never seen moving has ended by then.
+    static constexpr Duration shortest_pause = std::chrono::milliseconds(100);  ///< a shorter pause is no step
+    static constexpr Duration longest_pause = std::chrono::hours(1);            ///< a longer pause is cut
+    /// A motion that was never seen moving has ended after this time.
     static constexpr Duration unseen_motion = std::chrono::milliseconds(500);
 
-    /// `axes`: of one site, which is kept. Records after `to` only tell how what came before ended.
+    /// `axes` belong to one site, which is kept alive. Records after `to` only show how earlier motions ended.
     RecipeRecord(std::vector<AxisPlace> axes, Instant from, Instant to);
     void take(const FlightRecord& record);
     /// {"steps": [...], "left_out": [...]}
     [[nodiscard]] boost::json::object document() const;
 
 private:
-    /// What follows a step before the next one.
+    /// The wait after a step.
     enum class After : std::uint8_t {
-        nothing,  ///< the step waits by itself, or acts at once
+        nothing,  ///< none: the step waits by itself, or acts at once
         motion,   ///< until the axis stands, if it did
         pause     ///< the time that passed
     };
@@ -62,7 +60,7 @@ private:
     std::vector<AxisPlace> axes_;
     Instant from_, to_;
     std::vector<Draft> drafts_;
-    std::map<std::pair<std::size_t, std::uint16_t>, std::int64_t> registers_;  ///< what set-point registers of axes hold
+    std::map<std::pair<std::size_t, std::uint16_t>, std::int64_t> registers_;  ///< contents of the axes' set-point registers
     std::vector<std::string> left_out_;
     bool full_ = false;
 };

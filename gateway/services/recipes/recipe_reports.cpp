@@ -1,6 +1,6 @@
-// Recipe reports: a run under way is one document per recipe of a kind of its own, so that a start finds it without reading all.
-// In: reports. Out: documents of at most 1,000,000 bytes: a larger report loses the ends of its texts, then all of them.
-// Never orders the removal of a run's mark before its report: whatever ends the program between the two leaves both.
+// A running run is one document per recipe of a separate kind, so that a start finds it without reading all reports. Documents have at most
+// 1,000,000 bytes; a larger report loses the ends of its texts, then all texts. The mark of a run is removed only after its report was
+// ordered, so that a crash in between leaves both.
 #include "gateway/services/recipes/recipe_reports.hpp"
 
 #include <fmt/core.h>
@@ -14,10 +14,10 @@ namespace axisgate {
 namespace json = boost::json;
 namespace {
 const std::string under_way = "recipe_run_under_way";
-constexpr std::size_t most_bytes = 1'000'000;  // the store takes 1 MiB
+constexpr std::size_t most_bytes = 1'000'000;  // the store accepts 1 MiB
 
 std::string kind_of(std::string_view recipe) { return fmt::format("recipe_run {}", recipe); }
-/// So that the order of names is the order of numbers.
+/// With leading zeros, so that the order of names is that of the numbers.
 std::string name_of(std::uint64_t n) { return fmt::format("{:010}", n); }
 std::uint64_t number_in(std::string_view name) { return static_cast<std::uint64_t>(parse_whole(name, 1, 9'999'999'999).value_or(0)); }
 
@@ -32,7 +32,7 @@ std::uint64_t number_of(const json::object& report) {
     return n && n->is_number() ? static_cast<std::uint64_t>(n->to_number<double>()) : 0;
 }
 
-/// Texts of steps may be long, and there may be many: a report that is too large loses the ends of those, then all of them.
+/// Texts of steps may be long and many: a report that is too large loses their ends, then all of them.
 std::string text_of(json::object report) {
     std::string text = json_text(report);
     for (const std::size_t most : {256u, 0u}) {
@@ -55,7 +55,7 @@ void RecipeReports::begin() {
     for (const auto& d : documents_.documents(under_way)) {
         auto report = parsed(d.text);
         const auto n = report ? number_of(*report) : 0;
-        if (n == 0 || documents_.document(kind_of(d.name), name_of(n))) {  // it had ended, and its report was kept
+        if (n == 0 || documents_.document(kind_of(d.name), name_of(n))) {  // the run had ended, and its report was stored
             documents_.delete_document(under_way, d.name, [](const std::string&) {});
             continue;
         }
@@ -113,7 +113,7 @@ bool RecipeReports::too_old(const std::string& name, std::uint64_t n) const {
 }
 
 void RecipeReports::keep(const std::string& name, const std::string& who, const json::object& report) {
-    // What cannot be stored now may be with the next; the end is the one that says so.
+    // A report that cannot be stored now may be stored with the next one; an error is reported at the end of the run.
     documents_.save_document(under_way, {name, text_of(report), who, clock_.now_unix_ns()}, [](const std::string&) {});
 }
 
@@ -123,13 +123,12 @@ void RecipeReports::end(const std::string& name, std::uint64_t n, const std::str
     documents_.save_document(kind_of(name), std::move(d), [self = weak_from_this(), name, n](const std::string& fault) {
         if (const auto me = self.lock()) me->saved(name, n, fault);
     });
-    // Behind it, in the same order on the disk: whatever ends the program between the two leaves both, and the next start knows which
-    // counts.
+    // It follows in the same order on the disk: a crash between the two leaves both, and the next start knows which one counts.
     documents_.delete_document(under_way, name, [](const std::string&) {});
 }
 
 void RecipeReports::saved(const std::string& name, std::uint64_t n, const std::string& fault) {
-    unsaved_.erase({name, n});  // what cannot be stored is not kept in memory either: the event has said how it ended
+    unsaved_.erase({name, n});  // a report that cannot be stored is not kept in memory either; the event has reported the end of the run
     if (fault.empty()) return;
     Event e;
     e.severity = Severity::warning;
@@ -165,7 +164,7 @@ void RecipeReports::remove(const std::string& name, std::uint64_t n) {
 void RecipeReports::forget(const std::string& name) {
     std::erase_if(unsaved_, [&](const auto& u) {
         if (u.first.first != name) return false;
-        remove(name, u.first.second);  // it is on its way to the disk: what comes after it takes it away again
+        remove(name, u.first.second);  // it is on its way to the disk, and the following deletion removes it again
         return true;
     });
     for (const auto& d : documents_.documents(kind_of(name)))

@@ -1,7 +1,6 @@
-// Recipe reports: what is kept of the runs of recipes: numbers that count up, the reports of the last 20 runs, and those that a restart
-// ended. In: reports of runs that begin, go on and end. Out: documents of the gateway; reports as they were kept. Bounds: 20 reports of
-// each recipe; 64 ended ones on their way to the disk; one document of less than 1 MiB each. Never waits for the disk: what is not there
-// yet is answered from memory.
+// The stored reports of the runs of recipes: increasing numbers, the reports of the last 20 runs, and runs that a restart has ended.
+// Bounds: 20 reports of each recipe; 64 finished ones on their way to the disk; one document of less than 1 MiB each. Reports that are not
+// on the disk yet are answered from memory.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -21,27 +20,27 @@ namespace axisgate {
 
 class RecipeReports : public std::enable_shared_from_this<RecipeReports> {
 public:
-    static constexpr std::size_t kept = 20;  ///< of each recipe, with the run in progress
+    static constexpr std::size_t kept = 20;  ///< of each recipe, including the run in progress
     static constexpr std::size_t most_unsaved = 64;
 
     using Needs = PortSet<ClockPort, DocumentPort, EventPort>;
     explicit RecipeReports(const Needs& ports)
         : clock_(ports.get<ClockPort>()), documents_(ports.get<DocumentPort>()), events_(ports.get<EventPort>()) {}
 
-    /// Once, at the start: runs that were under way when the gateway ended are reported as interrupted.
+    /// Once at the start: reports runs that were in progress when the gateway ended as interrupted.
     void begin();
-    /// The number of the next run; the oldest reports make room for it.
+    /// The number of the next run; the oldest reports are deleted for it.
     [[nodiscard]] std::uint64_t next(const std::string& name);
-    /// A run goes on: what is known of it by now outlives the program.
+    /// Stores the present state of a run, which survives the program.
     void keep(const std::string& name, const std::string& who, const boost::json::object& report);
     /// A run has ended.
     void end(const std::string& name, std::uint64_t n, const std::string& who, boost::json::object report);
-    /// Of ended runs, by number.
+    /// Of finished runs, by number.
     [[nodiscard]] std::optional<boost::json::object> find(const std::string& name, std::uint64_t n) const;
     [[nodiscard]] std::map<std::uint64_t, boost::json::object> all(const std::string& name) const;
-    /// The recipe is gone: so are its reports.
+    /// Deletes the reports of a removed recipe.
     void forget(const std::string& name);
-    /// No: too many wait for the disk.
+    /// Returns false if too many wait for the disk.
     [[nodiscard]] bool room() const noexcept { return unsaved_.size() < most_unsaved; }
 
 private:
@@ -52,8 +51,8 @@ private:
     ClockPort& clock_;
     DocumentPort& documents_;
     EventPort& events_;
-    std::map<std::string, std::uint64_t> last_;                                     ///< numbers given in this process
-    std::map<std::pair<std::string, std::uint64_t>, boost::json::object> unsaved_;  ///< ended, not on disk yet
+    std::map<std::string, std::uint64_t> last_;                                     ///< last numbers assigned in this process
+    std::map<std::pair<std::string, std::uint64_t>, boost::json::object> unsaved_;  ///< finished, not on the disk yet
 };
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Recipe run: goes on until a step waits for an answer or a time; blocks and repeats are a stack of levels.
-// In: answers, time, values of axes. Out: requests, the report. Never asks for anything but stops once it has failed or was cancelled.
+// Continues until a step waits for an answer or a time; blocks and repeats are a stack of levels. After a failure or a cancellation only
+// stops are sent.
 #include "gateway/services/recipes/recipe_run.hpp"
 
 #include <fmt/core.h>
@@ -13,7 +13,7 @@ using Kind = RecipeStep::Kind;
 
 double seconds_in(Duration d) { return std::chrono::duration<double>(d).count(); }
 std::string shown(const Value& v) { return known(v) ? to_text(v) : "not known"; }
-/// As the report shows it: a whole number is one, whatever it was reckoned from; what is not finite is not known.
+/// The value for the report: a whole number stays one, however it was computed; an infinite one is unknown.
 Value settled(const Value& v) {
     const auto* d = std::get_if<double>(&v);
     if (!d) return v;
@@ -26,7 +26,7 @@ bool is_prepared(const RecipeStep& s) {
     const auto* wish = std::get_if<CommandWish>(&s.wish);
     return wish && wish->prepare == WishedFlag::yes;
 }
-/// At a target: of an action or a register nobody knows.
+/// True if its motion ends at a target; unknown for an action or a register.
 bool ends_itself(const RecipeStep& s) { return word_of(s) != CommandWord::missing && word_of(s) != CommandWord::move_velocity; }
 }  // namespace
 
@@ -107,7 +107,7 @@ void RecipeRun::turn(Instant now, const RecipeWorld& world, std::vector<RecipeRe
     if (state_ == State::stopping) give_stops(now, world, requests);
 }
 
-/// True: something has happened, look again. False: nothing more to do before due_ or an answer.
+/// Returns true if something has happened, so that it must be called again; false if nothing is left to do before due_ or an answer.
 bool RecipeRun::go_on(Instant now, const RecipeWorld& world, std::vector<RecipeRequest>& requests) {
     switch (phase_) {
         case Phase::next:
@@ -281,7 +281,7 @@ void RecipeRun::take_answer(Instant now) {
     RecipeRow& row = rows_[s.row];
     if (!s.condition) take_motion(s, a.good, a.motion, now);
     if (!a.good) {
-        if (s.kind == Kind::wait_for && now < step_limit_) {  // a drive that does not answer now may yet
+        if (s.kind == Kind::wait_for && now < step_limit_) {  // a drive that does not answer now may answer later
             row.text = a.text;
             phase_ = Phase::pause;
             due_ = std::min(now + read_period, step_limit_);
@@ -295,7 +295,7 @@ void RecipeRun::take_answer(Instant now) {
     finish(s, now);
 }
 
-/// What the run has in motion after a step: a refused command has begun nothing, and leaves alone what an earlier one has begun.
+/// Notes the motions of the run after a step: a refused command has begun nothing, and does not change an earlier motion.
 void RecipeRun::take_motion(const RecipeStep& s, bool good, RecipeAnswer::Motion motion, Instant now) {
     using Published = RecipeAnswer::Motion;
     if (good && is_stop(s)) {
@@ -313,7 +313,7 @@ void RecipeRun::take_motion(const RecipeStep& s, bool good, RecipeAnswer::Motion
     } else {
         in_motion_[s.axis] = begun;
     }
-    // An action may be the start of a group: what the run had prepared is under way now, for all that is known.
+    // An action may start a group, so the prepared motions of the run are assumed to be in progress.
     if (s.kind == Kind::action && good) {
         for (const auto& axis : prepared_)
             in_motion_.insert({axis, {now, false, false}});
@@ -330,7 +330,7 @@ void RecipeRun::finish(const RecipeStep& s, Instant now) {
 }
 
 void RecipeRun::stop(State outcome, std::string text, Instant now) {
-    // An answer that comes after this comes too late: whether the drive has taken the step's command is not known then.
+    // An answer after this is too late: it is unknown then whether the drive has accepted the step's command.
     if (phase_ == Phase::answer && waiting_for_ != 0 && !current_->condition)
         take_motion(*current_, got_ && got_->good, got_ ? got_->motion : RecipeAnswer::Motion::unknown, now);
     got_.reset();
@@ -351,7 +351,7 @@ void RecipeRun::stop(State outcome, std::string text, Instant now) {
     ++revision_;
 }
 
-/// Stops what is the run's own, and lets go of the rest. False: of some motion it is not clear yet whose it is.
+/// Stops the run's own motions and releases the others. Returns false if the owner of some motion is not known yet.
 bool RecipeRun::sort_motions(Instant now, const RecipeWorld& world, std::vector<RecipeRequest>& requests) {
     using Whose = RecipeWorld::Claim::Whose;
     for (auto it = in_motion_.begin(); it != in_motion_.end();) {

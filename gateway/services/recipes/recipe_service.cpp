@@ -1,5 +1,5 @@
-// Recipe service: turns a run when its deadline has come or an answer is there, and hands each request on as a command.
-// In: runs, answers, time. Out: commands, reports, events. Never keeps a pointer into the site: it may change during a run.
+// Calls a run when its deadline has come or an answer is available, and submits its requests as commands. No pointer into the site is kept,
+// because the site may change during a run.
 #include "gateway/services/recipes/recipe_service.hpp"
 
 #include <fmt/core.h>
@@ -191,7 +191,7 @@ void RecipeService::carry_out(const std::shared_ptr<Active>& a, const RecipeRequ
     submit(a, r.number, mover ? r.step : nullptr, std::move(*made));
 }
 
-/// `mover`: the step whose command may set its axis in motion; it lives as long as the run.
+/// `mover` is the step whose command may set its axis in motion; it lives as long as the run.
 void RecipeService::submit(const std::shared_ptr<Active>& a, std::uint32_t number, const RecipeStep* mover, Command command) {
     command.origin = a->origin;
     const AxisId id = command.axis;

@@ -1,7 +1,6 @@
-// Recipe service: runs recipes: hands their requests to the axes, gives them time and answers, keeps their reports.
-// In: recipes to start and to cancel, results, the clock it is given. Out: reports, events, progress for the live feed.
-// Bounds: 4 runs at once, one per recipe, no axis in two; a run is written down at its start, its end, and once a second in between.
-// Never used off the warm thread; never sends and never sleeps: whoever owns it calls on_deadline.
+// Runs recipes: submits their requests to the axes, gives them time and answers, stores their reports. Bounds: 4 runs at once, one per
+// recipe, no axis in two; a run is stored at its start, its end, and once a second in between. Service thread only; the owner calls
+// on_deadline.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -32,7 +31,7 @@ public:
     static constexpr std::size_t most_recipes = 200;
     static constexpr Duration publish_period = std::chrono::milliseconds(100);  ///< of the progress of one run
 
-    static constexpr Duration keep_period = std::chrono::seconds(1);  ///< between two writes of a run that goes on
+    static constexpr Duration keep_period = std::chrono::seconds(1);  ///< between two writes of a run in progress
 
     using Needs = PortSet<AxisPort, ClockPort, DocumentPort, EventPort, SitePort>;
     RecipeService(const Needs& ports, std::function<Instant()> clock)
@@ -43,18 +42,18 @@ public:
           clock_(std::move(clock)),
           reports_(std::make_shared<RecipeReports>(ports)) {}
 
-    /// Once, at the start: tells of runs that the end of the gateway has ended.
+    /// Once at the start: reports runs that the end of the gateway has interrupted.
     void begin() { reports_->begin(); }
 
-    /// Changes of the documents, one after the other: what If-Match asked for still holds when it is written.
+    /// Changes of the documents, one after the other, so that the condition of If-Match still holds when the document is written.
     const std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
 
-    /// Called when deadline() may have changed by another cause than on_deadline.
+    /// Called when deadline() may have changed for another reason than on_deadline.
     std::function<void()> rearm;
-    /// The report of a run whenever it has changed, at most every publish_period, and at its end.
+    /// Called with the report of a run when it has changed, at most every publish_period, and at its end.
     std::function<void(const std::string& recipe, const boost::json::object& report)> publish;
 
-    /// A checked recipe begins; its report as it is then, or why it cannot begin.
+    /// Starts a checked recipe; returns its first report, or the reason why it cannot start.
     [[nodiscard]] Refusable<boost::json::object> start(const std::string& name, Recipe recipe, boost::json::object arguments,
                                                        const Origin& origin);
     [[nodiscard]] Refusable<boost::json::object> cancel(const std::string& name, std::uint64_t n, const Origin& origin);
@@ -63,9 +62,9 @@ public:
     [[nodiscard]] std::vector<boost::json::object> reports(const std::string& name) const;
     /// Number of the run in progress; 0: none.
     [[nodiscard]] std::uint64_t running(const std::string& name) const;
-    /// Whole reports of the runs in progress.
+    /// Complete reports of the runs in progress.
     [[nodiscard]] std::vector<boost::json::object> in_progress() const;
-    /// The recipe is gone: so are its reports.
+    /// Deletes the reports of a removed recipe.
     void forget(const std::string& name);
 
     [[nodiscard]] Instant deadline() const;
@@ -79,7 +78,7 @@ private:
         std::vector<std::string> axes;
         boost::json::object arguments;
         Origin origin;    ///< of its commands
-        std::string who;  ///< who has started it
+        std::string who;  ///< the client that started it
         Instant published{}, kept{};
         std::uint64_t published_revision = 0, kept_revision = 0;
         RecipeClaims claims;

@@ -1,5 +1,5 @@
-// Recipe steps: a command is made as of POST .../commands, a register by the standard map's offsets or the mappings.
-// In: steps, the site. Out: commands, faults with pointers. Never submits anything.
+// A command is made as for POST .../commands, a register write by the offsets of the standard map or by the mappings. Nothing is submitted
+// here.
 #include "gateway/services/recipes/recipe_steps.hpp"
 
 #include <fmt/core.h>
@@ -63,7 +63,7 @@ std::optional<CommandBody> process_data(const RecipeStep& s, AxisPoint point, co
     return d;
 }
 
-/// A unit that speaks another device's language: its registers are orders of that language, which no single command is.
+/// A unit with another device's language: its registers are orders of that language, which no single command can represent.
 bool speaks_otherwise(const RecipeStep& s, const Site& site, std::vector<SiteFault>& faults) {
     const auto profile = std::ranges::find(site.profiles, std::get<RegisterWish>(s.wish).unit, &ProfileSpec::unit);
     if (profile == site.profiles.end()) return false;
@@ -122,7 +122,7 @@ std::optional<StepCommand> register_of(const RecipeStep& s, const SitePort& site
     }
     if (wrong_type(name_of(m->type))) return std::nullopt;
     std::array<std::uint8_t, 128> bytes{};
-    Mapping plain = *m;  // what the register holds is given, so it goes in without the scale and comes out with it
+    Mapping plain = *m;  // the given value is that of the register, so the scale is not applied
     plain.scale = 1;
     plain.offset = 0;
     if (m->type == MapType::string || !encode(plain, wish.value, bytes.data())) {

@@ -1,5 +1,4 @@
-// Recipe wish: one case for each word that has members of its own.
-// In: JSON. Out: wishes.
+// One case for each word that has members of its own.
 #include "gateway/services/recipes/recipe_wish.hpp"
 
 #include "gateway/services/command_reader.hpp"
@@ -13,7 +12,7 @@ std::string text_in(const json::object& body, std::string_view key) {
     const auto* v = body.if_contains(key);
     return v && v->is_string() ? std::string(v->get_string()) : std::string();
 }
-/// One that is out of its range is a fault of the document already.
+/// A value out of its range is reported as a fault of the document elsewhere.
 int whole_in(const json::object& body, std::string_view key) {
     const auto* v = body.if_contains(key);
     const double d = v && v->is_number() ? v->to_number<double>() : 0;
@@ -24,7 +23,7 @@ Value value_in(const json::object& body) {
     return v ? read_scalar(*v) : Value{};
 }
 
-/// The members of POST /axes/{name}/commands, without those that are the recipe's own.
+/// The members of POST /axes/{name}/commands, without those of the recipe itself.
 CommandWish command_in(Kind kind, const json::object& body) {
     json::object o;
     for (const auto& [k, v] : body) {

@@ -1,6 +1,5 @@
-// Recipe wish: the members under a step's word as a typed wish, made once when the document is read.
-// In: JSON with its arguments put in. Out: wishes. Never refuses: what is no value stays unknown, and is refused by whoever makes a
-// command.
+// Makes the typed request of a step from the members under its word, once, when the document is read. A wrong value stays unknown here and
+// is refused where the command is made.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -10,7 +9,7 @@
 namespace axisgate {
 
 [[nodiscard]] StepWish read_step_wish(RecipeStep::Kind kind, const boost::json::object& body);
-/// Numbers, texts, true and false; unknown: it is none of them.
+/// Numbers, texts, true and false; unknown for anything else.
 [[nodiscard]] Value read_scalar(const boost::json::value& value);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// The words of a recipe's document: those of its steps, with the members that each may have, and those of comparisons.
-// In and out: tables, for whoever reads a document and whoever says what is in it.
+// The words of a recipe's document as tables: those of its steps, with the members that each may have, and those of comparisons.
 #pragma once
 
 #include <array>

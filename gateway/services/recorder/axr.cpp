@@ -1,5 +1,5 @@
-// Recording file (.axr): little-endian; a section is its name (4 bytes), its size (8), the SHA-256 of its data (32), its data.
-// In: bytes of any origin. Out: views, or what is wrong. Never allocates what a damaged size asks for.
+// The format is little-endian; a section is its name (4 bytes), its size (8), the SHA-256 of its data (32), its data. The bytes may have
+// any origin; the size that a damaged field claims is never allocated.
 #include "gateway/services/recorder/axr.hpp"
 
 #include <fmt/core.h>
@@ -34,7 +34,7 @@ std::string header_fault(std::span<const char> bytes) {
         return fmt::format("the recording is of version {}; this program reads version {}", version, axr_version);
     return "";
 }
-/// The section that begins at `at`; nothing: it is cut off.
+/// The section that begins at `at`; empty if it is truncated.
 std::optional<Axr::Section> section_at(std::span<const char> bytes, std::size_t at) {
     if (bytes.size() - at < section_head) return std::nullopt;
     const auto size = number_at(bytes, at + 4, 8);

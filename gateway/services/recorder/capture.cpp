@@ -1,5 +1,4 @@
-// Capture: an armed ring, a trigger, a stretch behind it.
-// In: rows as they come. Out: the rows around the trigger. Never makes up a value between two words of a drive but the trigger's instant.
+// An armed ring, a trigger, and a period behind it. No value between two reports of a drive is invented, except the instant of the trigger.
 #include "gateway/services/recorder/capture.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@ namespace axisgate {
 static_assert(level_points[static_cast<std::size_t>(CapturePoint::position)] == "position" &&
               level_points[static_cast<std::size_t>(CapturePoint::following_error)] == "following_error");
 namespace {
-/// Nothing: nobody knows it.
+/// Empty if it is unknown.
 std::optional<std::int64_t> value_of(const TrendRow& r, CapturePoint point) {
     return channel_places[static_cast<std::size_t>(point)].of(r);
 }
@@ -74,7 +73,7 @@ void Capture::on_picture(AxisId axis, const PictureRecord& p, Instant at) {
     if (it == wish_.axes.end()) return;
     auto& rows = rows_[static_cast<std::size_t>(it - wish_.axes.begin())];
     TrendRow row = trend_row(p, at - p.age);
-    if (row.at < armed_at_) row.at = armed_at_;  // what it had said before holds when it begins
+    if (row.at < armed_at_) row.at = armed_at_;  // the earlier report is valid when the capture begins
     const std::optional<TrendRow> was = rows.empty() ? std::nullopt : std::optional(rows.back());
     if (was) row.at = std::max(row.at, was->at);
     if (triggered_at_ && row.at > *triggered_at_ + wish_.after) return;
@@ -101,7 +100,7 @@ void Capture::on_picture(AxisId axis, const PictureRecord& p, Instant at) {
     shorten(row.at);
 }
 
-/// Of each axis the row that holds where the capture begins stays.
+/// Keeps for each axis the row that is valid at the begin of the capture.
 void Capture::shorten(Instant now) {
     const Instant from = triggered_at_.value_or(now) - wish_.before;
     for (auto& rows : rows_) {

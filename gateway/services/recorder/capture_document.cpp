@@ -1,5 +1,4 @@
-// Capture document: columns by axis; the names of its members are those of trends.
-// In: rows in increments. Out: numbers in units. Never reads a document that it did not write without looking at each member.
+// Columns by axis; the names of its members are those of trends. When a document is read, each member is checked.
 #include "gateway/services/recorder/capture_document.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +13,7 @@
 namespace axisgate {
 namespace {
 namespace json = boost::json;
-/// The instant, the channels that are numbers, and the word of which the state is a part.
+/// The instant, the numeric channels, and the word that contains the state.
 constexpr auto columns_of = [] {
     std::array<std::string_view, level_points.size() + 2> names{"seconds"};
     std::ranges::copy(level_points, names.begin() + 1);

@@ -1,5 +1,4 @@
-// Capture document: a capture as JSON and CSV, in the units of its axes, seconds counted from its trigger.
-// In: a capture with the names of its axes; or its document. Out: documents. Never rounds what a drive has said.
+// A capture as JSON and CSV, in the units of its axes, with seconds counted from its trigger. Reported values are never rounded.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -11,7 +10,7 @@
 
 namespace axisgate {
 
-/// A capture that is wanted, with what is shown of it.
+/// A requested capture, with the data for its document.
 struct CaptureOrder {
     struct Axis {
         std::string name, unit;
@@ -23,11 +22,11 @@ struct CaptureOrder {
     std::string line;
 };
 
-/// What is known of it without its rows.
+/// Its properties without its rows.
 [[nodiscard]] boost::json::object capture_summary(const CaptureOrder& order, const Capture& capture, std::int64_t unix_offset_ns);
-/// Its rows, an object per axis with a column per point; null where it was not known.
+/// Its rows, one object per axis with a column per point; null where it was unknown.
 [[nodiscard]] boost::json::array capture_columns(const CaptureOrder& order, const Capture& capture);
-/// A row per word of a drive, of such columns.
+/// CSV of such columns, a row per report of a drive.
 [[nodiscard]] std::string capture_csv(const boost::json::array& columns);
 
 }  // namespace axisgate

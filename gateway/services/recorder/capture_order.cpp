@@ -1,5 +1,4 @@
-// Capture orders: read as far as they can be, so that all faults are told at once.
-// In: JSON. Out: orders. Keeps nothing.
+// Reads a request as far as possible, so that all faults are reported together.
 #include "gateway/services/recorder/capture_order.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +16,7 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// A value of an axis in increments; nothing: it is beyond what an axis can have, and a fault says so.
+/// A value of an axis in increments; empty with a fault if it is beyond the range of an axis.
 std::optional<std::int64_t> increments(DocumentFields& f, std::string_view key, double value, double scale) {
     const double scaled = value * scale;
     if (std::isfinite(scaled) && std::fabs(scaled) < 9e15) return std::llround(scaled);
@@ -124,7 +123,7 @@ json::object capture_document(const CaptureInfo& i) {
     json::object o = i.summary;
     o["name"] = i.name;
     if (i.summary.empty()) {
-        // A file that is not to be trusted says nothing of itself.
+        // A file that is not usable has no properties.
         for (const auto key : {"why", "who", "armed_at", "triggered_at", "trigger", "wanted_hz", "before_ms", "after_ms", "wait_ms"})
             o[key] = nullptr;
         o["state"] = "done";

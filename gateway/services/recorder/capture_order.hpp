@@ -1,5 +1,4 @@
-// Capture orders: what a body asks a fast capture for, in units of the axes, as a wish in increments; and a capture as it is shown.
-// In: JSON, the site. Out: orders, or every fault with its place. Never arms one.
+// Reads the request for a fast capture, in units of the axes, and shows captures. Nothing is started here.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -13,7 +12,7 @@
 namespace axisgate {
 
 [[nodiscard]] CaptureOrder read_capture_order(const boost::json::value& body, const SiteState& site, std::vector<SiteFault>& faults);
-/// The new name of one; empty where there is a fault.
+/// The new name of one; empty if there is a fault.
 [[nodiscard]] std::string read_capture_name(const boost::json::value& body, std::vector<SiteFault>& faults);
 [[nodiscard]] boost::json::object capture_document(const CaptureInfo& info);
 

@@ -1,5 +1,4 @@
-// Channels: their names in a sentence.
-// In: names. Out: text.
+// The names of the channels in a sentence.
 #include "gateway/services/recorder/channels.hpp"
 
 #include <fmt/format.h>

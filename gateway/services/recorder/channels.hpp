@@ -1,6 +1,5 @@
-// Channels: what the recorder keeps of an axis, by the names of the table of points, and where a row of trends has it.
-// The rows lie in files, so their members are fixed and are listed here once more; a channel that the table names and nobody lists does
-// not compile. In: rows and columns of trends. Out: numbers in increments. What nobody told is nothing.
+// The recorded values of an axis, by the names of the table of points, and their place in a row of trends. Rows are stored in files, so
+// their members are fixed and listed here again; a channel of the table that is not listed does not compile. An unknown value is empty.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +27,7 @@ consteval auto rows_of_channels() {
     std::ranges::sort(out, {}, [](const AxisPointRow* row) { return row->channel.place; });
     return out;
 }
-/// Names of the channels: all of them, or those that are numbers and have no word.
+/// Names of the channels: all of them, or only numeric ones.
 template <const auto& rows, bool numbers_alone>
 consteval auto channel_names() {
     constexpr auto all = rows_of_channels<rows>();
@@ -41,10 +40,10 @@ consteval auto channel_names() {
 }
 
 inline constexpr auto trend_points = channel_names<axis_point_table, false>();
-/// A trigger by level looks at one of these, and each has a column in captures.
+/// The points for level triggers, each of which has a column in captures.
 inline constexpr auto level_points = channel_names<axis_point_table, true>();
 
-/// Where a channel is found: in a row; the least and the greatest of a column. Increments; nothing: it was not told.
+/// The place of a channel: in a row; the least and the greatest of a column. Increments; empty: unknown.
 struct ChannelPlace {
     std::string_view name;
     std::optional<std::int64_t> (*of)(const TrendRow&);

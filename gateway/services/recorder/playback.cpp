@@ -1,5 +1,5 @@
-// Playback: the stretch is read from its beginning to the instant that is wanted; registers come from the map that serves them live.
-// In: records of any origin. Out: a document. Never shows a register that a recording does not hold.
+// The records are read from the beginning to the requested instant; registers come from the map that serves them live. Registers that a
+// recording does not contain are not shown.
 #include "gateway/services/recorder/playback.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ namespace json = boost::json;
 constexpr std::size_t shown_registers = 24;
 constexpr std::size_t curve_memory = 64u << 20;
 
-/// What META and SITE say.
+/// The contents of META and SITE.
 struct RecordingHead {
     Site site;
     std::int64_t unix_offset_ns = 0;
@@ -180,7 +180,7 @@ private:
         const auto x = unpack<Result>(r.payload);
         return x ? x->ticket : no_ticket;
     }
-    /// As the text of a record has it; null: none.
+    /// In the form of the record's text; null: none.
     static json::value number(Ticket command) {
         return command == no_ticket ? json::value(nullptr) : json::value(static_cast<std::int64_t>(ticket_number(command)));
     }
@@ -237,7 +237,7 @@ private:
         for (const auto& h : happened_) {
             const auto axis = head_.axes.find(h.index);
             const bool of_axis = (h.kind == FlightKind::command || h.kind == FlightKind::result) && axis != head_.axes.end();
-            // The instant and the kind stand in members of their own.
+            // The instant and the kind are members of their own.
             const auto words = h.text.find(std::string(name_of(h.kind)));
             out.push_back(json::object{{"at", time(h.at)},
                                        {"kind", name_of(h.kind)},
@@ -270,7 +270,7 @@ private:
     };
     struct Crossed {
         std::uint16_t line;
-        Ticket command;  ///< for which it was sent at once
+        Ticket command;  ///< the command for which it was sent at once
         TraceEntry entry;
     };
     const RecordingHead& head_;

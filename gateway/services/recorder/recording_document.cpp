@@ -1,5 +1,4 @@
-// Recording documents: times as texts, what is not known as null.
-// In: states. Out: JSON. Keeps nothing.
+// Times are texts, unknown values are null.
 #include "gateway/services/recorder/recording_document.hpp"
 
 #include "gateway/core/text.hpp"

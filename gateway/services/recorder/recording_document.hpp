@@ -1,5 +1,4 @@
-// Recording documents: what is recorded, what is kept of it, and the trends of axes over a stretch of time.
-// In: states of the recorder, the site, instants. Out: JSON, trends by axis. Never waits for the disk.
+// The state of the recorder, its stored files, and the trends of axes over a period. The disk is not waited for.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -17,7 +16,7 @@
 namespace axisgate {
 
 [[nodiscard]] boost::json::object recording_document(const RecordingInfo& info);
-/// What is recorded now, how much room there is, and the list of what is kept.
+/// The state of the recorder, its memory, and the list of stored recordings.
 [[nodiscard]] boost::json::object recorder_document(RecorderPort& recorder, const ClockPort& clock);
 
 /// Instants, ms since 1970.

@@ -1,5 +1,4 @@
-// Trend document: columns of trends with the names that captures and the API have for them.
-// In: stretches in increments. Out: JSON and CSV in units. Never shows a value that nobody told: it is null, or an empty cell.
+// Columns of trends with the names that captures and the API have for them. An unknown value is null, or an empty cell.
 #include "gateway/services/recorder/trend_document.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// What a column tells of a point: the names that the API has for it. `low` and `high` are the older names of `min` and `max`.
+/// The API's names for the parts of a column. `low` and `high` are the older names of `min` and `max`.
 enum class Of : std::uint8_t { first, least, greatest, last };
 struct Told {
     std::string_view name;
@@ -25,7 +24,7 @@ struct Told {
 constexpr std::array<Told, 6> told{
     {{"low", Of::least}, {"high", Of::greatest}, {"first", Of::first}, {"min", Of::least}, {"max", Of::greatest}, {"last", Of::last}}};
 
-/// In units; nothing: it is not known.
+/// In units; empty if unknown.
 std::optional<double> value_of(const TrendAxis& a, const TrendColumn& c, std::string_view point, Of of) {
     const auto channel = std::ranges::find(channel_places, point, &ChannelPlace::name);
     const bool one = of == Of::first || of == Of::last;
@@ -81,7 +80,7 @@ json::object trend_document(const TrendAxis& a, const std::vector<std::string>& 
     return out;
 }
 
-/// The members that came later stand behind the older ones: who reads by place finds those where they were.
+/// Newer columns follow the older ones, so that programs that read by position still find those.
 std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points, std::int64_t unix_offset_ns) {
     std::string out = "time,axis,unit";
     for (const auto& p : points)

@@ -1,5 +1,4 @@
-// Trend document: a stretch of trends as JSON and CSV, in the units of its axes.
-// In: stretches with the names of their axes, the points that are wanted. Out: documents. Times are ms since 1970, or RFC 3339.
+// A period of trends as JSON and CSV, in the units of its axes. Times are ms since 1970, or RFC 3339.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -19,7 +18,7 @@ struct TrendAxis {
     TrendStretch stretch;
 };
 
-/// `unix_offset_ns`: what makes an instant a time since 1970. `points`: some of trend_points.
+/// `unix_offset_ns` converts an instant to a time since 1970. `points` are some of trend_points.
 [[nodiscard]] boost::json::object trend_document(const TrendAxis& axis, const std::vector<std::string>& points,
                                                  std::int64_t unix_offset_ns);
 [[nodiscard]] std::string trend_csv(const std::vector<TrendAxis>& axes, const std::vector<std::string>& points,

@@ -1,5 +1,5 @@
-// Trends: rows lie in blocks of a few kilobytes, each row as its difference from the one before: 4 to 12 bytes while an axis moves.
-// In: pictures. Out: stretches. Never holds an empty block but the newest.
+// Rows are stored in blocks of a few kilobytes, each row as its difference from the previous one: 4 to 12 bytes while an axis moves. Only
+// the newest block may be empty.
 #include "gateway/services/recorder/trends.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 namespace {
-// What of a row differs from the one before it.
+// The members of a row that differ from the previous one.
 constexpr std::uint8_t position_bit = 1, demand_bit = 2, velocity_bit = 4, known_bit = 8, statusword_bit = 16, flags_bit = 32;
 
 void put(std::string& out, std::int64_t difference) {
@@ -82,7 +82,7 @@ void put_row(std::string& out, const TrendRow& was, const TrendRow& row) {
     if (mask & flags_bit) put(out, row.flags);
 }
 
-/// Reads like take(), and never beyond the end.
+/// Like take(), but never reads beyond the end.
 bool take_checked(std::span<const char>& in, std::int64_t& v) {
     std::uint64_t raw = 0;
     for (unsigned shift = 0; shift < 64 && !in.empty(); shift += 7) {
@@ -182,7 +182,7 @@ void Trends::append(Axis& a, const TrendRow& row) {
 }
 
 void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
-    if (!p.current && !axes_.contains(id)) return;  // nothing has been said yet
+    if (!p.current && !axes_.contains(id)) return;  // there was no feedback yet
     Axis& a = axes_[id];
     if (p.current && at - p.age != a.reported) {
         a.reported = at - p.age;
@@ -202,7 +202,7 @@ void Trends::add(AxisId id, const PictureRecord& p, Instant at) {
     if (bytes_ > bound_) make_room();
 }
 
-/// A block goes when the next one begins before what is kept: the row that holds at the beginning stays known.
+/// A block is dropped when the next one begins before the retained period, so that the row that is valid at its begin stays known.
 void Trends::shorten(Axis& a, Instant now) {
     while (a.blocks.size() > 1 && now - a.blocks[1].head.at > keep_) {
         bytes_ -= a.blocks.front().size();
@@ -226,7 +226,7 @@ void Trends::make_room() {
         for (auto& [id, a] : axes_) {
             if (a.blocks.size() > 1 && (!oldest || a.blocks.front().head.at < oldest->blocks.front().head.at)) oldest = &a;
         }
-        if (!oldest) return;  // a block each: so many axes need so much
+        if (!oldest) return;  // each axis needs at least one block
         bytes_ -= oldest->blocks.front().size();
         oldest->blocks.pop_front();
     }
@@ -273,7 +273,7 @@ TrendStretch Trends::read(AxisId id, Instant from, Instant to, std::size_t colum
     for (const auto& r : rows) {
         const std::size_t n = place(r.at);
         if (n != last) {
-            // What held when the column began is a part of it, unless something new was told at that very instant.
+            // The value at the begin of a column is part of it, unless a new value was reported at that very instant.
             TrendRow first = r;
             const Instant begins =
                 from +

@@ -1,5 +1,4 @@
-// Register edits, of assemblies and profiles.
-// In: the site, entries, the pages of languages. Out: sites, documents. Never those assemblies that every site has.
+// Edits of assemblies and profiles; the assemblies that every site has cannot be edited.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@ json::object value_document(std::uint32_t offset, std::uint32_t bytes, std::stri
     return {{"offset", std::int64_t{offset}}, {"bytes", std::int64_t{bytes}}, {"name", name}, {"axis", axis}, {"type", name_of(type)}};
 }
 
-/// What stands where in the bytes of an assembly, by offset.
+/// The values in the bytes of an assembly, by offset.
 json::array values_of(const Site& site, const AssemblySpec& a, const registers::Languages& pages) {
     json::array out;
     const std::uint32_t end = a.address + std::uint32_t{a.registers};
@@ -48,7 +47,7 @@ json::array values_of(const Site& site, const AssemblySpec& a, const registers::
     return out;
 }
 
-/// Said again with the rows by their lines, and with what the rest of the site has.
+/// Reports faults again by the lines of the rows, including conflicts with the rest of the site.
 void say_assemblies(const json::array& list, const Site& before, const Families&, std::vector<SiteFault>& faults, const CalledRow& called) {
     Site site = before;
     site.assemblies.clear();
@@ -56,7 +55,7 @@ void say_assemblies(const json::array& list, const Site& before, const Families&
     read_assemblies(&entries, site, faults);
     std::vector<SiteFault> more;
     check_assemblies(site, more, called);
-    // An entry that could not be read stands for nothing: what it would be in the way of is not told.
+    // An entry that could not be read counts as absent, so its conflicts are not reported.
     const auto entry_of = [](const SiteFault& f) { return f.pointer.substr(0, f.pointer.find('/', std::size("/assemblies/") - 1)); };
     std::erase_if(more, [&](const SiteFault& f) { return std::ranges::find(faults, entry_of(f), entry_of) != faults.end(); });
     faults.insert(faults.end(), more.begin(), more.end());

@@ -1,5 +1,4 @@
-// Register edits, of mappings: one entry, some, a template of the standard map.
-// In: the site, entries. Out: sites. Never takes an id that is another's.
+// Edits of mappings: one entry, several, a template of the standard map. The id of another mapping is never taken.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -15,14 +14,14 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// The site with another list of mappings; a fault in the entry at `place` is told below it.
+/// The site with another list of mappings; a fault in the entry at `place` is reported below it.
 Refusable<Site> with_mapping_list(const Site& before, const Families& families, json::array list, std::optional<std::size_t> place) {
     json::object document = to_json(before);
     document["mappings"] = std::move(list);
     return checked_site(document, families, place ? fmt::format("/mappings/{}", *place) : std::string());
 }
 
-/// Conflicts are said again with the rows by their lines: an id that a row would get is known to nobody.
+/// Conflicts are reported again by the lines of the rows, because the id that a row would get is unknown to the client.
 void say_mappings(const json::array& list, const Site& before, const Families& families, std::vector<SiteFault>& faults,
                   const CalledRow& called) {
     (void)parse_mappings(list, before, families, faults, called);

@@ -1,5 +1,4 @@
-// Register edits: changes of the site's own register maps, assemblies and profiles, each as a changed document that is checked as a whole.
-// In: the site in force, entries as JSON, choices. Out: sites with what has become of the entries, or refusals. Never reads a register.
+// Changes of the site's own register maps, assemblies and profiles. Each is a changed document that is checked as a whole.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -18,7 +17,7 @@
 namespace axisgate {
 
 // --- mappings ---
-/// Null: there is none of that id.
+// Null if the id does not exist.
 [[nodiscard]] const Mapping* mapping_named(const Site& site, std::string_view id);
 
 struct EditedMapping {
@@ -26,11 +25,11 @@ struct EditedMapping {
     std::string id;  ///< of the entry
 };
 [[nodiscard]] Refusable<EditedMapping> with_mapping(const Site& before, const Families& families, const boost::json::object& entry);
-/// The entry takes the place of `id`; without an id of its own it keeps that one.
+/// The entry replaces `id`; without an id of its own it keeps that one.
 [[nodiscard]] Refusable<EditedMapping> with_mapping_replaced(const Site& before, const Families& families, const std::string& id,
                                                              const boost::json::object& entry);
 
-/// Which mappings are meant: those that fit everything that is given.
+/// The selected mappings: those that fit every given condition.
 struct MappingChoice {
     std::int64_t unit = 0;  ///< 0: of any
     std::optional<std::string> axis;
@@ -40,25 +39,25 @@ struct RemovedMappings {
     Site site;
     boost::json::array removed;  ///< their ids
 };
-/// An id that there is none of is refused.
+/// An id that does not exist is refused.
 [[nodiscard]] Refusable<RemovedMappings> without_mappings(const Site& before, const Families& families, const MappingChoice& choice);
 
-/// A unit of registers: what is in its gaps, by the site or by the host, and how many mappings it has.
+/// A unit of registers: the setting for its gaps, of the site or of the host, and the number of its mappings.
 [[nodiscard]] boost::json::object unit_document(const Site& site, std::uint8_t unit, MapGaps of_host);
 [[nodiscard]] boost::json::array units_document(const Site& site, MapGaps of_host);
 
-// --- room for more, and templates ---
-/// The first place with so many free registers, or bits, in a row, at a multiple of `align`.
+// --- free places, and templates ---
+// The first place with this number of free registers, or bits, in a row, at a multiple of `align`.
 [[nodiscard]] Refusable<std::uint32_t> next_free(const Site& site, std::int64_t unit, MapTable table, std::uint32_t words,
                                                  std::uint32_t align);
 struct TemplateWish {
     std::string axis;
     std::int64_t unit = 0;
-    std::optional<std::int64_t> address;  ///< nothing: where there is room
+    std::optional<std::int64_t> address;  ///< empty: the next free place
     bool dry_run = false;
 };
 [[nodiscard]] TemplateWish read_template_wish(const boost::json::object& body, std::vector<Fault>& faults);
-/// The registers of the standard map as mappings of the wished unit.
+/// The registers of the standard map as mappings of the requested unit.
 [[nodiscard]] boost::json::array template_entries(const TemplateWish& wish, std::int64_t address, MapWordOrder order);
 struct AddedMappings {
     Site site;
@@ -68,7 +67,7 @@ struct AddedMappings {
 
 // --- assemblies and profiles ---
 [[nodiscard]] const AssemblySpec* assembly_of(const Site& site, std::int64_t instance);
-/// All of them, the profiles' as well, with what stands at which byte.
+/// All of them, including those of profiles, with the content of their bytes.
 [[nodiscard]] boost::json::array assembly_list(const Site& site, const registers::Languages& pages);
 [[nodiscard]] Refusable<Site> with_assembly(const Site& before, const Families& families, std::int64_t instance, boost::json::object entry);
 [[nodiscard]] Refusable<Site> without_assembly(const Site& before, const std::string& instance);

@@ -1,5 +1,4 @@
-// Register view: a value of the standard map is called by its axis and point, one of a user map by its mapping.
-// In: bytes, the site. Out: JSON. Never asks the image.
+// A value of the standard map is named by its axis and point, one of a user map by its mapping.
 #include "gateway/services/site/register_view.hpp"
 
 #include <fmt/core.h>
@@ -38,7 +37,7 @@ std::string_view exception_text(unsigned code) {
     }
 }
 
-/// What the point of a mapping is measured in, before scale and offset; empty: nothing.
+/// The unit of a mapping's point, before scale and offset; empty: none.
 std::string unit_of_value(const Mapping& m, const SiteState& site, const SitePort& sites) {
     const auto* axis = site.site.axis(m.axis);
     if (const auto* point = std::get_if<AxisPoint>(&m.what))

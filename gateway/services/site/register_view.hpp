@@ -1,6 +1,5 @@
-// Register view: the register image as people read it: words and bits with what the site says they are, and the site's mappings as lists.
-// In: bytes of the image, the site. Out: documents, rows. Never renders a register: what is shown is what the image answers, refusals under
-// Modbus' exception codes.
+// The register image for people: words and bits with the names that the site gives them, and the site's mappings as lists. The values are
+// the answer of the image; refusals have the codes of the Modbus exceptions.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -20,7 +19,7 @@
 namespace axisgate {
 
 [[nodiscard]] std::optional<MapTable> map_table_named(std::string_view name);
-/// Of the standard map, what is a value of its own: all but the parameter channel, which comes last.
+/// The values of the standard map except for the parameter channel, which comes last.
 [[nodiscard]] std::span<const registers::RegisterRow> standard_points();
 /// Registers 18-19 of the standard map, as text.
 [[nodiscard]] std::string mapping_revision_text(const Site& site);
@@ -30,10 +29,11 @@ struct RegisterRange {
     MapTable table = MapTable::holding_registers;
     std::uint16_t address = 0, count = 1;
 };
-/// What was read of a range, or the exception, with the values that lie whole in it. `standard_order`: of the standard map's 32-bit values.
+/// The content of a range, or the exception, with the values that lie completely in it. `standard_order` is that of the standard map's
+/// 32-bit values.
 [[nodiscard]] boost::json::object register_document(const SiteState& site, const RegisterRange& range, const registers::RegisterRead& read,
                                                     MapWordOrder standard_order);
-/// The mappings by unit, table and address, with what each is measured in.
+/// The mappings by unit, table and address, each with its unit.
 [[nodiscard]] std::vector<ListedMapping> listed_mappings(const SitePort& sites, const SiteState& site);
 
 }  // namespace axisgate

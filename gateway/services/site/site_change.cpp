@@ -1,5 +1,4 @@
-// Site change: a change that lost a race against another one is planned anew on the newer site, three times at most.
-// In: plans. Out: the site port's answers. Never runs two changes at a time: the queue gives each its turn.
+// A change that another change has overtaken is planned again on the newer site, three times at most. The queue runs one change at a time.
 #include "gateway/services/site/site_change.hpp"
 
 #include <fmt/core.h>
@@ -13,10 +12,10 @@
 namespace axisgate {
 namespace json = boost::json;
 namespace {
-/// A change that lost a race against another one is made again on the newer site, so often.
+/// Number of attempts for a change that other changes overtake.
 constexpr int most_change_attempts = 3;
 
-/// What became of the site since the first of these revisions that the history still has; null if it has none of them.
+/// The changes since the first of these revisions that the history still has; null if it has none of them.
 json::value changes_since(const SitePort& sites, const std::vector<std::uint64_t>& revisions, const SiteState& now) {
     for (const auto revision : revisions) {
         const auto stored = sites.site_revision(revision);
@@ -55,7 +54,7 @@ struct QueuedChange : std::enable_shared_from_this<QueuedChange> {
         auto& [site, show] = std::get<SitePlan>(planned);
         if (const auto names = names_to_change(site, &before->site); !names.empty())
             return refuse(faulty(faults_for(names, "", change.whole_document)));
-        if (to_json(site) == to_json(before->site)) {  // nothing changes: nothing is disturbed
+        if (to_json(site) == to_json(before->site)) {  // nothing changes, so nothing is disturbed
             show(before);
             return done();
         }

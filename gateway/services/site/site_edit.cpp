@@ -1,5 +1,5 @@
-// Site edit: a new name of a line or drive is put into what hangs on it; an axis that mappings name keeps its name until they are changed.
-// In: JSON documents. Out: the changed document. Never renames by a name that is missing or no text: parse_site refuses that.
+// A new name of a line or drive is also put into the entries that refer to it; an axis that mappings name keeps its name until they are
+// changed. A missing or wrong name renames nothing; parse_site refuses it.
 #include "gateway/services/site/site_edit.hpp"
 
 #include <fmt/core.h>
@@ -52,7 +52,7 @@ std::optional<std::size_t> position_in(const json::array& list, std::string_view
     return std::nullopt;
 }
 
-/// The list whose entries hang on this one, and the member by which they do.
+/// The list whose entries refer to this one, and the member with the reference.
 struct Hanging {
     std::string_view list, key;
 };
@@ -84,7 +84,7 @@ ServiceRefusal name_taken(Collection collection, std::string_view name) {
             fmt::format("there is a {} {} already: choose another name, or change that one", item_name(collection), name)};
 }
 
-/// Puts `entry` in the place `i`, whose name was `old_name`, and lets what hangs on it follow to the new name.
+/// Puts `entry` at index `i`, whose name was `old_name`, and changes references to the new name.
 Edited put_entry(json::object document, Collection collection, std::size_t i, std::string_view old_name, json::object entry) {
     const std::string new_name(text_member(entry, "name"));
     if (!new_name.empty() && new_name != old_name) {
@@ -103,7 +103,7 @@ Edited put_entry(json::object document, Collection collection, std::size_t i, st
     return Edit{std::move(document), new_name, fmt::format("/{}/{}", list_name(collection), i)};
 }
 
-/// A name that is missing or no text is parse_site's to refuse; then nothing is renamed.
+/// A missing name, or one that is not a text, is refused by parse_site; nothing is renamed then.
 json::object with_name(json::object entry, std::string_view name) {
     if (!entry.contains("name")) entry["name"] = name;
     return entry;

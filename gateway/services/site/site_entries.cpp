@@ -1,5 +1,4 @@
-// Site entries: found by their names, shown with what is known of them now.
-// In: the site, ports. Out: documents. Never keeps anything.
+// Finds entries by their names and shows them with their present state.
 #include "gateway/services/site/site_entries.hpp"
 
 #include "gateway/services/axis_place.hpp"

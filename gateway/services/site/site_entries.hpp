@@ -1,5 +1,4 @@
-// Site entries: lines, drives and axes one by one, as documents with their live state, and a changed entry as a checked site.
-// In: the site, what its owners say of it now. Out: documents, sites. Never asks a drive.
+// Lines, drives and axes one by one, as documents with their live state, and a changed entry as a checked site. Drives are not asked.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -18,7 +17,7 @@
 
 namespace axisgate {
 
-/// What the document of a line, a drive or an axis is made from.
+/// The ports for the document of a line, a drive or an axis.
 using EntryPorts = PortSet<AxisPort, ClockPort, DrivePort, LinePort, SitePort>;
 
 [[nodiscard]] std::size_t entries_of(const Site& site, Collection collection);

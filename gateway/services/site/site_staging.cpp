@@ -1,5 +1,4 @@
-// Site staging: what the stage port does not know: who may replace, apply and confirm, and how the stage is shown.
-// In: the stage, callers. Out: documents, refusals. Keeps nothing but what the owner keeps.
+// The rules that the stage port does not know: which client may replace, apply and confirm, and the document of the stage.
 #include "gateway/services/site/site_staging.hpp"
 
 #include <fmt/core.h>
@@ -145,7 +144,8 @@ void SiteStaging::apply(const ApplyWish& wish, const Origin& origin, std::string
 void SiteStaging::confirm(const Origin& origin, const std::string& session, Ended then) const {
     const auto& stage = now();
     const auto& applier = owner_->applier(stage);
-    // The same user in another session is another one: who confirms has seen that he can still reach the gateway from where he applied it.
+    // The same user in another session counts as another one, because a confirmation shows that the gateway can still be reached from the
+    // place where the site was applied.
     const bool own = identity_of(*origin.who) == stage.by() &&
                      (applier.empty() || (applier == *origin.client && owner_->applier_session(stage) == session));
     if (stage.state() == SiteStage::State::applied && !own) {
@@ -156,7 +156,7 @@ void SiteStaging::confirm(const Origin& origin, const std::string& session, Ende
     }
     if (auto fault = stage.check_confirm(*origin.who, ports_.get<ClockPort>().now_unix_ns()); !fault.empty())
         return then(stage_conflict(std::move(fault)));
-    // The disk is asked; until it has answered the stage still stands as applied, and it is confirmed once.
+    // The disk is being asked; until it has answered, the stage counts as applied, and it is confirmed only once.
     if (owner_->confirming) return then(stage_conflict("it is being confirmed already"));
     owner_->confirming = true;
     ports_.get<StagePort>().confirm_stage(origin, [owner = owner_, then = std::move(then)](const std::string& fault) {

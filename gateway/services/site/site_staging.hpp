@@ -1,7 +1,5 @@
-// Site staging: a site that is staged, applied on trial, confirmed or taken back, by whom it may be, and the site's history.
-// In: documents, who wants what, in which session. Out: the stage as a document with what it changes, disturbs and closes; refusals.
-// Never changes a site at once: what is staged is applied as one, and taken back unless it is confirmed by who applied it, from where he
-// did.
+// A site that is staged, applied on trial, confirmed or rolled back, with the permissions for each step, and the site's history. A staged
+// site is applied as a whole, and rolled back unless the client that applied it confirms it in the same session.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -22,14 +20,14 @@
 namespace axisgate {
 
 struct ApplyWish {
-    std::optional<std::string> stage{};  ///< the id of the one that is meant; nothing: whichever is there
-    std::int64_t confirm_within_s = 60;  ///< 0: for good
+    std::optional<std::string> stage{};  ///< the id of the stage that the request names; empty: the present one
+    std::int64_t confirm_within_s = 60;  ///< 0: permanently
 };
 [[nodiscard]] ApplyWish read_apply_wish(const boost::json::object& body, std::vector<Fault>& faults);
 
 [[nodiscard]] boost::json::object document_of(const ClientConnection& connection);
 
-/// A value: whoever has the ports and the owner makes one.
+/// A value, made where the ports and the owner are available.
 class SiteStaging {
 public:
     using Needs = PortSet<ClockPort, ConnectionPort, SitePort, StagePort>;
@@ -37,16 +35,16 @@ public:
     SiteStaging(const Needs& ports, std::shared_ptr<StageOwner> owner) : ports_(ports), owner_(std::move(owner)) {}
 
     [[nodiscard]] SiteStage::State state() const { return now().state(); }
-    /// `closes`: connections that a staged site would close; nothing: nobody could say.
+    /// `closes` are connections that the staged site would close; empty: unknown.
     [[nodiscard]] boost::json::object document(const ConnectionPort::List& closes = std::vector<ClientConnection>{}) const;
-    /// The same of a site that may be staged: the doors are asked which connections it would close. Called once, perhaps at once.
+    /// The same after asking the doors which connections it would close. Called once, perhaps at once.
     void ask(std::function<void(boost::json::object)> then) const;
 
-    /// Another client's stage is not replaced in silence.
+    /// Refuses to replace another client's stage without `replace`.
     [[nodiscard]] std::optional<ServiceRefusal> refuse_taken(const Origin& origin) const;
     [[nodiscard]] std::optional<ServiceRefusal> stage(const boost::json::value& document, const Origin& origin) const;
     [[nodiscard]] std::optional<ServiceRefusal> discard() const;
-    /// `session`: in which the client is signed in (session_of). `then` is called once, perhaps at once.
+    /// `session` is the one in which the client is signed in (session_of). `then` is called once, perhaps at once.
     void apply(const ApplyWish& wish, const Origin& origin, std::string session, Ended then) const;
     void confirm(const Origin& origin, const std::string& session, Ended then) const;
     void roll_back(const Origin& origin, Ended then) const;
@@ -59,9 +57,9 @@ private:
     std::shared_ptr<StageOwner> owner_;
 };
 
-/// Newest first, without the documents; with `before` those of smaller numbers.
+/// Newest first, without the documents; with `before` only smaller numbers.
 [[nodiscard]] boost::json::array site_history(const SitePort& sites, std::size_t limit, std::uint64_t before);
-/// The document of a revision by its number in words.
+/// The document of a revision, whose number is given as text.
 [[nodiscard]] Refusable<boost::json::value> site_revision(const SitePort& sites, std::string_view number);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Site table: rows become entries of the site's document, which parse_site checks as a whole.
-// In: a table, rows. Out: a site, or refusals by lines. Nothing is taken from a table with a fault in it.
+// Rows become entries of the site's document, which parse_site checks as a whole. A table with a fault changes nothing.
 #include "gateway/services/site/site_table.hpp"
 
 #include <fmt/core.h>
@@ -29,13 +28,13 @@ std::optional<std::size_t> row_place(const json::array& list, const json::value&
     const auto* wanted = row_key(row, key);
     for (std::size_t i = 0; wanted && i < list.size(); ++i) {
         const auto* k = row_key(list[i], key);
-        // A table's numbers are all floating-point ones.
+        // All numbers of a table are floating-point ones.
         if (k && (k->is_number() && wanted->is_number() ? k->to_number<double>() == wanted->to_number<double>() : *k == *wanted)) return i;
     }
     return std::nullopt;
 }
 
-/// The rows in their places, with the line of each; 0: an entry that was there.
+/// The rows at their indices, with the line of each; 0: an existing entry.
 struct MergedRows {
     json::array list;
     std::vector<std::size_t> line_of;
@@ -57,7 +56,7 @@ MergedRows merged_rows(json::array before, const json::array& rows, const std::v
     return m;
 }
 
-/// All that is wrong, by lines: cells that could not be read, the rows against each other and the site, what they would make of the rest.
+/// All faults by lines: cells that could not be read, conflicts between rows and with the site, and consequences for the rest of the site.
 ServiceRefusal table_refusal(const SiteTable& table, const MergedRows& merged, std::vector<CsvFault> wrong,
                              const std::vector<SiteFault>& of_site, const Site& before, const Families& families) {
     const std::string head = fmt::format("/{}/", table.member);
@@ -66,7 +65,7 @@ ServiceRefusal table_refusal(const SiteTable& table, const MergedRows& merged, s
     };
     std::vector<SiteFault> faults;
     table.say(merged.list, before, families, faults, row);
-    // Rows that are missing or wrong would be in the way of things that they are not.
+    // Missing or wrong rows would cause faults elsewhere that are not real.
     if (faults.empty() && wrong.empty()) faults = of_site;
     const bool unread = !wrong.empty();
     for (const auto& f : faults) {

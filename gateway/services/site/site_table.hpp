@@ -1,5 +1,5 @@
-// Site table: a list of the site as CSV, in: the whole list, or added to what is there, all rows or none. In: a table, how its rows are
-// read and checked. Out: the site that it would make, with what changes; or every faulty line. What the list is of is its owner's to say.
+// Imports a list of the site as CSV: instead of the whole list, or added to it, all rows or none. The owner of the list describes how its
+// rows are read and checked. The result is the changed site, or every faulty line.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -16,27 +16,27 @@
 
 namespace axisgate {
 
-/// How the entry with this index is called: "row 3"; nothing if it is none of the table's.
+/// The name of the entry with this index: "row 3"; empty if it does not come from the table.
 using CalledRow = std::function<std::string(std::size_t index)>;
 
 struct SiteTable {
     std::string_view member;  ///< of the site's document, and of the answer: "mappings"
-    std::string_view key;     ///< an added row with the key of an entry takes its place
+    std::string_view key;     ///< an added row with the key of an entry replaces it
     std::optional<boost::json::array> (*read)(std::string_view csv, std::vector<std::size_t>& lines, std::vector<CsvFault>& faults);
-    /// Faults of the list against itself and the rest of the site, pointers below "/<member>/".
+    /// Reports faults of the list against itself and the rest of the site, with pointers below "/<member>/".
     void (*say)(const boost::json::array& list, const Site& before, const Families& families, std::vector<SiteFault>& faults,
                 const CalledRow& called);
 };
 extern const SiteTable mapping_table, assembly_table;
 
-/// What could be read of a table; cells that could not be are told with what the rest is wrong in.
+/// The readable part of a table; unreadable cells are reported together with the other faults.
 struct SiteRows {
     boost::json::array rows;
     std::vector<std::size_t> lines;
     std::vector<CsvFault> faults;
 };
 [[nodiscard]] Refusable<SiteRows> read_rows(const SiteTable& table, std::string_view csv);
-/// `whole`: in place of all entries.
+/// `whole`: instead of all entries.
 [[nodiscard]] Refusable<Site> site_with_rows(const SiteTable& table, const SiteRows& rows, const Site& before, const Families& families,
                                              bool whole);
 [[nodiscard]] boost::json::object import_report(const SiteTable& table, bool dry_run, std::size_t rows, const Site& before,

@@ -1,5 +1,4 @@
-// Stage owner: ids are letters of this run of the program and a number, so that an id of before a restart fits nothing.
-// In: the stage, callers. Out: ids, whose it is. Never keeps more than the present stage.
+// An id consists of letters for this run of the program and a number, so that an id from before a restart fits nothing.
 #include "gateway/services/site/stage_owner.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Stage owner: whose the staged site is: its id for clients, which client staged it and when, and which client applied it.
-// In: the stage, callers, times. Out: ids, and whether a caller is the one. One stage at most, as the stage port has it.
-// Never changes the stage: a handler asks here first.
+// The owner of the staged site: its id for clients, the client and time of the staging, and the client that applied it. There is one stage
+// at most, as in the stage port. The stage itself is not changed here.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +12,16 @@ namespace axisgate {
 
 class StageOwner {
 public:
-    bool confirming = false;  ///< the disk is asked to keep the applied site
+    bool confirming = false;  ///< the disk was asked to keep the applied site
 
     StageOwner();
 
-    /// "k3f9Qa-2": another one for each stage, also of other runs of the program.
+    /// "k3f9Qa-2": differs for each stage, also between runs of the program.
     [[nodiscard]] std::string id(const SiteStage& stage) const;
     void staged(const SiteStage& stage, const Origin& by, std::int64_t at_unix_ns);
-    /// `session`: in which the client is signed in (session_of), so that the same user elsewhere is another one.
+    /// `session` is the one in which the client is signed in (session_of); the same user in another session counts as another one.
     void applied(const SiteStage& stage, const Origin& by, std::string session);
-    /// Nothing is known of a stage that it has not seen made.
+    /// Empty for a stage that was made before this object existed.
     [[nodiscard]] const std::string& stager(const SiteStage& stage) const;
     [[nodiscard]] const std::string& applier(const SiteStage& stage) const;
     [[nodiscard]] const std::string& applier_session(const SiteStage& stage) const;
@@ -32,7 +31,7 @@ private:
     std::string run_;  // of this run of the program
     std::uint64_t serial_ = 0;
     std::int64_t at_unix_ns_ = 0;
-    std::string stager_, applier_;  // clients, as leases name them
+    std::string stager_, applier_;  // clients, named as in leases
     std::string applier_session_;
 };
 

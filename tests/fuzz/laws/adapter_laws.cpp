@@ -1,5 +1,4 @@
-// Adapter laws: what a run against one adapter does and judges; compiled once for the targets of all families.
-// In: a family, the fuzzer's bytes, how the family's own frames look. Out: nothing; stops the program when a law is broken.
+// The run of one adapter and the check of its laws; compiled once for the targets of all families.
 #include "tests/fuzz/adapter_laws.hpp"
 
 #include <deque>
@@ -33,7 +32,7 @@ public:
         line(true);
         for (int step = 0; step < 600 && in_.remaining_bytes() > 0; ++step)
             one();
-        // The end of the line is the end of every command that has not ended by itself.
+        // The end of the line ends every command that has not ended by itself.
         line(false);
         for (const auto& [ticket, count] : tickets_)
             require(count == 1, "every ticket gets exactly one result");
@@ -67,7 +66,7 @@ private:
                 wanted_ = in_.ConsumeIntegralInRange<unsigned>(0, (1u << addresses_.size()) - 1);
                 configure();
                 break;
-            case 10:  // a call that nobody needs
+            case 10:  // an unnecessary call
                 adapter_->on_deadline(now_, out_);
                 drain();
                 break;
@@ -82,7 +81,7 @@ private:
 
     // --- the wire -------------------------------------------------------------------------------------------------------
 
-    /// Carries frames to the twins and back; the fuzzer decides what is lost, doubled or spoiled.
+    /// Carries frames to the twins and back; the fuzzer decides which are lost, doubled or corrupted.
     void wire(std::size_t most) {
         for (std::size_t n = 0; n < most && !sent_.empty(); ++n) {
             Frame f = sent_.front();
@@ -170,7 +169,7 @@ private:
         if (d == never) return;
         pass(std::max(Duration{0}, d - now_));
     }
-    /// Time goes on; every deadline on the way is met at its instant, up to a bound, as a loop with much to do would.
+    /// Advances the time; every deadline on the way is met at its instant, up to a bound, as by a busy loop.
     void pass(Duration step) {
         const Instant end = now_ + step;
         int met = 0, standing = 0;
@@ -190,7 +189,7 @@ private:
     void command() {
         Command c;
         const auto index = in_.ConsumeIntegralInRange<std::size_t>(0, addresses_.size() - 1);
-        if (!(wanted_ >> index & 1u)) return;  // the engine asks only for axes that the setup has
+        if (!(wanted_ >> index & 1u)) return;  // the engine asks only for axes of the setup
         c.axis = AxisId{static_cast<std::uint16_t>(index)};
         c.until_done = in_.ConsumeBool();
         c.origin.door = Door::internal;
@@ -230,7 +229,7 @@ private:
                 if (in_.ConsumeBool()) m.acceleration = in_.ConsumeIntegral<std::uint32_t>();
                 if (in_.ConsumeBool()) m.deceleration = in_.ConsumeIntegral<std::uint32_t>();
                 m.prepare_only = in_.ConsumeIntegralInRange<int>(0, 3) == 0;
-                if (guard_move(m, AxisLimits{}, 0)) return std::nullopt;  // the guard would not have let it through
+                if (guard_move(m, AxisLimits{}, 0)) return std::nullopt;  // the guard would have refused it
                 return m;
             }
             case 10: {

@@ -1,5 +1,4 @@
-// Fuzz: what all targets share, compiled once.
-// In: the fuzzer's bytes. Out: numbers, texts, frames. Never takes randomness from elsewhere: an input is its own replay.
+// The common parts of all targets, compiled once.
 #include "tests/fuzz/fuzz.hpp"
 
 #include <cstdio>

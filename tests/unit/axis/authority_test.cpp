@@ -1,5 +1,4 @@
-// Authority: the lease of one axis, in virtual time.
-// In: requests of two clients. Out: who holds it. Never waits.
+// Tests of the lease of one axis, in virtual time, with two clients.
 #include "gateway/axis/authority.hpp"
 
 #include <gtest/gtest.h>
@@ -95,11 +94,11 @@ TEST(Authority, HandedOverToAUserIsWhicheverClientOfHimComesFirst) {
     EXPECT_FALSE(a.may({Door::http, "olga page-1 copy"}, t0).allowed) << "another client, whose name begins with that of the holder";
     EXPECT_FALSE(a.may(panel, t0 + seconds(29)).allowed);
     EXPECT_TRUE(a.may(panel, t0 + seconds(30)).allowed) << "its time is that of the hand-over: a command in free mode does not renew it";
-    // What was taken, not handed over, belongs to the client alone.
+    // A lease that was taken, not handed over, belongs to this client only.
     AxisAuthority b;
     (void)b.take({Door::http, "olga"}, seconds(30), false, t0);
     EXPECT_FALSE(b.may(olga, t0).allowed);
-    // Taking and releasing count as using it, too.
+    // Taking and releasing count as use, too.
     for (const bool take : {false, true}) {
         AxisAuthority c;
         (void)c.take(panel, seconds(30), false, t0);

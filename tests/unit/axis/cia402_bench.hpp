@@ -1,5 +1,4 @@
-// CiA 402 bench: the profile with a drive that does what it is told at once.
-// In: control words, commands. Out: orders, the picture. Never uses a family.
+// The CiA 402 profile with a drive that carries out every order at once. No family is used.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@ namespace axisgate::cia402_bench {
 using namespace cia402;
 using Power = AxisFeedback::Power;
 
-/// A drive that does what it is told at once; time goes on by one millisecond with each thing said.
+/// A drive that carries out every order at once; each report advances the time by one millisecond.
 struct Bench {
     Cia402Axis profile;
     AxisFeedback drive;
@@ -27,7 +26,7 @@ struct Bench {
         drive.at = now;
         return profile.on_feedback(drive, now);
     }
-    /// Carries out orders as a willing drive would and answers them.
+    /// Carries out orders as a perfect drive would, and answers them.
     void obey(const Cia402Axis::Decision& d) {
         for (const auto& o : d.orders) {
             if (std::holds_alternative<Enable>(o)) drive.power = Power::on;

@@ -1,6 +1,5 @@
-// CiA 402 profile: what another client is refused leaves the motion, the mode and the words of the one who moves the axis as they are; and
-// a speed that its client repeats is ordered once.
-// In: words of a controller, commands of somebody else. Out: orders. Never uses a family.
+// A refused order of another client leaves the motion, the mode and the words of the client that moves the axis as they are; and a speed
+// that its client repeats is ordered once.
 #include <algorithm>
 
 #include "tests/unit/axis/cia402_words.hpp"
@@ -87,7 +86,7 @@ TEST(Cia402Refused, WhatWaitsDoesNotBeginWhileAnotherMotionIsOnItsWay) {
     EXPECT_FALSE(b.say()) << "and that one has taken its place";
 }
 
-/// A gateway that was started again finds the axis moving, and its controller with the words that it had; it says its mode once.
+/// A restarted gateway finds the axis moving, and its controller with its former words; the controller writes its mode once.
 TEST(Cia402Refused, AModeThatWasSaidWhileTheAxisMovedForNobodyCountsWithTheNextFreshEdge) {
     Bench b;
     b.drive.power = cia402_bench::Power::on;

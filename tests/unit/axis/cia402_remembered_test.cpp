@@ -1,5 +1,5 @@
-// CiA 402 profile: what it remembers of orders on their way, of motions that were halted, and of power that was switched a moment ago.
-// In: words of a controller, commands of somebody else, feedback in an unlucky order. Out: orders. Never uses a family.
+// The values that the CiA 402 profile keeps about orders on their way, halted motions, and recently switched power, with feedback in an
+// unfavourable order.
 #include "tests/unit/axis/cia402_words.hpp"
 
 namespace axisgate {
@@ -8,7 +8,7 @@ using namespace cia402;
 using cia402_bench::bert, cia402_bench::Bench, cia402_bench::controller, cia402_bench::enable, cia402_bench::only, cia402_bench::place,
     cia402_bench::say, cia402_bench::speed, cia402_bench::word;
 
-/// The order for the speed has no answer yet when the axis is stopped: the same speed is an order again once the axis is enabled anew.
+/// The order for the speed has no answer yet when the axis is stopped: the same speed is a new order once the axis is enabled again.
 TEST(Cia402Remembered, ASpeedOnItsWayIsForgottenByAQuickStop) {
     Bench b;
     enable(b, mode_profile_velocity);
@@ -23,7 +23,7 @@ TEST(Cia402Remembered, ASpeedOnItsWayIsForgottenByAQuickStop) {
     EXPECT_EQ(only<Move>(again)->target, 500);
 }
 
-/// A homing that the drive has taken is the end of the speed before it: at its end the axis rests, and a motion is shown as it is asked.
+/// A homing that the drive has accepted ends the earlier speed: at its end the axis rests, and later motions are shown as requested.
 TEST(Cia402Remembered, AfterAHomingTheAxisTurnsNoMore) {
     Bench b;
     enable(b, mode_profile_velocity);
@@ -40,7 +40,7 @@ TEST(Cia402Remembered, AfterAHomingTheAxisTurnsNoMore) {
     EXPECT_EQ(b.picture().mode, mode_profile_position) << "nothing runs beside it";
 }
 
-/// An axis that stands short of its target, because of a limit or a flag that flickers, has not arrived.
+/// An axis that stands short of its target, because of a limit or a flickering flag, has not arrived.
 TEST(Cia402Remembered, WhatWaitsDoesNotBeginWhereTheAxisStandsShortOfItsTarget) {
     Bench b;
     enable(b, mode_profile_position);
@@ -56,7 +56,7 @@ TEST(Cia402Remembered, WhatWaitsDoesNotBeginWhereTheAxisStandsShortOfItsTarget) 
     EXPECT_EQ(std::get<Move>(*next).target, 2000);
 }
 
-/// A drive may call the end of a halt "target reached" for a moment. The target is still the one of the motion that was halted.
+/// A drive may report the end of a halt as "target reached" for a moment. The target is still that of the halted motion.
 TEST(Cia402Remembered, AHaltedMotionGoesOnThoughItsHaltWasCalledReached) {
     Bench b;
     enable(b, mode_profile_position);
@@ -73,7 +73,7 @@ TEST(Cia402Remembered, AHaltedMotionGoesOnThoughItsHaltWasCalledReached) {
     EXPECT_EQ(only<Move>(on)->target, 1000);
 }
 
-/// Feedback that was read in the instant of the drive's acknowledgement may still show the power of before.
+/// Feedback that was read at the instant of the drive's acknowledgement may still show the former power state.
 TEST(Cia402Remembered, FeedbackOfTheInstantOfTheAcknowledgementDoesNotUndoPower) {
     Bench b;
     (void)word(b, 0x06);
@@ -88,7 +88,7 @@ TEST(Cia402Remembered, FeedbackOfTheInstantOfTheAcknowledgementDoesNotUndoPower)
     b.drive.at = b.now;  // power is still off in it
     (void)b.profile.on_feedback(b.drive, b.now);
     EXPECT_EQ(b.profile.state(), PowerState::operation_enabled);
-    b.say();  // and what was read later counts
+    b.say();  // later feedback counts
     EXPECT_NE(b.profile.state(), PowerState::operation_enabled);
 }
 

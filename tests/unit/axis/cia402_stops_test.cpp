@@ -1,5 +1,5 @@
-// CiA 402 profile: a word that ends something is followed whatever else it carries, and bit 12 answers bit 4 alone.
-// In: control words as real controllers send them, also to a drive that does not answer. Out: orders and status words.
+// A word that ends a motion or the power is followed whatever else it contains, and bit 12 answers bit 4 only. The words are those of real
+// controllers, also to a drive that does not answer.
 #include <algorithm>
 
 #include "tests/unit/axis/cia402_bench.hpp"
@@ -22,7 +22,7 @@ bool has(const Cia402Axis::Decision& d) {
     return std::ranges::any_of(d.orders, [](const CommandBody& o) { return std::holds_alternative<T>(o); });
 }
 
-/// Nobody answers any more, perhaps out of the middle of its work.
+/// The drive does not answer any more, perhaps in the middle of a motion.
 void fall_silent(Bench& b, bool enabled_before) {
     if (enabled_before) b.enable(mode_profile_position);
     b.profile.on_presence(Presence::offline);
@@ -111,7 +111,7 @@ TEST(Cia402Stops, WithoutAnAnswerOnlyWhatStopsIsSent) {
             EXPECT_FALSE(r.refused) << std::hex << word;
             ASSERT_EQ(r.orders.size(), 1U) << std::hex << word;
             EXPECT_TRUE(is_urgent(r.orders[0])) << std::hex << word;
-            // The same word again is another try.
+            // The same word again is another attempt.
             if (!(word & cw_halt)) EXPECT_EQ(b.profile.on_process_data(d).orders.size(), 1U) << std::hex << word;
         }
         for (const std::uint16_t word : words({0x06, 0x07, 0x0F, 0x1F, 0x86, 0x8F, 0x9F})) {
@@ -178,7 +178,7 @@ TEST(Cia402Handshake, TheEndOfAHaltGoesOnWithoutANewSetPoint) {
     EXPECT_EQ(b.picture().setpoints_accepted, 2);
 }
 
-/// The place to which a halted axis would go on has another name when its position is set meanwhile.
+/// The target to which a halted axis would continue has another value when its position is set meanwhile.
 TEST(Cia402Handshake, TheEndOfAHaltDoesNotGoOnToAPlaceByTheOldCount) {
     for (const bool taken : {true, false}) {
         Bench b;
@@ -195,7 +195,7 @@ TEST(Cia402Handshake, TheEndOfAHaltDoesNotGoOnToAPlaceByTheOldCount) {
     }
 }
 
-/// A controller writes its speed with every cycle. What somebody else has done since is not undone by that, only by another speed.
+/// A controller writes its speed in every cycle. This does not undo the action of another client; only another speed does.
 TEST(Cia402Stops, ASpeedThatIsRepeatedDoesNotUndoWhatSomebodyElseHasDone) {
     Origin panel;
     panel.door = Door::http;
@@ -265,7 +265,7 @@ TEST(Cia402Stops, AFaultThatHasGoneDoesNotEnableByARepeatedWord) {
     b.say();
     b.drive.fault = false;
     b.drive.power = Power::off;
-    b.drive.statusword = 0x21;  // ready to switch on, from where 0F enables
+    b.drive.statusword = 0x21;  // ready to switch on, from which 0F enables
     b.say();
     ASSERT_EQ(b.profile.state(), PowerState::ready_to_switch_on);
     EXPECT_TRUE(b.word(0x0F).orders.empty());

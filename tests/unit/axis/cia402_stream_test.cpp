@@ -1,5 +1,4 @@
 // CiA 402 with streamed set-points, and with a drive that has the state machine itself.
-// In: set-points, words, feedback with and without the drive's own state. Out: mode, state, orders. Never uses a family.
 #include "tests/unit/axis/cia402_bench.hpp"
 
 namespace axisgate {
@@ -98,7 +97,7 @@ TEST(Cia402OwnState, StepsWithoutPowerAreTheDrives) {
     EXPECT_EQ(shown(0x0231), PowerState::ready_to_switch_on);
     EXPECT_EQ(shown(0x1233), PowerState::switched_on) << "other bits do not matter";
     EXPECT_EQ(shown(std::nullopt), PowerState::switch_on_disabled);
-    // A word that leads on counts where the drive has no such step, and is never shown below the drive's own.
+    // A word towards operation counts if the drive has no such step, and is never shown below the drive's own state.
     b.drive.statusword = 0x0231;
     b.word(0x06);
     EXPECT_EQ(b.profile.state(), PowerState::ready_to_switch_on);

@@ -1,5 +1,4 @@
-// CiA 402 profile: every transition of the power state machine, every rule of the control word, from a table.
-// In: control words and what a drive says. Out: orders and status words. Never uses a family.
+// Every transition of the power state machine and every rule of the control word, from a table.
 #include <array>
 
 #include "gateway/axis/guard.hpp"
@@ -15,7 +14,7 @@ struct Transition {
     PowerState from;
     std::uint16_t controlword;
     PowerState to;
-    const char* number;  ///< of IEC 61800-7-201, or why it stays
+    const char* number;  ///< of IEC 61800-7-201, or the reason why the state stays
 };
 
 class EveryTransition : public testing::TestWithParam<Transition> {};
@@ -152,7 +151,7 @@ TEST(Cia402, EnableTakesTheActualPositionAsFirstTarget) {
     b.obey(b.profile.on_process_data(d, client("panel")));
     b.drive.position = 1234;
     b.say();
-    b.to(oe);  // somebody else enables
+    b.to(oe);  // another client enables
     EXPECT_EQ(b.picture().target_position, 1234);
     EXPECT_EQ(b.picture().setpoints_accepted, 0);
     d = {};
@@ -215,7 +214,7 @@ TEST(Cia402, ASetPointNeedsAVelocityThatItsOwnDoorHasWritten) {
     EXPECT_TRUE(never_written.refused);
     EXPECT_EQ(never_written.reason, Reason::out_of_range);
     EXPECT_NE(never_written.text.find("36"), std::string::npos) << never_written.text;
-    // Another door's move is no default for this one, but the registers show what the drive was given.
+    // Another door's move is no default for this one, but the registers show the values given to the drive.
     Move m;
     m.target = 10;
     m.velocity = 55;
@@ -228,7 +227,7 @@ TEST(Cia402, ASetPointNeedsAVelocityThatItsOwnDoorHasWritten) {
     EXPECT_TRUE(b.profile.on_process_data(d, client("plc")).refused) << "0 is no velocity";
     d.profile_velocity = 20;
     d.profile_deceleration = 40;
-    d.controlword = 0x3F;  // at once: the other door's motion runs
+    d.controlword = 0x3F;  // at once: the other door's motion is running
     const auto r = b.profile.on_process_data(d, client("plc"));
     b.obey(r);
     ASSERT_EQ(r.orders.size(), 1u);
@@ -378,7 +377,7 @@ TEST(Cia402, SecondSetPointWaitsUnlessImmediate) {
     const auto next = b.say();
     ASSERT_TRUE(next.has_value());
     EXPECT_EQ(std::get<Move>(*next).target, 2000);
-    // Bit 5: at once, and what waits is dropped.
+    // Bit 5: at once, and the waiting set-point is dropped.
     Bench c;
     c.enable(mode_profile_position);
     d.target_position = 1000;

@@ -1,5 +1,4 @@
-// CiA 402 words: what a controller writes and a second client commands, for tests of the profile that tell the two apart.
-// In: a bench. Out: decisions, carried out. Never a family.
+// The words of a controller and the commands of a second client, for tests that distinguish the two.
 #pragma once
 
 #include <memory>

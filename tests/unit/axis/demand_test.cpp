@@ -1,5 +1,4 @@
-// Demand: orders against a reference that is stepped a thousandth of a second at a time, and laws over random orders.
-// In: orders. Out: pass or fail. Never reads a clock.
+// Orders compared with a reference that is stepped by a thousandth of a second, and laws over random orders.
 #include "gateway/axis/demand.hpp"
 
 #include <gtest/gtest.h>
@@ -107,7 +106,7 @@ TEST(Demand, ReversalBrakesToRestFirst) {
     EXPECT_NEAR(d.at(at_s(2.5)).position, 1750, 1e-3);
     EXPECT_NEAR(d.at(at_s(3.5)).position, 1250, 1e-3);
     EXPECT_NEAR(d.at(at_s(4.5)).velocity, -1000, 1e-3);
-    // A target behind it: brakes, and comes back.
+    // A target behind it: the motion brakes and returns.
     d.rest(0);
     d.run(at_s(0), 1000, {1000, 1000, 0});
     d.move(at_s(2), 1600, 1000, {1000, 1000, 0});
@@ -128,8 +127,8 @@ TEST(Demand, SameTargetAgainWhileBrakingForItChangesNothing) {
     }
 }
 
-/// Laws over random orders on random states: no jump of the position, never faster than the greater of order and present speed,
-/// never steeper than the ramps (steps to and from the start speed excepted), and at the end exactly at the target, for good.
+/// Laws over random orders in random states: no jump of the position, never faster than the greater of order and present speed, never
+/// steeper than the ramps (except steps to and from the start speed), and at the end exactly and permanently at the target.
 TEST(Demand, LawsOverRandomOrders) {
     std::mt19937_64 seed(20261121);
     const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(seed); };
@@ -182,7 +181,7 @@ TEST(Demand, LawsOverRandomOrders) {
     }
 }
 
-/// The closed form against the same physics stepped in small steps, without a start speed.
+/// The closed form against the same physics in small steps, without a start speed.
 TEST(Demand, AgreesWithAStepwiseReference) {
     std::mt19937_64 seed(7);
     const auto draw = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(seed); };
@@ -194,7 +193,7 @@ TEST(Demand, AgreesWithAStepwiseReference) {
         double p = 0, v = 0;
         const double dt = 1e-4;
         for (int i = 1; p < way && i < 2'000'000; ++i) {
-            // Brakes as late as it can, else goes faster up to the speed.
+            // Brakes as late as possible, otherwise accelerates up to the speed.
             const bool brakes = v * v / (2 * dec) >= way - p;
             v = brakes ? std::max(0.0, v - dec * dt) : std::min(speed, v + a * dt);
             if (v <= 0) break;

@@ -1,5 +1,5 @@
-// Forgetting bench: how each situation is come to and each value is asked for. A value that only an order can show is asked of a copy, so
-// that one question never changes the answer to the next.
+// How each situation is reached and each value is observed. A value that only an order can show is observed on a copy, so that one question
+// never changes the answer to the next.
 #include "tests/unit/axis/forgetting_bench.hpp"
 
 #include <fmt/core.h>
@@ -45,7 +45,7 @@ Cia402Axis::Decision Subject::write(const ProcessData& d, const Origin& by) {
     return r;
 }
 
-/// A word of "plc" that a willing drive carries out.
+/// A word of "plc" that a perfect drive carries out.
 Cia402Axis::Decision Subject::control(std::uint16_t cw) {
     ProcessData d;
     d.controlword = cw;
@@ -54,7 +54,7 @@ Cia402Axis::Decision Subject::control(std::uint16_t cw) {
     return r;
 }
 
-/// What "plc" has written and not used.
+/// The values that "plc" has written and not used.
 void Subject::values() {
     ProcessData d;
     d.target_position = 3000;
@@ -227,7 +227,7 @@ void Subject::answer_open() {
     }
 }
 
-/// The drive answers, and says nothing else yet.
+/// The drive answers, without further feedback.
 void Subject::answer(const Cia402Axis::Decision& d, bool good) {
     if (!d.orders.empty()) answer_open();
     for (const auto& o : d.orders) {
@@ -251,7 +251,7 @@ void Subject::apply(Event event) {
         if (!profile.may_follow().refused) profile.follow(p);
     };
     const auto said = [&](bool good = true) {
-        if (picture().presence == Presence::offline) return;  // there is nobody who could say anything
+        if (picture().presence == Presence::offline) return;  // no side could report anything
         now += std::chrono::milliseconds(1);
         drive.at = now;
         const auto next = profile.on_feedback(drive, now);
@@ -392,7 +392,7 @@ std::string Subject::first_order(const Cia402Axis::Decision& d) const {
     return "none";
 }
 
-/// A mode that its client has not written just before: one that is merely repeated does not end what somebody else is about.
+/// A mode that its client has not written just before, because a repeated mode does not end another client's activity.
 void Subject::choose(std::int16_t mode, const Origin& by) {
     ProcessData d;
     d.mode = picture().mode;
@@ -401,7 +401,7 @@ void Subject::choose(std::int16_t mode, const Origin& by) {
     obey(write(d, by));
 }
 
-/// Leads the axis to operation enabled by the words of "plc", from wherever it is.
+/// Brings the axis to operation enabled by the words of "plc", from any state.
 void Subject::enable_again() {
     answer_open();
     if (profile.state() == PowerState::not_ready_to_switch_on) {
@@ -430,7 +430,7 @@ Seen Subject::look() const {
     at(Value::shown_speeds) = fmt::format("{} {} {}", p.profile_velocity, p.profile_acceleration, p.profile_deceleration);
     at(Value::homing_method) = std::to_string(p.homing_method);
     at(Value::set_points) = std::to_string(p.setpoints_accepted);
-    // In profile velocity bit 12 is the drive's speed alone, and in homing the drive's own "attained".
+    // In profile velocity bit 12 shows only the drive's speed, and in homing the drive's own "attained".
     const bool shown = p.mode != mode_profile_velocity && p.mode != mode_homing;
     at(Value::bit_12) = shown && (p.statusword & sw_mode_12) ? "1" : "0";
     at(Value::bit_13) = p.statusword & sw_mode_13 ? "1" : "0";
@@ -458,8 +458,8 @@ Seen Subject::look() const {
         }
     }
     if (profile.state() == PowerState::operation_enabled && p.mode != mode_profile_velocity && at(Value::halt) == "0") {
-        // A speed that costs no order is the one that the drive is thought to have. Somebody is asked who has not written values before,
-        // and who says the present mode and another speed first, so that mode and speed are new ones of his, not repeated.
+        // A speed that causes no order is the one that the drive is assumed to have. The question comes from a client that has written no
+        // values before, and that first writes the present mode and another speed, so that both are new and not repeated.
         for (const std::int32_t speed : {500, 600, 55, 77}) {
             Subject s = *this;
             s.choose(mode_profile_velocity, stranger());
@@ -477,7 +477,7 @@ Seen Subject::look() const {
         d.controlword = p.controlword & static_cast<std::uint16_t>(~cw_halt);
         const auto released = s.write(d, plc());
         at(Value::end_of_halt) = first_order(released);
-        if (!released.orders.empty()) s.obey(released);  // else what waits would begin unseen
+        if (!released.orders.empty()) s.obey(released);  // otherwise the waiting set-point would begin unobserved
         s.drive.moving = s.drive.homing = false;
         s.drive.target_reached = true;
         const auto next = s.say();

@@ -1,5 +1,5 @@
-// Forgetting bench: an axis in every situation, every event that can come to it, and what is seen of all that it remembers.
-// Every value is seen through public calls alone: the picture, active_target, or what a copy of the axis orders when it is asked for it.
+// An axis in every situation, every event, and the observed values. Every value is observed only through public calls: the picture,
+// active_target, or the order of a copy of the axis.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace axisgate::forgetting {
 
-/// Who speaks. "plc" has brought about each situation and written all values; its words are known. "panel" gives the commands; it has
-/// written the word 06 (shutdown) before anything else, so that its next word is an edge. Of "stranger" nobody has heard.
+/// The clients. "plc" has caused each situation and written all values; its words are known. "panel" gives the commands; it has written the
+/// word 06 (shutdown) before, so that its next word is an edge. "stranger" has written nothing yet.
 [[nodiscard]] Origin plc();
 [[nodiscard]] Origin panel();
 [[nodiscard]] Origin stranger();
 
-/// What the axis is doing when the event comes. In each of them the client "plc" has written a target (3000) that no set-point has used
-/// yet, speeds (200, 300, 400), a homing method (17) and, but where the mode moves the axis with it, a target velocity (55).
+/// The activity of the axis when the event comes. In each of them the client "plc" has written a target (3000) that no set-point has used
+/// yet, speeds (200, 300, 400), a homing method (17) and, unless the mode moves the axis with it, a target velocity (55).
 enum class Situation : std::uint8_t {
     switched_on,
     being_enabled,  // the drive has not answered yet
@@ -30,14 +30,14 @@ enum class Situation : std::uint8_t {
     turning,          // profile velocity, 500
     turning_halted,   // as turning, with the halt bit set
     searching,        // homing
-    homing_refused,   // the drive did not take the last homing
+    homing_refused,   // the drive refused the last homing
     following,        // streamed positions; before that it moved
     following_speed,  // streamed velocities
     quick_stopped,
     reacting,  // a fault while it moves
     faulty,    // a fault at rest
     being_disabled,
-    unheard,  // another drive serves the axis and has not said anything yet
+    unheard,  // another drive serves the axis and has not reported yet
     silent,   // offline
     count
 };
@@ -65,9 +65,9 @@ enum class Event : std::uint8_t {
     // of other clients
     target_of_another,
     speeds_of_another,
-    enable_operation_by_another,     // "panel", whose word rises by that
-    enable_operation_by_a_stranger,  // "stranger", of whom it is not known whether it rises
-    // commands that the drive takes, and some that it does not
+    enable_operation_by_another,     // "panel", whose word rises by this
+    enable_operation_by_a_stranger,  // "stranger", whose previous word is unknown
+    // commands that the drive accepts, and some that it refuses
     enable,
     disable,
     quick_stop,
@@ -82,20 +82,20 @@ enum class Event : std::uint8_t {
     move_velocity,
     move_refused,
     start_together,
-    // streams, begun where the axis may follow
+    // streams, begun if the axis may follow
     stream_position,
     stream_velocity,
     end_of_stream,
-    // what the drive says
+    // reports of the drive
     same_again,
     arrived,
     power_lost,
     fault,
     stopped_at_the_drive,
-    // who serves the axis
+    // the serving side
     silence,
     another_drive,
-    another_drive_that_is_on,  // and says so, at rest
+    another_drive_that_is_on,  // and reports so, at rest
     same_presence,
     count
 };
@@ -109,13 +109,13 @@ enum class Value : std::uint8_t {
     shown_speeds,
     homing_method,
     set_points,  // the counter
-    bit_12,      // where the mode lets no other value be seen in it
+    bit_12,      // if the mode allows no other value in it
     bit_13,
-    active,            // where the running motion ends
+    active,            // the end of the running motion
     waiting,           // the set-point that starts behind it
-    end_of_halt,       // what the end of a halt orders
+    end_of_halt,       // the order at the end of a halt
     ordered_velocity,  // in profile velocity
-    halt,              // motions are refused because of it
+    halt,              // it causes motions to be refused
     quick_stop,
     target,  // of the next set-point of "plc"
     speeds,  // of the same
@@ -176,7 +176,7 @@ constexpr std::array<const char*, static_cast<std::size_t>(Event::count)> event_
                                                                                       "another_drive",
                                                                                       "another_drive_that_is_on",
                                                                                       "same_presence"};
-/// Each value's name, and how it looks when it is forgotten.
+/// Each value's name, and its form when it is forgotten.
 constexpr std::array<std::array<const char*, 2>, static_cast<std::size_t>(Value::count)> value_names{{{"controlword", "0"},
                                                                                                       {"mode", "0"},
                                                                                                       {"mode_after_stream", "0"},
@@ -224,7 +224,7 @@ private:
     std::uint64_t bits_ = 0;
 };
 
-/// What is seen of each value, as text.
+/// The observed values, as text.
 using Seen = std::array<std::string, static_cast<std::size_t>(Value::count)>;
 
 /// An axis with its drive, and orders that the drive has not answered yet.

@@ -1,13 +1,13 @@
-// The table of forgetting: what each event makes an axis forget, and what it keeps, in every situation. One line is one rule, by its name.
-// Where two rules speak of the same value, the later one counts. What no rule speaks of is kept, exactly as it was; a situation and event
-// that no rule speaks of is a hole in the table, and fails.
+// The table of forgetting: which values each event discards and keeps, in every situation. One line is one rule with its name. If two rules
+// name the same value, the later one applies. A value that no rule names must keep its exact value; a situation and event that no rule
+// names is a hole in the table, and the test fails.
 #pragma once
 
 #include "tests/unit/axis/forgetting_bench.hpp"
 
 namespace axisgate::forgetting {
 
-/// A value that is another one afterwards. "+1": one more than before.
+/// A value that changes. "+1": one more than before.
 struct Becomes {
     Value value = Value::count;
     const char* text = "";
@@ -18,7 +18,7 @@ struct Rule {
     Some<Situation> situations;
     Some<Value> forgets{};
     std::vector<Becomes> becomes{};
-    Some<Value> open{};   ///< what the event sets by itself and tests of its own look at
+    Some<Value> open{};   ///< values that the event sets itself and that other tests check
     Some<Value> keeps{};  ///< against an earlier rule
 };
 
@@ -45,7 +45,7 @@ inline std::vector<Rule> rules() {
         on_words | off_words | set_points | halt_words | Events{E::end_of_halt_bit, E::end_of_bit_4, E::quick_stop_bit, E::fault_reset_bit};
     const Events positions{E::move_absolute, E::move_relative}, taken = positions | Events{E::move_velocity},
                                                                 moves = taken | Events{E::move_refused};
-    // Something runs, so that an order which its drive refuses has another motion beside it.
+    // A motion runs, so that an order which its drive refuses has another motion beside it.
     const Situations running{S::moving, S::waiting, S::turning, S::searching, S::following, S::following_speed, S::being_disabled};
     const Events quick_stops{E::quick_stop_bit, E::quick_stop, E::stopped_at_the_drive};
     const Events switch_off = off_words | Events{E::disable, E::power_lost}, homings{E::home, E::home_refused};

@@ -1,4 +1,4 @@
-// What an axis forgets and keeps: every event in every situation against the table.
+// Compares every event in every situation with the table of forgetting.
 #include <fmt/core.h>
 
 #include "tests/unit/axis/forgetting_table.hpp"
@@ -6,7 +6,7 @@
 namespace axisgate::forgetting {
 namespace {
 
-/// What a value should be after an event, and the rule that says so.
+/// The expected value after an event, and its rule.
 struct Expected {
     std::string text;
     std::string rule = "no rule speaks of it: it is kept";
@@ -56,7 +56,7 @@ TEST(Forgetting, EveryEventInEverySituationIsAsTheTableSays) {
     }
 }
 
-/// A rule that changes nothing anywhere, but says that it does, is not held by anything.
+/// A rule that changes nothing in any situation, although it says so, is not verified by anything.
 TEST(Forgetting, EveryRuleIsSeenAtWork) {
     for (const Rule& r : rules()) {
         if (r.forgets.empty() && r.becomes.empty()) continue;
@@ -73,8 +73,8 @@ TEST(Forgetting, EveryRuleIsSeenAtWork) {
     }
 }
 
-/// A motion that goes on after a halt is no new set-point. One that was on its way when another drive began to serve the axis says nothing
-/// of the next one.
+/// A motion that continues after a halt is no new set-point. One that was on its way when another drive began to serve the axis is not
+/// valid for that drive.
 TEST(Forgetting, AMotionOnItsWayIsForgottenWithTheDriveThatWasToTakeIt) {
     for (const bool presence_changes : {false, true}) {
         Subject s(Situation::halted);
@@ -88,7 +88,7 @@ TEST(Forgetting, AMotionOnItsWayIsForgottenWithTheDriveThatWasToTakeIt) {
     }
 }
 
-/// Neither what register 34 shows nor the position itself is a distance.
+/// Neither the value in register 34 nor the position itself is a distance.
 TEST(Forgetting, ASetPointWithoutATargetOfItsClientStaysWhereTheAxisIs) {
     for (const Origin& by : {plc(), panel()}) {
         for (const bool relative : {false, true}) {

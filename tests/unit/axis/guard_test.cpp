@@ -1,4 +1,4 @@
-// Guard: every bound at its edge: one below, equal, one above.
+// Every bound at its edge: one below, equal, one above.
 #include "gateway/axis/guard.hpp"
 
 #include <gtest/gtest.h>
@@ -110,7 +110,7 @@ TEST(Guard, EachRateOfAMotionAtItsEdge) {
     }
 }
 
-/// A limit of 0 is one: nothing may move so fast. It is not "no limit".
+/// A limit of 0 is a limit: no motion may be that fast. It does not mean "no limit".
 TEST(Guard, ALimitOfZeroRefusesEveryRate) {
     AxisLimits l;
     l.velocity_max = l.acceleration_max = 0;
@@ -136,7 +136,7 @@ TEST(Guard, EachRegisterAtItsEdge) {
             if (r.value < 0 || r.value > u32_max) continue;
             ProcessData d;
             d.*(reg.member) = static_cast<std::uint32_t>(r.value);
-            const bool passes = r.passes || r.value == 0;  // 0: as the drive has it
+            const bool passes = r.passes || r.value == 0;  // 0: the drive's own value
             EXPECT_EQ(!guard_process_data(d, r.limits ? limited() : AxisLimits{}).has_value(), passes) << r.value;
         }
     }

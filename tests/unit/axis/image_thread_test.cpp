@@ -1,5 +1,5 @@
-// Image under threads: a picture that is written over and over is never seen torn.
-// In: one writer, one reader. Out: every picture read is whole. Never depends on timing: a torn one would differ in its fields.
+// A picture that is written continuously by one thread is always read as a whole by another. The result does not depend on timing: a torn
+// picture would differ in its fields.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -25,7 +25,7 @@ TEST(ImageThreads, NeverTorn) {
                 ++torn;
         }
     });
-    // Until the reader has looked often enough, however late its thread begins.
+    // Until the reader has read often enough, however late its thread begins.
     for (std::int64_t i = 0; i < 300'000 || seen.load(std::memory_order_relaxed) < 10'000; ++i) {
         auto& p = image.picture(id);
         p.position = p.velocity = p.position_demand = i;

@@ -1,5 +1,5 @@
-// The table of points with one value more than the program has, for all who walk it: what they show of it stands in no place but this row.
-// In: the table. Out: the longer table. The value is a part of a picture that no row of the program's own table reads.
+// The table of points with one additional value, for all users of the table: they must show it by this row alone. No row of the program's
+// own table reads this part of the picture.
 #pragma once
 
 #include "gateway/axis/points.hpp"
@@ -14,7 +14,7 @@ consteval std::array<AxisPointRow, n + 1> with(const std::array<AxisPointRow, n>
     return out;
 }
 
-/// The word for it in user maps: behind those of the program.
+/// Its word in user maps, behind those of the program.
 inline constexpr auto temperature_point = static_cast<AxisPoint>(axis_point_list.size());
 inline constexpr AxisPointRow temperature{
     .name = "temperature",

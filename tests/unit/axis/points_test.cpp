@@ -1,4 +1,4 @@
-// The table of points: what stands in it, what is derived of it, and that a row added to it is found by everything that is derived.
+// The content of the table of points, and that an additional row is found by everything that is derived from it.
 #include "gateway/axis/points.hpp"
 
 #include <gtest/gtest.h>
@@ -243,7 +243,7 @@ TEST(Points, ArePartsOfTheComparisonOfTwoPictures) {
     }
 }
 
-// Real walkers of all doors: tests/unit/runtime/points_at_doors_test.cpp.
+// The doors that walk the table are tested in tests/unit/runtime/points_at_doors_test.cpp.
 TEST(Points, OneMoreIsFoundByAllThatIsDerived) {
     ASSERT_EQ(point_named("temperature"), nullptr);
     EXPECT_EQ(point_named("temperature", more_points), &more_points.back());

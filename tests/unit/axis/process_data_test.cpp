@@ -1,5 +1,4 @@
-// Process data: each point of the standard map that can be written takes the numbers of its register's type, and no others.
-// In: a point, numbers at the ends of its type. Out: judgements.
+// Each writable point of the standard map accepts the numbers of its register's type, and no others.
 #include "gateway/axis/process_data.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Bench for the CANopen tests: frames as text ("581#4B41600034120000"), and what a client or server has sent since it was last asked.
-// In: candump's text. Out: frames, text. Never interprets them.
+// Frames as text ("581#4B41600034120000"), and the frames that a client or server has sent since the last question.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +28,7 @@ inline std::string text(const Frame& f) {
         id[i] = digits[f.id >> (8 - 4 * i) & 15];
     return id + "#" + (f.remote ? "R" : to_hex(f.data()));
 }
-/// What was sent, and empties it.
+/// The sent frames; the list is emptied.
 inline std::vector<std::string> taken(std::vector<Frame>& out) {
     std::vector<std::string> t;
     for (const auto& f : out)

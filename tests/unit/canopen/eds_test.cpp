@@ -1,4 +1,4 @@
-// EDS and DCF: three files of different style, everything that can be wrong in one, and a DCF that is read as it was written.
+// Three files of different style, every possible fault in one, and a DCF that is read as it was written.
 #include "gateway/protocols/canopen/eds.hpp"
 
 #include <fmt/core.h>

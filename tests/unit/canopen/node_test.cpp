@@ -1,4 +1,4 @@
-// Identifiers, data types, NMT, heartbeat, node guarding, SYNC and EMCY: frames as the standard lays them out, and time as it passes.
+// Identifiers, data types, NMT, heartbeat, node guarding, SYNC and EMCY: frames as in the standard, in virtual time.
 #include <gtest/gtest.h>
 
 #include "gateway/protocols/canopen/data_type.hpp"

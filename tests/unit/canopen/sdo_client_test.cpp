@@ -1,4 +1,4 @@
-// SDO client: every message as the standard lays it out, and what servers that lie, lose or repeat something bring about.
+// Every message as in the standard, and the reactions to servers that send wrong data, lose or repeat something.
 #include "gateway/protocols/canopen/sdo_client.hpp"
 
 #include <array>

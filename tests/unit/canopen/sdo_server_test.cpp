@@ -1,4 +1,4 @@
-// SDO server and dictionary: every answer as the standard lays it out, all refusals, and clients that lie, lose or leave.
+// Every answer as in the standard, all refusals, and clients that send wrong data, lose frames or disappear.
 #include "gateway/protocols/canopen/sdo_server.hpp"
 
 #include <array>
@@ -185,7 +185,7 @@ TEST_F(Server, KeepsBoundsAndTypesOfWhatItsOwnerSets) {
 }
 
 // ---- both together ----------------------------------------------------------------------------------------------------
-/// A client and a server on a wire that loses one frame in so many, drawn from a seed.
+// A client and a server on a wire that loses one frame in so many, selected by a seed.
 struct Pair {
     Dictionary dictionary;
     SdoServer server{5, dictionary, {.patience = 300ms, .block_size = 127}};
@@ -247,7 +247,7 @@ TEST(SdoPair, OnAWireThatLosesFramesAValueIsWholeOrNotThereAtAll) {
         if (end.done()) {
             EXPECT_EQ(stored, data) << "seed " << seed;
         } else {
-            // The last acknowledgement may be what was lost.
+            // The last acknowledgement may be the lost frame.
             EXPECT_TRUE(stored.empty() || stored == data) << "seed " << seed;
         }
         (end.done() ? done : failed) += 1;

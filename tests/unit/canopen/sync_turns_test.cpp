@@ -1,5 +1,4 @@
-// SYNC turns: the plan by table, its laws over many lines, and the places of targets.
-// In: nodes, beats, bit rates. Out: turns, slots, bits. Never an adapter.
+// The plan of SYNC turns by table, its laws over many lines, and the slots of targets.
 #include "gateway/protocols/canopen/sync_turns.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +73,7 @@ TEST(SyncTurns, ABeatInWhichNotEvenOneNodeFitsIsMadeLonger) {
     EXPECT_EQ(plan_turns(wish(3, Duration::zero())).beat, 1ms);
 }
 
-/// What each beat carries, with all places of targets taken, by the slots of the plan.
+/// The bits of the fullest SYNC, with all targets in use, by the slots of the plan.
 std::uint64_t bits_of_fullest(const SyncTurns& p, const TurnsWish& w) {
     std::vector<int> axes(static_cast<std::size_t>(p.turns), 0);
     for (std::size_t i = 0; i < w.nodes.size(); ++i)

@@ -1,5 +1,4 @@
-// Bench: the device's values and the originator, compiled once for all tests of the room.
-// In: calls. Out: records. Never checks anything itself.
+// The device's values and the originator, compiled once for all tests of the room.
 #include "tests/unit/cip/bench.hpp"
 
 #include <fmt/format.h>

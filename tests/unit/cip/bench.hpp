@@ -1,5 +1,4 @@
-// Bench: a device with two axes' assemblies and some parameters, and an originator that speaks to its adapter, without a socket.
-// In: orders of a test. Out: what the adapter answered, sent and told its values. Never a clock: time is what the test says.
+// A device with two axes' assemblies and some parameters, and an originator for its adapter, without sockets. The test provides the time.
 #pragma once
 
 #include <map>
@@ -26,7 +25,7 @@ inline Bytes hex(std::string_view text) {
     return out;
 }
 
-/// Beside the list 103 and 153, of a size of 0. Inputs 101, 102 and 100 (both), outputs 151, 152 and 150 (both), configuration 199,
+/// In addition to 103 and 153, whose size is 0: inputs 101, 102 and 100 (both), outputs 151, 152 and 150 (both), configuration 199,
 /// heartbeats 198 and 197; parameters 1..4.
 struct TestValues final : Values {
     TestValues();
@@ -79,7 +78,7 @@ struct TestOutput final : Output {
     std::vector<SessionKey> hung_up;
 };
 
-/// What a Forward_Open says; as they stand: an exclusive owner of axis 1 at 10 ms, time-out 40 ms.
+/// The content of a Forward_Open; the defaults are an exclusive owner of axis 1 at 10 ms, time-out 40 ms.
 struct Open {
     std::uint16_t serial = 1, vendor = 0x1234;
     std::uint32_t originator = 77, to_id = 0x5000;
@@ -102,7 +101,7 @@ public:
     /// A whole packet; the answer's bytes, or none.
     Bytes packet_of(SessionKey key, std::uint16_t command, View data, std::uint32_t options = 0);
     void register_session(SessionKey key);
-    /// An unconnected message; its answer. `items`: further ones of the request.
+    /// An unconnected message and its answer. `items` are further ones of the request.
     Answer ask(View message, SessionKey key = 1);
     Answer open(const Open& o, SessionKey key = 1) { return ask(o.message(), key); }
     /// O->T id of a good answer.

@@ -1,4 +1,4 @@
-// Connections: who may open one, with every extended status; their data, their times, their ends.
+// Opening of connections, with every extended status; their data, times and ends.
 #include <gtest/gtest.h>
 
 #include "tests/unit/cip/bench.hpp"

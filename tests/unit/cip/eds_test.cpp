@@ -1,4 +1,4 @@
-// EDS: sheets of three hundred descriptions with anything in them, read back; names that would break a sheet; numbers without a form.
+// Sheets of three hundred descriptions with any content, read back; names that would break a sheet; numbers without a form.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -33,7 +33,7 @@ TEST(CipEds, WhatIsWrittenIsReadAsTheSame) {
     std::mt19937 random(18);
     const auto upto = [&](std::size_t most) { return random() % (most + 1); };
     const auto text = [&](std::size_t most) {
-        // What a sheet is made of is more often in it than the rest.
+        // The sheet's own special characters are more frequent than others.
         static constexpr char special[] = "\"\\;,=$[]\r\n\t ";
         std::string s(upto(most), ' ');
         for (char& c : s)

@@ -1,4 +1,4 @@
-// Objects: attributes and services with every general status that they have, values that come later, several requests in one.
+// Attributes and services with every possible general status, values that come later, several requests in one.
 #include <gtest/gtest.h>
 
 #include "tests/unit/cip/bench.hpp"
@@ -134,7 +134,7 @@ TEST(CipObjects, AParametersValueComesWhenTheDriveHasTold) {
     EXPECT_EQ(b.output.streams[1], answer) << "told once";
 }
 
-/// What an answer over a connection may have is that connection's size, here 20 bytes with the sequence count.
+/// An answer over a connection may have that connection's size, here 20 bytes with the sequence count.
 TEST(CipObjects, AnAnswerThatIsTooLargeIsNotCutButRefused) {
     Bench b;
     Open o;

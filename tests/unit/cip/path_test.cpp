@@ -1,4 +1,4 @@
-// Path: every kind of segment, and what is none.
+// Every kind of segment, and invalid ones.
 #include "gateway/protocols/cip/path.hpp"
 
 #include <gtest/gtest.h>

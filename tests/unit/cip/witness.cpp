@@ -1,5 +1,4 @@
-// Witness: packets become a capture file with the heads of IP, TCP and UDP; tshark reads it once, when all tests of the program have ended.
-// In: packets in order. Out: failures. Never says anything of what was sent to the adapter.
+// Packets become a capture file with the headers of IP, TCP and UDP; tshark reads it once, when all tests of the program have ended.
 #include "tests/unit/cip/witness.hpp"
 
 #include <gtest/gtest.h>
@@ -53,8 +52,9 @@ public:
         const std::string file = folder + "/cip.pcap";
         std::ofstream(file, std::ios::binary)
             .write(reinterpret_cast<const char*>(file_.data()), static_cast<std::streamsize>(file_.size()));
-        // Two things are left out. An answer is shown with the path of its request, and warned of if that is wrong on purpose. And an
-        // Unconnected_Send that finds no way is answered with the size of the rest of the path alone, where this dissector wants more.
+        // Two messages are left out. An answer is shown with the path of its request, and a warning appears if that is wrong on purpose.
+        // And an Unconnected_Send without a route is answered only with the size of the rest of the path, where this dissector expects
+        // more.
         const std::string command =
             "HOME=" + folder + " tshark -r " + file +
             " -Y '(tcp.srcport == 44818 || udp.srcport == 44818 || udp.srcport == 2222) && (_ws.malformed || ((enip || cip || cipcm || "
@@ -68,7 +68,7 @@ public:
                 reported.append(part.data(), n);
             (void)::pclose(pipe);
         }
-        // Started by root it says so, on a line of its own.
+        // If started by root it prints this on a line of its own.
         if (reported.starts_with("Running as user")) reported.erase(0, reported.find('\n') + 1);
         EXPECT_EQ(reported, "ended 0\n") << packets_ << " packets of the tests; the capture is kept at " << file;
         if (reported == "ended 0\n") std::filesystem::remove_all(folder);

@@ -1,6 +1,5 @@
-// Witness: what passed between the tests' originators and the adapter, judged by a dissector that knows EtherNet/IP from others.
-// In: each packet as it passes. Out: when the program's tests have ended, a failure for each of the adapter's packets that tshark calls
-// malformed or warns of. What a test sends may be wrong on purpose; what is answered may not. Needs tshark.
+// The packets between the tests' originators and the adapter, checked by an independent EtherNet/IP dissector: after the tests there is a
+// failure for each packet of the adapter that tshark calls malformed or warns of. Packets of a test may be wrong on purpose. Needs tshark.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// The page of data of the APOSS / MACS controllers: complete, scopes apart, silent where the manual is silent.
-// In: schema/families/aposs.json. Out: one failure per row that is missing or says otherwise. Needs no family and no line.
+// The page of data of the APOSS / MACS controllers is complete, with separate scopes, and null where the manual is silent.
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -96,7 +95,7 @@ TEST(ApossCatalogue, OnlyPrintedErrorNumbersAreThere) {
     std::set<std::int32_t> codes;
     for (const auto& e : aposs_page().errors())
         codes.insert(e.code);
-    // Beside the five of the manual, EMCY codes of CiA 301 and CiA 402, which are nobody's numbers of a MACS.
+    // In addition to the five of the manual there are EMCY codes of CiA 301 and CiA 402, which are not numbers of a MACS.
     std::erase_if(codes, [](std::int32_t code) { return code >= 0x1000; });
     EXPECT_EQ(codes, (std::set<std::int32_t>{6, 88, 89, 98, 99}));
 }

@@ -1,5 +1,4 @@
-// Command arguments: names, types, scales, ranges and defaults; the same result by object and by text.
-// In: a small catalogue. Out: values in counts, or a fault for each argument.
+// Names, types, scales, ranges and defaults of command arguments; the same result by object and by text.
 #include <gtest/gtest.h>
 #include <boost/json/parse.hpp>
 

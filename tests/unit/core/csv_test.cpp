@@ -1,4 +1,4 @@
-// CSV: what spreadsheets write is read alike, whatever separates the cells; lines keep their numbers; what was written comes back.
+// Tables of spreadsheets are read alike with every separator; lines keep their numbers; written tables are read back.
 #include "gateway/core/csv.hpp"
 
 #include <gtest/gtest.h>

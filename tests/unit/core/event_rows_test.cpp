@@ -1,4 +1,4 @@
-// Event rows: what is told at once, what is only counted, and that the counts come though nobody asks any more.
+// Which events are reported at once, which are only counted, and that the counts are reported even without further requests.
 #include "gateway/core/event_rows.hpp"
 
 #include <fmt/core.h>

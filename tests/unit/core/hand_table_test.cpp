@@ -1,4 +1,4 @@
-// Hand table: what a twin lists and what it takes are the same rows; what is wrong with a value is said with the condition's name.
+// The listed and the accepted conditions of a twin are the same rows; a fault of a value contains the condition's name.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Instants: sums and differences of times that nobody has checked end where 64 bits end. In: the ends. Out: the same.
+// Sums and differences of unchecked times are limited to 64 bits.
 #include "gateway/core/instant.hpp"
 
 #include <gtest/gtest.h>

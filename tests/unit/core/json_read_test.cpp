@@ -1,4 +1,4 @@
-// JSON of others: the same values as the library's own reader gives, but no object with two members of one name, wherever it stands.
+// Foreign JSON gives the same values as the library's own reader, but no object with two members of one name is accepted at any level.
 #include "gateway/core/json_read.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Line URIs: every form of the contract, their defaults, and hostile text.
-// In: texts. Out: pass or fail. Never touches a device.
+// Line URIs: every form of the contract, their defaults, and malicious text.
 #include "gateway/core/line_uri.hpp"
 
 #include <gmock/gmock.h>
@@ -220,7 +219,7 @@ TEST(LineUri, saysWhatIsWrongAndShowsWhatIsRight) {
 }
 
 TEST(LineUri, survivesAnyBytes) {
-    // Every prefix and every single changed byte of good URIs: a fault or a value, and never anything else.
+    // Every prefix and every single changed byte of correct URIs: a fault or a value, and nothing else.
     for (const std::string good :
          {"serial:/dev/ttyS1?baud=9600&format=8N1&rs485=1&rts_after_ms=3", "tcp:[fe80::1%eth0]:4001", "udp-listen:[::1]:0", "can:can0"}) {
         for (std::size_t n = 0; n < good.size(); ++n) {

@@ -1,5 +1,4 @@
-// Places: who gives way when a door is full, by table.
-// In: guests as values. Out: judgements.
+// Which connection is closed when a door is full, by table.
 #include "gateway/core/places.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Values, catalogue and guard: conversions, range checks with their messages, limits in an axis' own unit.
-// In: tables. Out: values or refusals. Never uses a real family's catalogue.
+// Conversions, range checks with their messages, limits in an axis' own unit.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Wire time: bit counts of CAN frames against figures worked out by polynomial division, and arbitration order.
-// In: frames. Out: pass or fail. Never uses the code under test to make its expectations.
+// Bit counts of CAN frames compared with figures computed by polynomial division, and arbitration order. The expected figures do not come
+// from the code under test.
 #include "gateway/core/wire_time.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(WireTime, countsBitsExactly) {
     }
 }
 
-/// The same by another way: text of the bits, long division, stuffing of the text.
+/// The same by another method: a text of bits, long division, stuffing of the text.
 std::uint32_t bits_by_hand(const Frame& f) {
     std::string bits = "0";
     const auto put = [&bits](std::uint32_t v, int n) {

@@ -1,4 +1,4 @@
-// Bus: two participants of one domain on the loopback interface: states for late comers, ends, partitions, optional members.
+// Two participants of one domain on the loopback interface: states for late joiners, ends, partitions, optional members.
 #include "gateway/doors/dds/bus.hpp"
 #include "tests/unit/dds/own_domain.hpp"
 
@@ -62,7 +62,7 @@ TEST(DdsBus, ALateComerHasTheNewestStateAndHearsOfItsEnd) {
         ASSERT_EQ(reader.bus.open(domain(), {}, {Topic::gateway_state}), "");
         got.clear();
         ASSERT_TRUE(reader.take_until(got, [&] { return !got.empty(); }));
-        // The writer's own participant only: the domain of the process stays with who opened it first.
+        // Only the writer's own participant; the domain of the process stays with the one that opened it first.
         axisgate_GatewayState end = state_of("hall", 0);
         ASSERT_TRUE(writer.bus.dispose(end));
         got.clear();
@@ -99,7 +99,7 @@ TEST(DdsBus, OptionalMembersOfACommandArriveOrAreAbsent) {
     std::vector<std::pair<std::optional<double>, bool>> got;
     const auto limit = steady_clock::now() + std::chrono::seconds(10);
     while (got.empty() && steady_clock::now() < limit) {
-        // Commands are for who is there: written again until the two have found each other.
+        // Commands are only for readers that are present: the command is written again until the two have found each other.
         ASSERT_TRUE(first.bus.write(c));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         (void)reader.bus.take<axisgate_AxisCommand>(64, [&got](const axisgate_AxisCommand& s, const Bus::Seen& seen) {

@@ -1,4 +1,4 @@
-// Commanders: who is missed when a writer is gone. In: notes and ends. Out: names. Never a bus.
+// Which clients are lost when a writer is gone, without a bus.
 #include "gateway/doors/dds/commanders.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Commands seen: one result per command for good, and what happens at the bounds, in virtual time.
+// One result per command, and the behaviour at the bounds, in virtual time.
 #include "gateway/doors/dds/commands_seen.hpp"
 
 #include <gtest/gtest.h>

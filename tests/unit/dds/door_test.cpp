@@ -1,4 +1,4 @@
-// DDS door: one gateway's door and a stranger with a bus of his own, over the loopback interface: states, events, commands, set-points.
+// One gateway's DDS door and another participant with a bus of its own, over the loopback interface: states, events, commands, set-points.
 #include "gateway/doors/dds/door.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace axisgate::dds {
 namespace {
-/// What was told beside refusals: those that a fixture waits for come some time.
+/// The reported events except refusals: those that a fixture waits for take some time.
 template <class Events>
 Events but_refusals(Events all) {
     std::erase_if(all, [](const auto& e) { return e.kind == "refused"; });
@@ -33,7 +33,7 @@ protected:
     std::vector<axisgate_CommandResult> results;
     bool found = false;          ///< the probe of SetUp was answered: its later answers do not count
     std::uint64_t repeated = 0;  ///< counted before the test
-    int wanted = 0;              ///< how often the door wanted to hear of the next change
+    int wanted = 0;              ///< how often the door has requested a call after the next change
 
     void SetUp() override {
         gateway.set_picture("feeder", standing(6400));
@@ -43,7 +43,7 @@ protected:
                             {Topic::gateway_state, Topic::axis_command, Topic::parameter_write, Topic::set_point},
                             {Topic::gateway_state, Topic::axis_state, Topic::event, Topic::command_result}),
                   "");
-        // Found each other: the door's state has come, and a command that nobody can carry out is answered.
+        // Both have found each other: the door's state has arrived, and an impossible command is answered.
         ASSERT_TRUE(until([this] {
             (void)peer.write(command("probe", "nobody", "halt"));
             take_results();
@@ -51,7 +51,7 @@ protected:
         }));
         results.clear();
         found = true;
-        // A probe that is still on its way is behind this one no more.
+        // All earlier probes have arrived before this one.
         ASSERT_TRUE(peer.write(command("last", "nobody", "halt")));
         ASSERT_TRUE(answered());
         results.clear();
@@ -73,7 +73,7 @@ protected:
                          instance,
                          [this] { ++wanted; }});
     }
-    /// Runs the door until something holds; false after 10 s.
+    /// Runs the door until the condition is true; false after 10 s.
     bool until(const std::function<bool()>& holds) {
         const auto limit = steady_clock::now() + std::chrono::seconds(10);
         while (!holds()) {
@@ -134,7 +134,7 @@ TEST_F(DdsDoorTest, TellsTheStateOfTheGatewayAndOfEachAxisAndItsEvents) {
     EXPECT_TRUE(axes[0].online && axes[0].simulated && axes[0].referenced && axes[0].target_reached && !axes[0].moving);
     EXPECT_STREQ(events[0].text, "it stands");
     EXPECT_STREQ(events[0].severity, "warning");
-    // What changes is told.
+    // Changes are reported.
     gateway.set_picture("feeder", standing(9600));
     ASSERT_TRUE(until([&] {
         (void)peer.take<axisgate_AxisState>(64, [&](const auto& s, const auto&) {
@@ -353,7 +353,7 @@ TEST_F(DdsDoorTest, ACommanderThatAnotherHasReplacedIsNotMissedNorOneThatWrotePa
 }
 
 TEST_F(DdsDoorTest, WhoWritesAndIsGoneBeforeItIsReadIsLostAfterItsCommand) {
-    // Behind many others, so that its end is known before its command is taken.
+    // Behind many others, so that the end of its writer is known before its command is read.
     for (int i = 0; i < 500; ++i)
         ASSERT_TRUE(peer.write(command(("n" + std::to_string(i)).c_str(), ("nobody " + std::to_string(i)).c_str(), "enable")));
     ASSERT_TRUE(peer.write(command("c1", "feeder", "enable")));

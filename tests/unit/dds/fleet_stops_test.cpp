@@ -1,5 +1,4 @@
-// Fleet without a bus: a stop goes to every gateway of its name and asks nobody first; a member that has been heard of before its axes.
-// In: states, results and orders in virtual time. Out: the commands that were sent, and the one result of each order.
+// The fleet without a bus: a stop goes to every gateway of its name at once; a member that was seen before its axes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,7 +118,7 @@ TEST_F(FleetStops, ANamesakeThatHasNoSuchAxisDoesNotSpoilTheAnswer) {
 }
 
 TEST_F(FleetStops, TheGhostOfARestartCostsAStopNothingButItsLease) {
-    // Killed and started anew: its old instance is not heard any more, and counts as alive until its lease is over.
+    // Killed and started anew: its old instance does not answer any more, and counts as alive until its lease is over.
     pass(500ms);
     gateway("hall-2", 4);
     axis("hall-2", 4, "feeder");
@@ -195,7 +194,7 @@ TEST_F(FleetStops, AMirrorsStopGoesToNamesakesAndToWhomNobodyHasHeard) {
         end.receive(mirror::text_of({mirror::Telegram::Kind::request, number++, address, "quick_stop wait=5000"}), unix_ns, now);
         EXPECT_EQ(sent.size(), 1u) << address;
     }
-    // A mirror of a mirror could go round in a circle: it is refused as before.
+    // A mirror of a mirror could be a circle: it is refused as before.
     axis("hall-2", 2, "seen", "remote");
     sent.clear();
     end.receive(mirror::text_of({mirror::Telegram::Kind::request, number++, "hall-2/seen", "quick_stop wait=5000"}), unix_ns, now);
@@ -280,7 +279,7 @@ TEST_F(FleetStops, AWishGoesOutWithAllItsMembersInTheUnitOfTheAxis) {
     EXPECT_FALSE(sent[0].position || sent[0].deceleration || sent[0].method);
     EXPECT_TRUE(sent[0].renew);
     EXPECT_FALSE(sent[0].prepare);
-    // All that is wrong is said before anything is sent, in the unit of that axis.
+    // All faults are reported before anything is sent, in the unit of that axis.
     o.wish.hold_ms = NoNumber{"\"700\""};
     o.wish.velocity = NoNumber{"\"fast\""};
     fleet.command(
@@ -289,7 +288,7 @@ TEST_F(FleetStops, AWishGoesOutWithAllItsMembersInTheUnitOfTheAxis) {
     ASSERT_EQ(came.size(), 1u);
     EXPECT_EQ(came[0].reason, Reason::out_of_range);
     EXPECT_EQ(came[0].text, "velocity must be a number, not \"fast\"; write it in mm/s");
-    // A stop takes no members, and goes all the same.
+    // A stop has no members, and is sent all the same.
     o.wish.word = CommandWord::halt;
     o.wish.name = "halt";
     fleet.command(
@@ -314,7 +313,7 @@ TEST_F(FleetStops, InventedGatewaysDoNotHideOneThatLives) {
         gateway(("invented again " + std::to_string(n)).c_str(), 2000 + n);
     EXPECT_EQ(shown("hall-2") + shown("hall-5"), 2);
     EXPECT_LE(fleet.list(unix_ns, now).size(), Fleet::gateways_most);
-    // They are gone after their lease, and the living displace the dead at once, not after ten minutes.
+    // They are gone after their lease, and new gateways replace them at once, not after ten minutes.
     pass(3s);
     for (std::uint64_t n = 0; n < Fleet::gateways_most; ++n)
         gateway(("late " + std::to_string(n)).c_str(), 3000 + n);

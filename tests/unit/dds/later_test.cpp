@@ -1,5 +1,5 @@
-// A later version of the types, with one member more in each: what it writes is read, and it reads what is written.
-// In: the door, and Cyclone DDS directly, since the bus knows the present types alone. Out: judgements on both directions.
+// A later version of the types, with one additional member each: both versions read each other's samples. Cyclone DDS is used directly,
+// because the bus knows only the present types.
 #include <dds/dds.h>
 #include <gtest/gtest.h>
 

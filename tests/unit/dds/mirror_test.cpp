@@ -1,5 +1,5 @@
-// Mirror and fleet without a bus: what a mirror line is told of axes of other gateways, which states are too old for an answer, what a stop
-// ends, whose axes are refused.
+// The mirror and the fleet without a bus: the telegrams about axes of other gateways, states that are too old for an answer, the effect of
+// a stop, axes that are refused.
 #include "gateway/doors/dds/mirror.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Own domain: suites run several processes of one program at a time, and whoever has the same domain hears the others.
-// In: which of three. Out: the number of a DDS domain, 20 to 229. Never the same for processes that were started one after the other.
+// Several processes of one program run at a time, and those with the same domain would receive each other. This gives the number of a DDS
+// domain, 20 to 229, which differs for processes that were started one after the other.
 #pragma once
 
 #include <unistd.h>

@@ -1,5 +1,4 @@
-// Command queue: what waits for an axis is bounded, leaves in its order, and is ended by those stops that end it.
-// In: commands. Out: the queue. Never a drive.
+// The waiting commands of an axis are bounded, leave in their order, and are ended by the stops that concern them.
 #include "gateway/drive/command_queue.hpp"
 
 #include <gtest/gtest.h>

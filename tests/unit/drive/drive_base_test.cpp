@@ -1,5 +1,4 @@
-// DriveBase of the kit: which axis a drive means when it tells something, and by which catalogue its points are numbered.
-// In: setups of a site. Out: axes, notices. Never a line.
+// The axis to which a drive's report belongs, and the catalogue that numbers its points.
 #include "gateway/drive/drive_base.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Exchange, LateMarks, LateTime; Timing, OptionReader, Notices: the small parts.
+// Exchange, LateMarks, LateTime, Timing, OptionReader and Notices.
 #include "gateway/drive/exchange.hpp"
 
 #include <gmock/gmock.h>

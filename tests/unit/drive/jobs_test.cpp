@@ -1,5 +1,4 @@
-// Jobs of the kit: one command in hand, the others behind it, and exactly one result for each, however it ends.
-// In: a drive with two verbs. Out: results in order, what a verb is told of an end without success. Never a line.
+// Jobs of the kit: one command in progress, the others behind it, and exactly one result for each, however it ends.
 #include "gateway/drive/jobs.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Laws of the kit put together: a drive and a line of its parts alone, under random commands, silences, late answers, restarts and line
-// faults, in virtual time. What is asked of every family's adapter is asked of the parts first.
+// The laws of every family's adapter, for a drive and a line of the kit's parts alone, under random commands, silences, late answers,
+// restarts and line faults, in virtual time.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -147,7 +147,7 @@ struct World {
     }
     bool chance(int percent) { return static_cast<int>(random() % 100) < percent; }
 
-    /// Everything that the calls of one instant lead to, and the laws that hold behind it.
+    /// All consequences of the calls of one instant, and the laws that must hold afterwards.
     void settle(Turn& t) {
         for (auto& d : drives)
             d->settle(now);
@@ -158,7 +158,7 @@ struct World {
         for (std::size_t i = 0; i < drives.size(); ++i) {
             ToyDrive& d = *drives[i];
             for (const Ask& a : d.sent) {
-                // What waits was overtaken by the stop, if there is one: nothing but stops leaves a drive that has one.
+                // A waiting command was overtaken by the stop, if there is one: a drive with a stop sends nothing but stops.
                 if (!d.stops.empty() && d.exchange.active() && d.exchange.sent() >= stop_came[i]) ASSERT_EQ(a.why, Ask::Why::stop);
                 if (!chance(silence))
                     replies.emplace(now + std::chrono::milliseconds(1 + random() % (chance(10) ? 80 : 8)), std::pair{i, a.number});
@@ -250,7 +250,7 @@ void play(std::size_t window) {
         for (int n = 0; n < 4000 && !testing::Test::HasFatalFailure(); ++n)
             w.step();
         ASSERT_FALSE(testing::Test::HasFatalFailure());
-        // Whatever was refused because the line was down, whatever waited when it went: one result each, and none is left behind.
+        // Commands that were refused because the line was down, or waited when it went down, get one result each, and none is left.
         Turn end{w.now, w.out};
         w.set_line(false, end);
         w.settle(end);

@@ -1,4 +1,4 @@
-// Lead: the way from one cyclic target to the next. In: targets, ramps, cycles. Out: laws: no step beyond the ramps, no target passed.
+// The way from one cyclic target to the next: no step beyond the ramps, no target passed.
 #include "gateway/drive/lead.hpp"
 
 #include <gtest/gtest.h>

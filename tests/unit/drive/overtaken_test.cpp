@@ -1,4 +1,4 @@
-// Overtaken: who waits in vain on a full bus, and for how long the others stand back.
+// Which requests wait in vain on a full bus, and for how long the others are held back.
 #include "gateway/drive/overtaken.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST_F(Overtaking, WhoHadTheBusAloneIsSilent) {
         EXPECT_TRUE(o.may_begin(now + 2ms)) << "the others do not wait for its time-out";
     }
     o.ended(9);
-    o.began(9);  // asked again: it has a chance again
+    o.began(9);  // a repeated request has a chance again
     for (int i = 0; i < 4; ++i)
         one(1);
     EXPECT_FALSE(o.may_begin(now + 3ms));

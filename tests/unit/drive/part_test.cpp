@@ -1,5 +1,5 @@
-// Part of the kit: parts of one drive that reach each other by it, also before all of them are there.
-// In: a drive with two parts. Out: what one says of the other. Never a copy: it would be a part of a drive that does not have it.
+// Parts of one drive reach each other, also before all of them are constructed. A part cannot be copied, because the copy would belong to
+// another drive.
 #include "gateway/drive/part.hpp"
 
 #include <gtest/gtest.h>

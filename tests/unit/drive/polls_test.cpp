@@ -1,4 +1,4 @@
-// PollTimer, Polls, Reading: rhythm, order, and that nobody starves.
+// PollTimer, Polls, Reading: periods, order, and that no drive starves.
 #include "gateway/drive/polls.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ TEST(DrivePolls, OneMoreThanTheBoundIsNotTaken) {
     EXPECT_TRUE(p.every(5, 2s, time_zero)) << "a known one is no further one";
 }
 
-/// A line that carries a third of what is wanted: those of moving axes go first, and each of the others is asked all the same.
+/// A line that carries a third of the requested polls: those of moving axes go first, and each of the others is polled all the same.
 TEST(DrivePolls, QuickOnesGoFirstAndNobodyStarves) {
     Polls p;
     Instant now = time_zero + 1s;

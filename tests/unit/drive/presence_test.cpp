@@ -1,4 +1,4 @@
-// Presence: the phases of one drive and the pauses between its probes.
+// The phases of one drive and the pauses between its probes.
 #include "gateway/drive/presence.hpp"
 
 #include <gtest/gtest.h>

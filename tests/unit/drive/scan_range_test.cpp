@@ -1,5 +1,4 @@
-// Scan range of the kit: the addresses of a scan, and what is said of a wish that is none.
-// In: wishes. Out: plans. Never a plan and a fault.
+// The addresses of a scan, and the faults of a wrong request.
 #include "gateway/drive/scan_range.hpp"
 
 #include <gmock/gmock.h>

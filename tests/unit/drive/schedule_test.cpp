@@ -1,4 +1,4 @@
-// Schedule: the heap against a plain search, and the rings.
+// The heap compared with a plain search, and the rings.
 #include "gateway/drive/schedule.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// SetPoints of the kit: one per axis, the newest, in the order in which axes began to wait.
-// In: set-points. Out: the next one. Never more than one per axis.
+// One set-point per axis, the newest, in the order in which axes began to wait.
 #include "gateway/drive/set_points.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Text lines of the kit: what a stream is cut into, however it comes; a decoder's sentences at the edges of a recording.
-// In: bytes. Out: lines, sentences. Nothing is lost without being told.
+// How a stream is cut into lines, with any boundaries of its runs; a decoder's sentences at the ends of a recording.
 #include "gateway/drive/text_lines.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Tickets, CommandQueue, StopLane: one result each, bounds, and what a stop ends.
+// Tickets, CommandQueue, StopLane: one result each, bounds, and which commands a stop ends.
 #include "gateway/drive/tickets.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Turns and Roster: who sends next on a line, and that nobody is forgotten.
+// Turns and Roster: the order of sending on a line, and that no drive is forgotten.
 #include "gateway/drive/turns.hpp"
 
 #include <gtest/gtest.h>
@@ -159,7 +159,7 @@ TEST_F(TurnsOfALine, ARemovedDriveGivesItsPlaceBack) {
     EXPECT_EQ(next(), 2u);
 }
 
-/// All slots, all wishes, at random: never more places than there are, and nobody waits for more than a round of everybody.
+/// All slots and requests at random: never more places than exist, and no drive waits for more than one round of all.
 TEST_F(TurnsOfALine, NobodyIsForgotten) {
     std::mt19937 random(11);
     for (const std::size_t window : {std::size_t{1}, std::size_t{5}}) {

@@ -1,4 +1,4 @@
-// Axis values: the axes behind the objects: assemblies byte for byte, commands with their client, losses with their cause, parameters.
+// The axes behind the EtherNet/IP objects: assemblies byte for byte, commands with their client, losses with their cause, parameters.
 #include "gateway/doors/enip/axis_values.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ struct Port final : modbus::test::FakePort {
         points.push_back(p);
         return std::nullopt;
     }
-    /// Leases are kept apart: they go with every owner that runs.
+    /// Leases are recorded separately, because every running owner causes them.
     void submit(Command c) override {
         if (std::holds_alternative<HoldAxis>(c.body)) return leases.push_back(std::move(c));
         FakePort::submit(std::move(c));
@@ -226,7 +226,7 @@ TEST(EnipAxisValues, WhoCommandsByMessagesIsLostWithHisLastWay) {
     EXPECT_EQ(d.port.lost, gone);
     d.values.messages_ended(unconnected);
     EXPECT_EQ(d.port.lost, gone) << "once";
-    // Each way in by which messages command: an output, a parameter.
+    // Each way of commanding by messages: an output, a parameter.
     d.port.lost.clear();
     EXPECT_EQ(d.values.set(3, Bytes{1, 0, 0, 0}, 78, other, d.port.now()), General::success);
     d.values.messages_ended(other);
@@ -234,7 +234,7 @@ TEST(EnipAxisValues, WhoCommandsByMessagesIsLostWithHisLastWay) {
     while (d.port.answer()) {
     }
     ASSERT_EQ(d.port.lost.size(), 2u) << "and again when the command that was on its way has been answered: it may have begun a motion";
-    // The owner's own messages are the owner's.
+    // The owner's own messages belong to the owner.
     d.port.lost.clear();
     d.values.opened(151, d.plc, 40ms, d.port.now());
     EXPECT_EQ(d.values.set(1, Bytes{1, 0, 0, 0}, 79, unconnected, d.port.now()), General::success);
@@ -337,7 +337,7 @@ TEST(EnipAxisValues, AssembliesAreTheSameWhileTheirOwnBytesAre) {
     EXPECT_FALSE(grown.same_bytes(103, before)) << "it is gone";
 }
 
-/// A tool's view: entries of the EDS, each a list of fields.
+/// The view of a tool: entries of the EDS, each a list of fields.
 std::map<std::string, std::vector<std::string>> read_eds(const std::string& text) {
     std::map<std::string, std::vector<std::string>> entries;
     std::string clean;
@@ -463,7 +463,7 @@ TEST(EnipEds, SaysWhatTheAdapterSays) {
             cip::put8(open, static_cast<std::uint8_t>(path.size() / 2));
             cip::put_bytes(open, path);
             const auto answer = ask(cip::request(cip::service::large_forward_open, Bytes{0x20, 6, 0x24, 1}, open));
-            if (listens || answer.extended == std::vector<std::uint16_t>{0x0106}) continue;  // its owner is not there, or another one is
+            if (listens || answer.extended == std::vector<std::uint16_t>{0x0106}) continue;  // its owner does not exist, or is another one
             EXPECT_EQ(answer.general, General::success) << key << " " << text;
         }
     }

@@ -1,4 +1,4 @@
-// Output lane: what an originator's renewed bytes become: edges, values with their edge, streamed set-points, nothing at the start.
+// The effect of an originator's renewed bytes: edges, values with their edge, streamed set-points, nothing at the start.
 #include "gateway/doors/enip/output_lane.hpp"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(EnipOutputLane, TheFirstImageIsHandedOnWholeThoughAllIsZero) {
     EXPECT_FALSE(speed_alone.take({}, enabled_axis()).command) << "what it has not is never sent";
 }
 
-/// A controller that was there before its drive, and one whose drive was replaced by its twin: neither changes its image for that.
+/// A controller that was running before its drive, and one whose drive was replaced by its twin: neither changes its image for that.
 TEST(EnipOutputLane, AnotherDriveHasTheImageWholeAndIsNotMovedByIt) {
     OutputLane lane;
     AxisPicture axis;
@@ -72,7 +72,7 @@ TEST(EnipOutputLane, WhatWasNotTakenGoesWithTheNextImageThatDiffersAndIsNotRepea
     EXPECT_EQ(step.command->mode, std::int16_t{3}) << "which the axis never had";
     lane.begun();
     EXPECT_FALSE(lane.done(true).command);
-    // A stop that is not taken is not held back by that either.
+    // A refused stop is not held back by that either.
     const auto stop = lane.take(wanted(0x00, 3), enabled_axis());
     ASSERT_TRUE(stop.command);
     lane.begun();

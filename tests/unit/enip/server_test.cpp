@@ -1,4 +1,4 @@
-// Server: the door on real sockets of the loopback: a session, a question over UDP, a connection with its data both ways, its end.
+// The door on real sockets of the loopback: a session, a question over UDP, a connection with its data in both directions, its end.
 #include "gateway/doors/enip/server.hpp"
 
 #include <gtest/gtest.h>
@@ -157,7 +157,7 @@ TEST(EnipServer, AConnectionFromItsOpeningToItsEnd) {
 
 TEST(EnipServer, OutOfDescriptorsItWaitsInsteadOfSpinning) {
     Sockets s;
-    s.port.time = at_ns(1'000'000'000);  // in the past of the host's clock, so that its timer rings whenever it is asked
+    s.port.time = at_ns(1'000'000'000);  // in the past of the host's clock, so that its timer expires at once
     cip::Header h;
     h.command = 0x65;
     const Bytes registration = cip::packet(h, Bytes{1, 0, 0, 0});

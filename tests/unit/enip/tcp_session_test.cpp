@@ -1,5 +1,4 @@
-// TCP session: answers that the other end does not take wait in order and within their bound; each end is told once.
-// In: a pair of sockets, a poller. Out: bytes and ends. Never a network.
+// Answers that the other end does not read wait in order and within their bound; each end is reported once.
 #include "gateway/doors/enip/tcp_session.hpp"
 
 #include <fcntl.h>
@@ -105,7 +104,7 @@ TEST_F(TcpSessionTest, WhatIsMoreThanOneReadTakesIsReadToItsEnd) {
     turn();
     turn();
     EXPECT_EQ(came.size(), 30'000u);
-    write(4096);  // as much as a read takes: nobody knows whether there is more
+    write(4096);  // as much as one read takes, so that it is unknown whether there is more
     turn();
     write(1);
     turn();

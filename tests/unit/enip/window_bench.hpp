@@ -1,5 +1,4 @@
-// Window bench: a site with two axes, own assemblies and profiles, and the door's values on it, without sockets and without an engine.
-// In: mappings and assemblies that a test adds. Out: bytes, commands. Never a whole site document: that is read elsewhere.
+// A site with two axes, own assemblies and profiles, and the door's values for it, without sockets and engine.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +25,7 @@ struct WindowPort final : modbus::test::FakePort {
         points.push_back(p);
         return std::nullopt;
     }
-    /// Leases are kept apart: they go with every owner that runs.
+    /// Leases are recorded separately, because every running owner causes them.
     void submit(Command c) override {
         if (std::holds_alternative<HoldAxis>(c.body)) return leases.push_back(std::move(c));
         FakePort::submit(std::move(c));
@@ -99,7 +98,7 @@ struct WindowBench : HotDoor {
         a.registers = registers;
         return a;
     }
-    /// What the server does with a site.
+    /// Applies a site as the server does.
     void put_site() {
         state.site.mappings = std::make_shared<const std::vector<Mapping>>(maps);
         image.on_site(state);

@@ -1,4 +1,4 @@
-// Profiles on EtherNet/IP: the image of a language in cycles, whose first one starts nothing, and the classes that a maker's manual prints.
+// Profiles on EtherNet/IP: the image of a language in cycles, whose first one starts nothing, and the classes of a maker's manual.
 #include <set>
 
 #include "gateway/doors/enip/window.hpp"

@@ -1,5 +1,5 @@
-// Windows: assemblies of a site's own on the door: bytes of values in every order, outputs into lanes and writes, the base of a first
-// image, what is refused beside what is not, the data sheet.
+// The site's own assemblies on the door: bytes of values in every order, outputs into lanes and writes, the base of a first image, refused
+// values beside others, the data sheet.
 #include "gateway/doors/enip/window.hpp"
 
 #include "tests/unit/enip/window_bench.hpp"

@@ -1,5 +1,5 @@
-// What is stored of users and tokens, and in which order: a use on its way never brings back what was revoked; and the queue itself.
-// In: requests at a door whose disk is slow. Out: what the store would hold after a crash at any moment.
+// The order in which users and tokens are stored: a last use on its way never restores a revoked account; and the queue itself. The test
+// compares the content of the store after a crash at any moment.
 #include "gateway/services/access/secrets.hpp"
 #include "tests/unit/http/fake_access.hpp"
 #include "tests/unit/http/harness.hpp"
@@ -31,7 +31,7 @@ protected:
         auto handled = door.handle(r, [this](Response x) { late.push_back(std::move(x)); });
         return handled.now ? answer_from(std::move(*handled.now)) : Answer{};
     }
-    /// What a start after a crash would find: users and tokens as the records that were written make them.
+    /// The state after a crash: users and tokens from the written records.
     AccessRegister after_a_crash() const {
         std::map<std::pair<std::string, std::string>, std::string> store;
         for (const auto* role : {"viewer", "administrator"})
@@ -159,7 +159,7 @@ TEST(ChangeQueue, AJobWhoseEndIsLostLaterFreesItsPlaceThen) {
         },
         nullptr));
     EXPECT_FALSE(ran);
-    kept = nullptr;  // whoever held it is gone, as when an exception unwinds it
+    kept = nullptr;  // no copy exists any more, as after an exception
     EXPECT_TRUE(ran);
 }
 }  // namespace

@@ -1,5 +1,4 @@
 // The access register in virtual time: sessions, tokens, lockout, local access; and the rules for names and passwords.
-// In: tables. Out: judgements.
 #include <gtest/gtest.h>
 
 #include "gateway/services/access/access_register.hpp"
@@ -210,7 +209,7 @@ TEST_F(AccessRegisterTest, WhoWasLetInFromAnAddressIsNotHeldUpByItsOtherPeople) 
     EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0);
     EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 0);
     EXPECT_EQ(access.begin_sign_in("anna", peer, t0).pause_s, 1) << "but her own wrong ones count there too";
-    // Where she was let in is known after a restart.
+    // The addresses of earlier sign-ins are known after a restart.
     AccessRegister again{small()};
     again.load(person("anna", Role::administrator));
     for (const auto& use : access.take_uses())

@@ -1,4 +1,4 @@
-// Alarms over HTTP: the list, acknowledge, shelve, what is kept and found again, what is streamed; events as table and text.
+// Alarms over HTTP: the list, acknowledge, shelve, stored and restored alarms, the live feed; events as table and text.
 #include <fmt/core.h>
 
 #include "gateway/doors/http/stream_hub.hpp"
@@ -25,7 +25,7 @@ protected:
         e.kind = std::move(kind);
         return e;
     }
-    /// The answer, which comes when it is on disk: the fake's disk is quick.
+    /// The answer comes when it is on the disk; the fake's disk is immediate.
     Answer post(std::string target, std::string body) {
         auto a = call("POST", "/api/v1/alarms" + target, std::move(body));
         return promised ? answered() : a;
@@ -146,7 +146,7 @@ TEST_F(Alarms, AreFoundAgainAfterARestartWithWhatCameMeanwhile) {
     alarms->detach();
     Event e = event("line can0 is down", "", Severity::warning, "line");
     e.line = "can0";
-    gateway.tell(e);  // in the store, but nobody was there to hear it
+    gateway.tell(e);  // in the store, but no listener was there
     auto fresh = std::make_shared<AlarmService>(gateway, [this] { return clock; });
     fresh->begin();
     ASSERT_EQ(fresh->list().all().size(), 3u);

@@ -1,4 +1,4 @@
-// Assemblies as CSV by REST: out, tried, added, in place of all; every faulty line by its number, and then nothing is taken.
+// Assemblies as CSV over REST: exported, tried, added, replacing all; every faulty line has its number, and nothing is accepted then.
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

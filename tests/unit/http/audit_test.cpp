@@ -1,4 +1,4 @@
-// What the door writes down by itself: refusals, bounded, and changes that nobody else tells of.
+// The events of the HTTP door itself: refusals, bounded, and changes that no service reports.
 #include "tests/unit/http/fake_access.hpp"
 #include "tests/unit/http/harness.hpp"
 

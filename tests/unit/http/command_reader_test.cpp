@@ -1,4 +1,4 @@
-// Command bodies: units into whole increments, and every way to be refused.
+// Bodies of commands: conversion of units to whole increments, and every refusal.
 #include "gateway/services/command_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(CommandReader, TellsAllFaultsAtOnce) {
 }
 
 TEST(CommandReader, NumbersThatAreNotFinite) {
-    // 1e999 is JSON; what the parser makes of it must never become increments.
+    // 1e999 is JSON; the parser's value for it must never become increments.
     boost::system::error_code ec;
     const auto v = boost::json::parse(R"({"command":"move_absolute","position":1e999})", ec);
     if (!ec) {

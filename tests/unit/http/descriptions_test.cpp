@@ -1,4 +1,4 @@
-// Drive descriptions over HTTP: posted, shown, given back, refused with their lines, and kept while a drive names them.
+// Drive descriptions over HTTP: stored, shown, downloaded, refused with their lines, and kept while a drive names them.
 #include <gmock/gmock.h>
 
 #include <fstream>

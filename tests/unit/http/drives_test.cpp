@@ -1,4 +1,4 @@
-// Handlers with a made-up Gateway: drives and lines, native exchanges, the tester's hand, recorded frames, events.
+// Handlers with a fake gateway: drives and lines, native exchanges, conditions of twins, recorded frames, events.
 #include "gateway/wire/frame_export.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -59,7 +59,7 @@ TEST_F(HttpTest, Native) {
     gateway.finish(bad_result(Reason::no_answer, "drive feeder did not answer within 100 ms"));
     EXPECT_EQ(answered().status, 504u);
 
-    // The drive has answered, if with its error: what it said is shown.
+    // The drive has answered, although with an error: the answer is shown.
     call("POST", "/api/v1/drives/feeder/native", R"({"send":"MT[9]"})");
     gateway.now_ns += 250'000;
     Result no = bad_result(Reason::drive_refused, "MT[9]: the drive says 0x34 (sub-index)");

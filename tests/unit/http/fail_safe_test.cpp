@@ -1,5 +1,4 @@
-// HTTP, loss of command: the matrix is shown with its defaults, changed axis by axis, and rehearsed into a dated report.
-// In: requests, cells. Out: answers, documents, events. Never plays a cell.
+// The matrix of loss of command is shown with its defaults, changed axis by axis, and rehearsed into a dated report.
 #include <gtest/gtest.h>
 
 #include "tests/unit/http/harness.hpp"

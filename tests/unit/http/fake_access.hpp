@@ -1,5 +1,4 @@
-// An AccessPort for tests: hashes at once ("hash of PASSWORD"), keeps records in memory, or fails when told to.
-// In: what the test sets. Out: what the door stored and told. Never has a thread or a clock.
+// An AccessPort for tests: it hashes at once ("hash of PASSWORD"), keeps records in memory, or fails on request, without thread and clock.
 #pragma once
 
 #include <deque>
@@ -33,7 +32,7 @@ public:
         if (slow_disk) return writing.push_back(std::move(write));
         write();
     }
-    /// The disk has done what was asked of it first.
+    /// The disk has carried out its oldest job.
     void write_one() {
         const auto write = std::move(writing.front());
         writing.pop_front();

@@ -1,5 +1,5 @@
-// The axis and the parameter port of tests of the HTTP door: pictures and values that the test sets, and the commands that were given.
-// In: pictures, values, results. Out: what was submitted; each command waits until the test ends it, or is answered at once.
+// The axis and the parameter port for tests: pictures and values are set by the test; each command waits until the test ends it, or is
+// answered at once.
 #pragma once
 
 #include <deque>
@@ -22,7 +22,7 @@ public:
         pictures[sites_.axis(name)] = p;
         ++revisions[sites_.axis(name)];
     }
-    /// Answers the oldest command that waits.
+    /// Answers the oldest waiting command.
     void finish(Result r) {
         if (waiting.empty()) throw std::logic_error("no command waits");
         auto w = std::move(waiting.front());
@@ -44,7 +44,7 @@ public:
     };
     std::deque<Waiting> waiting;
     std::vector<Command> submitted;
-    /// Set: commands are answered inside submit.
+    /// If set, commands are answered inside submit.
     std::function<Result(const Command&)> at_once;
     Ticket last_ticket = (std::uint64_t{3} << 56) + 16;
 
@@ -102,7 +102,7 @@ public:
     void unlisten(SampleListener* l) override { sample_listeners.erase(l); }
 };
 
-/// A picture as an enabled, referenced axis at rest shows it.
+/// The picture of an enabled, referenced axis at rest.
 inline AxisPicture standing(std::int64_t position, std::int64_t at_ms = 600) {
     AxisPicture p;
     p.number = 1;

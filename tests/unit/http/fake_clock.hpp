@@ -1,4 +1,4 @@
-// The clock and the status port of tests of the HTTP door. In: the time and what is missing, as the test sets them. Out: the same.
+// The clock and the status port for tests: the test sets the time and the missing conditions.
 #pragma once
 
 #include <string>

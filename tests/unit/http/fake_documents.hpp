@@ -1,5 +1,4 @@
-// The document, the description and the snapshot port of tests of the HTTP door: a disk that the test may hold up or make full.
-// In: texts and snapshots. Out: the same again, and how often something was saved. Changes of a disk that is behind wait for catch_up().
+// The document, description and snapshot port for tests, with a disk that the test may delay (until catch_up()) or fill.
 #pragma once
 
 #include <deque>
@@ -38,7 +37,7 @@ public:
     void delete_document(const std::string& kind, const std::string& name, std::function<void(std::string)> then) override {
         on_disk([this, kind, name, then] { then(stored_documents.erase({kind, name}) == 0 ? "there is none of this name" : ""); });
     }
-    /// Changes of documents wait, in their order, until catch_up().
+    /// Changes of documents wait in their order until catch_up().
     bool disk_is_behind = false;
     std::deque<std::function<void()>> disk;
     std::size_t document_saves = 0;
@@ -90,7 +89,7 @@ public:
         }
         return std::nullopt;
     }
-    bool axis_gone = false;  ///< the store has seen the axis removed, and this thread has not
+    bool axis_gone = false;  ///< the store has removed the axis already, and this thread has not
     void save_snapshot(AxisSnapshot s, std::string name, std::function<void(std::uint32_t, std::string, bool)> then) override {
         if (axis_gone) return then(0, "the axis was removed meanwhile", true);
         if (!keep_fault.empty()) return then(0, keep_fault, false);

@@ -1,5 +1,4 @@
-// The event port of tests of the HTTP door: events that the test tells, and those that handlers and services noted.
-// In: events. Out: those that a query asks for; listeners hear of what is told. Never has a clock: FakeClock's time counts.
+// The event port for tests: events of the test, of handlers and of services. FakeClock provides the time.
 #pragma once
 
 #include <set>

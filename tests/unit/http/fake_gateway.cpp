@@ -1,5 +1,4 @@
-// What of the doubles is compiled once for all tests of the HTTP door: their making, their end, the site.
-// In: a site as text. Out: the site in force, told to the listeners. Never has a thread or a clock.
+// The parts of the fakes that are compiled once: construction, destruction, the site.
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::http::test {

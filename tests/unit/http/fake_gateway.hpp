@@ -1,5 +1,5 @@
-// All ports of tests of the HTTP door in one: the doubles of each topic, put together around a small site.
-// In: what the test sets. Out: what the door asked. Never has a thread or a clock: now_ns is set by the test.
+// All fake ports in one, with a small site; the test sets their answers and reads the requests. There is no thread and no clock: the test
+// sets now_ns.
 #pragma once
 
 #include "gateway/services/ports.hpp"
@@ -36,7 +36,7 @@ class FakeGateway final : public FakeClock,
                           public FakeBackup {
 public:
     explicit FakeGateway(std::string_view site_text = default_site);
-    ~FakeGateway() override;  ///< in fake_gateway.cpp, and with it the tables of virtual functions: they are compiled once
+    ~FakeGateway() override;  ///< in fake_gateway.cpp with the tables of virtual functions, so that they are compiled once
     Ports ports() { return *this; }
 };
 

@@ -1,5 +1,4 @@
-// The line and the drive port of tests of the HTTP door: reports, records, searches and hands that the test sets.
-// In: what they are to answer. Out: what was asked. Answers inside the call.
+// The line and the drive port for tests: reports, records, scans and conditions are set by the test; answers come inside the call.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// The rehearsal port of tests of the HTTP door: cells that the test gives when it likes.
-// In: what the door asked for. Out: those requests; the test answers with give(). Never plays anything.
+// The rehearsal port for tests: the test answers the requested cells with give().
 #pragma once
 
 #include <deque>
@@ -26,7 +25,7 @@ public:
         cells_wanted.emplace_back(std::move(cell), std::move(then));
     }
     [[nodiscard]] Duration watchdog() const override { return std::chrono::milliseconds(5000); }
-    /// Answers all that is asked, and what is asked for that.
+    /// Answers all requested cells, and those requested because of that.
     void give_all(const std::function<void(RehearsalCell&)>& fill) {
         while (!cells_wanted.empty()) {
             auto [cell, then] = std::move(cells_wanted.front());
@@ -36,7 +35,7 @@ public:
         }
     }
     std::deque<std::pair<RehearsalCell, std::function<void(RehearsalCell)>>> cells_wanted;
-    std::deque<RehearsalWish> wishes;  ///< all that came
+    std::deque<RehearsalWish> wishes;  ///< all requests so far
 };
 
 class FakeFleet : public FleetPort {
@@ -56,7 +55,7 @@ class FakeRecorder : public RecorderPort {
 public:
     Trends trends{1u << 20, std::chrono::hours(1)};
     std::vector<RecordingInfo> recorded;
-    RecordingFault next_fault;  ///< of the next wish
+    RecordingFault next_fault;  ///< of the next request
     TrendStretch trend(AxisId axis, Instant from, Instant to, std::size_t columns) override { return trends.read(axis, from, to, columns); }
     RecorderState recorder_state() override { return {}; }
     std::vector<RecordingInfo> recordings() const override { return recorded; }
@@ -99,7 +98,7 @@ public:
 class FakeCaptures : public CapturePort {
 public:
     std::vector<std::pair<CaptureOrder, Capture>> running;
-    RecordingFault capture_fault;  ///< of the next wish
+    RecordingFault capture_fault;  ///< of the next request
     CaptureRoom capture_room() const override { return {1000, 2000, ""}; }
     std::vector<CaptureInfo> captures() override {
         std::vector<CaptureInfo> out;

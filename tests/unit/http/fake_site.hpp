@@ -1,5 +1,4 @@
-// The site port of tests of the HTTP door: a small site of a made-up family, put in force when the test wants.
-// In: sites, and how the next change ends. Out: the site in force, told to who listens; ids that stay with the names. Never has a thread.
+// The site port for tests: a small site of an invented family, put in force when the test wants; ids stay with the names.
 #pragma once
 
 #include <boost/json/parse.hpp>
@@ -35,7 +34,7 @@ inline std::string check_demo_address(std::string_view address) {
     return address.find_first_not_of("0123456789") == std::string_view::npos && !address.empty() ? "" : "an address is a number";
 }
 
-/// Reads a frame as its number since the decoder was made, so that a test sees whether it was made anew.
+/// Decodes a frame as its number since the decoder was made, so that a test sees whether it was made anew.
 struct DemoDecoder final : Decoder {
     int n = 0;
     std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override {
@@ -80,7 +79,7 @@ public:
         if (apply == Apply::fail) return then({false, "the disk is full", site_});
         if (apply == Apply::overtake_once || apply == Apply::overtake_always) {
             if (apply == Apply::overtake_once) apply = Apply::now;
-            put_site(Site(site_->site));  // somebody else was faster
+            put_site(Site(site_->site));  // another client was faster
             return then({false, "the site has another revision", site_});
         }
         auto go = [this, site = std::move(site), then]() mutable {

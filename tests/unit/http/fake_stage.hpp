@@ -1,5 +1,4 @@
-// The stage, register, Modbus and backup port of tests of the HTTP door: each answers inside the call.
-// In: what they are to answer, and why nothing can be kept. Out: what was asked, put in force, laid down.
+// The stage, register, Modbus and backup port for tests; each answers inside the call as the test has set.
 #pragma once
 
 #include <optional>
@@ -100,7 +99,7 @@ class FakeBackup : public BackupPort {
 public:
     explicit FakeBackup(const std::string& keep_fault) : fault_(keep_fault) {}
     std::string bytes = "SQLite", restored;
-    std::string passphrase;  ///< that was sent last
+    std::string passphrase;  ///< the last one that was sent
     void backup(std::string with, std::function<void(std::optional<std::string>, BackupOutcome)> then) override {
         passphrase = std::move(with);
         if (passphrase == "unfit") return then(std::nullopt, {"a passphrase has 12 to 256 characters", false, {}});

@@ -1,4 +1,4 @@
-// Handlers with a made-up Gateway: the program itself, catalogue, axes' documents, commands, the live feed's handshake.
+// Handlers with a fake gateway: the program itself, catalogue, axes' documents, commands, the live feed's handshake.
 #include <algorithm>
 
 #include "gateway/core/text.hpp"
@@ -175,7 +175,7 @@ TEST_F(HttpTest, AnAxisIsTextOncePerPicture) {
     gateway.now_ns += 250'000'000;
     EXPECT_EQ(age(), first + 250) << "the same picture grows older";
     EXPECT_EQ(gateway.pictures_read, read) << "and is not read again";
-    // What is given is what the list of all axes gives, member by member and in the same order.
+    // One axis has the same members in the same order as in the list of all axes.
     const auto list = call("GET", "/api/v1/axes").array();
     for (const auto& axis : list) {
         const std::string name(axis.at("name").as_string());

@@ -1,5 +1,4 @@
-// The harness of the HTTP door's tests, compiled once: the router with all that it needs, and how a test calls it.
-// In: method, target, body, headers. Out: the answer with its body parsed.
+// The router with everything that it needs, and the calls of a test, compiled once.
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {

@@ -1,5 +1,4 @@
-// A router around a FakeGateway, with calls that read like requests.
-// In: method, target, body, headers. Out: the answer with its body parsed.
+// A router with a FakeGateway, with calls that read like requests; the body of the answer is parsed.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +40,7 @@ struct Harness {
 
     FakeGateway gateway;
     Settings settings;
-    std::map<std::string, std::string, std::less<>> files;  ///< some of a page, packed and not, and what is none of it
+    std::map<std::string, std::string, std::less<>> files;  ///< some files of a page, compressed and not, and others
     Instant clock = time_zero;                              ///< of the recipes
     std::shared_ptr<RecipeService> recipes;
     std::shared_ptr<AlarmService> alarms;
@@ -54,13 +53,13 @@ struct Harness {
 
     static Request request(std::string_view method, std::string target, std::string body = {},
                            std::vector<std::pair<std::string, std::string>> headers = {});
-    /// The answer, be it at once or (if the FakeGateway gave one inside the call) through the callback; status 0 if it is still to come.
+    /// The answer, at once or (if the FakeGateway gave one inside the call) through the callback; status 0 if it is still outstanding.
     Answer call(std::string_view method, std::string target, std::string body = {},
                 std::vector<std::pair<std::string, std::string>> headers = {});
     Answer send(const Request& r);
-    /// What came through the callback after a promise.
+    /// The answer that came through the callback after a promise.
     Answer answered();
-    /// Another router at the same gateway, with users and without a page.
+    /// Another router for the same gateway, with users and without a page.
     [[nodiscard]] Router with_users(std::shared_ptr<AccessPort> access);
 };
 

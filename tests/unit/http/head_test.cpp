@@ -1,5 +1,4 @@
-// Heads of requests: where they end, to the byte, and what could be read in two ways.
-// In: bytes. Out: judgements.
+// Heads of requests: their exact end, and forms that could be read in two ways.
 #include "gateway/doors/http/head.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Ports of the host over HTTP: where a line can be, as a URI to be taken, and which line is there already; the group of an axis goes in and
-// out.
+// Ports of the host over HTTP: the URI for a line at each, and the line that uses it already; the group of an axis.
 #include <gtest/gtest.h>
 
 #include "tests/unit/http/harness.hpp"

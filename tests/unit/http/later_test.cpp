@@ -1,4 +1,4 @@
-// What only reads waits for what commands: of jobs that take long, not one more is begun when bytes have come at a socket meanwhile.
+// Requests that only read give way to commands: while bytes wait at a socket, no further long job is begun.
 #include "gateway/doors/http/later.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Mappings by REST: entries one by one, conflicts that name the other, CSV as a whole or not at all.
+// Mappings over REST: entries one by one, conflicts that name the other entry, CSV as a whole or not at all.
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -72,7 +72,7 @@ TEST_F(HttpTest, MappingsAsCsv) {
     EXPECT_EQ(faulty.object().at("faults").get_array().size(), 2u) << faulty.text;
     EXPECT_EQ(faulty.fault(0).at("pointer"), "/3");
     EXPECT_EQ(faulty.fault(1).at("pointer"), "/4");
-    // A cell that cannot be read keeps no other row from being looked at.
+    // A cell that cannot be read does not prevent the check of the other rows.
     const auto mixed =
         call("PUT", "/api/v1/mappings.csv?dry_run=1",
              "unit,address,axis,point\n1,0,feeder,position\n2,x,feeder,position\n2,5,nobody,position\n2,9,feeder,position\n", type);

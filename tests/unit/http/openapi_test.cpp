@@ -1,5 +1,5 @@
-// schema/openapi.yaml against the program, in both directions: routes and methods, and the members that documents must have.
-// The file is read by its indentation, which its head comment promises: paths at two spaces, methods at four, schemas at four.
+// Compares schema/openapi.yaml with the program in both directions: routes and methods, and the required members of documents. The file is
+// read by its indentation, which its head comment guarantees: paths at two spaces, methods at four, schemas at four.
 #include <fstream>
 #include <map>
 #include <set>
@@ -46,7 +46,7 @@ Operations described() {
     return out;
 }
 
-/// The `required` list of a schema, those of its `allOf` parts and of the schemas they name; nested objects are not looked into.
+/// The `required` list of a schema, including its `allOf` parts and the schemas that they name; nested objects are not examined.
 void required_of(const std::string& schema, std::set<std::string>& out) {
     bool in_schemas = false, in_schema = false, found = false;
     std::string list;
@@ -95,7 +95,7 @@ TEST(OpenApi, RoutesAreThoseOfTheDescriptionInBothDirections) {
 }
 
 TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
-    // requestBody stands at six spaces below its method.
+    // requestBody is at six spaces below its method.
     std::set<std::pair<std::string, std::string>> with_body;
     std::string path, method;
     for (const auto& line : lines_of_description()) {
@@ -113,7 +113,7 @@ TEST(OpenApi, RoutesThatTakeABodyAreDescribedSo) {
     }
 }
 
-/// One value that stands at six spaces below each method, by path and method; empty where it is missing.
+/// One value at six spaces below each method, by path and method; empty if it is missing.
 std::map<std::pair<std::string, std::string>, std::string> published_at_each(const std::string& key) {
     std::map<std::pair<std::string, std::string>, std::string> out;
     std::pair<std::string, std::string> at;
@@ -142,7 +142,7 @@ std::pair<std::string, std::string> place_of(const Route& r) {
 
 TEST(OpenApi, QueriesAreThoseOfTheDescriptionInBothDirections) {
     // A parameter is a list entry of an operation: "- name: x" with "in: query" below it, or a reference to one of the components, which
-    // stand at four spaces with their name at six.
+    // are at four spaces with their name at six.
     std::map<std::string, std::string> shared;
     std::map<std::pair<std::string, std::string>, std::set<std::string>> published;
     std::pair<std::string, std::string> at;
@@ -198,7 +198,7 @@ TEST(OpenApi, EveryOperationStatesTheRoleThatTheProgramAsksFor) {
 }
 
 TEST(OpenApi, EveryOperationStatesItsSecurity) {
-    // A rule of the usual linters (security-defined): one for all, and none where nobody has to sign in.
+    // A rule of the usual linters (security-defined): one for all, and none where no sign-in is necessary.
     const auto lines = lines_of_description();
     EXPECT_NE(std::ranges::find(lines, "security: [{session: []}, {token: []}, {}]"), lines.end());
     for (const auto* scheme : {"    session: {type: apiKey,", "    token: {type: http,"})
@@ -274,7 +274,7 @@ TEST_F(OpenApiDocuments, ReadOnlyAxisMembersAreThoseOfTheDescription) {
     required.insert("age_ms");
     for (const auto& member : required)
         EXPECT_TRUE(is_document_member(member)) << member;
-    // The description leaves these two to gateways that know them.
+    // The description makes these two optional for gateways that do not know them.
     required.insert({"authority_holder", "authority_until"});
     for (const auto& row : axis_point_table) {
         if (row.document != PointInDocument::no) {

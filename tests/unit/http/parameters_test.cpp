@@ -45,7 +45,7 @@ TEST_F(HttpParameters, ListHasLiveAndStoredValues) {
     EXPECT_EQ(call("GET", "/api/v1/axes/none/parameters").status, 404u);
 }
 
-/// Two parameters whose form hangs on a third, one of bits, one of ranges.
+/// Two parameters whose form depends on a third, one of bits, one of ranges.
 constexpr std::string_view forms = R"({"family": "demo", "number": 9, "commands": [], "errors": [],
   "actions": [{"code": 0, "title": "no action"}, {"code": 3, "title": "stop"}],
   "parameters": [

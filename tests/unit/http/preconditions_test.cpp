@@ -1,5 +1,5 @@
-// Who comes second: users, the locks of the Modbus door and single parameters have an ETag, and If-Match that means another state is
-// refused with what is there now. And two tokens of one owner have two names.
+// Two clients that change the same object: users, the locks of the Modbus door and single parameters have an ETag, and an If-Match with
+// another state is refused with the present one. And two tokens of one owner have two names.
 #include "gateway/doors/http/preconditions.hpp"
 
 #include "tests/unit/http/fake_access.hpp"
@@ -20,7 +20,7 @@ protected:
         admin = signed_in("administrator");
     }
     Answer ask(std::string_view method, std::string target, std::string body = {}, Fields headers = {}) {
-        auto late = std::make_shared<std::optional<Response>>();  // an answer may come when nobody looks any more
+        auto late = std::make_shared<std::optional<Response>>();  // an answer may come after its request has ended
         auto handled = door.handle(request(method, std::move(target), std::move(body), std::move(headers)),
                                    [late](Response x) { *late = std::move(x); });
         if (handled.now) return answer_from(std::move(*handled.now));
@@ -133,7 +133,7 @@ TEST_F(Preconditions, AParameterThatWasWrittenMeanwhile) {
     EXPECT_EQ(ask("GET", "/api/v1/axes/feeder/parameters/MT?cached=1", "", admin).headers.get("ETag"), unwritten) << "each by itself";
     EXPECT_EQ(write(if_match(tag())).status, 0u) << "on its way";
     ASSERT_EQ(gateway.submitted.size(), 1u);
-    // Until it is answered, nobody can say whether another one means the right state.
+    // Until it is answered, it is unknown whether another request refers to the right state.
     const auto busy = write(if_match(tag()));
     EXPECT_EQ(busy.status, 409u) << busy.text;
     EXPECT_EQ(busy.at("reason"), "busy");

@@ -1,4 +1,4 @@
-// Recipes over HTTP: documents, runs through the Gateway in virtual time, reports, and who may run beside whom.
+// Recipes over HTTP: documents, runs in virtual time, reports, and which recipes may run at the same time.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ protected:
         w.then(r);
         recipes->on_deadline(clock);
     }
-    /// The drive has taken a motion: the picture says so before the client hears of it.
+    /// The drive has accepted a motion: the picture shows it before the client is answered.
     void moves(AxisId axis, Ticket by, bool moving = true) {
         AxisPicture& p = gateway.pictures[axis];
         p.motion_ticket = by;
@@ -228,7 +228,8 @@ TEST_F(Recipes, AMoveByHandThatEndsAStepIsNotHalted) {
     put("go", moving_recipe);
     (void)run("go");
     moves(gateway.axis("feeder"), gateway.submitted[0].ticket);
-    // By the same client, as when the person who has started the recipe moves the axis on the same page: only the ticket tells.
+    // By the same client, as when the person who has started the recipe moves the axis on the same page: only the ticket distinguishes
+    // them.
     answer_oldest(bad_result(Reason::interrupted, "ended by move_absolute", 0, Outcome::failed));
     EXPECT_EQ(state("go"), "stopping") << "the drive has not answered the other command yet";
     EXPECT_FALSE(stop_sent());
@@ -317,7 +318,7 @@ TEST_F(Recipes, ARunUnderWayIsShownAsInterruptedAfterARestart) {
     answer_oldest();
     pass(std::chrono::milliseconds(1100));
     const auto noted = gateway.noted.size();
-    auto fresh = std::make_shared<RecipeService>(gateway, [this] { return clock; });  // as after a kill -9: nothing was told of the end
+    auto fresh = std::make_shared<RecipeService>(gateway, [this] { return clock; });  // as after a kill -9: the end was not reported
     fresh->begin();
     const auto r = fresh->report("go", 1);
     ASSERT_TRUE(r);
@@ -433,7 +434,7 @@ TEST_F(Recipes, AStepToAUnitWithAProfileIsRefusedWhenTheRecipeIsStored) {
         EXPECT_EQ(refused.fault().at("text"), "unit 12 speaks the language lexium: a recipe does not write its registers");
     }
     EXPECT_EQ(call("GET", "/api/v1/recipes/other").status, 404u) << "nothing is stored";
-    // What is stored before its unit gets a profile is told the same at its run.
+    // A recipe that is stored before its unit gets a profile is refused in the same way when it runs.
     put("earlier", recipe(13));
     ASSERT_EQ(call("PUT", "/api/v1/profiles/13", R"({"language":"lexium","axes":[{"axis":"slide"}]})").status, 200u);
     const auto late = run("earlier");

@@ -1,5 +1,5 @@
-// What was done by hand, as steps of a recipe: commands of any door, jogs, parameter writes, simulated conditions, and what is none of
-// them. In: records as the recorder keeps them. Out: the answer of GET /recorder/steps, which read_recipe takes. Never a drive.
+// Recorded commands as steps of a recipe: commands of any door, jogs, parameter writes, simulated conditions, and commands that cannot be a
+// step. read_recipe accepts the result.
 #include <gtest/gtest.h>
 
 #include "gateway/services/recipes/recipe_read.hpp"
@@ -85,7 +85,7 @@ TEST_F(RecordedSteps, AJogIsOneMoveForAsLongAsItWasHeld) {
     EXPECT_EQ(text(steps(4s)), R"([{"command":{"axis":"feeder","command":"move_velocity","velocity":-5}},{"wait_s":2},)"
                                R"({"command":{"axis":"feeder","command":"halt"}}])");
     jog.renew_only = false;
-    give(jog, 10s);  // and nobody lets go: it runs out
+    give(jog, 10s);  // and it is not renewed: it expires
     const auto o = steps(20s);
     const auto& all = o.at("steps").as_array();
     ASSERT_EQ(all.size(), 6u) << text(o);
@@ -98,7 +98,7 @@ TEST_F(RecordedSteps, PanelsParametersAndRehearsalsAreSteps) {
     d.target_position = 6400;
     d.controlword = 0x1F;
     give(d, 1s, by("192.0.2.7", Door::modbus));
-    give(d, 2s, by("192.0.2.7", Door::modbus));  // the same again says nothing new
+    give(d, 2s, by("192.0.2.7", Door::modbus));  // the repetition has no effect
     const auto point = gateway.site()->site.axes.empty() ? std::nullopt : find_axis(gateway, "feeder")->catalogue->find("AC");
     ASSERT_TRUE(point);
     give(WriteParameter{*point, Value{std::int64_t{20000}}}, 3s);

@@ -1,5 +1,4 @@
-// The recorder over HTTP: trends in units as JSON and CSV, recordings made, renamed, handed out, deleted; what is wrong is refused.
-// In: a gateway without a disk. Out: answers. Never waits.
+// The recorder over HTTP: trends in units as JSON and CSV, recordings made, renamed, downloaded, deleted; faults are refused.
 #include <gtest/gtest.h>
 
 #include "tests/unit/http/harness.hpp"
@@ -45,10 +44,10 @@ TEST_F(RecorderOverHttp, TrendsAreToldInUnitsAndThinnedToColumns) {
     EXPECT_EQ(columns.at("high").as_array().at(9).to_number<double>(), 99);
 }
 
-// An axis runs, stands in fault, is silent, and has moved when it is heard again: a thinned stretch says so in each column, and its end is
-// what is known last, not the greatest of the last column.
+// An axis runs, stands in fault, is silent, and has moved when it answers again: each column of a reduced period shows this, and its end is
+// the last known value, not the greatest of the last column.
 TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
-    constexpr std::int64_t begins_ms = 10'000;  // behind what the fixture has told
+    constexpr std::int64_t begins_ms = 10'000;  // behind the reports of the fixture
     const AxisId axis = gateway.axis("feeder");
     const auto tell = [&](std::int64_t ms, std::int64_t position, std::int64_t velocity, std::uint16_t flags = 0) {
         PictureRecord p;
@@ -62,7 +61,7 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     for (int ms = 0; ms <= 490; ms += 10)
         tell(ms, 88 * ms, ms == 250 ? 99 : 15);
     tell(495, 88 * 490, 0);              // the fault: it stands
-    tell(750, 88 * 490, 0, flag_stale);  // nobody answers
+    tell(750, 88 * 490, 0, flag_stale);  // the drive does not answer
     tell(1'520, 88 * 490, 0, flag_stale | flag_warning);
     tell(1'560, 40, 0);
     const auto answer = call("GET", "/api/v1/recorder/trends?axes=feeder&columns=20&points=position,velocity&from=" +
@@ -74,7 +73,8 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     const auto of = [&](std::string_view point, std::string_view member) -> const boost::json::array& {
         return trend.at("points").as_object().at(point).as_object().at(member).as_array();
     };
-    // Columns of 100 ms: five that move, one that loses it, one in which it comes back. What holds in between needs none.
+    // Columns of 100 ms: five with motion, one in which the drive falls silent, one in which it returns. Unchanged values in between need
+    // none.
     ASSERT_EQ(at.size(), 7u) << answer.text;
     const auto numbers = [&](std::string_view member) {
         std::vector<double> out;
@@ -93,7 +93,7 @@ TEST_F(RecorderOverHttp, AThinnedStretchHasFirstMinMaxAndLastAndItsGaps) {
     EXPECT_EQ(trend.at("newest").to_number<double>(), static_cast<double>(second_ms + begins_ms) + 1560);
 }
 
-// Nobody knows where a silent axis is: no value, whole or thinned, and the newest word is the one before the silence.
+// The position of a silent axis is unknown: it has no value, reduced or not, and the newest one is that before the silence.
 TEST_F(RecorderOverHttp, ASilentAxisHasNoValue) {
     PictureRecord p;
     p.position = 3200 * 99;

@@ -1,5 +1,5 @@
-// Register lists through the router: what a PLC computes from the structures is where the mappings are; numbers and units on paper;
-// templates. In: sites. Out: judgements. The offsets are computed from the text alone, as a compiler with packed structures does.
+// Register lists through the router: the offsets that a PLC computes from the structures are the addresses of the mappings; numbers and
+// units; templates. The offsets are computed from the text only, like a compiler with packed structures.
 #include <fmt/core.h>
 
 #include <regex>
@@ -20,7 +20,7 @@ protected:
     std::string list(const std::string& format) { return call("GET", "/api/v1/mappings/list?format=" + format).text; }
 };
 
-/// Registers, or bits, of a member by its type alone.
+/// Number of registers, or bits, of a member by its type.
 std::uint32_t size_of(const std::string& type) {
     std::smatch m;
     if (std::regex_match(type, m, std::regex(R"(ARRAY\[0\.\.(\d+)\] OF WORD)"))) return static_cast<std::uint32_t>(std::stoul(m[1])) + 1;
@@ -31,7 +31,7 @@ std::uint32_t size_of(const std::string& type) {
     return 0;
 }
 
-/// "unit table begin name" to the address that a packed structure gives the member.
+/// "unit table begin name" to the address of the member in a packed structure.
 std::map<std::string, std::uint32_t> places_in(const std::string& text, int& structures, int& packed) {
     std::map<std::string, std::uint32_t> out;
     std::istringstream lines(text);

@@ -1,5 +1,4 @@
-// Who may do what: each role against each route of the table, so that a new route is covered the day it is added.
-// And the handlers of sessions, users and tokens, with a fake of everything behind them.
+// Each role against each route of the table, so that a new route is covered at once; and the handlers of sessions, users and tokens.
 #include "gateway/services/access/secrets.hpp"
 #include "tests/unit/http/fake_access.hpp"
 #include "tests/unit/http/harness.hpp"
@@ -19,7 +18,7 @@ protected:
         for (const auto* role : {"viewer", "operator", "engineer", "administrator"})
             access->own_accounts.load(User{role, *role_named(role), true, std::string("hash of secret ") + role, 1, 0});
     }
-    /// Like Harness::send, at a door that has users; the fake answers inside the call.
+    /// Like Harness::send, at a door with users; the fake answers inside the call.
     Answer send(const Request& r) {
         std::optional<Response> late;
         auto handled = door.handle(r, [&late](Response x) { late = std::move(x); });
@@ -59,7 +58,7 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
     int checked = 0;
     for (const auto& route : all_routes()) {
         for (const auto* role : {"none", "viewer", "operator", "engineer", "administrator"}) {
-            Fields headers = as(role);  // anew each time: one of the routes signs out
+            Fields headers = as(role);  // made anew each time, because one of the routes signs out
             std::string body;
             if (route.takes == Route::Takes::csv) {
                 headers.emplace_back("Content-Type", "text/csv");
@@ -72,7 +71,7 @@ TEST_F(AccessTest, EachRoleAgainstEachRoute) {
             const std::string what = std::string(name_of(route.method)) + " " + std::string(route.path) + " as " + role + ": " + a.text;
             ++checked;
             if (may) {
-                // What a handler refines by its body or by whose it is stands in its own tests.
+                // Restrictions that a handler makes by its body or its owner have tests of their own.
                 const bool refines = route.handler == take<change_password> || route.handler == take<add_token> ||
                                      route.handler == take<command_axis> || route.handler == take<command_fleet_axis>;
                 if (!refines) EXPECT_TRUE(a.status != 401 && a.status != 403) << what;
@@ -138,7 +137,7 @@ TEST_F(AccessTest, TheBackupsPassphraseComesInAHeaderOfItsOwn) {
     EXPECT_EQ(gateway.restored, "a backup");
 }
 
-/// What the connection asks before it reads a body: the same refusal as with the body, and nothing that changes anything.
+/// The connection's check before it reads a body: the same refusal as with the body, without any change.
 TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
     int with_body = 0, refused = 0;
     for (const auto& route : all_routes()) {
@@ -152,7 +151,7 @@ TEST_F(AccessTest, EachRouteWithABodyRefusesBeforeItIsRead) {
                                                                                       : "application/json");
             Request head = request(name_of(route.method), with_names(route.path), {}, headers);
             head.peer = std::string(faraway_peer);
-            const bool unknown = std::string_view(role) == "none";  // who signs in sends little
+            const bool unknown = std::string_view(role) == "none";  // a sign-in has a short body
             head.announced_bytes = unknown ? 8'000 : 1'000'000;
             const auto a = door.admit(head);
             if (*role_named(role) >= route.needed()) {

@@ -1,4 +1,4 @@
-// What holds for all routes: methods, hosts, origins, media types, errors, headers; and the page's files.
+// Rules for all routes: methods, hosts, origins, media types, errors, headers; and the page's files.
 #include "gateway/doors/http/static_files.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -49,7 +49,7 @@ TEST_F(HttpTest, NamesThatAQueryDoesNotHaveAreRefusedEverywhere) {
         }
         for (const auto& query : queries) {
             if (query == "?") continue;                           // an empty query is none
-            if (route.needed() == Role::administrator) continue;  // who it is comes first: see roles_test
+            if (route.needed() == Role::administrator) continue;  // the identity is checked first: see roles_test
             const auto a = call(name_of(route.method), path + query, route.takes == Route::Takes::nothing ? "" : "{}", headers);
             EXPECT_EQ(a.status, 400u) << name_of(route.method) << " " << path << query << " " << a.text;
             EXPECT_EQ(a.at("reason"), "bad_request") << path << query;
@@ -244,7 +244,7 @@ TEST_F(HttpTest, BadTargets) {
     for (const auto* target : {"", "api/v1/about", "/api/v1/axes/%zz", "/api/v1/axes/%00", "/a b", "//x:y z", "/api/v1/axes/%ff"})
         EXPECT_EQ(call("GET", target).status, 400u) << target;
     EXPECT_EQ(call("GET", "http://127.0.0.1:8080/healthz").status, 200u) << "absolute form";
-    // What the target says is the host, whatever the header says.
+    // The host in the target counts, whatever the header contains.
     EXPECT_EQ(call("GET", "http://evil.example/api/v1/about").status, 421u);
     EXPECT_NE(call("GET", "HTTPS://evil.example?x").at("detail").find("evil.example"), std::string::npos);
     EXPECT_EQ(call("GET", "http://localhost/healthz", "", {{"Host", "evil.example"}}).status, 200u);

@@ -79,7 +79,7 @@ TEST_F(HttpServer, ACommandThatCameWholeIsGivenWhereItIsRead) {
     std::promise<std::size_t> given;
     door.on([&] {
         ASSERT_TRUE(c.send(Client::post_text("/api/v1/axes/feeder/commands", R"({"command":"enable"})")));
-        // Behind this: a look at the sockets, the first of these two, what was found at the sockets, and the second.
+        // The order behind this is: a poll of the sockets, the first of these two, the ready sockets, and the second.
         asio::post(door.context(), [&] { asio::post(door.context(), [&] { given.set_value(door.gateway.waiting.size()); }); });
     });
     EXPECT_EQ(given.get_future().get(), 1u) << "a command waited for what became ready after it";
@@ -248,7 +248,7 @@ TEST_F(HttpServer, EmptyLinesBeforeARequest) {
     c.send("\r\nGET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(c.receive().status(), 200u);
     c.send("\r\n");
-    std::this_thread::sleep_for(milliseconds(200));  // longer than half a request may take: an empty line is none
+    std::this_thread::sleep_for(milliseconds(200));  // longer than half a request may take, because an empty line is no request
     c.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(c.receive().status(), 200u);
     c.send("\r\n\r\n\r\n\r\n");
@@ -406,7 +406,7 @@ TEST_F(HttpServer, IdleConnectionsAreClosed) {
 }
 
 TEST_F(HttpServer, AClientThatDoesNotReadItsAnswer) {
-    door.settings.write_limit = milliseconds(1000);  // enough for who reads, on a slow machine too
+    door.settings.write_limit = milliseconds(1000);  // sufficient for a reading client, on a slow machine too
     door.open();
     Client c(door.port, 4096);
     c.send("GET /big.txt HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -436,7 +436,7 @@ TEST_F(HttpServer, TheWaitEndsAtTheSocketToo) {
     const auto a = c.post("/api/v1/axes/feeder/commands?wait=0.05", R"({"command":"home"})");
     EXPECT_EQ(a.status(), 200u);
     EXPECT_EQ(a.json().at("reason"), "not done after 0.05 s");
-    door.on([&] { door.gateway.finish(good_result(Outcome::done)); });  // too late: nobody waits any more
+    door.on([&] { door.gateway.finish(good_result(Outcome::done)); });  // too late: the request has ended
     EXPECT_EQ(c.get("/healthz").json().at("status"), "ok") << "the late answer is not given to another request";
 }
 
@@ -548,7 +548,7 @@ TEST_F(HttpServer, StopsEvenIfSomebodyNeverEnds) {
     door.on([&] { door.server().stop([&stopped] { stopped = true; }); });
     EXPECT_TRUE(door.until([&] { return stopped; }));
     EXPECT_TRUE(busy.closed());
-    door.on([&] { door.gateway.finish(good_result()); });  // nobody is there, and nothing happens
+    door.on([&] { door.gateway.finish(good_result()); });  // without a client nothing happens
 }
 
 TEST_F(HttpServer, WhoWaitsForSomethingLongIsAnsweredAtTheStopAndHoldsNobodyUp) {
@@ -622,7 +622,7 @@ TEST_F(HttpServer, WithoutDescriptorsAStopStillComesIn) {
         rlimit tight = before;
         tight.rlim_cur = static_cast<rlim_t>(next) + 1;
         ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &tight), 0);
-        // By hand: an io_context of its own would need descriptors.
+        // Without an io_context, which would need descriptors.
         const int client = ::socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in at{};
         at.sin_family = AF_INET;

@@ -1,5 +1,4 @@
-// Services without any door: alarms are raised and kept, and recipes can be run by whoever comes next.
-// In: ports, events, virtual time. Out: lists and commands. No router and no connection is made here.
+// Services without any door: alarms are raised and stored, and recipes can be run. There is no router and no connection.
 #include <gtest/gtest.h>
 
 #include <boost/json/parse.hpp>
@@ -30,7 +29,7 @@ TEST_F(ServicesAlone, RaiseAlarmsAndKeepThemForTheNextStart) {
     services.reset();
     EXPECT_TRUE(gateway.listeners.empty()) << "nothing is told to services that are gone";
     EXPECT_TRUE(gateway.site_listeners.empty());
-    gateway.events_.clear();  // what is kept is not read from the events again
+    gateway.events_.clear();  // stored alarms are not derived from the events again
     services = make();
     ASSERT_EQ(services->alarms->list().all().size(), 1u);
     EXPECT_EQ(services->alarms->list().all().begin()->first, id);

@@ -1,4 +1,4 @@
-// The site by REST: entries one by one, references, renaming, cascades, revisions, races; and the whole document.
+// The site over REST: entries one by one, references, renaming, cascades, revisions, races; and the whole document.
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -34,7 +34,7 @@ TEST_F(HttpTest, FaultsPointIntoTheBodyWhereTheyAreThere) {
         EXPECT_FALSE(f.at("remedy").get_string().empty());
     }
     EXPECT_TRUE(gateway.applied.empty());
-    // A line of another family makes an entry wrong that the body does not hold.
+    // A line of another family makes an entry wrong that is not in the body.
     auto site = gateway.site()->site;
     site.axes[1].channel = 2;
     gateway.put_site(site);
@@ -206,7 +206,7 @@ TEST_F(HttpTest, ChangesThatWaitAreBounded) {
     EXPECT_EQ(a.at("reason"), "busy");
     EXPECT_EQ(call("GET", "/api/v1/axes/feeder").status, 200u) << "reading does not wait";
     gateway.apply = FakeGateway::Apply::now;
-    gateway.apply_waiting();  // the rest changes nothing any more and is answered in one go
+    gateway.apply_waiting();  // the rest causes no more changes and is answered at once
     EXPECT_EQ(gateway.applied.size(), 1u);
     EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"unit":"km"})").status, 200u) << "room again";
 }
@@ -272,7 +272,7 @@ TEST_F(HttpTest, ANameThatAUrlCannotCarryIsRefusedWhereItIsGivenAndNotWhereItSto
         EXPECT_NE(a.text.find("begin with a letter or digit"), std::string::npos) << a.text;
     }
     EXPECT_EQ(call("PATCH", "/api/v1/axes/feeder", R"({"name":"x_-."})").status, 200u);
-    // One that an older program has let in stays, whatever else is changed, and can be given another name.
+    // A name that an older program accepted stays valid with other changes, and can be changed.
     Site old = gateway.site()->site;
     old.axes[0].name = "_old";
     gateway.put_site(std::move(old));

@@ -1,5 +1,4 @@
-// The door on a loopback port and its clients, compiled once for all tests that have sockets.
-// In: bytes and calls. Out: what came back within `patience`; later is a failure, not a hang.
+// The door on a loopback port and its clients, compiled once for all tests with sockets. An answer after `patience` is a failure.
 #include "tests/unit/http/socket_harness.hpp"
 
 namespace axisgate::http::test {

@@ -1,5 +1,4 @@
-// The whole door on a loopback port, in a thread of its own, and clients that never wait for ever.
-// In: what a test sends. Out: what came back within 10 s; later is a failure, not a hang.
+// The whole door on a loopback port in a thread of its own, and clients with a time limit of 10 s.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +26,7 @@ inline constexpr std::chrono::seconds patience{10};
 
 class Door {
 public:
-    FakeGateway gateway;  // touched inside on() alone while the door is open
+    FakeGateway gateway;  // used only inside on() while the door is open
     Settings settings;
     std::string big_file = std::string(8 * 1024 * 1024, 'x');
 
@@ -79,7 +78,7 @@ class Client {
 public:
     explicit Client(std::uint16_t port, int receive_buffer = 0);
     ~Client();
-    /// False if the door closed the connection before everything was sent.
+    /// Returns false if the door closed the connection before everything was sent.
     bool send(std::string_view bytes);
     HttpAnswer receive(bool to_head = false);
     HttpAnswer get(std::string_view target, std::string_view more = {});
@@ -101,17 +100,17 @@ private:
     beast::flat_buffer buffer_{64 * 1024 * 1024};
 };
 
-/// An independent judge of our WebSocket: Beast's own client.
+/// Beast's own client as an independent check of our WebSocket.
 class StreamJudge {
 public:
     explicit StreamJudge(std::uint16_t port, std::string origin = {}, int receive_buffer = 0);
     ~StreamJudge();
     ErrorCode say(std::string_view text);
-    /// The next message's object; null, with `ended` set, if there is none any more.
+    /// The next message's object; null with `ended` set if there is none any more.
     boost::json::value next_message();
     ErrorCode close(std::uint16_t code = 1000);
     ErrorCode ping();
-    /// Bytes past the WebSocket layer.
+    /// Bytes below the WebSocket layer.
     void raw(std::string_view bytes);
     [[nodiscard]] std::uint16_t close_code() const { return ws_.reason().code; }
     [[nodiscard]] std::string close_reason() const { return std::string(ws_.reason().reason.c_str()); }

@@ -1,4 +1,5 @@
-// The live feed without sockets and in virtual time: snapshots, changes at most once per period, slow readers, and what is never dropped.
+// The live feed without sockets in virtual time: snapshots, changes at most once per period, slow readers, and messages that are never
+// dropped.
 #include "gateway/doors/http/stream_hub.hpp"
 
 #include <gtest/gtest.h>
@@ -83,7 +84,7 @@ protected:
     std::shared_ptr<StreamClient> client = hub.add([this] { ++woken; });
     Instant now = at_ns(1'000'000'000);
 
-    /// What waits for the client, in order; control frames as topics "close 1013 reason".
+    /// The waiting messages of the client, in order; control frames as topics "close 1013 reason".
     static std::vector<Message> taken(StreamClient& c) {
         std::vector<Message> out;
         for (const auto& f : c.queue.take(SIZE_MAX)) {
@@ -207,7 +208,7 @@ TEST_F(StreamHubTest, OneClientIsToldAtATimeAndAllTheSame) {
     hub.on_deadline(now);
     EXPECT_EQ(published(), 1) << "then others have their turn";
     EXPECT_EQ(hub.deadline(), time_zero) << "the rest at once";
-    gateway.set_picture("slide", standing(3));  // while the period is being told
+    gateway.set_picture("slide", standing(3));  // while the messages of the period are being made
     for (int i = 2; i <= 9; ++i) {
         hub.on_deadline(now + milliseconds(1));
         EXPECT_EQ(published(), i);
@@ -257,7 +258,7 @@ TEST_F(StreamHubTest, APeriodThatIsNotToldToAllYetDoesNotBeginAnew) {
         taken(*many.back());
     }
     int seen = 2;
-    for (int i = 0; i < 2; ++i) {  // so slow that the next period comes before the last clients
+    for (int i = 0; i < 2; ++i) {  // so slow that the next period begins before the last clients were served
         gateway.set_picture("slide", standing(seen++));
         now += milliseconds(50);
         hub.on_deadline(now);
@@ -331,7 +332,7 @@ TEST_F(StreamHubTest, WhoSubscribesWithoutEndIsClosed) {
     EXPECT_LT(taken_requests, 250);
     EXPECT_EQ(client->closing(), close_policy);
     EXPECT_EQ(topics(taken()).substr(0, 10), "close 1008");
-    // At the pace of a person, for ever; and the lines' frames, which tell a long past, cost more.
+    // Small changes without an end; frames of lines, with a long past, cost more.
     auto calm = hub.add({});
     for (int i = 0; i < 2000; ++i, now += milliseconds(100))
         hub.on_text(*calm, R"({"subscribe":["axes/slide"]})", now), (void)taken(*calm);
@@ -482,7 +483,7 @@ TEST_F(StreamHubTest, FramesComeInListsWithACountOfTheMissed) {
     EXPECT_EQ(got[0].data.at("frames").get_array()[0].at("decoded").get_array()[0], "from the drive, frame 201 of 1 bytes")
         << "the reader goes on where it was";
 
-    // The client does not read: one list waits, the place in the recording is kept, and what is overwritten meanwhile is counted.
+    // The client does not read: one list waits, the position in the recording is kept, and overwritten frames are counted.
     trace.push_back(entry(304));
     pass(50);
     trace.clear();
@@ -520,7 +521,7 @@ TEST_F(StreamHubTest, RemovedClientsCostNothing) {
     gateway.tell(event("x"));
 }
 
-/// What the page asks for on its overview and, closely, for a plot of an axis: 30 of them that read nothing while the axes move on.
+/// The subscriptions of the page's overview and of a plot of an axis: 30 clients that read nothing while the axes move.
 TEST_F(StreamHubTest, ThirtyPlotsThatAreNotReadHoldTheNewestOfEachTopicAndNoMore) {
     std::vector<std::shared_ptr<StreamClient>> plots;
     const auto open = [&](StreamClient& c) {
@@ -573,7 +574,7 @@ TEST_F(StreamHubTest, ThirtyPlotsThatAreNotReadHoldTheNewestOfEachTopicAndNoMore
 }
 
 TEST_F(StreamHubTest, TopicsPerClientAreBounded) {
-    // 1024 axes can exist; here the bound is met with the same few topics counted once each.
+    // 1024 axes can exist; here the bound is reached with few topics.
     for (int i = 0; i < 10; ++i)
         say(R"({"subscribe":["axes/slide","axes/feeder","events","site"]})");
     taken();

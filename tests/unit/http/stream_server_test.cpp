@@ -1,4 +1,4 @@
-// The live feed on real sockets, judged by Beast's own WebSocket client, and by raw bytes where that one is too well-behaved.
+// The live feed on real sockets, checked by Beast's own WebSocket client, and by raw bytes for cases that this client does not produce.
 #include "tests/unit/http/socket_harness.hpp"
 
 namespace axisgate::http::test {
@@ -190,7 +190,7 @@ TEST_F(StreamServer, AClientThatDoesNotReadItsEvents) {
     }
     ASSERT_LT(published, 2000) << "the slow one was never closed";
     EXPECT_GT(published, 20);
-    // When it reads at last, it finds what was on its way, and then the reason.
+    // When it reads at last, it gets the messages on their way, and then the reason.
     int seen = 0;
     while (true) {
         const auto m = slow.next_message();
@@ -220,7 +220,7 @@ TEST_F(StreamServer, AClientThatDidNotReadForLongIsToldWhyWhenItGoesOn) {
     open();
     StreamJudge judge(door.port, {}, 4096);
     ASSERT_FALSE(judge.say(R"({"subscribe":["events"]})"));
-    // More than all buffers between here and there hold, and far fewer events than the bound.
+    // More than all buffers in between hold, and far fewer events than the bound.
     for (int i = 0; i < 800; ++i)
         door.on([&] { door.gateway.tell(event(std::string(20'000, 'e'))); });
     EXPECT_TRUE(door.until([&] { return door.server().counters().stream_closed.contains(1013); }));

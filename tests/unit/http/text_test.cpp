@@ -1,4 +1,4 @@
-// The small languages of HTTP: what a client sends is read rightly or not at all; what leaves is always JSON.
+// The small grammars of HTTP: input is read correctly or refused; output is always JSON.
 #include "gateway/doors/http/text.hpp"
 
 #include <gtest/gtest.h>

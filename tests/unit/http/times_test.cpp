@@ -1,4 +1,4 @@
-// Times in documents, with a made-up Gateway: each is a text of UTC (RFC 3339) that parses back to the instant, or null; none is a number.
+// Times in documents: each is a text of UTC (RFC 3339) that parses back to the instant, or null; none is a number.
 #include <boost/json.hpp>
 
 #include "tests/unit/http/harness.hpp"

@@ -1,4 +1,4 @@
-// The maker and the judge of certificates: made ones hold, name what they should, and every fault of a pair is told in words.
+// Made certificates are valid and have the right names, and every fault of a pair is reported in words.
 #include "gateway/doors/http/tls.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,4 @@
-// BytePace: a burst's bytes one byte time apart, late callers, quiet wires, lines so fast that bytes pass in grains.
-// In: instants that the test makes up. Out: pass or fail. Never waits.
+// BytePace: the bytes of a burst one byte time apart, late callers, idle wires, and lines that are so fast that bytes pass in groups.
 #include "gateway/lines/byte_pace.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr Instant start = time_zero + std::chrono::seconds(1);
 constexpr Duration slow = milliseconds(2);
 
-/// Lets `bytes` pass, each as early as it may, from `at` on; when the last one did.
+/// Lets `bytes` pass, each as early as possible, from `at` on; returns the instant of the last one.
 Instant burst(BytePace& pace, int bytes, Instant at) {
     while (bytes > 0) {
         const std::size_t room = pace.room(at);

@@ -1,5 +1,4 @@
-// CanLine: its rules, on a stand-in for the kernel: datagram sockets that carry the same structures as CAN and netlink sockets.
-// In: what the stand-in's other ends say. Out: pass or fail. Never needs a CAN interface.
+// CanLine with a fake kernel: datagram sockets that carry the same structures as CAN and netlink sockets. No CAN interface is needed.
 #include "gateway/lines/can_line.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +25,7 @@ Frame can(std::uint32_t id, std::initializer_list<std::uint8_t> data = {}) {
     return Frame::can_extended(id, std::span<const std::uint8_t>(data.begin(), data.size()));
 }
 
-/// The kernel's side of everything. An echo is marked in a byte that CAN does not use.
+/// The kernel's side. An echo is marked in a byte that CAN does not use.
 struct FakeKernel final : CanKernel {
     mutable Fd wire, links;
     mutable int opened = 0;
@@ -69,7 +68,7 @@ struct FakeKernel final : CanKernel {
     }
     bool is_echo(const ::can_frame& f, int) const override { return f.__res0 == 1; }
 
-    /// What the line has given to the controller.
+    /// The frames that the line has given to the controller.
     [[nodiscard]] std::vector<std::uint32_t> take() const {
         std::vector<std::uint32_t> ids;
         ::can_frame f{};
@@ -299,7 +298,7 @@ TEST_F(CanLineTest, saysSoWhenNobodyAcknowledges) {
     EXPECT_THAT(kernel.take(), ElementsAre(5));  // from now on one at a time
     ASSERT_TRUE(until([&] { return line->counters().tx_stalled == 2; }));
     EXPECT_THAT(kernel.take(), ElementsAre(6));
-    kernel.echo(can(1));  // somebody is there after all
+    kernel.echo(can(1));  // another node answers after all
     ASSERT_TRUE(until([&] { return owner.sent.size() == 1; }));
     EXPECT_THAT(status().text, testing::Not(HasSubstr("nobody")));
 }
@@ -331,7 +330,7 @@ TEST_F(CanLineTest, goesDownWithTheInterfaceAndComesBack) {
     EXPECT_FALSE(send(can(2)));
     const int before = kernel.opened;
     ASSERT_TRUE(until([&] { return kernel.opened >= before + 3; }));  // tries again and again
-    EXPECT_EQ(owner.states.size(), 2u);                               // and says it once
+    EXPECT_EQ(owner.states.size(), 2u);                               // and reports it once
     kernel.fault.clear();
     ASSERT_TRUE(until([&] { return owner.up(); }));
     EXPECT_EQ(status().reopened, 1u);
@@ -440,7 +439,7 @@ TEST_F(CanLineTest, findsAControllerThatIsBusOffAlready) {
 }
 
 TEST_F(CanLineTest, noticesAnInterfaceThatIsSetDownOrRemoved) {
-    open({}, secs(60), secs(60));  // it must not be the pause that brings it back
+    open({}, secs(60), secs(60));  // the pause must not be the reason for its return
     kernel.fault = "down";
     kernel.tell(link_news(9, "can1", false));  // another interface
     settle();
@@ -461,7 +460,7 @@ TEST_F(CanLineTest, noticesAnInterfaceThatIsSetDownOrRemoved) {
     kernel.index = 12;  // plugged in again, under a new number
     kernel.tell(link_news(12, "can0", true));
     ASSERT_TRUE(until([&] { return owner.up(); }));
-    kernel.tell(link_news(7, "can0", false));  // news of the old one
+    kernel.tell(link_news(7, "can0", false));  // a message about the old one
     settle();
     EXPECT_TRUE(owner.up());
     EXPECT_EQ(status().reopened, 2u);
@@ -483,7 +482,7 @@ TEST_F(CanLineTest, showsErrorStatesAndCounters) {
 TEST_F(CanLineTest, framesOfTheWrongSizeAreCounted) {
     open();
     EXPECT_EQ(::send(kernel.wire.fd, "short", 5, 0), 5);
-    std::array<std::uint8_t, 72> fd_frame{};  // a CAN FD frame: we did not ask for these
+    std::array<std::uint8_t, 72> fd_frame{};  // a CAN FD frame, which was not requested
     EXPECT_EQ(::send(kernel.wire.fd, fd_frame.data(), fd_frame.size(), 0), 72);
     kernel.say(can(1));
     ASSERT_TRUE(until([&] { return owner.frames.size() == 1; }));

@@ -1,5 +1,4 @@
-// CAN wire and CAN link: every pure piece of the SocketCAN line, byte by byte.
-// In: the kernel's structures. Out: pass or fail. Never needs a CAN interface.
+// Every pure part of the SocketCAN line, byte by byte, with the kernel's structures. No CAN interface is needed.
 #include "gateway/lines/can_wire.hpp"
 
 #include <gmock/gmock.h>
@@ -123,7 +122,7 @@ TEST(CanWire, readsErrorReports) {
     EXPECT_TRUE(counted.has_counters);
     EXPECT_EQ(counted.tx_errors, 136);
     EXPECT_EQ(counted.rx_errors, 2);
-    EXPECT_TRUE(read_report(report(0x200)).has_counters);  // CAN_ERR_CNT: zero counters, and said so
+    EXPECT_TRUE(read_report(report(0x200)).has_counters);  // CAN_ERR_CNT: the counters are valid, and zero
 }
 
 TEST(CanWire, asksForTheReportsThatMatter) {
@@ -148,7 +147,7 @@ TEST(CanWire, makesFilters) {
     EXPECT_EQ(to_kernel(std::vector<CanFilter>(most_can_filters)).size(), most_can_filters);
     EXPECT_EQ(to_kernel(std::vector<CanFilter>(most_can_filters + 1)).size(), 1u);
 
-    // Our own judgement agrees with the kernel's rule, (received & mask) == (filter & mask), for frames of both forms.
+    // Our filter agrees with the kernel's rule, (received & mask) == (filter & mask), for frames of both forms.
     for (std::uint32_t id = 0; id < 0x800; ++id) {
         for (const bool extended : {false, true}) {
             const Frame f = frame(extended ? 0x04280000 + id * 0x100 : id, extended);
@@ -203,7 +202,7 @@ TEST(CanWire, readsWhatComesBesideAFrame) {
     ns.add(SOL_SOCKET, SO_TIMESTAMPNS, &one, sizeof one);
     EXPECT_EQ(read_beside(ns.message()).stamp_unix_ns, 5'000'000'006);
 
-    Control odd;  // too short, or somebody else's: left alone
+    Control odd;  // too short, or of another kind: ignored
     odd.add(SOL_SOCKET, SO_TIMESTAMPING, &one, 4);
     odd.add(SOL_SOCKET, SO_RXQ_OVFL, &one, 2);
     odd.add(SOL_SOCKET + 1, SO_RXQ_OVFL, &lost, sizeof lost);
@@ -323,7 +322,7 @@ TEST(CanLink, readsSeveralMessagesAndLeavesOutTheRest) {
     EXPECT_EQ(news[2].error, 0);
     EXPECT_FALSE(news[3].up);
     EXPECT_EQ(news[3].type, "vcan");
-    EXPECT_EQ(news[3].bit_rate, 0u);  // these attributes are a CAN controller's alone
+    EXPECT_EQ(news[3].bit_rate, 0u);  // only a CAN controller has these attributes
     EXPECT_FALSE(news[3].state);
 }
 
@@ -352,7 +351,7 @@ TEST(CanLink, asksAsTheIpProgramDoes) {
 }
 
 TEST(CanLink, theKernelUnderstandsTheQuestion) {
-    // Not CAN's, but this machine's own loopback interface: the same question, the same answer.
+    // This machine's own loopback interface instead of CAN: the same question, the same answer.
     const CanOpened links = linux_can().open_links();
     ASSERT_GE(links.fd, 0) << links.fault;
     const int loopback = static_cast<int>(::if_nametoindex("lo"));

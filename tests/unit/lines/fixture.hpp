@@ -1,5 +1,5 @@
-// Fixture for real lines: a loop, an owner that keeps what it is told, a clock that can be set, waiting for a condition with a bound.
-// In: what a test does. Out: what was heard. Never sleeps: the loop runs until the condition holds or the bound is reached.
+// A loop, an owner that records the line's events, a clock that can be set, and waiting for a condition with a bound. Tests never sleep:
+// the loop runs until the condition is true or the bound is reached.
 #pragma once
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace axisgate::test {
 using std::chrono::milliseconds;
 constexpr Duration secs(int n) { return std::chrono::seconds(n); }
 
-/// The machine's clock, moved on by hand.
+/// The machine's clock, advanced by hand.
 struct MovedClock final : Clock {
     Duration ahead{};
     [[nodiscard]] Instant now() const override { return machine_clock().now() + ahead; }
@@ -63,10 +63,10 @@ protected:
     asio::io_context io{1};
     MovedClock clock;
     Owner owner;
-    /// Short pauses: tests of opening again take milliseconds.
+    /// Short pauses, so that tests of reopening take milliseconds.
     [[nodiscard]] LineBase base(Duration first = milliseconds(5), Duration last = milliseconds(40)) { return {io, clock, {first, last}}; }
 
-    /// Runs the loop until the condition holds; false after `limit`.
+    /// Runs the loop until the condition is true; false after `limit`.
     bool until(const std::function<bool()>& condition, milliseconds limit = milliseconds(5000)) {
         const auto end = std::chrono::steady_clock::now() + limit;
         while (!condition()) {
@@ -76,7 +76,7 @@ protected:
         }
         return true;
     }
-    /// Runs what is ready now, and what follows from it.
+    /// Runs everything that is ready now, and its consequences.
     void settle() {
         for (int i = 0; i < 50; ++i) {
             if (io.stopped()) io.restart();
@@ -93,7 +93,7 @@ protected:
     }
 };
 
-/// A descriptor that is closed at the end.
+/// A descriptor that the destructor closes.
 struct Fd {
     int fd = -1;
     Fd() = default;
@@ -110,7 +110,7 @@ struct Fd {
         fd = -1;
     }
     void write(std::string_view s) const { EXPECT_EQ(::write(fd, s.data(), s.size()), static_cast<ssize_t>(s.size())) << errno; }
-    /// What is there now; nothing if nothing is.
+    /// The available bytes; empty if there are none.
     [[nodiscard]] std::string read() const {
         std::string all;
         std::array<char, 4096> buffer{};
@@ -124,7 +124,7 @@ struct Fd {
 
 inline void no_wait(int fd) { ASSERT_EQ(::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) | O_NONBLOCK), 0); }
 
-/// All 256 bytes: what a line must carry unchanged.
+/// All 256 bytes, which a line must carry unchanged.
 inline std::string every_byte() {
     std::string s;
     for (int i = 0; i < 256; ++i)

@@ -1,5 +1,4 @@
-// Host ports, of a machine that is made of folders: what is listed, by which name, and what is none.
-// In: a root below the temporary folder. Out: pass or fail.
+// The ports of a machine that is made of folders: which are listed, and under which names.
 #include "gateway/lines/host_ports.hpp"
 
 #include <gtest/gtest.h>
@@ -51,8 +50,8 @@ TEST_F(HostPortsTest, anAdapterIsToldByTheNameThatStaysAndByItsMaker) {
     fs::create_directories(root / "sys/devices/usb1/1-1/1-1:1.0/ttyUSB0");
     link("sys/class/tty/ttyUSB0/device", root / "sys/devices/usb1/1-1/1-1:1.0/ttyUSB0");
     link("dev/serial/by-id/usb-FTDI_FT232R-if00-port0", "../../ttyUSB0");
-    fs::create_directories(root / "sys/class/tty/tty1");  // a console: no device
-    file("sys/class/tty/ttyS3/type", "0");                // a place for a port that is not there
+    fs::create_directories(root / "sys/class/tty/tty1");  // a console, without a device
+    file("sys/class/tty/ttyS3/type", "0");                // a place for a port that does not exist
     fs::create_directories(root / "sys/class/tty/ttyS3/device");
     file("sys/class/tty/ttyS0/type", "4");
     fs::create_directories(root / "sys/class/tty/ttyS0/device");

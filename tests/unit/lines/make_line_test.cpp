@@ -1,5 +1,4 @@
-// Making lines: every URI gives its line; a twin on a listening port and a client line meet; what cannot be says so.
-// In: URIs. Out: pass or fail. Never leaves this machine.
+// Every URI gives its line; a twin on a listening port and a client line meet; impossible lines report the reason. Loopback only.
 #include "gateway/lines/make_line.hpp"
 
 #include <gmock/gmock.h>

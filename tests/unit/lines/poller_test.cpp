@@ -1,5 +1,4 @@
-// Poller: who becomes ready while others are served is served in the same turn, and a turn has its bound.
-// In: pairs of sockets. Out: what is told ready. Never waits for a time to pass.
+// A socket that becomes ready while others are served is served in the same turn, and a turn has its bound.
 #include "gateway/lines/poller.hpp"
 
 #include <gtest/gtest.h>
@@ -52,10 +51,10 @@ TEST(Poller, WhoIsReadyWhileOthersAreServedIsServedInTheSameTurn) {
                 const std::uint64_t i = e.data.u64;
                 served.push_back(i);
                 pairs.take(i);
-                if (i + 1 < pairs.ours.size()) pairs.ask(i + 1);  // as one client asks behind the other
+                if (i + 1 < pairs.ours.size()) pairs.ask(i + 1);  // one client asks after the other
             }
         },
-        test_clock);  // a turn ends by its time, too: here none passes
+        test_clock);  // a turn also ends by its time; here no time passes
     for (std::size_t i = 0; i < pairs.ours.size(); ++i)
         ASSERT_TRUE(poller.add(pairs.ours[i], i, EPOLLIN));
     EXPECT_FALSE(poller.serve_now());

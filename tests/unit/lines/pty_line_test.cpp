@@ -1,5 +1,4 @@
-// PtyLine: the link and its manners, programs that come and go.
-// In: what a program at the other side does. Out: pass or fail. Never sleeps.
+// The link of a PtyLine and its rules, and programs that come and go.
 #include "gateway/lines/pty_line.hpp"
 
 #include <gmock/gmock.h>
@@ -67,7 +66,7 @@ TEST_F(PtyLineTest, isASerialPortUnderAChosenName) {
     const Fd f = program();
     f.write(every_byte());
     ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
-    EXPECT_EQ(owner.received(), every_byte());  // raw: nothing is turned into something else, nothing comes back
+    EXPECT_EQ(owner.received(), every_byte());  // raw: no byte is translated, and nothing is echoed
     EXPECT_TRUE(send(text(every_byte())));
     EXPECT_TRUE(receives(f, every_byte()));
     EXPECT_EQ(owner.sent.size(), 1u);
@@ -85,7 +84,7 @@ TEST_F(PtyLineTest, survivesProgramsThatComeAndGo) {
         EXPECT_TRUE(receives(f, "out"));
         f.close();
         ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
-        EXPECT_TRUE(send(text("lost")));  // as on a cable that hangs in the air
+        EXPECT_TRUE(send(text("lost")));  // as on a cable that is not connected
         settle();
     }
     EXPECT_EQ(owner.states.size(), 1u);  // up all the time
@@ -104,7 +103,7 @@ TEST_F(PtyLineTest, theNextProgramMeetsNothingOfTheLastOne) {
         t.c_oflag |= OPOST | ONLCR;
         ASSERT_EQ(::tcsetattr(first.fd, TCSANOW, &t), 0);
         EXPECT_TRUE(send(text("never read")));
-        if (round % 2 == 0) run_for(milliseconds(2));  // time to get from the master's buffer into the slave's
+        if (round % 2 == 0) run_for(milliseconds(2));  // time to get from the master's buffer to the slave's
         settle();
         first.close();
         ASSERT_TRUE(until([&] { return status().text.find("not opened") != std::string::npos; }));
@@ -232,7 +231,7 @@ TEST_F(PtyLineTest, aSiteLinksBelowItsFolderAlone) {
 TEST_F(PtyLineTest, takesAwayOnlyItsOwnLink) {
     make();
     fs::remove(path);
-    fs::create_symlink("/dev/null", path);  // somebody else's by now
+    fs::create_symlink("/dev/null", path);  // it belongs to another program by now
     line->close();
     EXPECT_TRUE(fs::is_symlink(path));
 }
@@ -291,7 +290,7 @@ TEST_F(PtyLineTest, bytesAreStampedWithTheirTimeOnTheWireHoweverLateTheyAreRead)
     const Duration byte = paced_time / static_cast<std::int64_t>(paced_text.size());
     f.write(paced_text);
     ASSERT_TRUE(until([&] { return !owner.frames.empty(); }));
-    clock.ahead += milliseconds(500);  // this process was not given the processor, and the writer went on
+    clock.ahead += milliseconds(500);  // this process did not run, and the writer continued
     ASSERT_TRUE(until([&] { return owner.received().size() >= paced_text.size(); }));
     EXPECT_EQ(owner.received(), paced_text);
     ASSERT_GT(owner.frames.size(), 10u) << "runs of what has crossed together";
@@ -336,7 +335,7 @@ TEST_F(PtyLineTest, whoWritesMoreThanThePaceCarriesIsHeldUpAndLosesNothing) {
     EXPECT_EQ(owner.received(), much);
 }
 
-/// The drive's side says what it has to say, however long a slow line takes for it.
+/// The drive's messages are complete, however long a slow line takes for them.
 class PtyLineAge : public PtyLineTest, public testing::WithParamInterface<bool> {};
 
 TEST_P(PtyLineAge, withoutALimitWhatWaitsIsSentWhole) {

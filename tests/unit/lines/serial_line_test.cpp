@@ -1,5 +1,4 @@
-// SerialLine on pseudo-terminals: settings, marks, exclusive use, unplugging.
-// In: what the master's side does. Out: pass or fail. Never needs a serial port, never sleeps.
+// SerialLine on pseudo-terminals: settings, marks, exclusive use, disconnection. No serial port is needed.
 #include "gateway/lines/serial_line.hpp"
 
 #include <gmock/gmock.h>
@@ -62,7 +61,7 @@ TEST_F(SerialLineTest, carriesEveryByteBothWays) {
     open(cable.slave, s);
     ASSERT_TRUE(owner.up()) << owner.states[0].second;
     EXPECT_EQ(owner.states[0].second, "up on " + cable.slave + " at 57600 bit/s 8N1");
-    cable.master.write(every_byte());  // the kernel doubles 377 on this way: see parity_marks.hpp
+    cable.master.write(every_byte());  // the kernel doubles 377 in this direction: see parity_marks.hpp
     ASSERT_TRUE(until([&] { return owner.received().size() >= 256; }));
     EXPECT_EQ(owner.received(), every_byte());
     EXPECT_TRUE(send(text(every_byte())));
@@ -124,7 +123,7 @@ TEST_F(SerialLineTest, setsThePortRawAndLocal) {
 }
 
 TEST_F(SerialLineTest, rs485MustBeDoneByTheDriverUnlessItIsAutomatic) {
-    const Cable cable;  // a pseudo-terminal's driver cannot
+    const Cable cable;  // the driver of a pseudo-terminal cannot do it
     SerialSettings s;
     s.rs485 = Rs485::on;
     s.rts_after_ms = 1;
@@ -172,7 +171,7 @@ TEST_F(SerialLineTest, comesBackAfterBeingUnplugged) {
     EXPECT_THAT(status().text, HasSubstr("is the adapter plugged in"));
     EXPECT_EQ(owner.states.size(), 2u);
 
-    const Cable again;  // another device of the kernel's, under the same name
+    const Cable again;  // another device of the kernel, under the same name
     fs::create_symlink(again.slave, path);
     ASSERT_TRUE(until([&] { return owner.up(); }));
     EXPECT_EQ(status().reopened, 1u);
@@ -220,7 +219,7 @@ TEST_F(SerialLineTest, leavesLittleInTheDriverSoThatAStopOvertakes) {
     SerialSettings s;
     s.baud = 9600;
     open(cable.slave, s);
-    // A pseudo-terminal takes bytes at once; what is written per turn is still no more than 64 bytes' worth.
+    // A pseudo-terminal accepts bytes at once; a turn still writes no more than 64 bytes.
     for (int i = 0; i < 4; ++i)
         EXPECT_TRUE(send(text(std::string(100, static_cast<char>('a' + i))), Priority::poll));
     EXPECT_TRUE(send(text("STOP"), Priority::urgent));

@@ -1,5 +1,4 @@
 // TcpLine on real loopback connections: names, refusals, time-outs, ends, full queues, order.
-// In: what a listening socket of the test does. Out: pass or fail. Never sleeps, never leaves this machine.
 #include "gateway/lines/tcp_line.hpp"
 
 #include <arpa/inet.h>
@@ -14,7 +13,7 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-/// A listening socket and the connections that it takes.
+/// A listening socket and its accepted connections.
 struct Server {
     Fd listener;
     std::uint16_t port = 0;
@@ -52,7 +51,7 @@ protected:
     }
     bool send(const Frame& f, Priority p = Priority::command) { return line->send(f, p, clock.now()); }
     [[nodiscard]] LineStatus status() const { return line->status(clock.now()); }
-    /// Reads at the other side until `size` bytes are there.
+    /// Reads at the other side until `size` bytes have arrived.
     std::string receive(std::size_t size) {
         std::string all;
         EXPECT_TRUE(until([&] {
@@ -114,7 +113,7 @@ TEST_F(TcpLineTest, answersAtOnce) {
     int delay = -1;
     socklen_t size = sizeof delay;
     EXPECT_EQ(::getsockopt(peer.fd, IPPROTO_TCP, TCP_NODELAY, &delay, &size), 0);
-    // Two small writes that are not acknowledged between: without TCP_NODELAY the second would wait for some 40 ms.
+    // Two small writes without an acknowledgement in between: without TCP_NODELAY the second would wait for some 40 ms.
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < 20; ++i) {
         EXPECT_TRUE(send(text("a")));
@@ -168,7 +167,7 @@ TEST_F(TcpLineTest, whatWaitedIsNotSentOverTheNextConnection) {
     const Server server;
     connect(server);
     peer.close();
-    // Taken before the loss is noticed; the drive must not get a command from another time.
+    // Accepted before the loss is noticed; the drive must not get an old command.
     for (int i = 0; i < 3; ++i)
         (void)send(text("move "));
     ASSERT_TRUE(until([&] { return owner.states.size() >= 3 && owner.up(); }));
@@ -189,7 +188,7 @@ TEST_F(TcpLineTest, saysThatNothingListensAndGoesOnTrying) {
     EXPECT_EQ(status().state, LineStatus::State::down);
     EXPECT_THAT(status().text, HasSubstr("nothing listens there"));
     run_for(milliseconds(100));
-    EXPECT_EQ(owner.states.size(), 1u);  // said once
+    EXPECT_EQ(owner.states.size(), 1u);  // reported once
     const Server server(8, port);
     ASSERT_TRUE(until([&] { return owner.up(); }));
     EXPECT_EQ(status().reopened, 0u);  // it came up for the first time
@@ -212,7 +211,7 @@ TEST_F(TcpLineTest, anUnknownNameIsSaid) {
 }
 
 TEST_F(TcpLineTest, givesUpAnAddressThatDoesNotAnswer) {
-    const Server full(0);  // room for one that waits; further ones get no answer
+    const Server full(0);  // room for one waiting connection; further ones get no answer
     std::vector<Fd> waiting;
     for (int i = 0; i < 3; ++i) {
         waiting.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
@@ -241,11 +240,11 @@ TEST_F(TcpLineTest, isBoundedTowardsAPeerThatDoesNotRead) {
         settle();
         return refused >= 64;
     }));
-    EXPECT_LT(taken, 2000);  // 64 KiB here, and what the two sockets hold
+    EXPECT_LT(taken, 2000);  // 64 KiB here, and the capacity of the two sockets
     EXPECT_GE(status().dropped, 64u);
     EXPECT_EQ(status().queued, 256u);
     EXPECT_TRUE(send(text("stop"), Priority::urgent));
-    // It reads again at last: what is too old by then is thrown away, and the frame that was half out is completed first.
+    // The other side reads again at last: frames that are too old by then are dropped, and the half-sent frame is completed first.
     clock.ahead = stale_send_limit + milliseconds(1);
     EXPECT_TRUE(send(text("fresh"), Priority::urgent));
     std::string all;

@@ -1,5 +1,4 @@
 // TcpListenLine on real loopback connections: a bus with up to four clients.
-// In: what clients do. Out: pass or fail. Never sleeps, never leaves this machine.
 #include "gateway/lines/tcp_listen_line.hpp"
 
 #include <arpa/inet.h>
@@ -21,7 +20,7 @@ protected:
         line = std::make_unique<TcpListenLine>(base(), host, port);
         ASSERT_TRUE(comes_up(*line));
     }
-    /// A client that the line has let in.
+    /// A client that the line has accepted.
     Fd client(int receive_buffer = 0) {
         const std::uint64_t before = line->counters().accepted + line->counters().turned_away;
         Fd f(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
@@ -71,9 +70,9 @@ TEST_F(TcpListenLineTest, everyClientHearsEverything) {
     EXPECT_EQ(line->clients(), 3u);
     a.write("question");
     ASSERT_TRUE(until([&] { return owner.received() == "question"; }));
-    EXPECT_TRUE(receives(b, "question"));  // the others hear it as well
+    EXPECT_TRUE(receives(b, "question"));  // the others receive it as well
     EXPECT_TRUE(receives(c, "question"));
-    EXPECT_EQ(a.read(), "");  // but nobody hears himself
+    EXPECT_EQ(a.read(), "");  // but a sender does not receive its own bytes
     EXPECT_TRUE(send(text("ans")));
     EXPECT_TRUE(send(text("wer")));
     EXPECT_TRUE(send(text("stop "), Priority::urgent));
@@ -95,7 +94,7 @@ TEST_F(TcpListenLineTest, turnsAFifthClientAway) {
     EXPECT_EQ(line->counters().turned_away, 1u);
     EXPECT_EQ(line->counters().accepted, 4u);
     EXPECT_EQ(line->clients(), 4u);
-    clients.pop_back();  // one goes: there is a place again
+    clients.pop_back();  // one leaves, so there is a place again
     ASSERT_TRUE(until([&] { return line->clients() == 3; }));
     const Fd next = client();
     EXPECT_EQ(line->clients(), 4u);
@@ -154,7 +153,7 @@ TEST_F(TcpListenLineTest, survivesClientsThatGoAsTheyLike) {
         if (i % 5 == 0) settle();
     }
     EXPECT_TRUE(until([&] { return line->clients() == 0; }));
-    EXPECT_GE(owner.received().size(), 10u);  // of 15; a reset takes what was not read yet with it
+    EXPECT_GE(owner.received().size(), 10u);  // of 15; a reset drops the unread ones
     EXPECT_LE(owner.received().size(), 15u);
     EXPECT_TRUE(owner.up());
 }

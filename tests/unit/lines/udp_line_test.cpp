@@ -1,5 +1,4 @@
 // UdpLine on real loopback datagrams: both roles, refused ports, sizes, order, closing from inside an event.
-// In: what a socket of the test does. Out: pass or fail. Never sleeps, never leaves this machine.
 #include "gateway/lines/udp_line.hpp"
 
 #include <arpa/inet.h>
@@ -39,7 +38,7 @@ struct Socket {
                   static_cast<ssize_t>(s.size()))
             << errno;
     }
-    /// One datagram, or nothing.
+    /// One datagram, or empty.
     std::optional<std::string> take() {
         std::array<char, 65536> buffer{};
         sockaddr_in from{};
@@ -192,7 +191,7 @@ TEST_F(UdpLineTest, aRefusalIsSaidTheSameWhereverItIsNoticed) {
 TEST_F(UdpLineTest, resolvesNames) {
     connect("localhost");
     EXPECT_THAT(owner.states.back().second, HasSubstr("localhost:"));
-    // The name may have ::1 first, where nobody listens: then the line goes down, and takes the other address.
+    // The name may have ::1 first, where nothing listens: then the line goes down, and uses the other address.
     ASSERT_TRUE(until([&] {
         (void)send("x");
         return drive->take().has_value();
@@ -202,7 +201,7 @@ TEST_F(UdpLineTest, resolvesNames) {
 }
 
 TEST_F(UdpLineTest, anUnknownNameIsSaid) {
-    const std::string never_a_name(64, 'a');  // longer than a label may be: nobody outside is asked
+    const std::string never_a_name(64, 'a');  // longer than a label may be, so that no name server is asked
     line = std::make_unique<UdpLine>(base(), never_a_name, std::uint16_t{503}, UdpLine::Role::connects);
     line->open(owner, clock.now());
     ASSERT_TRUE(until([&] { return !owner.states.empty(); }));
@@ -219,7 +218,7 @@ TEST_F(UdpLineTest, hearsAfterBeingOpenedAgainWhileItsNameIsLookedUp) {
         line->open(owner, clock.now());
         if (io.stopped()) io.restart();
         io.poll_one();                     // it asks for the name
-        for (int i = 0; i < turns; ++i) {  // takes as long as the answer that nobody wants any more
+        for (int i = 0; i < turns; ++i) {  // as long as the unwanted answer takes
             addrinfo* found = nullptr;
             (void)::getaddrinfo("localhost", "1", nullptr, &found);
             if (found != nullptr) ::freeaddrinfo(found);
@@ -270,7 +269,7 @@ TEST_F(UdpLineTest, listeningAnswersTheLastSpeaker) {
     EXPECT_TRUE(send("to b"));
     EXPECT_EQ(receive(b), "to b");
     EXPECT_FALSE(a.take());
-    a.to(line->port(), "");  // says nothing, but has spoken
+    a.to(line->port(), "");  // an empty datagram also counts
     ASSERT_TRUE(until([&] {
         (void)send("back to a");
         settle();

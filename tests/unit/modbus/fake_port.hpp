@@ -1,5 +1,5 @@
-// Fake port: the gateway as the Modbus door sees it, without an engine: axes that a test sets up, commands kept for the test to answer.
-// In: pictures, results. Out: what the door submitted. Time stands still until the test moves it. Also used by the fuzz target.
+// The gateway for the Modbus door, without an engine: the test sets the axes and answers the commands. Time does not advance until the test
+// moves it. The fuzz target uses it, too.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace axisgate::modbus::test {
 
 class FakePort : public DoorPort {
 public:
-    /// Adds (or replaces) the axis with that number of the register map. The picture can be changed through edit().
+    /// Adds (or replaces) the axis with that number of the register map. edit() changes the picture.
     AxisId add_axis(std::uint16_t number, const Catalogue* catalogue = nullptr) {
         const AxisId id{next_id_++};
         if (!image_.grow(static_cast<std::size_t>(next_id_))) std::abort();
@@ -42,7 +42,7 @@ public:
     }
     void set_mapping_revision(std::uint32_t revision) { image_.mapping_revision = revision; }
 
-    /// Gives the result of the oldest command that has none. False: there is no such command.
+    /// Gives the result of the oldest unanswered command. Returns false if there is none.
     bool answer(Outcome outcome = Outcome::accepted, Reason reason = Reason::none, std::int32_t code = 0, Value value = {},
                 std::string text = {}) {
         if (commands.empty()) return false;
@@ -92,7 +92,7 @@ public:
     std::vector<HotDoor*> doors;                  // by number - 1
 
 private:
-    /// What an engine does with accepted set-points: they can be read back.
+    /// Applies accepted set-points like an engine, so that they can be read back.
     void apply(const Command& command) {
         const auto* d = std::get_if<ProcessData>(&command.body);
         if (!d) return;

@@ -1,5 +1,5 @@
-// Net: a real server on loopback and raw TCP clients, in one thread; the door's time is the test's.
-// In: bytes as hex. Out: what the server answered; whether it closed. Waits only for the kernel, never for time to pass.
+// A real server on loopback and raw TCP clients, in one thread; the test provides the door's time. It waits only for the kernel, never for
+// time to pass.
 #pragma once
 
 #include <arpa/inet.h>
@@ -37,7 +37,7 @@ struct Net {
         while (io.poll() > 0) {
         }
     }
-    /// Time passes, and the server looks at its time-outs.
+    /// Advances the time, and the server checks its time-outs.
     void pass(Duration d) {
         port.time += d;
         server->sweep();
@@ -80,14 +80,14 @@ public:
         ::shutdown(fd_, SHUT_WR);
         net_.turn();
     }
-    /// False: the connection is gone.
+    /// Returns false if the connection is closed.
     bool send(std::string_view data) {
         const auto b = bytes(data);
         const auto n = ::send(fd_, b.data(), b.size(), MSG_NOSIGNAL);
         net_.turn();
         return n == static_cast<ssize_t>(b.size());
     }
-    /// The next `n` bytes; fewer if the server closed or two seconds went by without any.
+    /// The next `n` bytes; fewer if the server closed, or sent none for two seconds.
     std::string receive(std::size_t n) {
         std::vector<std::uint8_t> got;
         while (got.size() < n) {
@@ -113,7 +113,7 @@ public:
         send(request);
         return receive(answer_size);
     }
-    /// Nothing to read, and not closed.
+    /// True if there is nothing to read, and the connection is open.
     bool quiet() {
         net_.turn();
         return !readable(0);

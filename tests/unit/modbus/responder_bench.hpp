@@ -1,5 +1,4 @@
-// Responder bench: a Responder with a fake port and one client, asked in hex.
-// In: request PDUs. Out: answer PDUs; a write is answered by the scripted results of its commands.
+// A Responder with a fake port and one client, asked in hex; a write is answered by the scripted results of its commands.
 #pragma once
 
 #include <functional>
@@ -12,7 +11,7 @@
 namespace axisgate::modbus::test {
 using namespace registers;
 
-/// A family with one parameter of each kind that the parameter channel must tell apart.
+/// A family with one parameter of each kind that the parameter channel must distinguish.
 inline const Catalogue& catalogue() {
     static const Catalogue c = [] {
         std::vector<std::string> faults;
@@ -37,7 +36,7 @@ inline const Catalogue& catalogue() {
     return c;
 }
 
-/// A Responder that stands in the port's list of doors, without sockets.
+/// A Responder in the port's list of doors, without sockets.
 struct ResponderDoor : HotDoor {
     explicit ResponderDoor(DoorPort& p, WordOrder order = WordOrder::high_first, Responder::Settings settings = {})
         : list(p), image(p, {order, MapGaps::zero}), responder(p, image, std::move(settings)) {

@@ -1,4 +1,4 @@
-// RTU session and door: whose frames are answered, broadcasts, answers that come too late, a port that comes and goes.
+// RTU session and door: which frames are answered, broadcasts, late answers, a port that appears and disappears.
 #include <gtest/gtest.h>
 
 #include <boost/asio/io_context.hpp>
@@ -42,7 +42,7 @@ struct RtuSessionTest : testing::Test, RtuSink {
         repeated = repeats;
     }
     void answered() override { ++woken; }
-    /// What is answered at once.
+    /// The immediate answer.
     std::string ask(RtuSession& s, std::string_view body) {
         sent.clear();
         s.on_frame(frame(body), port.time);
@@ -173,7 +173,7 @@ TEST_F(RtuSessionTest, ABroadcastIsCarriedOutAndNeverAnswered) {
     session.finish(port.time);
     EXPECT_TRUE(sent.empty());
     EXPECT_EQ(woken, 0);
-    // Reads, and what cannot be: nothing at all.
+    // Reads and impossible requests have no effect.
     for (const std::string& odd :
          {"00 " + reading, std::string("00 17 00 00 00 01 00 2C 00 01 02 00 05"), std::string("00 63"), std::string("00 06 00 00 00 01")}) {
         EXPECT_EQ(ask(session, odd), "") << odd;
@@ -216,7 +216,7 @@ struct TestLine final : Line {
     std::vector<std::string> sent;
 };
 
-/// The silence is waited for on the machine's clock, as the door does.
+/// The silence is measured by the machine's clock, as in the door.
 struct NowPort : test::FakePort {
     Instant now() const override {
         return Instant{std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch())};
@@ -275,9 +275,9 @@ TEST_F(RtuDoorTest, AnswersOnceTheLineIsSilent) {
 TEST_F(RtuDoorTest, AWriteIsAnsweredAfterItsDriveUnlessTheLineHasSpokenMeanwhile) {
     line->events->on_line_state(true, "up");
     for (const bool interrupted : {false, true}) {
-        line->bring(sealed(interrupted ? "01 06 00 2C 00 06" : "01 " + writing), port.now());  // the same at once might be an echo
+        line->bring(sealed(interrupted ? "01 06 00 2C 00 06" : "01 " + writing), port.now());  // the same bytes at once might be an echo
         run_until([&] { return !port.commands.empty(); });
-        if (interrupted) line->bring({0x09}, port.now());  // the master has begun something else
+        if (interrupted) line->bring({0x09}, port.now());  // the master has sent something else
         const std::size_t before = line->sent.size();
         ASSERT_TRUE(port.answer());
         io.restart();

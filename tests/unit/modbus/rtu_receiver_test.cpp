@@ -1,4 +1,4 @@
-// RTU receiver: checksum, silence, half frames, garbage, echoes: bytes and virtual time in, frames out.
+// Checksum, silence, half frames, garbage, echoes: bytes and virtual time in, frames out.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -21,7 +21,7 @@ Bytes with_crc(std::string_view body) {
     return b;
 }
 
-/// A line whose bytes come one after the other, as a wire brings them, with the receiver's owner behind it.
+/// A line whose bytes come one after the other, as on a wire, with the receiver's owner.
 struct Wire {
     explicit Wire(std::uint32_t baud = 19200, unsigned bits = 11) : receiver(RtuTiming::of(baud, bits)) {}
     void pass(Duration d) {
@@ -32,14 +32,14 @@ struct Wire {
         }
         now = until;
     }
-    /// Byte by byte at the wire's pace.
+    /// Byte by byte at the speed of the wire.
     void say(const Bytes& data) {
         for (const auto b : data) {
             pass(receiver.timing().character);
             keep(receiver.feed({&b, 1}, now));
         }
     }
-    /// All at once, as an adapter hands it on.
+    /// All at once, as an adapter delivers them.
     void burst(const Bytes& data) { keep(receiver.feed(data, now)); }
     void keep(const std::optional<RtuFrame>& f) {
         if (!f) return;
@@ -154,14 +154,14 @@ TEST(RtuReceiver, APauseWithinAFrameIsCountedAndTheChecksumDecides) {
 TEST(RtuReceiver, AThreadThatIsLateLosesNothing) {
     Wire w;
     const Bytes good = with_crc(reading);
-    // The silence was there, nobody has looked, and the next frame's bytes come first.
+    // The silence has passed unnoticed, and the next frame's bytes come first.
     w.burst(good);
     w.now += 10ms;
     w.burst(with_crc(other));
     EXPECT_EQ(w.frames, std::vector<std::string>{reading});
     w.pass(3ms);
     EXPECT_EQ(w.frames.size(), 2u);
-    // The halves of one frame, handed on with a pause that was not on the wire, before the silence was judged.
+    // The halves of one frame, delivered with a pause that was not on the wire, before the silence was evaluated.
     w.burst(Bytes(good.begin(), good.begin() + 3));
     w.now += 10ms;
     w.burst(Bytes(good.begin() + 3, good.end()));
@@ -169,7 +169,7 @@ TEST(RtuReceiver, AThreadThatIsLateLosesNothing) {
     EXPECT_EQ(w.frames.size(), 3u);
 }
 
-// --- echo of what the port itself has sent
+// --- echoes of the port's own bytes
 
 const std::string answer = "01 03 02 12 34", writing = "01 06 00 20 00 0F";
 
@@ -241,7 +241,7 @@ TEST(RtuReceiver, AnEchoThatCameBackSpoiltTeachesNothing) {
     w.say(with_crc(writing));
     w.pass(3ms);
     w.receiver.sent(with_crc(writing), true, w.now);
-    w.say(with_crc(writing));  // were it taken for a request, it would be answered, and that answer again
+    w.say(with_crc(writing));  // if it were taken for a request, it would be answered, and that answer again
     w.pass(5ms);
     EXPECT_EQ(w.frames, std::vector<std::string>{writing});
     EXPECT_EQ(w.receiver.counters().echoes.value(), 1u);

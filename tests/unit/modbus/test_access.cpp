@@ -1,5 +1,5 @@
-// The locks of the door: which functions are served, and what a read-only door still takes: a pure stop, proved against the CiA 402 profile
-// in all of its states. In: request PDUs. Out: answers, and what the profile would have done.
+// The locks of the door: which functions are served, and which writes a read-only door accepts: only stops, verified with the CiA 402
+// profile in all of its states.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
@@ -87,7 +87,7 @@ TEST(ModbusAccess, WhatAReadOnlyDoorTakesOnlyStopsInEveryState) {
         ++taken;
         for (const auto& [name, at] : states()) {
             Drive d = at;
-            // An axis without brake falls when its power goes: only one that has none is told to have none.
+            // An axis without a brake falls when its power is switched off, so a powered axis must keep it.
             const bool powered = d.feedback.power == AxisFeedback::Power::on;
             for (const auto& o : d.word(word).orders) {
                 EXPECT_TRUE(std::holds_alternative<QuickStop>(o) || std::holds_alternative<Halt>(o) ||

@@ -1,4 +1,4 @@
-// ADU framer: whole ADUs from pieces of any size, and verdicts on what is not Modbus.
+// Whole ADUs from pieces of any size, and verdicts on bytes that are not Modbus.
 #include <gtest/gtest.h>
 
 #include "gateway/doors/modbus/adu_framer.hpp"

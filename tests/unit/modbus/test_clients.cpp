@@ -1,5 +1,5 @@
-// Clients: programs that others wrote (libmodbus, mbpoll) against the real server: an independent reading of the standard.
-// The server runs on its own thread, with drives that accept everything; libmodbus is opened at run time, so that only this test needs it.
+// Independent clients (libmodbus, mbpoll) with the real server, which runs on its own thread with drives that accept everything. libmodbus
+// is loaded at run time, so that only this test needs it.
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using namespace registers;
 using testing::HasSubstr;
 
-/// The functions of libmodbus that are used here, by their own types.
+/// The used functions of libmodbus, with their own types.
 struct Library {
     Library() : handle(::dlopen("libmodbus.so.5", RTLD_NOW | RTLD_LOCAL)) {}
     template <class F>
@@ -47,7 +47,7 @@ struct Api {
 };
 #undef AXISGATE_MODBUS
 
-/// The server and its drives, running.
+/// The running server and its drives.
 struct Running {
     Running() {
         for (std::uint16_t n = 1; n <= 8; ++n) {

@@ -1,4 +1,4 @@
-// Identification: functions 17 and 43/14, byte for byte, and the paging of answers that do not fit.
+// Functions 17 and 43/14, byte for byte, and the paging of long answers.
 #include <gtest/gtest.h>
 
 #include "tests/unit/modbus/responder_bench.hpp"

@@ -1,4 +1,4 @@
-// PDU: requests and their expected answers, for every function and every exception. The axes here: numbers 1, 2 and 4; 3 is not configured.
+// Requests and their expected answers, for every function and every exception. The axes have numbers 1, 2 and 4; 3 is not configured.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -187,7 +187,7 @@ TEST(Pdu, GreatestCounts) {
 }
 
 TEST(Pdu, GreatestAndTooGreatCountsOfWrites) {
-    // Nothing in the standard map is so long: an allowed count gets as far as the address, one more fails as a count.
+    // No range of the standard map is so long: an allowed count is refused by its address, one more by its count.
     Plant plant;
     const auto zeros = [](std::size_t n) {
         std::string s;
@@ -321,7 +321,7 @@ TEST(Pdu, AResultThatNeverComesIsNoAnswer) {
     };
     EXPECT_EQ(plant.ask("06 00 20 00 1F"), "86 0B");
     EXPECT_EQ(plant.responder.writer().counters().results_timed_out.value(), 1u);
-    EXPECT_TRUE(plant.port.answer());  // too late: nobody is told
+    EXPECT_TRUE(plant.port.answer());  // too late: no client is informed
     EXPECT_EQ(plant.responder.writer().counters().results_unclaimed.value(), 1u);
     EXPECT_EQ(plant.slots.size(), 1u);
 }
@@ -510,9 +510,9 @@ TEST(StandardMap, TheLastAxisEndsAtTheLastRegister) {
     EXPECT_EQ(plant.ask("06 FF E0 00 0F"), "06 FF E0 00 0F");
 }
 
-// --- the seam for user maps ------------------------------------------------------------------------------------------------------------
+// --- the interface for user maps ------------------------------------------------------------------------------------------------------
 
-/// A map that writes two axes with one request and shows what it was asked.
+/// A map that writes two axes with one request and records its calls.
 struct TwoAxes final : UnitMap {
     Verdict check_read(Table, std::uint16_t, std::uint16_t) override { return Verdict::good; }
     Verdict read_registers(Table table, std::uint16_t address, std::uint16_t count, Instant, std::uint8_t* out) override {
@@ -549,7 +549,7 @@ TEST(UnitMap, AMapBehindAnotherUnit) {
     EXPECT_EQ(plant.ask("01 00 05 00 01", 2), "01 01 01");
     EXPECT_EQ(plant.ask("05 00 05 FF 00", 2), "05 00 05 FF 00");
     EXPECT_EQ(plant.ask("06 00 00 00 0F", 2), "06 00 00 00 0F");
-    // Results came in the order of the commands: the first request's own one with the second request's, whose own one is still out.
+    // Results came in the order of the commands: the first request's own one with the second request's, whose own one is still outstanding.
     EXPECT_THAT(map.own, testing::ElementsAre(testing::Pair(42, Reason::none)));
     EXPECT_EQ(plant.port.commands.size(), 1u);
     plant.port.refuse(Reason::no_answer);

@@ -1,4 +1,4 @@
-// The door's README prints the register map: it is compared with the table that the program uses.
+// Compares the register map in the door's README with the table of the program.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,7 +19,7 @@ TEST(ModbusReadme, PrintsTheRegisterMapAsItIs) {
         if (line.starts_with("| ") && line[2] >= '0' && line[2] <= '9')
             printed.push_back(line);
         else if (!printed.empty())
-            break;  // the tables behind it are others
+            break;  // the following tables are others
     }
     std::vector<std::string> expected;
     for (const auto& row : standard_registers()) {

@@ -1,4 +1,4 @@
-// Refusals: what a refused write leaves behind: an event with its sentence, and two registers of the axis; and how many events at most.
+// The effects of a refused write: an event with its text, and two registers of the axis; and the limit on events.
 #include <gtest/gtest.h>
 
 #include "tests/unit/modbus/responder_bench.hpp"

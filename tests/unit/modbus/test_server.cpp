@@ -1,4 +1,4 @@
-// Server: real sockets on loopback, with the door's time in the test's hand: nobody's silence, slowness or garbage reaches another client.
+// Real sockets on loopback, with the test's time: silence, slowness or garbage of one client do not affect another.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -122,7 +122,7 @@ TEST(Server, HalfARequestCostsNobodyAndEndsAfterFiveSeconds) {
     EXPECT_TRUE(serves(other));
     for (int i = 0; i < 4; ++i) {
         net.pass(1s);
-        half.send("03");  // dripping does not help: 03 03 03 03 never becomes whole
+        half.send("03");  // single bytes do not help: 03 03 03 03 never becomes a whole request
         EXPECT_TRUE(serves(other));
     }
     EXPECT_FALSE(half.closed());
@@ -209,7 +209,7 @@ TEST(Server, WhenFullTheLongestIdleOneMakesRoom) {
     settings.max_connections = 3;
     Net net(settings);
     TcpClient commanding(net), idle(net), polling(net), fresh(net), last(net);
-    commanding.connect().send(adu(1, control));  // the oldest, but its write is on its way
+    commanding.connect().send(adu(1, control));  // the oldest, but its write is in progress
     net.pass(1s);
     idle.connect();
     net.pass(1s);
@@ -220,7 +220,7 @@ TEST(Server, WhenFullTheLongestIdleOneMakesRoom) {
     EXPECT_EQ(net.server->counters().connections_evicted.value(), 1u);
     EXPECT_TRUE(serves(polling));
     EXPECT_EQ(net.server->counters().connections_open.value(), 3u);
-    net.pass(50ms);  // now nobody is idle: two have asked less than 100 ms ago, one waits for its drive
+    net.pass(50ms);  // now no connection is idle: two have sent requests less than 100 ms ago, one waits for its drive
     last.connect();
     EXPECT_TRUE(last.closed());
     EXPECT_EQ(net.server->counters().connections_refused.value(), 1u);
@@ -497,7 +497,7 @@ TEST(Server, ClosesWithEverythingOnItsWay) {
     EXPECT_TRUE(net.port.answer());
     net.turn();
     EXPECT_EQ(net.server->counters().connections_open.value(), 0u);
-    net.server.reset();  // before what its handlers left in the io_context has run
+    net.server.reset();  // before its handlers in the io_context have run
     net.turn();
     EXPECT_EQ(net.port.doors.back(), nullptr);
 }

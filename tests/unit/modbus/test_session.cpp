@@ -1,4 +1,4 @@
-// Session: order, pipelining, bounds: what one client sees, without a socket.
+// Order, pipelining and bounds of one client, without a socket.
 #include <gtest/gtest.h>
 
 #include "gateway/doors/modbus/session.hpp"
@@ -15,7 +15,7 @@ using Work = Session::Work;
 struct Client : SessionWaker {
     explicit Client(Responder& responder, DoorPort& port)
         : port_(port), session(std::make_unique<Session>(responder, *this, std::make_shared<const std::string>("client"))) {}
-    /// Sends bytes and works them off. Returns what was answered at once.
+    /// Sends bytes and processes them. Returns the immediate answers.
     std::string send(std::string_view data) {
         const auto b = bytes(data);
         EXPECT_EQ(session->input().feed(b), b.size());
@@ -101,7 +101,7 @@ TEST_F(SessionTest, AReadBehindAWriteWaitsAndSeesIt) {
 }
 
 TEST_F(SessionTest, AStopIsNotHeldUpByASlowWrite) {
-    // Target on axis 1, then halt on axis 2: the second command goes out before the first has its result.
+    // Target on axis 1, then halt on axis 2: the second command is sent before the first has its result.
     EXPECT_EQ(client.send(join({adu(1, "10 00 22 00 02 04 00 00 00 64"), adu(2, "06 00 60 01 0F")})), "");
     ASSERT_EQ(port.commands.size(), 2u);
     EXPECT_EQ(port.commands[1].axis, axes[2]);
@@ -194,7 +194,7 @@ TEST_F(SessionTest, TellsHalfRequestsFromWholeOnes) {
 }
 
 TEST_F(SessionTest, AFullOutputIsToldAndNothingIsLost) {
-    // 12 bytes asked give 259 bytes answered: the input holds more than one output.
+    // 12 requested bytes give 259 bytes of answer: the input holds more than one output.
     std::size_t answered = 0;
     std::string stream;
     for (std::uint16_t i = 0; i < 680; ++i)

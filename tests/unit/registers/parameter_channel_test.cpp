@@ -1,4 +1,4 @@
-// Parameter channel: reading and writing parameters through registers 48..54, as clients do it: with requests in hex.
+// Reading and writing parameters through registers 48..54, as clients do it, with requests in hex.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -1,5 +1,5 @@
-// Profiles: a unit that speaks another device's language, asked as a client of the Modbus door asks: golden words of the manuals, traps of
-// their handshakes, refusals in the language's own way. In: requests, results. Out: bytes, the commands behind them.
+// A unit with another device's language, through the Modbus door: reference words of the manuals, traps of their handshakes, refusals in
+// the language's own way.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -189,7 +189,7 @@ TEST_F(Lexium, ErZeroResetsAFault) {
     (void)order<ResetFault>("06 00 21 00 00");
 }
 
-/// A controller repeats SL while the axis behind takes its time, and changes nothing by it; what was refused is asked for again.
+/// A controller repeats SL while the axis accelerates, without an effect; a refused SL is ordered again.
 TEST_F(Lexium, AnSlThatIsRepeatedIsOneOrderUnlessItWasRefused) {
     put(ProfileLanguage::lexium);
     const std::string sl = "10 00 78 00 02 04 00 64 00 00";
@@ -208,7 +208,7 @@ TEST_F(Lexium, AnSlThatIsRepeatedIsOneOrderUnlessItWasRefused) {
     EXPECT_EQ(order<Move>(sl).target, 1000) << "a refusal is no order that is on its way";
 }
 
-/// What the axis shows after somebody else has stopped it: registers 23 and the status word.
+/// The registers of the axis after another client has stopped it: register 23 and the status word.
 void stopped_by_another(AxisPicture& p, std::uint16_t statusword) {
     p.stop_latch = 0b101;
     p.statusword = statusword;
@@ -216,7 +216,7 @@ void stopped_by_another(AxisPicture& p, std::uint16_t statusword) {
 }
 constexpr std::uint16_t still_enabled = 0x0627, quick_stopped = 0x0607;
 
-/// DE 1, SL 100 and MA 50: a controller that writes them in cycles.
+/// DE 1, SL 100 and MA 50, which a controller writes in cycles.
 TEST_F(Lexium, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
     put(ProfileLanguage::lexium);
     const auto cycle = [&] {
@@ -236,7 +236,7 @@ TEST_F(Lexium, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
         for (int i = 0; i < 3; ++i)
             cycle();
         EXPECT_EQ(error(), "03 02 00 5E") << "and the drive's own error word says that it is held";
-        // Somebody else moves it and it rests again: the latch is gone, and this client has still said nothing.
+        // Another client moves it and it rests again: the latch is gone, and this client has still written nothing new.
         port.edit(x, [](AxisPicture& p) { p.stop_latch = 0, p.statusword = still_enabled; });
         cycle();
         result = [this] { port.answer(); };
@@ -251,7 +251,7 @@ TEST_F(Lexium, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
     EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 64 00 00").target, 1000) << "power that is asked for anew is a fresh word, too";
 }
 
-/// The gateway was started again, found the axis moving and has stopped it: what its controller writes then is as old as the motion.
+/// The gateway was restarted, found the axis moving and has stopped it: the words that its controller writes then are as old as the motion.
 TEST_F(Lexium, TheFirstWordsBehindAStopAreAnOldImage) {
     put(ProfileLanguage::lexium);
     port.edit(x, [](AxisPicture& p) { stopped_by_another(p, still_enabled); });
@@ -267,7 +267,7 @@ TEST_F(Lexium, TheFirstWordsBehindAStopAreAnOldImage) {
     EXPECT_EQ(order<Move>("10 00 78 00 02 04 00 65 00 00").target, 1010);
 }
 
-/// The drive is replaced by its twin, and back, while its controller repeats its words: they were said to the one before.
+/// The drive is replaced by its twin, and back, while its controller repeats its words, which were meant for the former one.
 TEST_F(Lexium, WhatWasSaidToADriveIsNotSaidToTheTwinThatTakesItsPlace) {
     put(ProfileLanguage::lexium);
     port.edit(x, [](AxisPicture& p) { p.current = true, p.source = 4; });
@@ -288,7 +288,7 @@ TEST_F(Lexium, WhatWasSaidToADriveIsNotSaidToTheTwinThatTakesItsPlace) {
 }
 
 struct PaControl : ProfileTest {
-    /// Words of the CMD interface; the answer's.
+    /// Words of the CMD interface; returns those of the answer.
     std::string cmd(std::string_view words) {
         EXPECT_EQ(at("10 00 00 00 04 08 " + std::string(words)), "10 00 00 00 04");
         return at("04 00 00 00 04").substr(6);
@@ -505,7 +505,7 @@ TEST_F(LinMot, AfterAStopOfSomebodyElseWhatIsRepeatedBeginsNothing) {
             EXPECT_EQ(at(image_), same);
         EXPECT_TRUE(port.commands.empty()) << "at " << shown << ": " << name_of(port.commands.front().body);
     }
-    // Its own edges: the bits that enable come back, and the next count is a command.
+    // Its own edges: the enabling bits return, and the next count is a command.
     EXPECT_EQ(at("06 00 00 00 3E"), "06 00 00 00 3E");
     while (!port.commands.empty())
         port.answer();

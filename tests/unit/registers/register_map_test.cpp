@@ -1,4 +1,4 @@
-// Register map: where every value stands, in both word orders, with constants whose halves and bytes differ.
+// The place of every value in both word orders, with constants whose halves and bytes differ.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Own maps: registers and bits of units 2 and up as mappings place them; parameters that are read behind the client's back; writes.
+// Registers and bits of units 2 and up as mapped; parameters that are read in the background; writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Axis metrics: what /metrics says of axes, and what it leaves out because nobody knows it.
+// The metrics of axes; unknown values are left out.
 #include <gtest/gtest.h>
 
 #include "gateway/runtime/axis_metrics.hpp"

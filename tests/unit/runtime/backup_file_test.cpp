@@ -1,4 +1,5 @@
-// Backup file: what is put in comes out; each byte that is altered, each cut and each wrong passphrase is told, and nothing is taken then.
+// A backup is read as it was written; each altered byte, each truncation and each wrong passphrase is reported, and nothing is restored
+// then.
 #include "gateway/runtime/backup_file.hpp"
 
 #include <sys/stat.h>
@@ -42,7 +43,7 @@ std::string sealed(std::string_view text, const std::string& with = passphrase) 
     EXPECT_TRUE(s && (*s)->write(text) && (*s)->finish());
     return to.text;
 }
-/// The text, or the fault's kind as a number, with its words.
+/// The text, or the fault's kind as a number, with its text.
 std::string unsealed(const std::string& bytes, const std::string& with = passphrase, std::size_t at_once = 100'000) {
     TextSource from(bytes);
     auto s = Unsealer::begin(from, with);
@@ -68,7 +69,7 @@ protected:
         EXPECT_TRUE(write_backup(to, c, members_));
         archive_ = to.text;
     }
-    /// As write_backup makes them, with what a test wants to be wrong.
+    /// As write_backup makes them, with deliberate faults.
     static std::string archive_of(const std::string& contents, std::string_view database = "db", bool sums = true) {
         Tar tar;
         tar.add("backup.json", contents, 5);

@@ -1,6 +1,5 @@
-// Cold: what nobody waits for is gathered, what somebody waits for is not, and nothing is lost at the end.
-// In: a real store in a directory of its own, a real thread. Out: how many transactions there were, and what is on the disk.
-// Bounds count transactions against the time that really went by: a slow machine can only make them easier to keep.
+// Rows for which nobody waits are collected, others are not, and nothing is lost at the end, with a real store and a real thread. The
+// bounds on the number of transactions depend on the time that really passed; a slow machine can only make them easier.
 #include "gateway/runtime/cold.hpp"
 
 #include <gtest/gtest.h>
@@ -124,7 +123,7 @@ TEST(Cold, ManyAtOnceAreAllWritten) {
     b.tell(0);
     ASSERT_TRUE(b.until([&] { return b.events.size() == 1; }));
     for (int i = 1; i <= 3000; ++i)
-        b.tell(i);  // more than one gathering holds, fewer than the ring
+        b.tell(i);  // more than one batch holds, fewer than the ring
     ASSERT_TRUE(b.until([&] { return b.events.size() == 3001; }));
     EXPECT_EQ(must(b.store->last_event_id()), 3001u);
 }

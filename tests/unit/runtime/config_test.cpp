@@ -1,5 +1,4 @@
-// Configuration: the file, the environment and --set; every fault with its place.
-// In: texts. Out: a Config or faults. Never reads a file.
+// The file, the environment and --set; every fault has its place.
 #include "gateway/runtime/config.hpp"
 #include "gateway/runtime/config_host.hpp"
 

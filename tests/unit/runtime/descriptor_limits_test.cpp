@@ -1,4 +1,4 @@
-// Descriptor limits: what the doors may let in with few descriptors, and that it is said.
+// The numbers of connections with few descriptors, and the warning about them.
 #include "gateway/runtime/descriptor_limits.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Doorbell: each call that was rung is answered once, by the receiver alone, and nothing of several senders' is lost.
-// In: rings of this thread and others. Out: answers. Never waits for a time to pass.
+// Each rung call is answered once, by the receiver only, and no call of several senders is lost.
 #include "gateway/runtime/doorbell.hpp"
 
 #include <gtest/gtest.h>
@@ -41,7 +40,7 @@ TEST_F(DoorbellTest, WhatIsRungFromInsideAnAnswerIsAnsweredToo) {
     Doorbell::Call again(bell, [&] {
         received += 'c';
         if (--left > 0) again.ring();
-        a.ring();  // stands before it in the list
+        a.ring();  // before it in the list
     });
     again.ring();
     (void)io.poll();

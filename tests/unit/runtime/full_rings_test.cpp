@@ -1,6 +1,6 @@
-// The hot thread and the owners of the service's ports when the ways between the threads are full, a thread is held up, the clock jumps or
-// the disk fails. In: rings that nobody empties, a clock of the test's own, a file layer that fails on purpose. Out: that everybody who
-// asked is answered exactly once, and that what was lost is counted and told. Never waits for time to go by, and never for ever.
+// The hot thread and the owners of the service's ports when the rings between the threads are full, a thread is blocked, the clock jumps or
+// the disk fails. Every request is answered exactly once, and losses are counted and reported. The test's clock and file layer are its own;
+// it never waits for time to pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ bool until(Condition condition) {
     return false;
 }
 
-/// A hot thread that is not running unless a test starts it, a disk thread likewise, and the gateway between them.
+/// A hot thread that does not run unless a test starts it, a storage thread likewise, and the gateway between them.
 struct RingBench {
     TempDir dir;
     FaultVfs vfs;
@@ -51,7 +51,7 @@ struct RingBench {
     std::unique_ptr<WarmPorts> ports;
 
     RingBench() {
-        test_time = ns_of(monotonic_now()) + 3'600'000'000'000;  // no timer of the real clock rings meanwhile
+        test_time = ns_of(monotonic_now()) + 3'600'000'000'000;  // no timer of the real clock expires meanwhile
         StoreOptions options = options_for(dir.path());
         options.vfs = vfs.name();
         store = open_store(options);
@@ -89,7 +89,7 @@ struct RingBench {
         for (std::size_t i = 0; i < job_places; ++i)
             ASSERT_TRUE(hot->jobs().push([](Engine&, Instant) {}));
     }
-    /// What the hot thread would do with its jobs.
+    /// Carries out the jobs of the hot thread.
     void empty_jobs() { hot->jobs().empty(); }
 };
 
@@ -140,7 +140,7 @@ TEST(FullRings, ALargeCommitsEventsLetOthersInBetween) {
             list.push_back(numbered(i));
         bench.ports->events.written(std::move(list));
     };
-    std::vector<std::size_t> told;  // whenever somebody else has a turn
+    std::vector<std::size_t> told;  // whenever another thread runs
     const std::function<void()> other = [&] {
         told.push_back(listener.codes.size());
         if (told.back() < 120) boost::asio::post(bench.warm, other);
@@ -186,7 +186,7 @@ TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
     Hot hot(Families{}, with_test_clock());
     hot.connect({nullptr, nullptr, &ring});
     for (int i = 1; i <= 3; ++i)
-        hot.on_event(numbered(i), time_zero);  // the first has the place
+        hot.on_event(numbered(i), time_zero);  // the first one has the place
     ring.empty();
     hot.on_event(numbered(4), time_zero);  // the gap takes the place of its own event
     ring.empty();
@@ -199,7 +199,7 @@ TEST(FullRings, AGapThatCannotBeToldYetIsToldLaterWithAllThatIsMissing) {
 
 TEST(FullRings, NotesOfTheServiceGoStraightToTheDiskAndAreCountedWhenTheyFindNoPlace) {
     RingBench b;
-    b.fill_jobs();  // the hot thread takes nothing more: it is not on their way
+    b.fill_jobs();  // the hot thread accepts nothing more, so it is not on its way
     for (std::int32_t i = 1; i <= static_cast<std::int32_t>(service_places) + 2; ++i)
         b.ports->events.note(numbered(i));
     EXPECT_EQ(b.ports->events.lost(), 2u);

@@ -1,5 +1,4 @@
-// HotTurns: what counts as work of a turn, by a clock that this test sets.
-// In: handlers of a loop. Out: the histogram of turns. Never waits for a time to pass.
+// Which time counts as work of a turn, with the test's clock.
 #include "gateway/runtime/hot_turns.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ TEST(HotTurns, ATurnBeginsWithTheFirstLookAtTheTimeAndNotWithTheSleep) {
     turns_time += 5us;  // goes on without a sleep
     turns.end(turns.now());
     EXPECT_EQ(turns.times().read().sum_ns, 48'000u);
-    boost::asio::post(io, [] { turns_time += 200us; });  // a handler that does not ask for the time
+    boost::asio::post(io, [] { turns_time += 200us; });  // a handler that does not read the time
     turns.sleep();
     turns.end(turns.now());
     EXPECT_EQ(turns.times().read().sum_ns, 48'000u);

@@ -1,4 +1,4 @@
-// Log: the limit per cause, and what the journal is sent, judged at a socket of the test's own.
+// The limit per cause, and the journal's datagrams, received by a socket of the test.
 #include <gtest/gtest.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>

@@ -1,4 +1,4 @@
-// PKI: what the certificate tool makes, leaves alone and refuses; whether DDS Security takes it is tested with the whole program.
+// The certificate tool makes new files, leaves existing ones and refuses faults. DDS Security is tested with the whole program.
 #include "gateway/runtime/pki.hpp"
 
 #include <gtest/gtest.h>

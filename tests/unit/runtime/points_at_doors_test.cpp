@@ -1,4 +1,4 @@
-// The table of points at every door: what clients know has not changed, and a row added to the table is found at each door.
+// The table of points at every door: the known values have not changed, and an additional row is found at each door.
 #include <gtest/gtest.h>
 
 #include <boost/json/parse.hpp>
@@ -148,7 +148,7 @@ TEST(PointsAtDoors, MetricsReadAsBefore) {
     EXPECT_EQ(text, expected);
 }
 
-// The members of the IDL that are no points are told of the gateway, of the site and of the sample itself.
+// The other members of the IDL come from the gateway, the site and the sample itself.
 TEST(PointsAtDoors, TheSampleHasTheMembersOfTheIdl) {
     const std::string idl = file_text("schema/axisgate.idl");
     const auto begin = idl.find("struct AxisState {");
@@ -220,7 +220,7 @@ TEST(PointsAtDoors, RegistersOfTheStandardMapHoldThePointsThatTheyAreNamedBy) {
     }
 }
 
-/// A condition reads one value; what it sees is what the document shows under that name.
+/// A condition reads one value, which is the document's value of that name.
 TEST(PointsAtDoors, ARecipeSeesOfEachPointWhatTheDocumentShows) {
     const AxisSpec spec = feeder();
     AxisPicture p = running();
@@ -275,7 +275,7 @@ TEST(PointsAtDoors, TheSchemaOfRecipesNamesThePointsOfRecipes) {
     EXPECT_EQ(found, 3u);
 }
 
-/// As AxisState would be with one member more.
+/// AxisState with one additional member.
 struct LaterState {
     std::int16_t temperature = 0;
 };
@@ -288,7 +288,7 @@ TEST(PointsAtDoors, OneMoreRowIsFoundAtEveryDoor) {
     const AxisView view{spec, "can0", "uim342", nullptr, p, 1, 2};
     const AxisPointRows rows = more_points;
 
-    // HTTP, and what it compares for the live feed
+    // HTTP, and its comparison for the live feed
     EXPECT_FALSE(axis_document(view).contains("temperature"));
     EXPECT_EQ(axis_document(view, rows).at("temperature"), json::value(nullptr)) << "nobody has said it yet";
     p.motion_ticket = 41;

@@ -1,5 +1,4 @@
-// Record ring: bytes from one thread to another: in order, whole, round the ring's end, and counted where there is no room.
-// In: records of many sizes. Out: the same. Two threads in one test.
+// Bytes from one thread to another: in order, complete, across the end of the ring, and counted if there is no space.
 #include "gateway/runtime/record_ring.hpp"
 
 #include <gtest/gtest.h>

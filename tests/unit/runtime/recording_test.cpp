@@ -1,5 +1,4 @@
-// Recording: each form that recorded lines have, read back into the frames they were made of, and what is not one said with its place.
-// In: text. Out: frames, faults. Needs no file.
+// Each form of recorded lines is read back into its frames, and other text is reported with its place.
 #include "gateway/runtime/recording.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Scrub: what is taken out of texts that leave the machine, and what stays readable.
+// The removed parts of texts that leave the machine, and the parts that stay readable.
 #include <gtest/gtest.h>
 
 #include "gateway/runtime/scrub.hpp"

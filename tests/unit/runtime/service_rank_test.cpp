@@ -1,4 +1,4 @@
-// The service thread goes first for 30 of 50 milliseconds at most, and again in the next ones.
+// The service thread has its rank for 30 of 50 milliseconds at most, and again in the next ones.
 #include "gateway/runtime/service_rank.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 TEST(ServiceRank, IsKeptForAPartOfAWindowAndGivenAgainInTheNext) {
     ServiceRank rank;
     Instant now = at_ns(1'000'000'000);
-    Duration used = 3s;  // what was used before does not count
+    Duration used = 3s;  // time that was used before does not count
     EXPECT_TRUE(rank.may_go_first(now, used));
     EXPECT_TRUE(rank.may_go_first(now += 29ms, used += 29ms));
     EXPECT_TRUE(rank.may_go_first(now += 1ms, used += 999us));

@@ -1,5 +1,4 @@
-// SetPointSlots: the newest of each axis counts, nothing is lost for good, and two threads do not tear it.
-// In: set-points from this thread and others. Out: what the receiver was told. Never waits for a time to pass.
+// The newest set-point of each axis counts, none is permanently lost, and two threads never read a torn one.
 #include "gateway/runtime/set_point_slots.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ TEST(SetPointSlots, TheNewestOfEachAxisCounts) {
     slots.put(point(70, 5));
     (void)io.poll();
     EXPECT_EQ(received.back(), (std::pair<int, std::int64_t>{70, 5}));
-    slots.put(point(1, 1));  // what nobody fetches any more ends with the slots
+    slots.put(point(1, 1));  // set-points that are not taken any more are dropped with the slots
 }
 
 TEST(SetPointSlots, TheLastOfEachThreadArrives) {

@@ -1,4 +1,4 @@
-// What a new site means for names: which axes are those of before under another name; and the backup that waits for the next start.
+// Which axes of a new site are former ones under another name; and the backup that waits for the next start.
 #include <gtest/gtest.h>
 
 #include <boost/json/parse.hpp>

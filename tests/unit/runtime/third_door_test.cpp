@@ -1,5 +1,5 @@
-// A third door on each thread, plugged in beside Modbus and HTTP without an edit anywhere else: it gets results, sites and samples, and the
-// clients that it loses are stopped. In: a gateway with one simulated drive. Out: what both doors were told.
+// A third door on each thread, added beside Modbus and HTTP without an edit anywhere else: it gets results, sites and samples, and its lost
+// clients are stopped. The gateway has one simulated drive.
 #include <gtest/gtest.h>
 
 #include <fmt/core.h>
@@ -79,7 +79,7 @@ struct House {
         hot.stop();
         cold.stop();
     }
-    /// The first family's twin, whichever that is.
+    /// The twin of the first family.
     void begin() {
         hot.connect(ports.outlets());
         const Family& family = *families.entries.at(0).family;
@@ -108,7 +108,7 @@ struct House {
         }
         return false;
     }
-    /// Brings the axis up, sets it in motion and loses who did so, by whatever door.
+    /// Enables the axis, sets it in motion and loses the client, over any door.
     template <class Give, class Results, class Lose>
     void drive(Give give, Results results, Lose lose) {
         ASSERT_TRUE(until([&] { return (picture().flags & flag_online) != 0; }));

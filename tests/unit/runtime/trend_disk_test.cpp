@@ -1,5 +1,5 @@
-// Trend disk: which axes' trends are written, by what the site in force says of them and what the host has written; and their way back.
-// In: trends, sites, times. Out: files in a folder of its own, rows. Never waits for a minute.
+// Which axes' trends are written, by the site in force and the host's settings; and how they are restored. The test never waits for a
+// minute.
 #include "gateway/runtime/trend_disk.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace axisgate {
 namespace {
 using namespace std::chrono_literals;
-constexpr std::int64_t offset = 1'700'000'000'000'000'000;  // what makes an instant a time
+constexpr std::int64_t offset = 1'700'000'000'000'000'000;  // the difference between an instant and a time
 constexpr AxisId left{1}, right{2};
 
 class TrendDiskTest : public testing::Test {
@@ -87,7 +87,7 @@ TEST_F(TrendDiskTest, AWrittenBoundLeavesTheChoiceToASiteThatMarks) {
 TEST_F(TrendDiskTest, AChangedSiteCountsFromTheNextWritingOn) {
     auto d = disk(false);
     const auto trends = moved();
-    d.keep(trends, site(false, false), Instant(10s), offset);  // too early for any
+    d.keep(trends, site(false, false), Instant(10s), offset);  // too early for any of them
     d.keep(trends, site(true, false), Instant(0s) + TrendDisk::period, offset);
     d.end(trends, site(false, false), Instant(70s), offset);
     pool.join();

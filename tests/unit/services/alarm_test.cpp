@@ -1,4 +1,4 @@
-// Alarms: every transition of the state machine by table, in virtual time; who clears what; shelves and doubts that end; the bound.
+// Every transition of the state machine by table, in virtual time; clearing; shelves and doubts that end; the bound.
 #include "gateway/services/alarms/alarm.hpp"
 
 #include <fmt/core.h>
@@ -45,7 +45,7 @@ struct World {
     }
     std::uint64_t first() const { return list.all().empty() ? 0 : list.all().begin()->first; }
     std::string state() const { return list.all().empty() ? "normal" : std::string(name_of(list.all().begin()->second.state())); }
-    /// One letter per thing that can happen. True: it was taken.
+    /// One letter per event. Returns whether it was accepted.
     bool act(char what) {
         switch (what) {
             case 'R':
@@ -85,7 +85,7 @@ constexpr auto ua = "unacknowledged_active";
 constexpr auto aa = "acknowledged_active";
 constexpr auto uc = "unacknowledged_cleared";
 constexpr auto sh = "shelved";
-// R raised, C cleared, A acknowledged, S shelved for 60 s, U taken back from the shelf, T 61 s pass
+// R raised, C cleared, A acknowledged, S shelved for 60 s, U unshelved, T 61 s pass
 INSTANTIATE_TEST_SUITE_P(
     Alarm, Transitions,
     ::testing::Values(Row{"", 'R', true, ua}, Row{"", 'C', false, "normal"}, Row{"", 'A', false, "normal"}, Row{"", 'S', false, "normal"},
@@ -126,7 +126,7 @@ TEST(Alarms, AreOnePerCodeAndTheFaultEndsThemAll) {
     w.fault(8);
     EXPECT_EQ(w.list.all().size(), 2u);
     w.later(3);
-    w.list.on_event(w.event("alarm", Severity::alarm, 29));  // told while the drive is in fault, but not with it: over with it
+    w.list.on_event(w.event("alarm", Severity::alarm, 29));  // reported while the drive is in fault, but not with it: ends with the fault
     EXPECT_EQ(w.list.find(3)->state(), AlarmState::unacknowledged_active);
     EXPECT_FALSE(w.list.on_event(w.event("alarm", Severity::alarm, 8))) << "the drive's word about the fault 8";
     EXPECT_EQ(w.list.all().size(), 3u);
@@ -145,7 +145,8 @@ TEST(Alarms, WhatComesWithAFaultIsPartOfIt) {
     ASSERT_EQ(w.list.all().size(), 1u);
     EXPECT_EQ(w.list.find(2)->text, "fault 2; also: error 1; also: alarm 3; also: alarm 4");
     EXPECT_EQ(w.list.find(2)->count, 1u);
-    // What the gateway has to say stands alone; so does what comes when somebody has seen the fault, another axis' word, another fault.
+    // A report of the gateway is an alarm of its own; so are reports after the acknowledgement of the fault, of another axis, and another
+    // fault.
     w.list.on_event(w.event("not_stored", Severity::alarm));
     EXPECT_EQ(w.list.all().size(), 2u);
     Event other = w.event("alarm", Severity::alarm, 30);
@@ -167,7 +168,7 @@ TEST(Alarms, WhatCameLongBeforeAFaultIsNoPartOfIt) {
     w.later(3);
     w.fault(7);
     EXPECT_EQ(w.list.all().size(), 2u);
-    World b;  // nor what has come before already, or was seen
+    World b;  // nor an alarm that has occurred before, or was acknowledged
     b.list.on_event(b.event("error", Severity::alarm, 29));
     b.list.on_event(b.event("error", Severity::alarm, 29));
     b.fault(7);

@@ -1,5 +1,4 @@
-// Captures: triggers by level, edge, state and command; what is before and behind them; bounds. In: pictures and commands with instants.
-// Out: rows, states, documents. Never waits: time is told.
+// Triggers by level, edge, state and command; the rows before and behind them; bounds. The time is an argument.
 #include <gtest/gtest.h>
 
 #include "gateway/axis/image.hpp"
@@ -48,12 +47,12 @@ TEST(Capture, ALevelTriggersAtTheInstantBetweenTwoRows) {
     Capture c(wish(level(CapturePoint::position, 5005)), Instant(1s));
     run(c, 400);
     EXPECT_EQ(c.state(), Capture::State::armed);
-    EXPECT_LE(c.rows(0).size(), 102u);  // a ring of what is before
+    EXPECT_LE(c.rows(0).size(), 102u);  // a ring of the time before
     run(c, 600, 400);
     ASSERT_EQ(c.state(), Capture::State::done);
     EXPECT_EQ(*c.triggered_at(), Instant(1s + 500ms + 500us));
     const auto& rows = c.rows(0);
-    EXPECT_EQ(rows.front().at, Instant(1s + 400ms));  // the row that holds where it begins
+    EXPECT_EQ(rows.front().at, Instant(1s + 400ms));  // the row that is valid at the begin
     EXPECT_EQ(rows.back().at, Instant(1s + 800ms));
     EXPECT_EQ(rows.size(), 401u);
     EXPECT_EQ(c.rows(1).front().position, -4000);
@@ -106,7 +105,7 @@ TEST(Capture, ARowStandsWhereTheDriveHasSaidIt) {
     PictureRecord late = published(1);
     late.age = 4ms;
     c.on_picture(one, late, Instant(1s + 10ms));
-    c.on_picture(one, late, Instant(1s + 10ms));  // the same word
+    c.on_picture(one, late, Instant(1s + 10ms));  // the same report
     ASSERT_EQ(c.rows(0).size(), 1u);
     EXPECT_EQ(c.rows(0)[0].at, Instant(1s + 6ms));
     PictureRecord old = published(2);

@@ -1,5 +1,4 @@
-// Command wishes: a command is the same, and is refused in the same words, whether its wish was made of JSON or of values.
-// In: wishes. Out: commands, set-points, faults in their order.
+// A command is the same, and is refused with the same text, whether its wish was made of JSON or of values.
 #include "gateway/services/command_wish.hpp"
 
 #include <gtest/gtest.h>

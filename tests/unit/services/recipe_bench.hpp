@@ -1,5 +1,4 @@
-// Recipe bench: one run of a recipe in virtual time, with a world and answers that the test gives.
-// In: a document, answers, time. Out: the run's requests and its state. Never a gateway.
+// One run of a recipe in virtual time, with a world and answers of the test, without a gateway.
 #pragma once
 
 #include <gtest/gtest.h>

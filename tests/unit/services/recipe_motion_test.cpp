@@ -1,5 +1,4 @@
-// Recipe runs: which motions are a run's own when it fails or is cancelled, and are stopped; all others are left alone.
-// In: documents, answers, and whose motions the world says there are. Out: requests to stop, and what the report says.
+// Which motions belong to a run and are stopped when it fails or is cancelled; all others continue.
 #include "tests/unit/services/recipe_bench.hpp"
 
 namespace axisgate {
@@ -7,7 +6,7 @@ namespace {
 using namespace recipe_test;
 
 constexpr auto move_a = R"({"steps":[{"command":{"axis":"a","command":"move_absolute","position":1,"wait_s":3}}]})";
-/// A velocity move of a that goes on, then a step of which the test says what becomes of it.
+/// A velocity move of a that continues, then a step whose outcome the test determines.
 std::string after_velocity(std::string_view step) {
     return R"({"steps":[{"command":{"axis":"a","command":"move_velocity","velocity":1}},)" + std::string(step) + "]}";
 }

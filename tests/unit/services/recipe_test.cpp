@@ -1,4 +1,4 @@
-// Recipes without a gateway: the document's faults, arguments, and the run as a state machine in virtual time.
+// Recipes without a gateway: faults of the document, arguments, and the run as a state machine in virtual time.
 #include <limits>
 
 #include "tests/unit/services/recipe_bench.hpp"
@@ -186,7 +186,7 @@ TEST_F(Runs, ACommandThatIsNotDoneInTimeFailsAndItsAxisIsStopped) {
     ASSERT_EQ(requests.size(), 1u);
     EXPECT_EQ(requests[0].what, RecipeRequest::What::stop);
     EXPECT_EQ(requests[0].axis, "a");
-    run->answer(late, {true, ""});  // nobody waits for it any more
+    run->answer(late, {true, ""});  // it is not waited for any more
     answer(true, "stands");
     EXPECT_EQ(run->state(), RecipeRun::State::failed);
     ASSERT_TRUE(run->where());
@@ -216,7 +216,7 @@ TEST_F(Runs, NumbersOfTheReportAreWrittenAsPeopleWriteThem) {
     EXPECT_EQ(run->text(), "a position at_least 5.5: it is 5.4990625");
 }
 
-// --- what steps are called ----------------------------------------------------------------------------------------------------
+// --- labels of steps ----------------------------------------------------------------------------------------------------------
 
 TEST(Recipe, StepsHaveLabelsForPeople) {
     std::vector<SiteFault> faults;

@@ -1,5 +1,4 @@
-// Recorder: trends in their ring, and the container of recordings. In: pictures with instants; files whole, cut off, altered.
-// Out: rows and columns as they were told; one sentence for what is not to be trusted.
+// Trends in their ring, and the container of recordings: complete, truncated, altered.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +49,7 @@ TEST(Trends, WhatDoesNotChangeCostsNothing) {
         t.add(left, at_position(5), Instant(1s + i * 10ms));
     EXPECT_EQ(t.bytes(), before);
     const auto r = t.read(left, Instant(20s), Instant(30s), 100);
-    ASSERT_EQ(r.columns.size(), 1u);  // the row that holds, as if it were told at the beginning
+    ASSERT_EQ(r.columns.size(), 1u);  // the valid row, with the instant of the beginning
     EXPECT_EQ(r.columns[0].low.at, Instant(20s));
     EXPECT_EQ(r.columns[0].low.position, 5);
     EXPECT_EQ(r.newest, Instant(1s + 4999 * 10ms));
@@ -75,7 +74,7 @@ TEST(Trends, ThinnedKeepsEveryPeak) {
     EXPECT_EQ(error, 99);
 }
 
-/// What a plot draws of a thinned stretch at an instant: `last` holds from the end of a column to the next one.
+/// The value that a plot of a reduced period draws at an instant: `last` is valid from the end of a column to the next one.
 std::int64_t drawn_at(const TrendStretch& s, Instant at) {
     std::int64_t v = 0;
     for (const auto& c : s.columns)
@@ -145,7 +144,7 @@ TEST(Trends, StaysWithinItsBoundsAndIsFair) {
     for (int i = 0; i < 100'000; ++i)
         short_one.add(left, at_position(i), Instant(i * 1ms));
     EXPECT_GT(*short_one.read(left, Instant(0s), Instant(1h), 10).oldest, Instant(96s));
-    // What 64 axes need in 10 minutes when each tells something new 20 times a second.
+    // The memory of 64 axes in 10 minutes with 20 new values a second each.
     Trends many(48u << 20, 10min);
     for (int i = 0; i < 12'000; ++i) {
         for (std::uint16_t axis = 0; axis < 64; ++axis)
@@ -157,7 +156,7 @@ TEST(Trends, StaysWithinItsBoundsAndIsFair) {
 TEST(Trends, NothingIsMadeUp) {
     Trends t(1 << 20, 10min);
     EXPECT_TRUE(t.read(left, Instant(0s), Instant(1s), 10).columns.empty());
-    t.add(left, PictureRecord{}, Instant(1s));  // never heard
+    t.add(left, PictureRecord{}, Instant(1s));  // never reported
     EXPECT_TRUE(t.read(left, Instant(0s), Instant(2s), 10).columns.empty());
     PictureRecord p = at_position(7);
     p.demand_source = DemandSource::open_loop;
@@ -185,7 +184,7 @@ TEST(Trends, RowsComeBackFromTheDiskAsTheyWere) {
         ASSERT_EQ((*back)[i].at, rows[i].at);
         ASSERT_TRUE((*back)[i].same_values(rows[i]));
     }
-    // Bytes of any origin: nothing, or rows in the order of time; never beyond the end.
+    // Bytes of any origin: empty, or rows in order of time; never beyond the end.
     for (std::size_t n = 0; n < bytes.size(); n += 7)
         (void)unpack_rows(std::span(bytes).first(n));
     for (std::size_t n = 0; n < 200; ++n) {
@@ -203,7 +202,7 @@ TEST(Trends, WhatWasKnownBeforeComesBeforeWhatIsTold) {
     const std::vector<TrendRow> before{trend_row(at_position(5), Instant(-60s)), trend_row(at_position(9), Instant(-50s))};
     t.restore(left, before);
     t.add(left, at_position(20), Instant(2s));
-    t.restore(left, before);  // it is known: nothing happens
+    t.restore(left, before);  // the axis has rows already: nothing happens
     t.add(right, at_position(1), Instant(2s));
     const auto r = t.read(left, Instant(-55s), Instant(10s), 0);
     ASSERT_EQ(r.columns.size(), 3u);

@@ -1,4 +1,4 @@
-// Site edits: merge patches, and which mappings name an axis.
+// Merge patches, and which mappings name an axis.
 #include "gateway/services/site/site_edit.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Services that the HTTP door uses, used as another door would: snapshots, tables of parameters, changes of the site, descriptions,
-// recipes.
+// Services used without the HTTP door: snapshots, tables of parameters, changes of the site, descriptions, recipes.
 #include <gtest/gtest.h>
 #include <boost/json/parse.hpp>
 

@@ -1,4 +1,4 @@
-// Assemblies of a site: entries read and refused with what holds a place, those of profiles, the layout's revision, what a change says.
+// Entries read and refused with the holder of a place, those of profiles, the layout's revision, the text of a change.
 #include "gateway/site/assembly.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// Timing of a line in site documents: the word, and the one that it had in earlier versions.
-// In: documents. Out: what is read of them, and what is written. Never a default of a family.
+// The timing of a line in site documents: the present name, and the one of earlier versions.
 #include <gtest/gtest.h>
 
 #include <boost/json/parse.hpp>

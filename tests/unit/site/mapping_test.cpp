@@ -1,4 +1,4 @@
-// Mappings: entries read and refused, conflicts, numbers in every type and word order, CSV both ways.
+// Entries read and refused, conflicts, numbers in every type and word order, CSV in both directions.
 #include "gateway/site/mapping.hpp"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Mapping, AreParsedOnceWithTheirSiteAndSharedByItsCopies) {
     const auto site = parse_site(document, p.families, p.faults);
     ASSERT_TRUE(site);
     ASSERT_EQ(site->map().size(), 1u);
-    const Site copy = *site;  // as the site in force, a stage, and every door's look at it
+    const Site copy = *site;  // copied like the site in force, a stage, and every door's view
     EXPECT_EQ(&copy.map(), &site->map());
 }
 
@@ -165,7 +165,7 @@ TEST(Mapping, AConflictNamesTheOther) {
     EXPECT_FALSE(p.read(
         R"([{"id": "a", "unit": 2, "address": 0, "point": "x.position"}, {"id": "a", "unit": 2, "address": 4, "point": "x.position"}])"));
     EXPECT_TRUE(p.faults.front().conflict);
-    // One that reaches over several others meets each of them.
+    // A mapping that spans several others conflicts with each of them.
     EXPECT_FALSE(p.read(R"([{"unit": 2, "address": 0, "point": "x.ML", "length": 64}, {"unit": 2, "address": 1, "point": "x.position"},
         {"unit": 2, "address": 60, "point": "x.position"}])"));
     EXPECT_EQ(p.faults.size(), 2u);
@@ -362,7 +362,7 @@ TEST(MappingCsv, ADecimalCommaBetweenSemicolons) {
     }
 }
 
-/// A family whose drives have what their option `extra` names, beside its page.
+/// A family whose drives have the parameters named by their option `extra`, in addition to its page.
 OwnCatalogue with_extra(const CatalogueWish& wish) {
     const auto it = wish.options.find("extra");
     if (it == wish.options.end()) return {};

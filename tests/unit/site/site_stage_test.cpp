@@ -1,4 +1,4 @@
-// Site stage: the states of a staged change in virtual time, who may confirm, and what a change disturbs.
+// The states of a staged change in virtual time, who may confirm, and which parts a change disturbs.
 #include "gateway/site/site_stage.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// An axis whose trends are kept on the disk: read, written, told as a difference that disturbs nothing.
-// In: sites as documents. Out: the entry, faults with their place. Never a file.
+// An axis whose trends are stored on the disk: read, written, shown as a difference that disturbs nothing.
 #include <gtest/gtest.h>
 
 #include <boost/json/parse.hpp>

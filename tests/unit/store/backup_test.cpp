@@ -1,4 +1,4 @@
-// Backup and restore: whole copies or none, nothing replaced by what was not found good, a crash half-way leaves one of the two.
+// Complete copies or none, only checked files replace others, and a crash during a restore leaves one of the two databases.
 #include <sys/stat.h>
 
 #include "tests/unit/store/fixture.hpp"
@@ -36,7 +36,7 @@ TEST(Backup, IsACopyOfWhatIsCommittedWhileTheStoreIsOpen) {
     EXPECT_EQ(report.kept, "");
     EXPECT_EQ(report.version, static_cast<int>(program_migrations().size()));
     EXPECT_EQ(value_in(fresh / "var"), 7);
-    must(store->backup(other / "b.db"));  // the same name again: the newer one takes its place
+    must(store->backup(other / "b.db"));  // the same name again: the newer one replaces it
     must(restore_database(other / "b.db", options_for(fresh / "var")));
     EXPECT_EQ(value_in(fresh / "var"), 8);
 }
@@ -198,7 +198,7 @@ TEST_F(Restore, OfAHandMadeCopyTakesItsLogAlong) {
     EXPECT_EQ(value_in(dir_.path()), 33);
 }
 
-// A restore that ended by a crash after each of its steps: what the next start finds and makes of it.
+// A restore that ended by a crash after each of its steps: the state that the next start finds, and its result.
 TEST_F(Restore, ACrashLeavesTheOldOrTheNewOne) {
     struct Case {
         const char* name;

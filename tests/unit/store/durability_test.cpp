@@ -1,4 +1,4 @@
-// What was acknowledged is there after the process is killed, and after the power is cut, at any moment.
+// Acknowledged data are present after the process is killed, and after the power is cut, at any moment.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -34,7 +34,7 @@ TEST(Durability, EveryAcknowledgedWriteOutlivesSigkill) {
             }
         }
         ::close(pipe_ends[1]);
-        // The child runs on while this end counts: where it is when the signal comes is left to chance.
+        // The child continues while this side counts; where it is when the signal arrives is random.
         const auto until = static_cast<unsigned>(random() % 60);
         std::int64_t number = 0;
         for (unsigned k = 0; k < until && ::read(pipe_ends[0], &number, sizeof number) == sizeof number; ++k)
@@ -101,12 +101,12 @@ TEST(Durability, EveryAcknowledgedWriteOutlivesAPowerCut) {
             const std::vector writes{a_write("feeder", "AC", next),
                                      a_write("feeder", "TEXT", std::string(6000, static_cast<char>('a' + next % 26)))};
             if (random() % 3 == 0) {
-                // The cut comes inside the commit or the checkpoint: the disk answers nothing any more from some call on.
+                // The cut comes inside the commit or the checkpoint: from some call on the disk does not answer any more.
                 if (random() % 2 == 0) {
                     vfs.fail(FaultVfs::write | FaultVfs::sync | FaultVfs::truncate, SQLITE_IOERR, EIO, random() % 40);
                 } else {
                     vfs.fail(FaultVfs::sync, SQLITE_IOERR_FSYNC, EIO,
-                             random() % 3);  // everything is written, and how much of it is on the disk?
+                             random() % 3);  // everything is written, and a random part of it is on the disk
                 }
                 const auto r = store->commit(writes);
                 const auto t = random() % 2 == 0 ? store->tidy() : StoreResult<>{};
@@ -114,7 +114,7 @@ TEST(Durability, EveryAcknowledgedWriteOutlivesAPowerCut) {
                 look(r ? next : now, next);
                 vfs.heal();
                 if (r) now = next;
-                // The machine is off: this life goes on from what the disk has only for simplicity, so begin a new log state.
+                // The machine is off: this process continues from the disk's content only for simplicity, so a new log begins.
                 store.reset();
                 store = open_store(options);
                 vfs.remember(dir.path());

@@ -1,4 +1,5 @@
-// Events: every field comes back, any mix of filters finds what a plain walk finds, the table is bounded, ids never come twice.
+// Every field is read back, any combination of filters finds the events that a plain search finds, the table is bounded, ids are never used
+// twice.
 #include <random>
 
 #include "tests/unit/store/fixture.hpp"
@@ -51,7 +52,7 @@ TEST(Events, OthersAreLetInBetweenTheRowsOfABatch) {
     const auto of_few = calls_between;
     calls_between = 0;
     EXPECT_EQ(must(store->append_events(many)), 420u);
-    // Every three rows or so, however many there are: no batch keeps a processor to itself.
+    // Every three rows or so, however many there are: no batch occupies a processor.
     EXPECT_GE(of_few, 3u);
     EXPECT_GE(calls_between, 100u);
     EXPECT_EQ(must(store->events({})).size(), 200u);
@@ -134,7 +135,7 @@ TEST(Events, PagesForwardsAndBackwards) {
     EXPECT_THAT(ids(f), ElementsAre(5));
     f.since_id = ~0ull;
     EXPECT_TRUE(ids(f).empty());
-    EventQuery query;  // core's own form
+    EventQuery query;  // the type of core
     query.since_id = 8;
     EXPECT_THAT(ids(query), ElementsAre(9, 10));
 }
@@ -219,7 +220,7 @@ TEST(Events, LongTextsAreCutBetweenCharactersNotRefused) {
         EXPECT_GT(r.text.size(), max_event_text_bytes - 8);
         EXPECT_TRUE(r.text.ends_with("ä [...]")) << r.text.substr(r.text.size() - 12);
     }
-    e.text = std::string(10'000, '\x80');  // no UTF-8 at all
+    e.text = std::string(10'000, '\x80');  // not UTF-8
     must(store->append_events(std::span(&e, 1)));
     EXPECT_TRUE(must(store->events({})).back().text.ends_with(" [...]"));
 }

@@ -1,6 +1,5 @@
-// FaultVfs: SQLite's file layer interface, passed on to the real one.
-// In: SQLite's calls. Out: the real layer's answers, or the failure that a test asked for.
-// Never buffers: what is not failed reaches the real file at once.
+// SQLite's file layer interface, passed on to the real one, with the requested failures. Nothing is buffered: calls that do not fail reach
+// the real file at once.
 #include "tests/unit/store/fault_vfs.hpp"
 
 #include <algorithm>
@@ -14,10 +13,10 @@ namespace axisgate::test {
 namespace {
 
 struct File {
-    sqlite3_file head;  // what SQLite sees
+    sqlite3_file head;  // the part that SQLite sees
     FaultVfs* owner;
     std::string* path;
-    sqlite3_file* real;  // lies behind this struct in memory
+    sqlite3_file* real;  // follows this struct in memory
 };
 File& file_of(sqlite3_file* f) { return *reinterpret_cast<File*>(f); }
 FaultVfs& owner_of(sqlite3_vfs* v) { return *static_cast<FaultVfs*>(v->pAppData); }
@@ -36,7 +35,7 @@ int read_bytes(sqlite3_file* f, void* to, int n, sqlite3_int64 at) {
 int write_bytes(sqlite3_file* f, const void* from, int n, sqlite3_int64 at) {
     File& file = file_of(f);
     if (const int rc = file.owner->verdict(FaultVfs::write); rc != SQLITE_OK) {
-        // A full disk takes what still fits: half of it is written, so that what comes after must not trust the length.
+        // A full disk writes the part that still fits: half of it, so that later code must not trust the length.
         const int half = n / 2;
         if (half > 0 && file.real->pMethods->xWrite(file.real, from, half, at) == SQLITE_OK) {
             file.owner->wrote(*file.path, {at, std::string(static_cast<const char*>(from), static_cast<std::size_t>(half)), -1});
@@ -57,7 +56,7 @@ int truncate_file(sqlite3_file* f, sqlite3_int64 to) {
 int sync_file(sqlite3_file* f, int flags) {
     File& file = file_of(f);
     if (const int rc = file.owner->verdict(FaultVfs::sync); rc != SQLITE_OK) return rc;
-    // Not passed on: no power is cut in earnest, and the tests are quicker for it.
+    // Not passed on: no power is really cut, and the tests are faster.
     static_cast<void>(flags);
     file.owner->synced(*file.path);
     return SQLITE_OK;
@@ -71,7 +70,7 @@ int unlock(sqlite3_file* f, int level) { return file_of(f).real->pMethods->xUnlo
 int check_reserved(sqlite3_file* f, int* out) { return file_of(f).real->pMethods->xCheckReservedLock(file_of(f).real, out); }
 int control(sqlite3_file* f, int op, void* arg) { return file_of(f).real->pMethods->xFileControl(file_of(f).real, op, arg); }
 int sector_size(sqlite3_file* f) { return file_of(f).real->pMethods->xSectorSize(file_of(f).real); }
-// No promises about power cuts: the worst disk is the one to be safe on.
+// No guarantees about power cuts: the tests assume the worst disk.
 int characteristics(sqlite3_file*) { return 0; }
 int shm_map(sqlite3_file* f, int page, int size, int extend, void volatile** out) {
     if (const int rc = file_of(f).owner->verdict(FaultVfs::shared_memory); rc != SQLITE_OK) return rc;
@@ -189,7 +188,7 @@ void FaultVfs::synced(const std::string& file) {
 void FaultVfs::removed(const std::string& file) { disk_.erase(file); }
 
 void FaultVfs::power_cut(const std::string& to, std::mt19937& random) const {
-    // Disks differ: one has written all that it was given, one nothing without being told, most have written some of it.
+    // Disks differ: one has written everything, one nothing without reporting it, most have written some of it.
     const auto manner = random() % 4;
     for (const auto& [path, disk] : disk_) {
         std::string image = disk.synced;

@@ -1,6 +1,5 @@
-// FaultVfs: a SQLite file layer between SQLite and the disk that fails on purpose, and that remembers what a power cut would leave.
-// In: which calls shall fail, from when, with what. Out: the file layer's name for StoreOptions::vfs; counts of calls.
-// Never changes what is written while it is told nothing. One test, one thread at a time.
+// A SQLite file layer between SQLite and the disk that fails on request, and that simulates the content after a power cut. Without a
+// request nothing is changed. One test, one thread at a time.
 #pragma once
 
 #include <sqlite3.h>
@@ -23,7 +22,7 @@ public:
     FaultVfs& operator=(const FaultVfs&) = delete;
     [[nodiscard]] const std::string& name() const { return name_; }
 
-    /// From the `after`-th such call on (0: the next one), `times` calls answer `code` (for SQLITE_IOERR... with `system` as errno).
+    /// From the `after`-th such call on (0: the next one), `times` calls return `code` (for SQLITE_IOERR... with `system` as errno).
     void fail(unsigned operations, int code, int system = 0, std::uint64_t after = 0, std::uint64_t times = ~0ull);
     void heal();
     /// Calls of the failing kind since fail(), and how many of them failed.
@@ -32,10 +31,10 @@ public:
     /// Opens files for reading only, as SQLite does on a file system that is mounted read only.
     void read_only(bool on) { read_only_ = on; }
 
-    /// Begins to remember: what is in the directory's files now is on the disk; what is written from now on is not, until it is synced.
+    /// Starts the simulation: the present content of the directory's files is on the disk; later writes are not, until they are synced.
     void remember(const std::string& directory);
-    /// Lays out in `to` what the disk would hold after a power cut now: everything synced, and of what was written since, a random part,
-    /// each write whole, missing, or torn at a sector of 512 bytes.
+    /// Writes to `to` the content of the disk after a power cut now: everything synced, and of the later writes a random part, each
+    /// complete, missing, or torn at a sector of 512 bytes.
     void power_cut(const std::string& to, std::mt19937& random) const;
 
     // For the C functions of the file layer.

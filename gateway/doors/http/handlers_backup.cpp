@@ -11,8 +11,8 @@ namespace json = boost::json;
 namespace {
 /// A header, because a passphrase must not be in an address, which is logged on the way, and the body is the backup itself.
 constexpr std::string_view passphrase_header = "X-Backup-Passphrase";
-/// For making and checking a backup: the storage thread does it, which gives way to all others, and the key of a sealed backup takes a second
-/// of processor time.
+/// For making and checking a backup: the storage thread does it, which gives way to all others, and the key of a sealed backup takes a
+/// second of processor time.
 constexpr std::chrono::seconds backup_limit{120};
 
 /// Empty text: none was sent. No value: it is not percent-encoded text.

@@ -269,12 +269,14 @@ void Orders::store_write(Axis& a, OrderRecord& record, Result& r, Ticket ticket,
     host_.on_store(std::move(order));
 }
 
-/// The drive has accepted a motion. If a stop was requested after its order, the stop remains valid and is sent again.
+/// The drive has accepted a motion. If a stop was requested after its order, the stop remains valid and is sent again. If
+/// its client was lost meanwhile, the motion ends as the site says for that loss.
 void Orders::motion_taken(Axis& a, Motion m, const OrderRecord& record, Ticket order, Instant now) {
     const bool behind_a_stop = order < a.stops.asked;
     motions_.acknowledged(a, std::move(m), behind_a_stop ? MotionOrder::behind_a_stop : MotionOrder::in_turn, record.client,
                           name_of(record.body), now);
     if (behind_a_stop) stop_behind(a, name_of(record.body), a.motion.origin, now);
+    if (record.owner_lost != LossCause::none) loss_.act(a, record.owner_lost, now);
 }
 
 /// Applies the drive's answer to the records of motion.
@@ -285,10 +287,9 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
             Axis* other = machine_.axis(id);
             if (!other) continue;
             if (is_good) machine_.image.picture(id).motion_ticket = mover;
-            if (is_good && other != &a) {
-                if (auto m = Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{}))
-                    motion_taken(*other, std::move(*m), record, r.ticket, now);
-            }
+            auto m = other == &a ? std::nullopt : Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{});
+            if (m && is_good) motion_taken(*other, std::move(*m), record, r.ticket, now);
+            if (m && r.outcome == Outcome::failed) motions_.suspect(*other, std::move(*m));
             publisher_.publish(*other, now);
         }
     }
@@ -300,7 +301,6 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
         if (is_good) {
             machine_.image.picture(moves->id).motion_ticket = mover;
             motion_taken(*moves, std::move(*record.motion), record, r.ticket, now);
-            if (record.owner_lost != LossCause::none) loss_.act(*moves, record.owner_lost, now);
         } else if (r.outcome == Outcome::failed) {
             motions_.suspect(*moves, std::move(*record.motion));
         }

@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-TESTS_PER_PROCESS, LIMIT_S = 40, 300
+TESTS_PER_PROCESS, LIMIT_S = 120, 300
 ENDED = re.compile(r"\[\s*(OK|FAILED|SKIPPED)\s*\] (\S+?)(?:, where .*)? \(\d+ ms\)$", re.M)
 
 

@@ -38,7 +38,7 @@ struct AnyDevice final : cip::Description {
     }
     const std::vector<std::uint32_t>& assemblies() const override { return list_; }
     std::uint32_t parameters() const override { return static_cast<std::uint32_t>(parameters_.size()); }
-    const ParameterInfo* parameter(std::uint32_t i) const override { return &parameters_.at(i - 1); }
+    std::optional<ParameterInfo> parameter(std::uint32_t i) const override { return parameters_.at(i - 1); }
 
     Device device_;
     std::vector<ParameterInfo> parameters_;

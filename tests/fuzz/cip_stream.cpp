@@ -42,7 +42,7 @@ struct Device1 final : Values, Output {
     void idle(std::uint32_t, const Peer&, Instant) override { require(owners_ == 1, "only an owner falls to idle"); }
     void ended(std::uint32_t, const Peer&, End, Instant) override { require(--owners_ == 0, "an owner ends once"); }
     std::uint32_t parameters() const override { return 1; }
-    const ParameterInfo* parameter(std::uint32_t) const override { return &parameter_; }
+    std::optional<ParameterInfo> parameter(std::uint32_t) const override { return parameter_; }
     General ask(std::uint32_t, Token t, const Peer&, Instant) override {
         asked_.push_back(t);
         return t == 0 ? General::resource_unavailable : General::success;

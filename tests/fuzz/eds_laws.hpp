@@ -94,7 +94,7 @@ inline const char* broken_by(const Description& d, const EdsNames& names) {
     auto& params = sheet["Params"];
     std::size_t entries = 0;
     for (std::uint32_t i = 1; i <= d.parameters(); ++i) {
-        const ParameterInfo& p = *d.parameter(i);
+        const ParameterInfo p = *d.parameter(i);
         const auto* fields = in(params, "Param" + std::to_string(i));
         ++entries;
         if (!fields || fields->size() != 21) return "every parameter has an entry of its 21 fields";

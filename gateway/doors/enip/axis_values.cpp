@@ -19,7 +19,7 @@ constexpr std::uint16_t input_registers = bytes_per_axis / 2;
 constexpr std::uint64_t own_tickets = std::uint64_t{1} << 48;
 
 std::string text_of_parameter(const Layout& layout, std::uint32_t instance) {
-    const auto* const info = layout.parameter(instance);
+    const auto info = layout.parameter(instance);
     return fmt::format("write of parameter object {}, {}", instance, info ? info->name : "gone");
 }
 
@@ -263,7 +263,7 @@ void AxisValues::on_result(const Result& result) {
                         result.text.empty() ? name_of(result.reason) : result.text, now);
     if (!good(result)) return answered_(asked.token, general_of(result.reason == Reason::none ? Reason::internal : result.reason), {}, 0);
     if (asked.kind == Asked::Kind::write) return answered_(asked.token, General::success, {}, 0);
-    const auto* const info = layout_.parameter(asked.instance);
+    const auto info = layout_.parameter(asked.instance);
     const auto bytes = info && known(result.value) ? to_bytes(result.value, info->type) : std::nullopt;
     answered_(asked.token, bytes ? General::success : General::no_stored_data, bytes ? cip::View(*bytes) : cip::View(), 0);
 }

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] std::optional<cip::AssemblyInfo> assembly(std::uint32_t instance) const override { return layout_.assembly(instance); }
     [[nodiscard]] const std::vector<std::uint32_t>& assemblies() const override { return layout_.assemblies(); }
     [[nodiscard]] std::uint32_t parameters() const override { return layout_.parameters(); }
-    [[nodiscard]] const cip::ParameterInfo* parameter(std::uint32_t instance) const override { return layout_.parameter(instance); }
+    [[nodiscard]] std::optional<cip::ParameterInfo> parameter(std::uint32_t instance) const override { return layout_.parameter(instance); }
     void read(std::uint32_t instance, Instant now, cip::Bytes& to) override;
     [[nodiscard]] std::uint64_t revision(std::uint32_t instance) const override;
     [[nodiscard]] cip::General write(std::uint32_t instance, cip::View data, cip::Token token, const cip::Peer& who, Instant now,

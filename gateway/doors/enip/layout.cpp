@@ -135,37 +135,40 @@ std::optional<Value> from_bytes(cip::View bytes, DataType type) {
     return Value{value};
 }
 
-Layout::List Layout::list_of(const Catalogue& catalogue) {
-    List list;
+namespace {
+/// One for each element of each parameter.
+std::vector<Point> points_of(const Catalogue& catalogue) {
+    std::vector<Point> list;
     const auto parameters = catalogue.parameters();
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const Parameter& p = parameters[i];
-        cip::ParameterInfo info;
-        info.type = data_type_of(p.type);
-        info.units = p.unit;
-        info.help = p.description;
-        info.readable = p.readable();
-        info.writable = p.writable() && p.type != ValueType::bytes;
-        const Span s = span_of(info.type);
-        info.min = bound(p.min, s.low, info.type);
-        info.max = bound(p.max, s.high, info.type);
-        if (info.type != DataType::short_string)
-            info.fallback = to_bytes(p.factory_default, info.type).value_or(bound(nearest_to_zero(p, s), 0, info.type));
-        if (is_whole(info.type)) {
-            for (const auto& [number, meaning] : p.allowed)
-                info.allowed.emplace_back(number, meaning);
-        }
         const std::uint32_t elements = p.count == 0 ? 1 : p.count;
-        for (std::uint32_t e = 0; e < elements; ++e) {
-            const Point point{static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(p.count == 0 ? 0 : p.first + e)};
-            Entry& entry = list.emplace_back(Entry{point, info});
-            entry.info.name = p.count == 0 ? p.name : p.name + "[" + std::to_string(point.element) + "]";
-        }
+        for (std::uint32_t e = 0; e < elements; ++e)
+            list.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(p.count == 0 ? 0 : p.first + e)});
     }
     return list;
 }
 
-namespace {
+cip::ParameterInfo info_of(const Parameter& p, std::uint16_t element) {
+    cip::ParameterInfo info;
+    info.name = p.count == 0 ? p.name : p.name + "[" + std::to_string(element) + "]";
+    info.type = data_type_of(p.type);
+    info.units = p.unit;
+    info.help = p.description;
+    info.readable = p.readable();
+    info.writable = p.writable() && p.type != ValueType::bytes;
+    const Span s = span_of(info.type);
+    info.min = bound(p.min, s.low, info.type);
+    info.max = bound(p.max, s.high, info.type);
+    if (info.type != DataType::short_string)
+        info.fallback = to_bytes(p.factory_default, info.type).value_or(bound(nearest_to_zero(p, s), 0, info.type));
+    if (is_whole(info.type)) {
+        for (const auto& [number, meaning] : p.allowed)
+            info.allowed.emplace_back(number, meaning);
+    }
+    return info;
+}
+
 /// The entries that touch a range of a unit's registers, as in the site's document, without members for people.
 std::string content_of(const Site& site, const AssemblySpec& a) {
     std::string text;
@@ -242,9 +245,9 @@ Layout::Layout(std::vector<LayoutAxis> axes, std::uint32_t mapping_revision, con
         assemblies_.push_back((near ? all_outputs : far_outputs) + a.number);
         first_parameter_.push_back(parameters_ + 1);
         if (!a.catalogue) continue;
-        auto& list = lists_[a.catalogue];
-        if (!list) list = std::make_shared<const List>(list_of(*a.catalogue));
-        parameters_ = static_cast<std::uint32_t>(std::min<std::size_t>(parameters_ + list->size(), 0xFFFF));
+        auto& list = points_[a.catalogue];
+        if (list.empty()) list = points_of(*a.catalogue);
+        parameters_ = static_cast<std::uint32_t>(std::min<std::size_t>(parameters_ + list.size(), 0xFFFF));
     }
     for (const LayoutWindow& w : windows_)
         assemblies_.push_back(w.spec.instance);
@@ -337,14 +340,13 @@ Layout::ParameterPlace Layout::place_of(std::uint32_t instance) const {
     if (instance == 0 || instance > parameters_) return {};
     const auto it = std::ranges::upper_bound(first_parameter_, instance) - 1;
     const LayoutAxis& a = axes_[static_cast<std::size_t>(it - first_parameter_.begin())];
-    return {&a, lists_.at(a.catalogue)->at(instance - *it).point};
+    return {&a, points_.at(a.catalogue).at(instance - *it)};
 }
 
-const cip::ParameterInfo* Layout::parameter(std::uint32_t instance) const {
-    if (instance == 0 || instance > parameters_) return nullptr;
-    const auto it = std::ranges::upper_bound(first_parameter_, instance) - 1;
-    const LayoutAxis& a = axes_[static_cast<std::size_t>(it - first_parameter_.begin())];
-    return &lists_.at(a.catalogue)->at(instance - *it).info;
+std::optional<cip::ParameterInfo> Layout::parameter(std::uint32_t instance) const {
+    const ParameterPlace place = place_of(instance);
+    if (!place.axis) return std::nullopt;
+    return info_of(place.axis->catalogue->parameters()[place.point.parameter], place.point.element);
 }
 
 std::string eds_of(const Layout& layout) {

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] std::optional<cip::AssemblyInfo> assembly(std::uint32_t instance) const override;
     [[nodiscard]] const std::vector<std::uint32_t>& assemblies() const override { return assemblies_; }
     [[nodiscard]] std::uint32_t parameters() const override { return parameters_; }
-    [[nodiscard]] const cip::ParameterInfo* parameter(std::uint32_t instance) const override;
+    [[nodiscard]] std::optional<cip::ParameterInfo> parameter(std::uint32_t instance) const override;
 
     struct ParameterPlace {
         const LayoutAxis* axis = nullptr;
@@ -116,20 +116,13 @@ public:
     [[nodiscard]] std::string name_of(std::uint32_t instance) const;
 
 private:
-    struct Entry {
-        Point point;
-        cip::ParameterInfo info;
-    };
-    using List = std::vector<Entry>;
-    [[nodiscard]] static List list_of(const Catalogue& catalogue);
-
     std::vector<LayoutAxis> axes_;       // by number
     std::vector<LayoutWindow> windows_;  // by instance
     std::vector<LayoutObjects> objects_;
     std::uint32_t mapping_revision_ = 0;
     cip::Device device_;
     std::vector<std::uint32_t> assemblies_;
-    std::map<const Catalogue*, std::shared_ptr<const List>> lists_;
+    std::map<const Catalogue*, std::vector<Point>> points_;
     std::vector<std::uint32_t> first_parameter_;  // of each of axes_
     std::uint32_t parameters_ = 0;
 };

@@ -87,7 +87,7 @@ std::uint16_t ParameterObject::descriptor(const ParameterInfo& p) noexcept {
 }
 
 General ParameterObject::get(std::uint32_t instance, std::uint32_t attribute, const Context&, Bytes& to) {
-    const ParameterInfo& p = *values_.parameter(instance);
+    const ParameterInfo p = *values_.parameter(instance);
     const std::string_view name = p.name, units = p.units, help = p.help;
     switch (attribute) {
         case 2:  // no link to another place
@@ -150,7 +150,7 @@ General ParameterObject::ask(std::uint32_t instance, const Context& context) {
 
 General ParameterObject::set(std::uint32_t instance, std::uint32_t attribute, const Context& context, Reader& data) {
     if (attribute != 1) return Object::set(instance, attribute, context, data);
-    const ParameterInfo& p = *values_.parameter(instance);
+    const ParameterInfo p = *values_.parameter(instance);
     if (!p.writable) return General::attribute_not_settable;
     const std::size_t size = p.type == DataType::short_string ? (data.left() > 0 ? 1 + std::size_t{data.rest()[0]} : 1) : size_of(p.type);
     if (data.left() < size) return General::not_enough_data;
@@ -176,7 +176,7 @@ General ParameterObject::get_of_class(std::uint32_t attribute, const Context&, B
 
 Response ParameterObject::other(std::uint8_t service, std::uint32_t instance, View data, Context&) {
     if (service != service::get_enum_string || instance == 0) return Response::of(General::service_not_supported);
-    const ParameterInfo& p = *values_.parameter(instance);
+    const ParameterInfo p = *values_.parameter(instance);
     if (p.allowed.empty()) return Response::of(General::service_not_supported);
     Reader r(data);
     const std::uint16_t wanted = r.u16();

@@ -70,7 +70,7 @@ void parameters(Sheet& s, const Description& d, const EdsNames& names) {
     if (d.parameters() == 0) return;
     s.line("\r\n[Params]");
     for (std::uint32_t i = 1; i <= d.parameters(); ++i) {
-        const ParameterInfo& p = *d.parameter(i);
+        const ParameterInfo p = *d.parameter(i);
         Bytes path;
         put_class(path, class_id::parameter);
         put_instance(path, i);

@@ -111,8 +111,8 @@ struct Description {
     [[nodiscard]] virtual std::optional<AssemblyInfo> assembly(std::uint32_t instance) const = 0;
     /// All of them, ascending.
     [[nodiscard]] virtual const std::vector<std::uint32_t>& assemblies() const = 0;
-    [[nodiscard]] virtual std::uint32_t parameters() const = 0;  ///< instances 1..n
-    [[nodiscard]] virtual const ParameterInfo* parameter(std::uint32_t instance) const = 0;
+    [[nodiscard]] virtual std::uint32_t parameters() const = 0;                                      ///< instances 1..n
+    [[nodiscard]] virtual std::optional<ParameterInfo> parameter(std::uint32_t instance) const = 0;  ///< made on demand
     virtual ~Description() = default;
 };
 

@@ -43,7 +43,7 @@ struct TestValues final : Values {
     void idle(std::uint32_t output, const Peer& who, Instant now) override;
     void ended(std::uint32_t output, const Peer& who, End why, Instant now) override;
     [[nodiscard]] std::uint32_t parameters() const override { return 4; }
-    [[nodiscard]] const ParameterInfo* parameter(std::uint32_t instance) const override { return &parameters_.at(instance - 1); }
+    [[nodiscard]] std::optional<ParameterInfo> parameter(std::uint32_t instance) const override { return parameters_.at(instance - 1); }
     [[nodiscard]] General ask(std::uint32_t instance, Token token, const Peer& who, Instant now) override;
     [[nodiscard]] General set(std::uint32_t instance, View value, Token token, const Peer& who, Instant now) override;
 

@@ -19,7 +19,7 @@ struct Described final : Description {
     }
     const std::vector<std::uint32_t>& assemblies() const override { return list_; }
     std::uint32_t parameters() const override { return static_cast<std::uint32_t>(parameters_.size()); }
-    const ParameterInfo* parameter(std::uint32_t i) const override { return &parameters_.at(i - 1); }
+    std::optional<ParameterInfo> parameter(std::uint32_t i) const override { return parameters_.at(i - 1); }
     Device device_;
     std::vector<ParameterInfo> parameters_;
     std::vector<std::uint32_t> list_{101, 151, 197, 198, 199, 1041, 2041};

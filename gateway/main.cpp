@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gateway/runtime/commands.hpp"
+#include "gateway/runtime/doors.hpp"
 #include "gateway/runtime/files.hpp"
 
 extern char** environ;
@@ -236,6 +237,10 @@ struct CommandLine {
 int main(int argc, char** argv) {
     CLI::App app{"axisgate: a gateway between Modbus, HTTP and motor drives, with an embedded model of each drive"};
     CommandLine line(app);
+    if (const std::string fault = bring_doors(); !fault.empty()) {
+        complain(fault);
+        return exit_failed;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

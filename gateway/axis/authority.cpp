@@ -5,7 +5,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
+
+#include "gateway/core/door_names.hpp"
 
 namespace axisgate {
 namespace {
@@ -126,12 +127,10 @@ Verdict AxisAuthority::hand_over(const AuthorityClient& who, std::string_view to
     if (!held(now)) return {false, Change::none, "nobody holds it: take it first"};
     if (!mine(who)) return refusal(now);
     AuthorityClient next{who.door, {}};
-    for (const Door d : std::array{Door::modbus, Door::ethernet_ip, Door::http, Door::dds}) {
-        const auto word = axisgate::name_of(d);
-        if (to.starts_with(word) && to.size() > word.size() && to[word.size()] == ' ') {
-            next.door = d;
-            to.remove_prefix(word.size() + 1);
-            break;
+    if (const auto blank = to.find(' '); blank != std::string_view::npos) {
+        if (const auto door = door_named(to.substr(0, blank))) {
+            next.door = *door;
+            to.remove_prefix(blank + 1);
         }
     }
     next.name = cut(to);

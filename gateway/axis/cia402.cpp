@@ -470,7 +470,7 @@ Cia402Axis::Decision Cia402Axis::on_command(const CommandBody& body, const Origi
     State s = s_;
     Decision d;
     const AuthorityClient who = AuthorityClient::of(by);
-    Words* const own = who.door == Door::internal || who.door == Door::none ? nullptr : &client(who).words;
+    Words* const own = has_clients(who.door) ? &client(who).words : nullptr;
     const bool present = s.presence != Presence::offline && s.seen;
     if (!present && !is_urgent(body)) return unreceived(s);
     if (std::holds_alternative<Enable>(body)) {

@@ -16,9 +16,11 @@
 
 namespace axisgate {
 
-/// The number in register 17 (command authority).
-enum class Door : std::uint8_t { none = 0, modbus = 1, ethernet_ip = 2, http = 3, dds = 4, internal = 5 };
+/// The door of a client, as the number in register 17 (command authority). Each door brings its own number and name
+/// (gateway/core/door_names.hpp); `none` and `internal`, the gateway itself, are not doors of clients.
+enum class Door : std::uint8_t { none = 0, internal = 5 };
 [[nodiscard]] std::string_view name_of(Door door) noexcept;
+[[nodiscard]] constexpr bool has_clients(Door door) noexcept { return door != Door::none && door != Door::internal; }
 
 /// The client: the door and a text for events ("192.0.2.7:51123", "token commissioning").
 struct Origin {

@@ -12,24 +12,6 @@
 
 namespace axisgate {
 
-std::string_view name_of(Door door) noexcept {
-    switch (door) {
-        case Door::none:
-            return "none";
-        case Door::modbus:
-            return "modbus";
-        case Door::ethernet_ip:
-            return "ethernet_ip";
-        case Door::http:
-            return "http";
-        case Door::dds:
-            return "dds";
-        case Door::internal:
-            return "internal";
-    }
-    return "none";
-}
-
 namespace {
 constexpr std::array<std::string_view, 3> set_point_modes{"position", "velocity", "torque"};
 }  // namespace

@@ -255,6 +255,7 @@ void io(A& a, Of<A, SetPointRecord> v) {
 template <class A>
 void io(A& a, Of<A, LossRecord> v) {
     io_all(a, v.who.door, v.who.name, v.cause);
+    if constexpr (A::reading) a.good = a.good && static_cast<std::size_t>(v.cause) < most_loss_causes;
 }
 template <class A>
 void io(A& a, Of<A, StoredRecord> v) {

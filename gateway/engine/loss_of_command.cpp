@@ -10,42 +10,17 @@
 #include "gateway/engine/orders.hpp"
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/streams.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate::engine {
 namespace {
+/// `limit`: the time that has passed; 0: the door has told it.
 std::string why_lost(LossCause cause, Duration limit) {
-    switch (cause) {
-        case LossCause::modbus_silent:
-        case LossCause::enip_silent:
-            return fmt::format("has been silent for {} ms", milliseconds_of(limit));
-        case LossCause::enip_session_closed:
-            return "has closed the EtherNet/IP session by which it commanded";
-        case LossCause::set_points_silent:
-            return limit > Duration::zero() ? fmt::format("has not renewed its set-points for {} ms", milliseconds_of(limit))
-                                            : "has closed the connection by which it gave set-points";
-        case LossCause::lease_ended:
-            return "has let its lease expire";
-        case LossCause::enip_closed:
-            return "has lost its EtherNet/IP connection: it was closed";
-        case LossCause::enip_timed_out:
-            return "has lost its EtherNet/IP connection: nothing came for its time-out";
-        case LossCause::enip_idle:
-            return "says that its scanner is idle (program mode)";
-        case LossCause::line_lost:
-            return "the drive could not be reached meanwhile";
-        case LossCause::gateway_ends:
-            return "the gateway ends";
-        case LossCause::dds_deadline:
-            return limit > Duration::zero()
-                       ? fmt::format("has missed the deadline of its set-points over DDS: none for {} ms", milliseconds_of(limit))
-                       : "is gone from the DDS domain: nobody writes for it any more";
-        case LossCause::motion_unowned:
-            return "the axis moves all the same";
-        case LossCause::none:
-        case LossCause::modbus_closed:
-            break;
-    }
-    return "has closed its last connection";
+    const LossWords* words = words_of(cause);
+    if (!words) return "is lost";
+    std::string text(limit > Duration::zero() && !words->text_after.empty() ? words->text_after : words->text);
+    if (const auto time = text.find("{}"); time != std::string::npos) text.replace(time, 2, std::to_string(milliseconds_of(limit)));
+    return text;
 }
 }  // namespace
 
@@ -54,12 +29,12 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
     machine_.now = std::max(machine_.now, now);
     for (const auto& a : machine_.axes) {
         if (!a) continue;
-        // A live feed may be one of several connections of its client, whose other motions continue when the feed closes. Set-points over
-        // DDS have a deadline of their own and continue while they are renewed, even if another writer of their client ends.
+        // A live feed may be one of several connections of its client, whose other motions continue when the feed closes. Set-points with
+        // a deadline of their own (DDS) continue while they are renewed, even if another writer of their client ends.
         const bool streams = a->stream.on && a->stream.who == who, feed = cause == LossCause::set_points_silent;
         const bool owns = a->motion.runs() ? a->motion.is_of(who) : a->owner() == who;
-        if (feed ? !streams : !owns || (cause == LossCause::dds_deadline && streams)) continue;
-        act(*a, feed ? silence_of(who) : cause, now, &who);
+        if (feed ? !streams : !owns || (cause == unrenewed_of(who.door) && streams)) continue;
+        act(*a, feed ? unrenewed_of(who.door) : cause, now, &who);
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
     for (auto& [ticket, order] : pending_.orders) {  // orders that the drive accepts from now on begin without their owner
@@ -96,17 +71,17 @@ void LossOfCommand::act(Axis& a, LossCause cause, Instant now, const AuthorityCl
     a.motion.ended_for = a.latch.cause = cause;
     a.latch.bits = StopLatch::latched | StopLatch::by_fail_safe;
     a.latch.by = {};
-    ++losses_[static_cast<std::size_t>(cause)];
+    ++losses_.at(static_cast<std::size_t>(cause));
     const CommandBody body = Stops::body(kind);
     Event e;
     e.severity = cause == LossCause::motion_unowned ? Severity::alarm : Severity::warning;
     e.kind = "fail_safe";
     e.axis = a.spec.name;
     e.code = static_cast<std::int32_t>(cause);
-    const Duration limit =
-        cause == LossCause::modbus_silent || cause == LossCause::enip_silent ? a.spec.fail_safe.watchdog(machine_.watchdog)
-        : a.stream.on && cause == silence_of(a.stream.who) && now - a.stream.renewed > a.stream.good_for ? a.stream.good_for
-                                                                                                         : Duration::zero();
+    const Duration limit = is_silence(cause) ? a.spec.fail_safe.watchdog(machine_.watchdog)
+                           : a.stream.on && cause == unrenewed_of(a.stream.who.door) && now - a.stream.renewed > a.stream.good_for
+                               ? a.stream.good_for
+                               : Duration::zero();
     const AuthorityClient& who = lost ? *lost : a.stream.on ? a.stream.who : a.owner();
     e.text = fmt::format("{}: {} commanded the axis and {}", name_of(body), who.door == Door::none ? "nobody that is known" : who.text(),
                          why_lost(cause, limit));
@@ -130,12 +105,11 @@ void LossOfCommand::unowned(Axis& a, Instant now) {
 void LossOfCommand::check_watchdog(Axis& a, Instant now) {
     const AuthorityClient& who = a.owner();
     const Duration limit = a.spec.fail_safe.watchdog(machine_.watchdog);
-    const bool by_messages = who.door == Door::ethernet_ip;  // the owner of an implicit connection is monitored by that connection, not
-                                                             // here
-    if ((who.door != Door::modbus && !by_messages) || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
+    const DoorWords* door = words_of(who.door);
+    if (!door || door->silence == LossCause::none || limit <= Duration::zero() || !(a.profile.commanded() || a.motion.runs())) return;
     const auto received = host_.last_received(who);
     if (FlightTap* tap = publisher_.tap()) tap->last_received(received, now);
-    if (received && now - *received > limit) act(a, by_messages ? LossCause::enip_silent : LossCause::modbus_silent, now);
+    if (received && now - *received > limit) act(a, door->silence, now);
 }
 
 void LossOfCommand::shut_down(Instant now) {

@@ -20,11 +20,7 @@ public:
     /// Stops every axis that is not at rest; the end of the gateway counts as a loss of command.
     void shut_down(Instant now);
     [[nodiscard]] static AtLoss at_loss(const Axis& axis);
-    /// The cause of loss for a client whose streamed set-points have stopped.
-    [[nodiscard]] static LossCause silence_of(const AuthorityClient& who) noexcept {
-        return who.door == Door::dds ? LossCause::dds_deadline : LossCause::set_points_silent;
-    }
-    [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_[static_cast<std::size_t>(cause)]; }
+    [[nodiscard]] std::uint64_t losses(LossCause cause) const noexcept { return losses_.at(static_cast<std::size_t>(cause)); }
 
 private:
     Machine& machine_;
@@ -33,7 +29,7 @@ private:
     Publisher& publisher_;
     Orders& orders_;
     Streams& streams_;
-    std::array<std::uint64_t, loss_causes.size() + 1> losses_{};
+    std::array<std::uint64_t, most_loss_causes> losses_{};
 };
 
 }  // namespace axisgate::engine

@@ -59,21 +59,26 @@ private:
     [[nodiscard]] Duration without_gateway() const { return wish_.restart ? wish_.gateway_away : at_once; }
     /// The cause whose action in the site applies.
     [[nodiscard]] LossCause rule() const { return wish_.restart ? LossCause::motion_unowned : wish_.cause; }
-    [[nodiscard]] bool silent() const { return wish_.cause == LossCause::modbus_silent || wish_.cause == LossCause::enip_silent; }
+    [[nodiscard]] bool silent() const { return is_silence(wish_.cause); }
     [[nodiscard]] bool has(RehearsalStep step) const { return wish_.steps.has(step); }
     /// The loss does not concern the controller itself, which is present all the time.
     [[nodiscard]] bool client_stays() const {
         return wish_.cause == LossCause::line_lost || wish_.cause == LossCause::gateway_ends || restarts() || gateway_gone();
     }
-    /// The door of the client; for a cause without a door of its own, a controller over Modbus.
-    [[nodiscard]] Door door() const {
-        const bool anybodys =
-            wish_.cause == LossCause::none || std::ranges::find(losses_of_anybody, wish_.cause) != losses_of_anybody.end();
-        return anybodys ? Door::modbus : door_that_tells(wish_.cause);
+    /// The way by which the client sets the axis in motion; for a cause that concerns every door, that of a controller.
+    [[nodiscard]] static const WayIn& way_of(LossCause cause) {
+        static constexpr WayIn by_name{};
+        const bool anybodys = cause == LossCause::none || std::ranges::find(losses_of_anybody, cause) != losses_of_anybody.end();
+        for (const DoorWords* door : known_doors()) {
+            for (const WayIn& way : door->ways) {
+                if (anybodys ? way.by_registers : tells(way, cause)) return way;
+            }
+        }
+        return by_name;
     }
-    /// True for clients that write registers, like controllers; clients over HTTP or DDS send commands by name.
-    [[nodiscard]] bool by_registers() const { return door() == Door::modbus || door() == Door::ethernet_ip; }
-    [[nodiscard]] Origin origin() const { return {door(), who_, {}}; }
+    /// True for clients that write registers, like controllers; other clients send commands by name.
+    [[nodiscard]] bool by_registers() const { return way_.by_registers; }
+    [[nodiscard]] Origin origin() const { return {way_.door, who_, {}}; }
 
     // --- clients
     void tend() {
@@ -208,7 +213,8 @@ private:
     }
     /// Actions of a client without a part in the motion: a question, a reset, commands that are refused, and the end of its connection.
     void second_client_speaks() {
-        const Origin other{Door::modbus, other_, {}};
+        const WayIn& way = way_of(LossCause::none);
+        const Origin other{way.door, other_, {}};
         const auto parameters = models_.engine().catalogue(models_.axis())->parameters();
         for (std::size_t i = 0; i < parameters.size(); ++i) {
             if (!parameters[i].readable()) continue;
@@ -218,7 +224,7 @@ private:
         }
         (void)models_.ask(ResetFault{}, other, 2s);
         are_refused(other);
-        models_.engine().on_client_lost(AuthorityClient::of(other), LossCause::modbus_closed, models_.now());
+        if (!way.losses.empty()) models_.engine().on_client_lost(AuthorityClient::of(other), way.losses.front(), models_.now());
     }
     /// Each of these commands requests another motion, and each is refused.
     void are_refused(const Origin& by) {
@@ -253,9 +259,8 @@ private:
         place_at_loss_ = models_.mechanics().position;
         speed_at_loss_ = models_.speed();
         cell_.speed = speed_at_loss_ / spec_.increments_per_unit;
+        if (silent()) return;  // nothing more comes
         switch (wish_.cause) {
-            case LossCause::modbus_silent:
-            case LossCause::enip_silent:
             case LossCause::lease_ended:
             case LossCause::set_points_silent:
                 return;  // the client sends nothing more
@@ -355,6 +360,7 @@ private:
     }
 
     RehearsalWish wish_;
+    const WayIn& way_ = way_of(wish_.cause);
     RehearsalModels models_;
     const AxisSpec& spec_;
     RehearsalCell cell_;

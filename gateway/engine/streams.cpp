@@ -14,6 +14,7 @@
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/routing.hpp"
 #include "gateway/engine/streams.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate::engine {
 namespace {
@@ -177,7 +178,7 @@ void Streams::refused(const Side& side, const Out::StreamEnd& by_drive, Instant 
 void Streams::check(Axis& a, Instant now) {
     if (!a.stream.on) return;
     if (now - a.stream.renewed > a.stream.good_for) {
-        loss_.act(a, LossOfCommand::silence_of(a.stream.who), now);
+        loss_.act(a, unrenewed_of(a.stream.who.door), now);
         return end(a, Reason::interrupted,
                    fmt::format("{} has not renewed them for {} ms", a.stream.who.text(), milliseconds_of(a.stream.good_for)), now);
     }

@@ -10,6 +10,8 @@
 #include <ctime>
 #include <filesystem>
 
+#include "gateway/runtime/door_dds.hpp"
+#include "gateway/runtime/door_http.hpp"
 #include "gateway/runtime/sealed.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/files.hpp"
@@ -46,7 +48,8 @@ BackupResult<> write_archive(const std::string& file, const BackupOrder& order, 
 }  // namespace
 
 BackupPlan backup_plan(const Config& config, const std::string& config_file) {
-    return {config.data_dir, config_file == "-" ? "" : config_file, config.http_tls_cert, config.http_tls_key, config.dds_security};
+    return {config.data_dir, config_file == "-" ? "" : config_file, config.of<HttpSettings>().tls_cert, config.of<HttpSettings>().tls_key,
+            config.of<DdsSettings>().security};
 }
 
 std::optional<std::string> place_of(std::string_view member, const BackupPlan& plan) {

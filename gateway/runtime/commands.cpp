@@ -13,10 +13,10 @@
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/config_host.hpp"
+#include "gateway/runtime/door_http.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/own_page.hpp"
 #include "gateway/runtime/site_file.hpp"
-#include "gateway/runtime/tls_files.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/site/names.hpp"
 #include "gateway/site/options.hpp"
@@ -186,7 +186,7 @@ void complain(const ConfigFault& f) { complain(fmt::format("{}{}: {}; {}", f.war
 int command_check(const ConfigSources& sources, const std::string& site_file, bool all_read) {
     std::vector<ConfigFault> faults;
     const auto config = read_config(sources, faults);
-    if (faults.empty()) faults = check_tls(config, unix_now_ns() / 1'000'000'000);
+    if (faults.empty()) faults = check_door_files(config, unix_now_ns() / 1'000'000'000);
     for (auto& f : check_host(config))
         faults.push_back(std::move(f));
     for (const auto& f : faults)
@@ -217,7 +217,8 @@ int command_health(const Config& config) {
         fmt::print("{}\n", page.body);
         return exit_good;
     }
-    complain(fmt::format("the gateway at {} is not well: {}", config.http_bind.empty() ? "no HTTP door" : config.http_bind,
+    complain(fmt::format("the gateway at {} is not well: {}",
+                         config.of<HttpSettings>().bind.empty() ? "no HTTP door" : config.of<HttpSettings>().bind,
                          page.fault.empty() ? page.body : page.fault));
     return exit_failed;
 }

@@ -15,76 +15,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
 
-#include "gateway/doors/http/hosts.hpp"
-#include "gateway/doors/modbus/access.hpp"
+#include "gateway/runtime/doors.hpp"
 
 namespace axisgate {
 namespace {
-using Fault = std::optional<std::string>;  // the remedy, if the text cannot be the value
-
-/// What a value may be written as in TOML: a number in place of a text is a slip ("port = 5"), and not the text "5".
-enum class Written : std::uint8_t { as_text, as_number, as_switch, as_list };
-
-struct Key {
-    std::string_view section, name;
-    Fault (*set)(Config&, const std::string&);
-    Written written = Written::as_text;
-};
-
-Fault set_integer(std::int64_t& into, const std::string& s, std::int64_t low, std::int64_t high) {
-    std::int64_t v = 0;
-    const auto [p, ec] = std::from_chars(s.data(), s.data() + s.size(), v);
-    if (ec != std::errc{} || p != s.data() + s.size() || v < low || v > high)
-        return fmt::format("write a whole number from {} to {}", low, high);
-    into = v;
-    return {};
-}
-Fault set_bool(bool& into, const std::string& s) {
-    if (s == "true" || s == "1" || s == "on") {
-        into = true;
-    } else if (s == "false" || s == "0" || s == "off") {
-        into = false;
-    } else {
-        return "write true or false";
-    }
-    return {};
-}
-Fault set_bind(std::string& into, const std::string& s) {
-    if (!s.empty() && s != "off" && !parse_host_port(s)) return "write HOST:PORT, such as 127.0.0.1:1502 or [::1]:1502, or off";
-    into = s == "off" ? "" : s;
-    return {};
-}
-Fault set_text(std::string& into, const std::string& s) {
-    into = s;
-    return {};
-}
-
-/// A name that is also a step of a path, and for a partition no pattern: DDS takes * and ? for wildcards.
-Fault set_dds_name(std::string& into, const std::string& s) {
-    const auto good = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
-    };
-    if (s.empty() || s.size() > 63 || s == "." || s == ".." || !std::ranges::all_of(s, good))
-        return "write 1 to 63 letters, digits, - _ or .";
-    into = s;
-    return {};
-}
+using setting::Key, setting::Unfit, setting::Written;
 
 std::string_view without_blanks(std::string_view s) {
     const auto first = s.find_first_not_of(" \t");
     return first == std::string_view::npos ? std::string_view() : s.substr(first, s.find_last_not_of(" \t") + 1 - first);
-}
-
-std::vector<std::string> split_list(const std::string& s) {
-    std::vector<std::string> out;
-    for (std::size_t i = 0; i < s.size();) {
-        const auto comma = std::min(s.find(',', i), s.size());
-        if (const auto one = without_blanks(std::string_view(s).substr(i, comma - i)); !one.empty()) out.emplace_back(one);
-        i = comma + 1;
-    }
-    return out;
 }
 
 /// A list as the file has it, ["a", "b"], in the form with bare commas; any other text as it is, also [::1],[::2]. A shell may have eaten
@@ -107,172 +47,118 @@ std::string bare_list(const std::string& text) {
     return out;
 }
 
-const Key keys[] = {
-        {"data", "dir",
-         [](Config& c, const std::string& s) -> Fault { return s.empty() ? Fault("name a directory") : set_text(c.data_dir, s); }},
-        {"http", "bind", [](Config& c, const std::string& s) { return set_bind(c.http_bind, s); }},
-        {"http", "tls_cert", [](Config& c, const std::string& s) { return set_text(c.http_tls_cert, s); }},
-        {"http", "tls_key", [](Config& c, const std::string& s) { return set_text(c.http_tls_key, s); }},
-        {"http", "tls",
-         [](Config& c, const std::string& s) -> Fault {
-             if (s != "off" && s != "self_signed") return "write off or self_signed; certificates of your own are tls_cert and tls_key";
-             c.http_tls_self_signed = s == "self_signed";
-             return {};
-         }},
-        {"users", "local_role",
-         [](Config& c, const std::string& s) -> Fault {
-             for (const auto* r : {"none", "viewer", "operator", "engineer", "administrator"}) {
-                 if (s == r) return set_text(c.users_local_role, s);
-             }
-             return "write none, viewer, operator, engineer or administrator";
-         }},
-        {"users", "session_idle_min", [](Config& c, const std::string& s) { return set_integer(c.users_session_idle_min, s, 1, 1440); },
-         Written::as_number},
-        {"users", "session_max_h", [](Config& c, const std::string& s) { return set_integer(c.users_session_max_h, s, 1, 720); },
-         Written::as_number},
-        {"users", "new_code", [](Config& c, const std::string& s) { return set_bool(c.users_new_code, s); }, Written::as_switch},
-        {"http", "allowed_hosts",
-         [](Config& c, const std::string& s) -> Fault {
-             c.http_allowed_hosts = split_list(s);
-             const auto is_name = [](const std::string& one) {
-                 return http::host_is_written_right(one) && (one.ends_with(']') || one.find(':') == std::string::npos);
-             };
-             if (std::ranges::all_of(c.http_allowed_hosts, is_name)) return {};
-             return "write names without scheme, port and path, such as [\"axisgate.example\"]";
-         },
-         Written::as_list},
-        {"modbus", "bind", [](Config& c, const std::string& s) { return set_bind(c.modbus_bind, s); }},
-        {"modbus", "word_order",
-         [](Config& c, const std::string& s) -> Fault {
-             if (s != "high_first" && s != "low_first") return "write high_first or low_first";
-             c.modbus_low_word_first = s == "low_first";
-             return {};
-         }},
-        {"modbus", "gaps",
-         [](Config& c, const std::string& s) -> Fault {
-             const auto gaps = map_gaps_named(s);
-             if (!gaps) return "write zero or refuse";
-             c.modbus_gaps = *gaps;
-             return {};
-         }},
-        {"modbus", "idle_timeout_s", [](Config& c, const std::string& s) { return set_integer(c.modbus_idle_timeout_s, s, 1, 86400); },
-         Written::as_number},
-        {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return set_integer(c.modbus_watchdog_ms, s, 0, 600'000); },
-         Written::as_number},
-        {"modbus", "max_connections", [](Config& c, const std::string& s) { return set_integer(c.modbus_max_connections, s, 1, 8192); },
-         Written::as_number},
-        {"modbus", "allow",
-         [](Config& c, const std::string& s) -> Fault {
-             c.modbus_allow = split_list(s);
-             for (const auto& one : c.modbus_allow) {
-                 if (!modbus::parse_network(one))
-                     return "write addresses or networks, such as [\"127.0.0.0/8\", \"192.168.1.20\", \"fd00::/8\"]";
-             }
-             return {};
-         },
-         Written::as_list},
-        {"modbus", "functions",
-         [](Config& c, const std::string& s) -> Fault {
-             c.modbus_functions = split_list(s);
-             for (const auto& one : c.modbus_functions) {
-                 std::int64_t ignored = 0;
-                 if (set_integer(ignored, one, 1, 127)) return "write function codes from 1 to 127, such as [3, 4, 6, 16]";
-             }
-             return {};
-         },
-         Written::as_list},
-        {"modbus", "read_only", [](Config& c, const std::string& s) { return set_bool(c.modbus_read_only, s); }, Written::as_switch},
-        {"authority", "lease_s", [](Config& c, const std::string& s) { return set_integer(c.authority_lease_s, s, 1, 3600); },
-         Written::as_number},
-        {"lines", "pty_dir",
-         [](Config& c, const std::string& s) -> Fault {
-             return s.starts_with('/') ? set_text(c.lines_pty_dir, s) : Fault("name a folder by its whole path, such as /run/axisgate");
-         }},
-        {"modbus_rtu", "port", [](Config& c, const std::string& s) { return set_text(c.modbus_rtu_port, s == "off" ? "" : s); }},
-        {"modbus_rtu", "baud",
-         [](Config& c, const std::string& s) {
-             return set_integer(c.modbus_rtu_baud, s, SerialSettings::min_baud, SerialSettings::max_baud);
-         },
-         Written::as_number},
-        {"modbus_rtu", "format",
-         [](Config& c, const std::string& s) -> Fault {
-             const auto format = parse_serial_format(s);
-             if (!format || format->data_bits != 8) return "write 8E1, 8O1, 8N1 or 8N2: Modbus RTU has 8 data bits";
-             return set_text(c.modbus_rtu_format, s);
-         }},
-        {"modbus_rtu", "unit", [](Config& c, const std::string& s) { return set_integer(c.modbus_rtu_unit, s, 1, 247); },
-         Written::as_number},
-        {"enip", "bind",
-         [](Config& c, const std::string& s) {
-             c.enip_bind_named = true;
-             return set_bind(c.enip_bind, s);
-         }},
-        {"enip", "io_port",
-         [](Config& c, const std::string& s) {
-             c.enip_io_port_named = true;
-             return set_integer(c.enip_io_port, s, 0, 65535);
-         },
-         Written::as_number},
-        {"dds", "enabled", [](Config& c, const std::string& s) { return set_bool(c.dds_enabled, s); }, Written::as_switch},
-        {"dds", "domain", [](Config& c, const std::string& s) { return set_integer(c.dds_domain, s, 0, 232); }, Written::as_number},
-        {"dds", "partition", [](Config& c, const std::string& s) { return set_dds_name(c.dds_partition, s); }},
-        {"dds", "name", [](Config& c, const std::string& s) { return set_dds_name(c.dds_name, s); }},
-        {"dds", "interface", [](Config& c, const std::string& s) { return set_dds_name(c.dds_interface, s); }},
-        {"dds", "security", [](Config& c, const std::string& s) { return set_text(c.dds_security, s == "off" ? "" : s); }},
-        {"log", "level",
-         [](Config& c, const std::string& s) -> Fault {
-             for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
-                 if (s == l) return set_text(c.log_level, s);
-             }
-             return "write trace, debug, info, warning, error or off";
-         }},
-        {"log", "file", [](Config& c, const std::string& s) { return set_text(c.log_file, s); }},
-        {"runtime", "spin_us", [](Config& c, const std::string& s) { return set_integer(c.spin_us, s, 0, 1000); }, Written::as_number},
-        {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return set_integer(c.hot_cpu, s, -1, 1023); }, Written::as_number},
-        {"limits", "http_connections", [](Config& c, const std::string& s) { return set_integer(c.max_http_connections, s, 1, 8192); },
-         Written::as_number},
-        {"limits", "trace_frames", [](Config& c, const std::string& s) { return set_integer(c.trace_frames, s, 64, 1'000'000); },
-         Written::as_number},
-        {"recorder", "trend_minutes", [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_minutes, s, 1, 1440); },
-         Written::as_number},
-        {"recorder", "trend_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_mb, s, 1, 4096); },
-         Written::as_number},
-        {"recorder", "stretch_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_stretch_mb, s, 1, 1024); },
-         Written::as_number},
-        {"recorder", "inputs_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_inputs_mb, s, 0, 1024); },
-         Written::as_number},
-        {"recorder", "disk_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_disk_mb, s, 1, 1'000'000); },
-         Written::as_number},
-        {"recorder", "trend_disk_mb",
-         [](Config& c, const std::string& s) { return set_integer(c.recorder_trend_disk_mb.emplace(), s, 0, 100'000); },
-         Written::as_number},
-        {"recorder", "captures_mb", [](Config& c, const std::string& s) { return set_integer(c.recorder_captures_mb, s, 1, 100'000); },
-         Written::as_number},
-        {"recorder", "freeze_on", [](Config& c, const std::string& s) { return set_text(c.recorder_freeze_on, s); }},
+const Key own_keys[] = {
+    {"data", "dir",
+     [](Config& c, const std::string& s) -> Unfit { return s.empty() ? Unfit("name a directory") : setting::any_text(c.data_dir, s); }},
+    {"users", "local_role",
+     [](Config& c, const std::string& s) -> Unfit {
+         for (const auto* r : {"none", "viewer", "operator", "engineer", "administrator"}) {
+             if (s == r) return setting::any_text(c.users_local_role, s);
+         }
+         return "write none, viewer, operator, engineer or administrator";
+     }},
+    {"users", "session_idle_min",
+     [](Config& c, const std::string& s) { return setting::whole_number(c.users_session_idle_min, s, 1, 1440); }, Written::as_number},
+    {"users", "session_max_h", [](Config& c, const std::string& s) { return setting::whole_number(c.users_session_max_h, s, 1, 720); },
+     Written::as_number},
+    {"users", "new_code", [](Config& c, const std::string& s) { return setting::on_or_off(c.users_new_code, s); }, Written::as_switch},
+    {"modbus", "word_order",
+     [](Config& c, const std::string& s) -> Unfit {
+         if (s != "high_first" && s != "low_first") return "write high_first or low_first";
+         c.low_word_first = s == "low_first";
+         return {};
+     }},
+    {"modbus", "gaps",
+     [](Config& c, const std::string& s) -> Unfit {
+         const auto gaps = map_gaps_named(s);
+         if (!gaps) return "write zero or refuse";
+         c.map_gaps = *gaps;
+         return {};
+     }},
+    {"modbus", "watchdog_ms", [](Config& c, const std::string& s) { return setting::whole_number(c.watchdog_ms, s, 0, 600'000); },
+     Written::as_number},
+    {"authority", "lease_s", [](Config& c, const std::string& s) { return setting::whole_number(c.authority_lease_s, s, 1, 3600); },
+     Written::as_number},
+    {"lines", "pty_dir",
+     [](Config& c, const std::string& s) -> Unfit {
+         return s.starts_with('/') ? setting::any_text(c.lines_pty_dir, s)
+                                   : Unfit("name a folder by its whole path, such as /run/axisgate");
+     }},
+    {"log", "level",
+     [](Config& c, const std::string& s) -> Unfit {
+         for (const auto* l : {"trace", "debug", "info", "warning", "error", "off"}) {
+             if (s == l) return setting::any_text(c.log_level, s);
+         }
+         return "write trace, debug, info, warning, error or off";
+     }},
+    {"log", "file", [](Config& c, const std::string& s) { return setting::any_text(c.log_file, s); }},
+    {"runtime", "spin_us", [](Config& c, const std::string& s) { return setting::whole_number(c.spin_us, s, 0, 1000); },
+     Written::as_number},
+    {"runtime", "hot_cpu", [](Config& c, const std::string& s) { return setting::whole_number(c.hot_cpu, s, -1, 1023); },
+     Written::as_number},
+    {"limits", "trace_frames", [](Config& c, const std::string& s) { return setting::whole_number(c.trace_frames, s, 64, 1'000'000); },
+     Written::as_number},
+    {"recorder", "trend_minutes",
+     [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_trend_minutes, s, 1, 1440); }, Written::as_number},
+    {"recorder", "trend_mb", [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_trend_mb, s, 1, 4096); },
+     Written::as_number},
+    {"recorder", "stretch_mb", [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_stretch_mb, s, 1, 1024); },
+     Written::as_number},
+    {"recorder", "inputs_mb", [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_inputs_mb, s, 0, 1024); },
+     Written::as_number},
+    {"recorder", "disk_mb", [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_disk_mb, s, 1, 1'000'000); },
+     Written::as_number},
+    {"recorder", "trend_disk_mb",
+     [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_trend_disk_mb.emplace(), s, 0, 100'000); },
+     Written::as_number},
+    {"recorder", "captures_mb",
+     [](Config& c, const std::string& s) { return setting::whole_number(c.recorder_captures_mb, s, 1, 100'000); }, Written::as_number},
+    {"recorder", "freeze_on", [](Config& c, const std::string& s) { return setting::any_text(c.recorder_freeze_on, s); }},
 };
 
-std::string known_names(std::string_view section) {
-    std::string s;
-    for (const auto& k : keys) {
-        if (section.empty()) {
-            const std::string name = fmt::format("[{}]", k.section);
-            if (s.find(name) == std::string::npos) s += (s.empty() ? "" : " ") + name;
-        } else if (k.section == section) {
-            s += (s.empty() ? "" : ", ") + std::string(k.name);
+/// The gateway's own keys and those of the doors.
+class Keys {
+public:
+    explicit Keys(std::span<const DoorDescriptor* const> doors) {
+        for (const Key& k : own_keys)
+            all_.push_back(&k);
+        for (const DoorDescriptor* door : doors) {
+            for (const Key& k : door->settings)
+                all_.push_back(&k);
         }
     }
-    return s;
-}
-
-const Key* find_key(std::string_view section, std::string_view name) {
-    for (const auto& k : keys) {
-        if (k.section == section && k.name == name) return &k;
+    /// The names of a section's keys; without a section, the names of all sections.
+    [[nodiscard]] std::string names(std::string_view section) const {
+        std::string s;
+        for (const Key* k : all_) {
+            if (section.empty()) {
+                const std::string name = fmt::format("[{}]", k->section);
+                if (s.find(name) == std::string::npos) s += (s.empty() ? "" : " ") + name;
+            } else if (k->section == section) {
+                s += (s.empty() ? "" : ", ") + std::string(k->name);
+            }
+        }
+        return s;
     }
-    return nullptr;
-}
+    [[nodiscard]] const Key* find(std::string_view section, std::string_view name) const {
+        const auto it = std::ranges::find_if(all_, [&](const Key* k) { return k->section == section && k->name == name; });
+        return it == all_.end() ? nullptr : *it;
+    }
+    /// Finds a key by its name in the environment: "modbus_rtu_port".
+    [[nodiscard]] const Key* find_joined(std::string_view name) const {
+        const Key* best = nullptr;
+        for (const Key* k : all_) {
+            if (name == fmt::format("{}_{}", k->section, k->name)) best = k;
+        }
+        return best;
+    }
+
+private:
+    std::vector<const Key*> all_;
+};
 
 /// What to write, if the value is written as something that this key never is.
-Fault wrong_kind(const toml::node& node, Written written) {
+Unfit wrong_kind(const toml::node& node, Written written) {
     if (written == Written::as_text && !node.is_string()) return "write a text in double quotes";
     if (written == Written::as_list && !node.is_array() && !node.is_string()) return "write a list in square brackets";
     return {};
@@ -345,10 +231,10 @@ std::size_t line_of_foreign_letter(std::string_view text) {
     return 0;
 }
 
-/// Where each value that counts was written.
+/// The place of each value in force.
 using Places = std::map<const Key*, std::string>;
 
-void read_config_file(Config& c, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
+void read_config_file(Config& c, const Keys& keys, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
     // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
     for (std::size_t i = 0, line = 1; i < sources.file_text->size(); ++i) {
@@ -372,20 +258,20 @@ void read_config_file(Config& c, const ConfigSources& sources, Places& places, s
     }
     for (const auto& [section, node] : parsed.table()) {
         const auto* table = node.as_table();
-        const std::string names = known_names(section.str());
+        const std::string names = keys.names(section.str());
         if (!table || names.empty()) {
-            faults.push_back({place(node.source()), fmt::format("[{}] is not a section", section.str()), "sections: " + known_names("")});
+            faults.push_back({place(node.source()), fmt::format("[{}] is not a section", section.str()), "sections: " + keys.names("")});
             continue;
         }
         for (const auto& [name, value] : *table) {
-            const Key* key = find_key(section.str(), name.str());
+            const Key* key = keys.find(section.str(), name.str());
             if (!key) {
                 faults.push_back({place(value.source()), fmt::format("[{}] has no key {}", section.str(), name.str()), "keys: " + names});
                 continue;
             }
             const auto text = text_of(value);
             const auto kind = wrong_kind(value, key->written);
-            const Fault fault = !text ? Fault("write a text, a number, true or false") : kind ? kind : key->set(c, *text);
+            const Unfit fault = !text ? Unfit("write a text, a number, true or false") : kind ? kind : key->set(c, *text);
             if (!fault) places[key] = place(value.source());
             if (fault)
                 faults.push_back({place(value.source()),
@@ -412,19 +298,22 @@ std::optional<HostPort> parse_host_port(std::string_view text) {
     return HostPort{std::string(host), static_cast<std::uint16_t>(n)};
 }
 
-Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults) {
+Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults) { return read_config(sources, faults, all_doors()); }
+
+Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& faults, std::span<const DoorDescriptor* const> doors) {
+    const Keys keys(doors);
     Config c;
     Places places;
-    if (sources.file_text) read_config_file(c, sources, places, faults);
+    if (sources.file_text) read_config_file(c, keys, sources, places, faults);
     const auto apply = [&](std::string_view section, std::string_view name, const std::string& value, const std::string& place) {
-        const Key* key = find_key(section, name);
+        const Key* key = keys.find(section, name);
         if (!key) {
-            const std::string names = known_names(section);
+            const std::string names = keys.names(section);
             faults.push_back({place, fmt::format("there is no key {}.{}", section, name),
-                              names.empty() ? "sections: " + known_names("") : "keys: " + names});
+                              names.empty() ? "sections: " + keys.names("") : "keys: " + names});
             return;
         }
-        if (const Fault fault = key->set(c, key->written == Written::as_list ? bare_list(value) : value))
+        if (const Unfit fault = key->set(c, key->written == Written::as_list ? bare_list(value) : value))
             faults.push_back({place, fmt::format("{}.{}: \"{}\" is not possible", section, name, value), *fault});
         else
             places[key] = place;
@@ -435,11 +324,7 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         if (!entry.starts_with(prefix) || equals == std::string::npos) continue;
         std::string name = entry.substr(prefix.size(), equals - prefix.size());
         std::ranges::transform(name, name.begin(), [](unsigned char x) { return static_cast<char>(std::tolower(x)); });
-        // The longest section that fits: "modbus_rtu_port" is [modbus_rtu] port, not [modbus] rtu_port.
-        const Key* best = nullptr;
-        for (const auto& k : keys) {
-            if (name == fmt::format("{}_{}", k.section, k.name)) best = &k;
-        }
+        const Key* best = keys.find_joined(name);
         if (!best) continue;  // other programs of the house may use the prefix too
         apply(best->section, best->name, entry.substr(equals + 1), entry.substr(0, equals));
     }
@@ -452,43 +337,14 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         }
         apply(o.substr(0, dot), o.substr(dot + 1, equals - dot - 1), o.substr(equals + 1), "--set " + o.substr(0, equals));
     }
-    if (const RtuPort port = rtu_port(c); !port.fault.empty()) {
-        faults.push_back({places[find_key("modbus_rtu", "port")], "modbus_rtu.port: " + port.fault,
-                          "write the path of a serial port, such as /dev/ttyUSB0, or off"});
-    }
-    if (c.http_tls_cert.empty() != c.http_tls_key.empty()) {
-        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name, "http.tls_cert and http.tls_key go together",
-                          "give both or none"});
-    }
-    if (c.http_tls_self_signed && !c.http_tls_cert.empty()) {
-        faults.push_back({sources.file_name.empty() ? "configuration" : sources.file_name,
-                          "http.tls = self_signed and http.tls_cert are both there", "leave one of them out"});
+    const KeyPlace place_of = [&](std::string_view section, std::string_view name) {
+        const auto written = places.find(keys.find(section, name));
+        return written != places.end() ? written->second : sources.file_name.empty() ? "configuration" : sources.file_name;
+    };
+    for (const DoorDescriptor* door : doors) {
+        if (door->check) door->check(c, place_of, faults);
     }
     return c;
-}
-
-RtuPort rtu_port(const Config& c) {
-    RtuPort r;
-    if (c.modbus_rtu_port.empty()) return r;
-    r.used = true;
-    const bool is_path = c.modbus_rtu_port.starts_with('/');
-    const LineUriResult parsed = parse_line_uri(is_path ? "serial:" + c.modbus_rtu_port : c.modbus_rtu_port,
-                                                static_cast<std::uint32_t>(c.modbus_rtu_baud), c.modbus_rtu_format);
-    r.uri = parsed.uri;
-    r.name = c.modbus_rtu_port.substr(0, c.modbus_rtu_port.find('?'));
-    if (r.name.starts_with("serial:")) r.name = r.uri.path;
-    r.fault = parsed.fault;
-    if (!r.fault.empty()) return r;
-    using Kind = LineUri::Kind;
-    const bool says_rate = r.uri.kind == Kind::serial || (r.uri.kind == Kind::pty && r.uri.serial.baud != 0);
-    r.baud = says_rate ? r.uri.serial.baud : static_cast<std::uint32_t>(c.modbus_rtu_baud);
-    r.format = says_rate ? r.uri.serial.format : parse_serial_format(c.modbus_rtu_format).value_or(SerialFormat{});
-    if (r.uri.kind == Kind::can || r.uri.kind == Kind::twin || r.uri.kind == Kind::udp || r.uri.kind == Kind::udp_listen) {
-        r.fault = "Modbus RTU needs a line that carries bytes in order";
-    } else if (r.format.data_bits != 8) {
-        r.fault = "Modbus RTU has 8 data bits";
-    }
-    return r;
 }
 
 }  // namespace axisgate

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "gateway/doors/http/hosts.hpp"
+#include "gateway/runtime/doors.hpp"
 
 namespace axisgate {
 namespace {
@@ -48,46 +48,6 @@ std::string processors(const cpu_set_t& set) {
     }
     return s;
 }
-
-/// Warns of a door that other machines can reach and that requires no sign-in.
-void warn_of_open_doors(const Config& c, std::vector<ConfigFault>& out) {
-    const auto warn = [&out](std::string place, std::string text, std::string remedy) {
-        ConfigFault f{std::move(place), std::move(text), std::move(remedy)};
-        f.warning = true;
-        out.push_back(std::move(f));
-    };
-    const auto beyond = [](const std::string& bind) { return !bind.empty() && !http::host_is_loopback(bind); };
-    if (beyond(c.http_bind) && c.http_tls_cert.empty() && !c.http_tls_self_signed) {
-        warn("http.tls_cert",
-             fmt::format("the HTTP door listens beyond this machine ({}) without TLS: passwords and tokens cross the network in plain text",
-                         c.http_bind),
-             "name a certificate with [http] tls_cert and tls_key, or set tls = \"self_signed\", or listen on 127.0.0.1 behind a proxy "
-             "that "
-             "speaks TLS");
-        if (c.users_local_role != "none")
-            warn("users.local_role",
-                 fmt::format("who reaches HTTP by this machine, as through a proxy or a forwarded port, is {} without a sign-in",
-                             c.users_local_role),
-                 "set [users] local_role = \"none\"");
-    }
-    if (beyond(c.modbus_bind) && c.modbus_allow.empty())
-        warn("modbus.allow",
-             fmt::format("Modbus/TCP listens beyond this machine ({}) and takes commands of every host that reaches it", c.modbus_bind),
-             "write the addresses or networks of the controllers, such as allow = [\"192.168.1.20\"]");
-    if (beyond(c.enip_bind))
-        warn(
-            "enip.bind",
-            fmt::format("EtherNet/IP listens beyond this machine ({}) and takes commands of every host that reaches it; the protocol knows "
-                        "no users",
-                        c.enip_bind),
-            "listen on the address of the machine network alone and keep others out of it by a firewall, or set [enip] bind = \"off\"");
-    if (c.dds_enabled && c.dds_interface != "lo" && c.dds_security.empty())
-        warn("dds.security",
-             fmt::format(
-                 "DDS runs on the interface {} without certificates: every program that reaches the domain commands axes, by any name",
-                 c.dds_interface),
-             "make certificates with `axisgate pki` and name their folder with [dds] security");
-}
 }  // namespace
 
 std::vector<ConfigFault> check_host(const Config& c) {
@@ -106,17 +66,19 @@ std::vector<ConfigFault> check_host(const Config& c) {
         f.warning = true;
         out.push_back(std::move(f));
     }
-    if (!c.http_bind.empty() && c.http_allowed_hosts.empty() && !http::host_is_loopback(c.http_bind)) {
-        ConfigFault f{
-            "http.allowed_hosts",
-            fmt::format("the HTTP door listens beyond this machine ({}) and no name is allowed: clients reach it by its IP addresses "
-                        "alone, names get 421",
-                        c.http_bind),
-            "write the names that clients use, such as allowed_hosts = [\"axisgate.example\"]; nothing to do if they use addresses"};
-        f.warning = true;
-        out.push_back(std::move(f));
+    for (const DoorDescriptor* door : all_doors()) {
+        if (door->warn) door->warn(c, out);
     }
-    warn_of_open_doors(c, out);
+    return out;
+}
+
+std::vector<ConfigFault> check_door_files(const Config& c, std::int64_t now_unix_s) {
+    std::vector<ConfigFault> out;
+    for (const DoorDescriptor* door : all_doors()) {
+        if (!door->check_files) continue;
+        for (auto& fault : door->check_files(c, now_unix_s))
+            out.push_back(std::move(fault));
+    }
     return out;
 }
 

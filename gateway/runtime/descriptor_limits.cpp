@@ -9,24 +9,33 @@
 #include <cerrno>
 #include <cstring>
 
-#include "gateway/protocols/cip/adapter.hpp"
-#include "gateway/runtime/config.hpp"
+#include "gateway/runtime/doors.hpp"
 
 namespace axisgate {
 
-FittedShares fit_to_descriptors(const DoorShares& wanted, std::uint64_t hard_limit) {
-    FittedShares f{wanted, {}};
-    const std::uint64_t both = wanted.modbus + wanted.http, needed = descriptors_kept + wanted.enip + both;
-    if (needed <= hard_limit || both == 0) return f;
-    const std::uint64_t kept = descriptors_kept + wanted.enip;
+FittedShares fit_to_descriptors(const std::vector<DoorShare>& wanted, std::uint64_t hard_limit) {
+    FittedShares f;
+    std::uint64_t shared = 0, kept = descriptors_kept;
+    for (const DoorShare& door : wanted) {
+        f.shares.push_back(door.wanted);
+        (door.key.empty() ? kept : shared) += door.wanted;
+    }
+    const std::uint64_t needed = kept + shared;
+    if (needed <= hard_limit || shared == 0) return f;
     const std::uint64_t left = hard_limit > kept ? hard_limit - kept : 0;
-    const auto share = [&](std::uint64_t of) { return of == 0 ? 0 : std::min(of, std::max(left * of / both, least_share)); };
-    f.shares.modbus = share(wanted.modbus);
-    f.shares.http = share(wanted.http);
+    std::string lessened;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const DoorShare& door = wanted[i];
+        if (door.key.empty() || door.wanted == 0) continue;
+        f.shares[i] = std::min(door.wanted, std::max(left * door.wanted / shared, least_share));
+        lessened += fmt::format("{}{}{} instead of {}", lessened.empty() ? "" : ", ", door.key,
+                                lessened.empty() ? fmt::format(" is {}", f.shares[i]) : fmt::format(" {}", f.shares[i]), door.wanted);
+    }
     f.told = fmt::format(
-        "this process may have {} open files, and all that its doors may let in needs {}: [modbus] max_connections is {} instead of {}, "
-        "[limits] http_connections {} instead of {}; raise the hard limit (LimitNOFILE= of the unit, ulimit -Hn)",
-        hard_limit, needed, f.shares.modbus, wanted.modbus, f.shares.http, wanted.http);
+        "this process may have {} open files, and all that its doors may let in needs {}: {}; raise the hard limit (LimitNOFILE= of the "
+        "unit, "
+        "ulimit -Hn)",
+        hard_limit, needed, lessened);
     return f;
 }
 
@@ -49,15 +58,16 @@ std::uint64_t raise_descriptor_limit() {
 
 void fit_doors(Config& c) {
     const std::uint64_t descriptors = raise_descriptor_limit();
-    const auto of = [](bool open, std::int64_t most) { return open ? static_cast<std::uint64_t>(most) : 0; };
-    const auto fitted =
-        fit_to_descriptors({of(!c.modbus_bind.empty(), c.modbus_max_connections), of(!c.http_bind.empty(), c.max_http_connections),
-                            of(!c.enip_bind.empty(), cip::Adapter::most_sessions)},
-                           descriptors);
+    const auto doors = all_doors();
+    std::vector<DoorShare> wanted;
+    for (const DoorDescriptor* door : doors)
+        wanted.push_back({door->clients.key, door->clients.most ? door->clients.most(c) : 0});
+    const FittedShares fitted = fit_to_descriptors(wanted, descriptors);
     if (fitted.told.empty()) return;
     spdlog::warn("{}", fitted.told);
-    if (fitted.shares.modbus > 0) c.modbus_max_connections = static_cast<std::int64_t>(fitted.shares.modbus);
-    if (fitted.shares.http > 0) c.max_http_connections = static_cast<std::int64_t>(fitted.shares.http);
+    for (std::size_t i = 0; i < doors.size(); ++i) {
+        if (doors[i]->clients.lessen && fitted.shares[i] > 0) doors[i]->clients.lessen(c, fitted.shares[i]);
+    }
 }
 
 }  // namespace axisgate

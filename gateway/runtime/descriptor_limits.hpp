@@ -3,24 +3,26 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace axisgate {
 
-struct DoorShares {
-    std::uint64_t modbus = 0, http = 0, enip = 0;  ///< number of connections
-    bool operator==(const DoorShares&) const = default;
+/// Number of connections of a door.
+struct DoorShare {
+    std::string_view key;      ///< key of the configuration, such as "[modbus] max_connections"; empty: the protocol sets the number
+    std::uint64_t wanted = 0;  ///< 0: the door is closed
 };
 /// Descriptors of the process for everything else: lines, the database, files, timers, a spare one for each door.
 inline constexpr std::uint64_t descriptors_kept = 128;
-/// EtherNet/IP keeps the bound of its protocol; Modbus and HTTP share the rest in the configured proportion, and get at least this number
-/// each.
+/// Doors with a key share the remaining descriptors in the configured proportion, and get at least this number each.
 inline constexpr std::uint64_t least_share = 8;
 
 struct FittedShares {
-    DoorShares shares;
-    std::string told;  ///< empty: all configured connections fit
+    std::vector<std::uint64_t> shares;  ///< in the order of `wanted`
+    std::string told;                   ///< empty: all configured connections fit
 };
-[[nodiscard]] FittedShares fit_to_descriptors(const DoorShares& wanted, std::uint64_t hard_limit);
+[[nodiscard]] FittedShares fit_to_descriptors(const std::vector<DoorShare>& wanted, std::uint64_t hard_limit);
 
 struct Config;
 /// Raises the soft limit of open files to the hard one, and reduces the numbers of connections if that is not sufficient, with a warning.

@@ -245,7 +245,7 @@ void Hot::publish_reports(Instant now) {
     }
     r->complaints = engine_.complaints();
     r->settled = engine_.settled();
-    for (const LossCause cause : loss_causes)
+    for (const LossCause cause : loss_causes())
         r->losses[static_cast<std::size_t>(cause)] = engine_.losses(cause);
     std::shared_ptr<const Reports> made = std::move(r);
     if (const std::unique_lock hold(reports_mutex_, std::try_to_lock); hold) {

@@ -35,7 +35,7 @@ struct Reports {
     std::vector<std::shared_ptr<const FrameLog>> logs;  ///< by LineId
     std::vector<std::string> complaints;
     bool settled = false;
-    std::array<std::uint64_t, loss_causes.size() + 1> losses{};  ///< fail-safe actions since the start, by LossCause
+    std::array<std::uint64_t, most_loss_causes> losses{};  ///< fail-safe actions since the start, by LossCause
 };
 
 struct HotSettings {

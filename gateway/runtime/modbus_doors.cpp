@@ -4,37 +4,39 @@
 
 #include <utility>
 
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/lines/make_line.hpp"
 #include "gateway/runtime/clock.hpp"
 
 namespace axisgate {
 namespace {
-modbus::Responder::Settings responder_settings(const Config& c, bool read_only) {
+modbus::Responder::Settings responder_settings(const ModbusSettings& c, bool read_only) {
     modbus::Responder::Settings s;
     s.version = AXISGATE_VERSION;
-    for (const auto& text : c.modbus_allow) {
+    for (const auto& text : c.allow) {
         if (const auto network = modbus::parse_network(text)) s.access.allow.push_back(*network);
     }
-    for (const auto& text : c.modbus_functions)
+    for (const auto& text : c.functions)
         s.access.functions.set(static_cast<std::size_t>(std::stoi(text)));
     s.access.read_only = read_only;
     return s;
 }
 }  // namespace
 
-ModbusDoors::ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config& config, bool read_only) : hot_(hot), config_(config) {
-    if (!config.modbus_bind.empty()) {
+ModbusDoors::ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config& config, bool read_only)
+    : hot_(hot), settings_(config.of<ModbusSettings>()) {
+    if (!settings_.bind.empty()) {
         modbus::ServerSettings s;
-        s.responder = responder_settings(config, read_only);
-        s.max_connections = static_cast<std::size_t>(config.modbus_max_connections);
-        s.idle_timeout = std::chrono::seconds(config.modbus_idle_timeout_s);
+        s.responder = responder_settings(settings_, read_only);
+        s.max_connections = static_cast<std::size_t>(settings_.max_connections);
+        s.idle_timeout = std::chrono::seconds(settings_.idle_timeout_s);
         tcp_ = std::make_unique<modbus::Server>(hot.context(), hot, image, std::move(s));
     }
     if (const RtuPort port = rtu_port(config); port.used && port.fault.empty()) {
         modbus::RtuSettings s;
-        s.responder = responder_settings(config, read_only);
+        s.responder = responder_settings(settings_, read_only);
         s.timing = modbus::RtuTiming::of(port.baud, port.format.bits_per_byte());
-        s.address = static_cast<std::uint8_t>(config.modbus_rtu_unit);
+        s.address = static_cast<std::uint8_t>(settings_.rtu_unit);
         s.port = port.name;
         s.text = to_text(port.uri);
         const LineBase base{hot.context(), machine_clock(), {}, stale_send_limit};
@@ -45,7 +47,7 @@ ModbusDoors::ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config
 std::string ModbusDoors::open() {
     if (rtu_ && !std::exchange(rtu_opened_, true)) rtu_->open();
     if (!tcp_) return {};
-    const std::string binds[] = {config_.modbus_bind};
+    const std::string binds[] = {settings_.bind};
     return tcp_->open(binds);
 }
 
@@ -53,7 +55,7 @@ void ModbusDoors::add(ModbusReport& report, ModbusConnection connection, std::st
     const auto& site = *hot_.engine().site();
     for (std::size_t i = 0; i < site.axis_ids.size(); ++i) {
         const AxisPicture& p = hot_.image().picture(site.axis_ids[i]);
-        if (p.authority == Door::modbus && p.authority_holder[0] != 0 && host == p.authority_holder.data())
+        if (p.authority == modbus::clients && p.authority_holder[0] != 0 && host == p.authority_holder.data())
             connection.holds.push_back(site.site.axes[i].name);
     }
     report.connections.push_back(std::move(connection));
@@ -61,8 +63,8 @@ void ModbusDoors::add(ModbusReport& report, ModbusConnection connection, std::st
 
 ModbusReport ModbusDoors::report() const {
     ModbusReport r;
-    r.allow = config_.modbus_allow;
-    r.functions = config_.modbus_functions;
+    r.allow = settings_.allow;
+    r.functions = settings_.functions;
     if (tcp_) {
         const auto addresses = tcp_->addresses();
         if (!addresses.empty()) r.bind = addresses.front();
@@ -75,7 +77,7 @@ ModbusReport ModbusDoors::report() const {
         r.read_only = rtu_->responder().access().read_only;
         if (const auto c = rtu_->report(); c.up) {
             Origin origin;
-            origin.door = Door::modbus;
+            origin.door = modbus::clients;
             origin.who = std::make_shared<const std::string>(c.peer);
             add(r, {c.peer, c.requests, c.writes, c.exceptions, unix_ns_of(c.since), {}}, AuthorityClient::of(origin).name);
         }

@@ -8,7 +8,7 @@
 #include "gateway/core/line_uri.hpp"
 #include "gateway/doors/modbus/rtu_door.hpp"
 #include "gateway/doors/modbus/server.hpp"
-#include "gateway/runtime/config.hpp"
+#include "gateway/runtime/door_modbus.hpp"
 #include "gateway/runtime/hot.hpp"
 #include "gateway/services/ports/modbus.hpp"
 
@@ -31,7 +31,7 @@ private:
     void add(ModbusReport& report, ModbusConnection connection, std::string_view host) const;
 
     Hot& hot_;
-    const Config& config_;
+    const ModbusSettings settings_;
     std::unique_ptr<modbus::Server> tcp_;
     std::unique_ptr<modbus::RtuDoor> rtu_;
     bool rtu_opened_ = false;

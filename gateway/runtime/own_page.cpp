@@ -1,5 +1,6 @@
 // One connection, with or without TLS, under one deadline.
 #include "gateway/runtime/own_page.hpp"
+#include "gateway/runtime/door_http.hpp"
 
 #include <fmt/core.h>
 
@@ -37,7 +38,7 @@ OwnPage page_in(const std::string& answer) {
 
 OwnPage own_page(const Config& config, std::string_view path) {
     namespace asio = boost::asio;
-    const auto where = parse_host_port(config.http_bind);
+    const auto where = parse_host_port(config.of<HttpSettings>().bind);
     if (!where) return {{}, "there is no HTTP door", 0};
     const std::string host = where->host == "0.0.0.0"     ? "127.0.0.1"
                              : where->host == "::"        ? "::1"
@@ -57,7 +58,7 @@ OwnPage own_page(const Config& config, std::string_view path) {
     asio::ssl::context tls(asio::ssl::context::tls_client);
     tls.set_verify_mode(asio::ssl::verify_none);
     asio::ssl::stream<asio::ip::tcp::socket> stream(io, tls);
-    const bool shut = config.http_tls_self_signed || !config.http_tls_cert.empty();
+    const bool shut = config.of<HttpSettings>().tls_self_signed || !config.of<HttpSettings>().tls_cert.empty();
     stream.next_layer().async_connect({address, where->port}, [&](boost::system::error_code ec) {
         if (ec) return end(ec);
         if (!shut) return ask_page(stream.next_layer(), request, answer, end);

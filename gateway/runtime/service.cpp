@@ -2,7 +2,6 @@
 // In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,20 +20,17 @@
 #include <thread>
 
 #include "gateway/core/assets.hpp"
-#include "gateway/doors/dds/door.hpp"
-#include "gateway/doors/enip/server.hpp"
-#include "gateway/doors/http/server.hpp"
 #include "gateway/runtime/access_service.hpp"
 #include "gateway/runtime/catalogues.hpp"
 #include "gateway/runtime/clock.hpp"
 #include "gateway/runtime/commands.hpp"
 #include "gateway/runtime/config_host.hpp"
 #include "gateway/runtime/descriptor_limits.hpp"
+#include "gateway/runtime/doors.hpp"
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/hot.hpp"
-#include "gateway/runtime/late_doors.hpp"
 #include "gateway/runtime/log.hpp"
-#include "gateway/runtime/modbus_doors.hpp"
+#include "gateway/runtime/open_doors.hpp"
 #include "gateway/runtime/restore_note.hpp"
 #include "gateway/runtime/service_rank.hpp"
 #include "gateway/runtime/site_file.hpp"
@@ -42,24 +38,15 @@
 #include "gateway/runtime/site_trial.hpp"
 #include "gateway/runtime/systemd.hpp"
 #include "gateway/runtime/threads.hpp"
-#include "gateway/runtime/tls_files.hpp"
 #include "gateway/runtime/waiting_backup.hpp"
 #include "gateway/runtime/warm_ports.hpp"
+#include "gateway/services/services.hpp"
 #include "gateway/site/names.hpp"
 
 namespace axisgate {
 namespace {
 /// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
 constexpr auto ready_limit = std::chrono::seconds(5);
-
-/// As the machine calls itself, without its domain; "axisgate" if it does not say.
-std::string host_name() {
-    char name[64] = {};
-    if (gethostname(name, sizeof name - 1) != 0 || name[0] == 0) return "axisgate";
-    std::string s(name);
-    s.resize(std::min(s.find('.'), s.size()));
-    return s.empty() ? "axisgate" : s;
-}
 
 /// Everything that lives while the service runs; destroyed from the last to the first.
 struct Service {
@@ -73,15 +60,9 @@ struct Service {
     std::unique_ptr<WarmPorts> ports;
     std::optional<Doorbell::Call> picture_changed;  // for the door that has asked to be told
     std::unique_ptr<registers::RegisterImage> image;
-    std::unique_ptr<ModbusDoors> modbus;
-    std::unique_ptr<enip::Server> enip;
     std::shared_ptr<AccessService> access;
     std::unique_ptr<Services> services;
-    std::vector<std::unique_ptr<ServiceDoor>> doors;  // of this thread
-    dds::DdsDoor* dds = nullptr;                      // one of them, or none
-    LateDoors late{warm};
-    std::vector<DoorInfo> hot_addresses;  // of the doors of the hot thread, as it told them last
-    bool enip_open = false;
+    std::unique_ptr<OpenDoors> doors;
     boost::asio::steady_timer services_timer{warm};
     LogListener log;
     boost::asio::signal_set signals{warm};
@@ -91,7 +72,7 @@ struct Service {
     std::string manager_status;  ///< as it was told last
     std::string first_code;      ///< to be shown
     int code = exit_good;
-    bool dds_hangs = false;  ///< the DDS library waits for an interface that is down, and cannot be waited for
+    bool door_hangs = false;  ///< a thread of a door's library does not end (DDS with an interface that is down)
 
     explicit Service(const ServeOptions& o) : options(o) {}
 
@@ -102,15 +83,7 @@ struct Service {
     void show_code();
     void begin_services();
     void arm_services();
-    [[nodiscard]] bool open_modbus();
-    [[nodiscard]] bool open_enip();
-    [[nodiscard]] bool add_http();
-    void add_dds();
     int open_doors();
-    using Open = std::function<std::string()>;
-    [[nodiscard]] bool opened_or_waits(std::string name, std::function<bool()> is_late, const Open& open, bool on_hot,
-                                       std::function<void()> opened);
-    void tell_doors();
     void watch();
     void tell_manager();
     void report_ready();
@@ -123,17 +96,23 @@ void Service::make_hot() {
     hs.cpu = static_cast<int>(options.config.hot_cpu);
     hs.trace_frames = static_cast<std::size_t>(options.config.trace_frames);
     hs.ptys = {options.config.lines_pty_dir, options.config.data_dir};
-    if (options.config.dds_enabled) {
+    const auto carries_mirrors = [this](const DoorDescriptor* door) { return door->carries_mirrors && door->wanted(options.config); };
+    if (std::ranges::any_of(all_doors(), carries_mirrors)) {
         hs.fleet = [this](int fd) {
             boost::asio::post(warm, [this, fd] {
-                if (dds) return dds->take_mirror(fd);
+                if (doors) return doors->take_mirror(fd);
                 ::close(fd);
             });
         };
     }
     hot = std::make_unique<Hot>(families, hs);
-    hot->engine().set_watchdog(std::chrono::milliseconds(options.config.modbus_watchdog_ms));
+    hot->engine().set_watchdog(std::chrono::milliseconds(options.config.watchdog_ms));
     hot->engine().set_lease(std::chrono::seconds(options.config.authority_lease_s));
+    registers::RegisterImage::Settings rs;
+    rs.word_order = options.config.low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
+    rs.gaps = options.config.map_gaps;
+    rs.languages = languages;
+    image = std::make_unique<registers::RegisterImage>(*hot, rs);
 }
 
 int Service::open_store() {
@@ -187,7 +166,8 @@ int Service::open_store() {
     answers.fault = [](std::string text) { spdlog::error("store: {}", text); };
     cold = std::make_unique<Cold>(*store, std::move(answers));
     ports = std::make_unique<WarmPorts>(warm, *hot, *cold, families, std::move(*reader));
-    ports->rehearsal.set_times(std::chrono::milliseconds(options.config.modbus_watchdog_ms),
+    ports->registers.use(*image);
+    ports->rehearsal.set_times(std::chrono::milliseconds(options.config.watchdog_ms),
                                std::chrono::seconds(options.config.authority_lease_s));
     ports->events.listen(&log);
     if (auto restored = take_restore_note(options.config.data_dir)) ports->events.note(std::move(*restored));
@@ -196,7 +176,7 @@ int Service::open_store() {
     ports->captures.begin(recorder_settings(options.config));
     auto outlets = ports->outlets();
     picture_changed.emplace(ports->bell(), [this] {
-        if (dds) dds->on_change();
+        if (doors) doors->on_change();
     });
     outlets.changed = [this] { picture_changed->ring(); };
     hot->connect(std::move(outlets));
@@ -305,193 +285,16 @@ void Service::arm_services() {
     });
 }
 
-/// Made of the site as the door's own layout is, but on the thread that asks.
-static std::string data_sheet(const SiteState& state, const Families& families, const enip::HostFacts& facts) {
-    std::vector<std::shared_ptr<const Catalogue>> kept;
-    std::vector<enip::LayoutAxis> axes;
-    for (std::size_t i = 0; i < state.site.axes.size() && i < state.axis_ids.size(); ++i) {
-        const AxisSpec& a = state.site.axes[i];
-        const auto drive = std::ranges::find(state.site.drives, a.drive, &DriveSpec::name);
-        if (drive == state.site.drives.end()) continue;
-        kept.push_back(catalogue_of(state.site, *drive, families));
-        axes.push_back({static_cast<std::uint16_t>(a.number), state.axis_ids[i], a.name, kept.back().get()});
-    }
-    return enip::eds_of(enip::Layout(std::move(axes), mapping_revision(state.site), facts, enip::windows_of(state)));
-}
-
-/// Opens a door; where what it listens on is not there yet, it waits. False: it cannot be opened, which has been said.
-/// `on_hot`: later, when the hot thread runs, it is opened there.
-bool Service::opened_or_waits(std::string name, std::function<bool()> is_late, const Open& open, bool on_hot,
-                              std::function<void()> opened) {
-    std::string fault = open();
-    if (fault.empty()) {
-        if (opened) opened();
-        return true;
-    }
-    if (!is_late()) {
-        complain(fault);
-        return false;
-    }
-    LateDoors::Door door{std::move(name), std::move(fault), std::move(is_late), {}, {}};
-    door.open = [this, open, on_hot](std::function<void(std::string)> then) {
-        if (!on_hot) return then(open());
-        const bool given = hot->jobs().push([this, open, then](Engine& engine, Instant) {
-            std::string why = open();
-            if (why.empty()) hot->publish_site(*engine.site());  // what a door shows hangs on the address that it has
-            std::vector<DoorInfo> now;
-            for (const HotDoor* d : hot->doors()) {
-                for (auto& address : d->addresses())
-                    now.push_back({std::string(d->name()), std::move(address)});
-            }
-            boost::asio::post(warm, [this, then, why = std::move(why), now = std::move(now)]() mutable {
-                hot_addresses = std::move(now);
-                then(std::move(why));
-            });
-        });
-        if (!given) return then("the hot thread has too much to do");
-        hot->jobs().announce();
-    };
-    door.opened = [this, opened = std::move(opened)] {
-        if (opened) opened();
-        tell_doors();
-    };
-    late.wait_for(std::move(door));
-    return true;
-}
-
-void Service::tell_doors() {
-    std::vector<DoorInfo> open = hot_addresses;
-    for (const auto& door : doors) {
-        if (!door->address().empty()) open.push_back({std::string(door->name()), door->address()});
-    }
-    ports->status.set_doors(std::move(open));
-}
-
-bool Service::open_modbus() {
-    registers::RegisterImage::Settings rs;
-    rs.word_order = options.config.modbus_low_word_first ? MapWordOrder::low_first : MapWordOrder::high_first;
-    rs.gaps = options.config.modbus_gaps;
-    rs.languages = languages;
-    image = std::make_unique<registers::RegisterImage>(*hot, rs);
-    ports->registers.use(*image);
-    bool read_only = options.config.modbus_read_only;
-    // What was switched while it ran is newer than the file.
-    if (const auto kept = store->document("setting", "modbus.read_only"); kept && *kept) read_only = (*kept)->text == "true";
-    modbus = std::make_unique<ModbusDoors>(*hot, *image, options.config, read_only);
-    if (!opened_or_waits(
-            "Modbus",
-            [this] { return address_is_late(options.config.modbus_bind) || address_is_taken(options.config.modbus_bind, SOCK_STREAM); },
-            [this] { return modbus->open(); }, true, {}))
-        return false;
-    if (modbus->any()) ports->modbus.use({[this] { return modbus->report(); }, [this](bool on) { modbus->set_read_only(on); }});
-    return true;
-}
-
-bool Service::open_enip() {
-    enip::ServerSettings es;
-    es.io_port = static_cast<std::uint16_t>(options.config.enip_io_port);
-    es.another_io_port = !options.config.enip_io_port_named;
-    es.lease_s = options.config.authority_lease_s;
-    es.incarnation = static_cast<std::uint16_t>(unix_now_ns() / 1'000'000'000);
-    enip = std::make_unique<enip::Server>(hot->context(), *hot, *image, es);
-    const auto opened = [this, wanted = es.io_port] {
-        enip_open = true;
-        if (enip->facts().io_port != wanted)
-            spdlog::warn("[enip] UDP {} is taken by another program: implicit data come on UDP {}, which each Forward_Open is told", wanted,
-                         enip->facts().io_port);
-    };
-    const auto is_late = [this] {
-        const std::string& bind = options.config.enip_bind;
-        return address_is_late(bind) || address_is_taken(bind, SOCK_STREAM) || address_is_taken(bind, SOCK_DGRAM);
-    };
-    const auto open = [this] { return enip->open(options.config.enip_bind); };
-    if (options.config.enip_bind_named) return opened_or_waits("EtherNet/IP", is_late, open, true, opened);
-    if (const std::string fault = open(); !fault.empty()) {
-        enip.reset();
-        // Another gateway on this host has the usual ports: nobody has asked for them here.
-        spdlog::warn("{}; there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"", fault);
-    } else {
-        opened();
-    }
-    return true;
-}
-
-/// False: its TLS cannot be used, which has been said.
-bool Service::add_http() {
-    http::Settings hs;
-    hs.version = AXISGATE_VERSION;
-    hs.bind = options.config.http_bind;
-    hs.map_gaps = options.config.modbus_gaps;
-    hs.languages = languages;
-    hs.low_word_first = options.config.modbus_low_word_first;
-    hs.allowed_hosts = options.config.http_allowed_hosts;
-    hs.max_connections = static_cast<std::size_t>(options.config.max_http_connections);
-    auto http = std::make_unique<http::Server>(warm, ports->all(), *services, hs, [](std::string_view path) { return asset(path); });
-    std::vector<ConfigFault> faults;
-    const auto identity = open_tls(options.config, unix_now_ns() / 1'000'000'000, faults);
-    for (const auto& f : faults)
-        complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
-    if (!faults.empty()) return false;  // never plain text where somebody asked for TLS
-    http->use_tls(identity);
-    doors.push_back(std::move(http));
-    return true;
-}
-
-void Service::add_dds() {
-    dds::DoorSettings ds;
-    ds.bus.domain = static_cast<std::uint32_t>(options.config.dds_domain);
-    ds.bus.partition = options.config.dds_partition;
-    ds.bus.interface_name = options.config.dds_interface;
-    ds.bus.security = options.config.dds_security;
-    ds.name = options.config.dds_name.empty() ? host_name() : options.config.dds_name;
-    ds.version = AXISGATE_VERSION;
-    ds.page = [this] {
-        const auto door = std::ranges::find_if(doors, [](const auto& d) { return d->name().starts_with("http"); });
-        return door == doors.end() || (*door)->address().empty() ? std::string()
-                                                                 : fmt::format("{}://{}/", (*door)->name(), (*door)->address());
-    };
-    ds.instance = static_cast<std::uint64_t>(unix_now_ns());  // no two starts of one name in the same nanosecond
-    ds.want_change = [this] { hot->want_change(); };
-    auto door = std::make_unique<dds::DdsDoor>(warm, ports->all(), monotonic_now, std::move(ds));
-    dds = door.get();
-    ports->fleet.use(*door);
-    doors.push_back(std::move(door));
-}
-
 int Service::open_doors() {
-    if (!open_modbus()) return exit_failed;
-    if (!options.config.enip_bind.empty() && !open_enip()) return exit_failed;
-    if (!options.config.http_bind.empty() && !add_http()) return exit_usage;
-    if (options.config.dds_enabled) add_dds();
-    for (const auto& door : doors) {
-        const bool of_dds = door.get() == dds;
-        const auto is_late = [this, of_dds] {
-            const std::string& bind = options.config.http_bind;
-            return of_dds ? interface_is_late(options.config.dds_interface) : address_is_late(bind) || address_is_taken(bind, SOCK_STREAM);
-        };
-        const auto open = [door = door.get()] { return door->start(); };
-        if (!opened_or_waits(std::string(door->name()), is_late, open, false, {})) return exit_failed;
-    }
-    for (const HotDoor* door : hot->doors()) {
-        for (auto& address : door->addresses())
-            hot_addresses.push_back({std::string(door->name()), std::move(address)});
-    }
-    tell_doors();
-    ports->status.doors_waiting = [this] { return late.waiting(); };
-    ports->status.door_eds = [this] { return enip_open ? data_sheet(*ports->site.site(), families, enip->facts()) : std::string(); };
-    ports->status.door_metrics = [this] {
-        std::string text;
-        for (const HotDoor* door : hot->doors())
-            text += door->metrics();
-        if (dds) text += dds->metrics();
-        return text;
-    };
-    return exit_good;
+    doors = std::make_unique<OpenDoors>(warm, *hot, *ports);
+    const DoorHouse house{options.config, families, languages, *hot,   *image,
+                          warm,           *ports,   *services, *store, [this] { return doors->page(); }};
+    return doors->open(house, all_doors());
 }
 
 void Service::report_ready() {
     const auto reports = hot->reports();
-    if ((!reports->settled || !late.waiting().empty()) && monotonic_now() - started < ready_limit) return;
+    if ((!reports->settled || !doors->waiting().empty()) && monotonic_now() - started < ready_limit) return;
     if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
     ready_reported = true;
     std::string text = "ready";
@@ -500,7 +303,7 @@ void Service::report_ready() {
     text += fmt::format(" axes={}", ports->site.site()->site.axes.size());
     for (const auto& c : reports->complaints)
         text += "; " + c;
-    for (const auto& c : late.waiting())
+    for (const auto& c : doors->waiting())
         text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
@@ -539,15 +342,10 @@ void Service::tell_manager() {
 
 void Service::take_down() {
     notify_manager("STOPPING=1");
-    late.stop();
+    doors->stop_waiting();
     hot->stop();  // brings moving axes to rest first
-    std::size_t open = doors.size();
-    for (const auto& door : doors)
-        door->stop([&open] { --open; });
-    const Instant limit = monotonic_now() + std::chrono::seconds(3);
-    while (open > 0 && monotonic_now() < limit)
-        (void)warm.run_one_for(std::chrono::milliseconds(50));
-    dds_hangs = dds && dds->hangs();
+    doors->stop();
+    door_hangs = doors->hang();
     if (access) access->stop();
     cold->stop();
     ports->events.tell_all();
@@ -572,7 +370,7 @@ void run_ranked(boost::asio::io_context& context) {
 }
 }  // namespace
 
-/// `hangs`: a thread of the DDS library is left that nobody can end.
+/// `hangs` is set if a thread of a door's library is left that cannot be ended.
 static int serve(const ServeOptions& given, bool& hangs) {
     ServeOptions options = given;
     // The same words and the same exit code as `axisgate check`.
@@ -582,7 +380,7 @@ static int serve(const ServeOptions& given, bool& hangs) {
     if (std::ranges::count(wrong_here, false, &ConfigFault::warning) > 0) return exit_usage;
     if (!open_log(options.config)) return exit_failed;
     // Before anything is opened: a certificate that does not hold is a fault of the configuration, as in `axisgate check`.
-    if (const auto wrong = check_tls(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
+    if (const auto wrong = check_door_files(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
         for (const auto& f : wrong)
             complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
         return exit_usage;
@@ -604,7 +402,8 @@ static int serve(const ServeOptions& given, bool& hangs) {
     auto memory = read_site_memory(*s.store, site);
     auto state = s.hot->engine().apply_site(std::move(site), std::move(memory), revision, monotonic_now());
     s.ports->site.set_site(state);
-    if (!options.config.http_bind.empty()) {
+    const auto has_users_to_sign_in = [&](const DoorDescriptor* door) { return door->shows_page && door->wanted(options.config); };
+    if (std::ranges::any_of(all_doors(), has_users_to_sign_in)) {
         if (const int code = s.open_access(); code != exit_good) return code;
     }
     s.begin_services();
@@ -631,7 +430,7 @@ static int serve(const ServeOptions& given, bool& hangs) {
         s.warm.run();
     s.warm.restart();
     s.take_down();
-    hangs = s.dds_hangs;
+    hangs = s.door_hangs;
     spdlog::info("stopped");
     return s.code;
 }

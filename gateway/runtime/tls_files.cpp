@@ -10,6 +10,7 @@
 #include <string>
 
 #include "gateway/doors/http/server.hpp"
+#include "gateway/runtime/door_http.hpp"
 #include "gateway/runtime/files.hpp"
 
 namespace axisgate {
@@ -39,11 +40,11 @@ std::vector<std::string> names_of_this_host(const Config& config) {
         if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
     };
     std::string ignored;
-    if (const auto bind = http::parse_bind(config.http_bind, ignored); bind && !bind->address().is_unspecified())
+    if (const auto bind = http::parse_bind(config.of<HttpSettings>().bind, ignored); bind && !bind->address().is_unspecified())
         add(bind->address().to_string());
     std::array<char, 256> host{};
     if (::gethostname(host.data(), host.size() - 1) == 0) add(host.data());
-    for (const auto& name : config.http_allowed_hosts)
+    for (const auto& name : config.of<HttpSettings>().allowed_hosts)
         add(name);
     return names;
 }
@@ -74,7 +75,8 @@ std::vector<ConfigFault> worded(const std::vector<http::TlsFault>& faults, const
     for (const auto& f : faults) {
         const bool in_key = f.in == http::TlsFault::In::key;
         all.push_back({in_key ? "http.tls_key" : "http.tls_cert",
-                       fmt::format("{}: {}", in_key ? config.http_tls_key : config.http_tls_cert, f.text), f.remedy});
+                       fmt::format("{}: {}", in_key ? config.of<HttpSettings>().tls_key : config.of<HttpSettings>().tls_cert, f.text),
+                       f.remedy});
     }
     return all;
 }
@@ -82,23 +84,24 @@ std::vector<ConfigFault> worded(const std::vector<http::TlsFault>& faults, const
 
 std::vector<ConfigFault> check_tls(const Config& config, std::int64_t now_unix_s) {
     std::vector<ConfigFault> faults;
-    if (config.http_tls_cert.empty() || config.http_tls_key.empty()) return faults;
-    const auto pem = read_pair(config.http_tls_cert, config.http_tls_key, faults);
+    if (config.of<HttpSettings>().tls_cert.empty() || config.of<HttpSettings>().tls_key.empty()) return faults;
+    const auto pem = read_pair(config.of<HttpSettings>().tls_cert, config.of<HttpSettings>().tls_key, faults);
     if (!pem) return faults;
     faults = worded(http::tls_faults(*pem, now_unix_s), config);
     std::string fault;
     if (faults.empty() && !http::make_identity(*pem, false, fault))
-        faults.push_back({"http.tls_cert", fmt::format("{}: {}", config.http_tls_cert, fault),
+        faults.push_back({"http.tls_cert", fmt::format("{}: {}", config.of<HttpSettings>().tls_cert, fault),
                           "the certificate, or one of its chain, is not accepted; make it anew"});
     return faults;
 }
 
 std::shared_ptr<http::TlsIdentity> open_tls(const Config& config, std::int64_t now_unix_s, std::vector<ConfigFault>& faults) {
-    const bool own = config.http_tls_self_signed;
-    if (!own && config.http_tls_cert.empty()) return nullptr;
+    const bool own = config.of<HttpSettings>().tls_self_signed;
+    if (!own && config.of<HttpSettings>().tls_cert.empty()) return nullptr;
     if (!own) faults = check_tls(config, now_unix_s);
     if (!faults.empty()) return nullptr;
-    const auto pem = own ? own_pair(config, now_unix_s, faults) : read_pair(config.http_tls_cert, config.http_tls_key, faults);
+    const auto pem = own ? own_pair(config, now_unix_s, faults)
+                         : read_pair(config.of<HttpSettings>().tls_cert, config.of<HttpSettings>().tls_key, faults);
     if (!pem) return nullptr;
     std::string fault;
     auto identity = http::make_identity(*pem, own, fault);

@@ -158,7 +158,7 @@ std::string WarmStatus::metrics() const {
     s += hot_metrics() + queue_metrics();
     const auto reports = threads_.hot.reports();
     head("axisgate_fail_safe_total", "counter", "Axes that were stopped because the client that commanded them was lost, by cause.");
-    for (const LossCause cause : loss_causes)
+    for (const LossCause cause : loss_causes())
         s += fmt::format("axisgate_fail_safe_total{{cause=\"{}\"}} {}\n", name_of(cause), reports->losses[static_cast<std::size_t>(cause)]);
     const auto& site = *site_.site();
     s += line_metrics(site, *reports);

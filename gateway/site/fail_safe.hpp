@@ -5,36 +5,55 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "gateway/core/instant.hpp"
 
 namespace axisgate {
 
-/// The reason why the commanding client of an axis counts as lost. The numbers are those of register 22 of the standard map.
+/// The reason why the commanding client of an axis counts as lost. The numbers are those of register 22 of the standard map. The causes
+/// here are those that the gateway itself detects for clients of every door; each door brings its own (DoorWords in
+/// gateway/site/ways_in.hpp).
 enum class LossCause : std::uint8_t {
     none = 0,
-    modbus_closed = 1,         ///< its last Modbus connection has ended: by itself, by the network, or closed by the gateway
-    modbus_silent = 2,         ///< connected, but no request for longer than the watchdog time
-    set_points_silent = 3,     ///< it streamed set-points (not over DDS), and the next one did not arrive in time
-    lease_ended = 4,           ///< it held the axis by a lease, and let it expire
-    enip_closed = 5,           ///< its EtherNet/IP connection was closed, by its scanner or by the gateway
-    enip_timed_out = 6,        ///< its EtherNet/IP connection received nothing for its time-out (interval x multiplier)
-    enip_idle = 7,             ///< its scanner has signalled program mode (the run/idle bit)
-    line_lost = 8,             ///< the drive could not be reached while it was commanded; the action follows when it answers again
-    gateway_ends = 9,          ///< the gateway itself is shutting down
-    dds_deadline = 10,         ///< it commands over DDS: its set-point missed its deadline, or it no longer has a writer (liveliness)
-    enip_session_closed = 11,  ///< it commanded by EtherNet/IP messages, and its last session has ended
-    enip_silent = 12,          ///< its EtherNet/IP session is open, but no message came for longer than the watchdog time
-    motion_unowned = 13        ///< the axis moves without an order from a client of this gateway
+    set_points_silent = 3,  ///< it streamed set-points, and the next one did not arrive in time or their connection has ended
+    lease_ended = 4,        ///< it held the axis by a lease, and let it expire
+    line_lost = 8,          ///< the drive could not be reached while it was commanded; the action follows when it answers again
+    gateway_ends = 9,       ///< the gateway itself is shutting down
+    motion_unowned = 13     ///< the axis moves without an order from a client of this gateway
 };
-inline constexpr std::array<LossCause, 13> loss_causes{
-    LossCause::modbus_closed, LossCause::modbus_silent,  LossCause::set_points_silent,   LossCause::lease_ended,
-    LossCause::enip_closed,   LossCause::enip_timed_out, LossCause::enip_idle,           LossCause::line_lost,
-    LossCause::gateway_ends,  LossCause::dds_deadline,   LossCause::enip_session_closed, LossCause::enip_silent,
-    LossCause::motion_unowned};
-/// The name of the enumerator, as in the site's document.
+inline constexpr std::size_t most_loss_causes = 64;  ///< their numbers are 1 to 63
+
+/// The texts of a cause.
+struct LossWords {
+    LossCause cause = LossCause::none;
+    std::string_view name;         ///< in the site's document, events and metrics
+    std::string_view description;  ///< the condition, for the table of choices
+    std::string_view text;         ///< of an event, after "CLIENT commanded the axis and"
+    std::string_view text_after;   ///< the same with {} for the time that has passed, in ms; empty: as `text`
+};
+
+/// The registered causes, in the order of their numbers.
+class LossCauses {
+public:
+    void add(LossCause cause) noexcept { list_[size_++] = cause; }
+    [[nodiscard]] const LossCause* begin() const noexcept { return list_.data(); }
+    [[nodiscard]] const LossCause* end() const noexcept { return list_.data() + size_; }
+    [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+private:
+    std::array<LossCause, most_loss_causes> list_{};
+    std::size_t size_ = 0;
+};
+[[nodiscard]] LossCauses loss_causes() noexcept;
+/// nullptr if the cause is not registered.
+[[nodiscard]] const LossWords* words_of(LossCause cause) noexcept;
+/// "none" for none, "unknown" for a cause that is not registered.
 [[nodiscard]] std::string_view name_of(LossCause cause) noexcept;
+/// Registers a cause of a door; the texts must live as long as the process. Registering the same cause again is not a fault.
+/// Returns an empty string, or the conflict with another cause.
+[[nodiscard]] std::string name_loss(const LossWords& words);
 
 enum class FailSafeAction : std::uint8_t { nothing, halt, quick_stop, disable };
 inline constexpr std::array<FailSafeAction, 4> fail_safe_actions{FailSafeAction::nothing, FailSafeAction::halt, FailSafeAction::quick_stop,
@@ -54,11 +73,11 @@ struct AtLoss {
 /// motion is stopped quickly, and so is a motion without an owner unless its drive reports that it ends at a target. A choice of the site
 /// applies to every motion, and `disable` also to an enabled axis at rest.
 struct FailSafe {
-    std::array<std::optional<FailSafeAction>, loss_causes.size()> chosen;
+    std::array<std::optional<FailSafeAction>, most_loss_causes> chosen;
     std::optional<std::int64_t> watchdog_ms;  ///< 0: silence is not monitored; absent: [modbus] watchdog_ms of the gateway, for every door
 
-    [[nodiscard]] std::optional<FailSafeAction>& of(LossCause cause) { return chosen.at(static_cast<std::size_t>(cause) - 1); }
-    [[nodiscard]] const std::optional<FailSafeAction>& of(LossCause cause) const { return chosen.at(static_cast<std::size_t>(cause) - 1); }
+    [[nodiscard]] std::optional<FailSafeAction>& of(LossCause cause) { return chosen.at(static_cast<std::size_t>(cause)); }
+    [[nodiscard]] const std::optional<FailSafeAction>& of(LossCause cause) const { return chosen.at(static_cast<std::size_t>(cause)); }
     /// The action for an axis in this state.
     [[nodiscard]] FailSafeAction action(LossCause cause, const AtLoss& axis) const;
     [[nodiscard]] Duration watchdog(Duration by_default) const noexcept;

@@ -46,7 +46,7 @@ private:
 struct RehearsalWish {
     std::string axis;  ///< of the site
     /// none: the gateway itself is gone without a word (its supply, a kill): what its drive does then.
-    LossCause cause = LossCause::modbus_closed;
+    LossCause cause = LossCause::none;
     bool restart = false;  ///< with none: another gateway is started while the axis may still move
     RehearsalSteps steps{};
     Duration watchdog = std::chrono::seconds(5);      ///< [modbus] watchdog_ms

@@ -165,7 +165,7 @@ json::object to_json(const AxisSpec& a) {
     if (a.authority_mode != AuthorityMode::free) o["authority_mode"] = name_of(a.authority_mode);
     if (a.stored_parameters != StoredParameters::ignore) o["stored_parameters"] = name_of(a.stored_parameters);
     json::object fail_safe;
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (const auto& action = a.fail_safe.of(cause)) fail_safe[name_of(cause)] = name_of(*action);
     }
     if (a.fail_safe.watchdog_ms) fail_safe["watchdog_ms"] = *a.fail_safe.watchdog_ms;

@@ -89,7 +89,7 @@ FailSafe read_fail_safe(const json::value* v, const std::string& pointer, std::v
     FailSafe s;
     if (!v) return s;
     DocumentFields f(*v, pointer, faults);
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         const auto* entry = f.get(name_of(cause));
         if (!entry) continue;
         if (entry->is_string()) s.of(cause) = fail_safe_action_of(std::string_view(entry->get_string()));

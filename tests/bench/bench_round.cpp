@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/doors/http/words.hpp"
 #include "gateway/engine/engine_parts.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/world/world.hpp"
@@ -104,7 +105,7 @@ struct Plant {
         c.ticket = make_ticket(first_service_door, ++sequence);
         c.axis = axis;
         c.body = std::move(body);
-        c.origin.door = Door::http;
+        c.origin.door = http::clients;
         engine.on_command(std::move(c), now);
     }
     /// As the hot thread does.

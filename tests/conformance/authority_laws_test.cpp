@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "gateway/axis/cia402.hpp"
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -11,8 +13,8 @@ using namespace std::chrono_literals;
 
 class AuthorityLaws : public Laws {
 protected:
-    const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
-    const Origin plc{Door::modbus, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
+    const Origin bert{http::clients, std::make_shared<const std::string>("bert"), {}};
+    const Origin plc{modbus::clients, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
     std::uint64_t tickets = 1;
 
     Ticket give(AxisId axis, CommandBody body, const Origin& by, bool until_done = false) {

@@ -1,6 +1,7 @@
 // Laws for every way of commanding an axis: limits, the profile that applies, loss of command. Control words are written as a PLC does.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -11,7 +12,7 @@ class CommandLaws : public Laws {
 protected:
     std::int64_t begin = 0;
     std::uint64_t next_ticket = 1;
-    const AuthorityClient plc{Door::modbus, "192.0.2.7"};
+    const AuthorityClient plc{modbus::clients, "192.0.2.7"};
 
     void begin_with(FailSafe fail_safe = {}) {
         world = fresh();
@@ -32,7 +33,7 @@ protected:
         c.ticket = make_ticket(1, next_ticket++);
         c.axis = a1;
         c.body = d;
-        c.origin.door = Door::modbus;
+        c.origin.door = modbus::clients;
         c.origin.who = std::make_shared<const std::string>("192.0.2.7:50000");
         const Ticket t = c.ticket;
         world->engine.on_command(std::move(c), world->now);
@@ -144,15 +145,15 @@ TEST_P(CommandLaws, AClientThatIsGoneDoesNotLeaveTheAxisTurning) {
     begin_with();
     enable(cia402::mode_profile_velocity);
     if (!turns(2000)) return;
-    world->engine.on_client_lost({Door::modbus, "192.0.2.8"}, LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost({modbus::clients, "192.0.2.8"}, modbus::loss_closed, world->now);
     world->run_for(500ms);
     ASSERT_TRUE(goes()) << "somebody else's end is nothing to this axis";
-    world->engine.on_client_lost(plc, LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(plc, modbus::loss_closed, world->now);
     ASSERT_TRUE(world->run_until_true([&] { return !goes(); }, 5s));
     EXPECT_EQ(events("fail_safe"), 1);
     EXPECT_EQ(now().fail_safe_cause, 1);
     EXPECT_NE(now().flags & flag_fail_safe, 0);
-    EXPECT_EQ(world->engine.losses(LossCause::modbus_closed), 1u);
+    EXPECT_EQ(world->engine.losses(modbus::loss_closed), 1u);
     EXPECT_EQ(power_state_of(now().statusword), PowerState::operation_enabled) << "halted, not switched off";
     world->run_for(300ms);  // the position of a standing axis is read once more
     const auto rest = now().position;
@@ -171,7 +172,7 @@ TEST_P(CommandLaws, WhoHasTakenOverIsNotStoppedForWhoCameBefore) {
     m.target = -2000;
     const Result* r = world->wait(world->command(a1, m), 5s);
     ASSERT_TRUE(r && good(*r)) << (r ? r->text : "none");
-    world->engine.on_client_lost(plc, LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(plc, modbus::loss_closed, world->now);
     world->run_for(2s);
     EXPECT_TRUE(goes());
     EXPECT_EQ(events("fail_safe"), 0);
@@ -181,7 +182,7 @@ TEST_P(CommandLaws, AMotionToATargetGoesOnUnlessTheSiteSaysOtherwise) {
     begin_with();
     enable(cia402::mode_profile_position);
     ASSERT_TRUE(good(set_point(begin + 4000)));
-    world->engine.on_client_lost(plc, LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(plc, modbus::loss_closed, world->now);
     world->run_for(8s);
     EXPECT_EQ(now().position, begin + 4000) << "a client may connect for each of its requests";
     EXPECT_EQ(events("fail_safe"), 0);
@@ -191,13 +192,13 @@ TEST_P(CommandLaws, WhatTheSiteNamesHoldsForEveryMotion) {
     for (const auto action : {FailSafeAction::halt, FailSafeAction::quick_stop, FailSafeAction::disable}) {
         SCOPED_TRACE(name_of(action));
         FailSafe f;
-        f.of(LossCause::modbus_closed) = action;
+        f.of(modbus::loss_closed) = action;
         begin_with(f);
         enable(cia402::mode_profile_position);
         ASSERT_TRUE(good(set_point(begin + 40000)));
         ASSERT_TRUE(world->run_until_true([&] { return goes(); }, 2s));
         world->run_for(500ms);
-        world->engine.on_client_lost(plc, LossCause::modbus_closed, world->now);
+        world->engine.on_client_lost(plc, modbus::loss_closed, world->now);
         ASSERT_TRUE(world->run_until_true([&] { return !goes(); }, 5s));
         world->run_for(1s);
         EXPECT_LT(now().position, begin + 30000);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "gateway/doors/enip/axis_values.hpp"
+#include "gateway/doors/enip/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/registers/register_image.hpp"
 #include "gateway/registers/writer.hpp"
 #include "tests/world/world.hpp"
@@ -52,11 +54,11 @@ struct WorldDoors final : DoorPort {
 /// Registers as Modbus clients write them.
 struct WriterDoor final : HotDoor {
     WriterDoor(DoorPort& port, registers::RegisterImage& image)
-        : writer(port, image, {Door::modbus, std::chrono::seconds(30), 4096, words}) {
+        : writer(port, image, {modbus::clients, std::chrono::seconds(30), 4096, words}) {
         writer.use_number(port.attach(*this));
     }
     static std::string words(registers::Verdict v) { return "exception " + std::to_string(static_cast<int>(v)); }
-    std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
+    std::span<const WayIn> ways_in() const override { return modbus::tcp_ways; }
     std::string_view name() const override { return "modbus"; }
     void on_result(const Result& r) override { writer.on_result(r); }
     registers::RegisterWriter writer;
@@ -68,7 +70,7 @@ struct EnipDoor final : HotDoor {
         values.use_number(port.attach(*this));
         values.use([this](cip::Token, cip::General g, cip::View, std::uint16_t) { published = g; });
     }
-    std::span<const WayIn> ways_in() const override { return enip_ways; }
+    std::span<const WayIn> ways_in() const override { return enip::ways_of_clients; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
     enip::AxisValues values;

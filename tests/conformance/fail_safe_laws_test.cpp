@@ -3,6 +3,7 @@
 // mechanics.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -12,7 +13,7 @@ using namespace std::chrono_literals;
 class FailSafeLaws : public Laws {
 protected:
     static constexpr Duration watchdog = 400ms, lease = 3s, bound = 6s;
-    const AuthorityClient plc{Door::modbus, "192.0.2.7"};
+    const AuthorityClient plc{modbus::clients, "192.0.2.7"};
     std::uint64_t next_ticket = 1;
 
     void begin_with(LossCause cause, std::optional<FailSafeAction> action) {
@@ -20,7 +21,7 @@ protected:
         const bool behind = cause == LossCause::line_lost;
         Site s = behind ? world->make_site(e, e.cable(), 1, "device") : world->twins(e);
         s.axes.at(0).fail_safe.of(cause) = action;
-        s.axes.at(0).fail_safe.watchdog_ms = cause == LossCause::modbus_silent ? 400 : 0;
+        s.axes.at(0).fail_safe.watchdog_ms = cause == modbus::loss_silent ? 400 : 0;
         if (cause == LossCause::lease_ended) s.axes.at(0).authority_mode = AuthorityMode::lease;
         world->engine.set_lease(lease);
         if (!behind) return start(std::move(s));
@@ -36,7 +37,7 @@ protected:
         c.ticket = make_ticket(1, next_ticket++);
         c.axis = a1;
         c.body = std::move(body);
-        c.origin.door = Door::modbus;
+        c.origin.door = modbus::clients;
         c.origin.who = std::make_shared<const std::string>("192.0.2.7:50000");
         const Ticket t = c.ticket;
         world->engine.on_command(std::move(c), world->now);
@@ -61,7 +62,7 @@ protected:
     /// Causes the loss; returns when the axis has been informed at the latest.
     void lose(LossCause cause) {
         switch (cause) {
-            case LossCause::modbus_silent:
+            case modbus::loss_silent:
                 world->received_at = world->now;
                 return world->run_for(watchdog + 100ms);
             case LossCause::lease_ended:
@@ -91,7 +92,7 @@ protected:
 };
 
 TEST_P(FailSafeLaws, WhatTheSiteNamesHappensForEachCause) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (cause == LossCause::set_points_silent) continue;  // StreamLaws: it needs a stream
         for (const FailSafeAction action : fail_safe_actions) {
             SCOPED_TRACE(std::string(name_of(cause)) + " " + std::string(name_of(action)));
@@ -121,7 +122,7 @@ TEST_P(FailSafeLaws, WhatTheSiteNamesHappensForEachCause) {
 }
 
 TEST_P(FailSafeLaws, WithoutAChoiceAMotionWithoutAnEndIsEnded) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (cause == LossCause::set_points_silent) continue;
         SCOPED_TRACE(name_of(cause));
         begin_with(cause, std::nullopt);
@@ -138,7 +139,7 @@ TEST_P(FailSafeLaws, WithoutAChoiceAMotionWithoutAnEndIsEnded) {
 }
 
 TEST_P(FailSafeLaws, WithoutAChoiceAMotionToATargetGoesOnUnlessTheGatewayEnds) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (cause == LossCause::set_points_silent) continue;
         SCOPED_TRACE(name_of(cause));
         begin_with(cause, std::nullopt);
@@ -151,7 +152,7 @@ TEST_P(FailSafeLaws, WithoutAChoiceAMotionToATargetGoesOnUnlessTheGatewayEnds) {
 }
 
 TEST_P(FailSafeLaws, AnEnabledAxisAtRestIsSwitchedOffWhereTheSiteSaysDisable) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (cause == LossCause::set_points_silent) continue;
         SCOPED_TRACE(name_of(cause));
         begin_with(cause, FailSafeAction::disable);

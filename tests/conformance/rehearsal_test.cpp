@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/doors/dds/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -46,12 +48,12 @@ protected:
     [[nodiscard]] bool streams() const { return e.catalogue->offers_mode(8) || e.catalogue->offers_mode(9); }
     /// Clients over HTTP or DDS write no registers, so they have no old image.
     [[nodiscard]] static bool has_image(LossCause cause) {
-        return cause != LossCause::lease_ended && cause != LossCause::set_points_silent && cause != LossCause::dds_deadline;
+        return cause != LossCause::lease_ended && cause != LossCause::set_points_silent && cause != dds::loss_deadline;
     }
 };
 
 TEST_P(Rehearsals, EachCellHasItsFigures) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         std::vector<std::optional<FailSafeAction>> choices{std::nullopt};
         choices.insert(choices.end(), fail_safe_actions.begin(), fail_safe_actions.end());
         for (const auto& choice : choices) {
@@ -65,7 +67,7 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
             EXPECT_GT(cell.speed, 0);
             EXPECT_GE(cell.travel, 0);
             const double wait_ms = cause == LossCause::lease_ended         ? 2000
-                                   : cause == LossCause::modbus_silent     ? 300
+                                   : cause == modbus::loss_silent          ? 300
                                    : cause == LossCause::line_lost         ? 2000
                                    : cause == LossCause::motion_unowned    ? 300
                                    : cause == LossCause::set_points_silent ? 500
@@ -94,8 +96,8 @@ TEST_P(Rehearsals, EachCellHasItsFigures) {
 /// From the doors' own descriptors: a new way is rehearsed here as soon as it is in the table.
 TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
     int rehearsed = 0;
-    for (const auto& door : ways_of_all_doors) {
-        for (const WayIn& way : door) {
+    for (const DoorWords* door : known_doors()) {
+        for (const WayIn& way : door->ways) {
             if (way.streams && !e.catalogue->offers_mode(8) && !e.catalogue->offers_mode(9)) continue;
             SCOPED_TRACE(way.name);
             ++rehearsed;
@@ -116,7 +118,7 @@ TEST_P(Rehearsals, WhatWasBegunByAnyWayInIsEndedByALossOfIt) {
 /// Requests of other clients and refused commands do not change whose loss ends the motion, and the repeated words of the lost client begin
 /// nothing.
 TEST_P(Rehearsals, NothingThatComesBetweenChangesWhoseLossEndsTheMotion) {
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         if (cause == LossCause::set_points_silent && !streams()) continue;
         for (const auto action : {FailSafeAction::halt, FailSafeAction::quick_stop, FailSafeAction::disable}) {
             SCOPED_TRACE(std::string(name_of(cause)) + " " + std::string(name_of(action)));
@@ -132,7 +134,7 @@ TEST_P(Rehearsals, NothingThatComesBetweenChangesWhoseLossEndsTheMotion) {
 }
 
 TEST_P(Rehearsals, AMotionToATargetThatGoesOnEndsThereAndNothingBeginsItAgain) {
-    const RehearsalCell cell = play(LossCause::modbus_closed, FailSafeAction::nothing, RehearsalSteps::all());
+    const RehearsalCell cell = play(modbus::loss_closed, FailSafeAction::nothing, RehearsalSteps::all());
     ASSERT_EQ(cell.fault, "");
     EXPECT_EQ(cell.motion, "position");
     EXPECT_FALSE(cell.noticed_ms);
@@ -186,7 +188,7 @@ TEST_P(Rehearsals, WhenTheGatewayIsGoneADriveWithAWatchdogStopsByItselfAndAnyOth
 }
 
 TEST_P(Rehearsals, TheSameSiteGivesTheSameFigures) {
-    const RehearsalCell a = play(LossCause::modbus_closed, FailSafeAction::halt), b = play(LossCause::modbus_closed, FailSafeAction::halt);
+    const RehearsalCell a = play(modbus::loss_closed, FailSafeAction::halt), b = play(modbus::loss_closed, FailSafeAction::halt);
     EXPECT_EQ(a.standstill_ms, b.standstill_ms);
     EXPECT_EQ(a.travel, b.travel);
     EXPECT_TRUE(a.standstill_ms);

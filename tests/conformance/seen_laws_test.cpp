@@ -2,6 +2,7 @@
 // written as a controller does, beside commands of people. Judged by the drive's mechanics.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -10,7 +11,7 @@ using namespace std::chrono_literals;
 
 class SeenLaws : public Laws {
 protected:
-    const Origin plc{Door::modbus, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
+    const Origin plc{modbus::clients, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
     std::uint64_t tickets = 1;
 
     void begin(FailSafe fail_safe = {}, std::optional<std::int64_t> limit = {}) {
@@ -196,7 +197,7 @@ TEST_P(SeenLaws, AHaltBitThatAControllerHasLeftIsNoDeadEnd) {
     begin();
     enable_by_words(cia402::mode_profile_position);
     ASSERT_TRUE(good(word(0x10F)));
-    world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(AuthorityClient::of(plc), modbus::loss_closed, world->now);
     world->run_for(2s);
     const Result* r = ask(a1, move_to(1000), false);
     ASSERT_TRUE(r);

@@ -2,6 +2,9 @@
 // its state says so and nothing moves.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/dds/words.hpp"
+#include "gateway/doors/enip/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
 namespace axisgate::test {
@@ -14,10 +17,10 @@ protected:
     static constexpr Duration cycle = 20ms, good_for = 200ms;
     std::int64_t begin = 0;
 
-    static Origin from(std::string who, Door door = Door::ethernet_ip) {
+    static Origin from(std::string who, Door door = enip::clients) {
         return {door, std::make_shared<const std::string>(std::move(who)), {}};
     }
-    const Origin plc = from("192.0.2.9:50000"), other = from("192.0.2.8:50000"), member = from("yard anna", Door::dds);
+    const Origin plc = from("192.0.2.9:50000"), other = from("192.0.2.8:50000"), member = from("yard anna", dds::clients);
 
     void begin_with(FailSafe fail_safe = {}, double room = 0) {
         world = fresh();
@@ -182,9 +185,9 @@ TEST_P(StreamLaws, AClientThatIsGoneEndsItsStream) {
     begin_with();
     if (does_not_follow(Mode::position)) return;
     stream(begin + 40000, Mode::position, 1s);
-    world->engine.on_client_lost(AuthorityClient::of(other), LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(AuthorityClient::of(other), modbus::loss_closed, world->now);
     EXPECT_TRUE(now().streaming) << "somebody else's end is nothing to this axis";
-    world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::modbus_closed, world->now);
+    world->engine.on_client_lost(AuthorityClient::of(plc), modbus::loss_closed, world->now);
     EXPECT_FALSE(now().streaming);
     ASSERT_TRUE(world->run_until_true([&] { return !moving(a1); }, 5s));
     EXPECT_LT(now().position, begin + 30000);
@@ -217,7 +220,7 @@ TEST_P(StreamLaws, AClosedFeedEndsItsStreamAtOnceAndNothingElse) {
 TEST_P(StreamLaws, OverDdsAStreamThatStopsHasMissedItsDeadline) {
     FailSafe f;
     f.of(LossCause::set_points_silent) = FailSafeAction::nothing;
-    f.of(LossCause::dds_deadline) = FailSafeAction::disable;
+    f.of(dds::loss_deadline) = FailSafeAction::disable;
     begin_with(f);
     if (does_not_follow(Mode::position)) return;
     stream(begin + 40000, Mode::position, 1s, &member);
@@ -226,8 +229,8 @@ TEST_P(StreamLaws, OverDdsAStreamThatStopsHasMissedItsDeadline) {
     ASSERT_TRUE(world->run_until_true([&] { return !now().streaming; }, good_for + 100ms));
     EXPECT_GE(world->now - last, good_for);
     EXPECT_LE(world->now - last, good_for + 50ms);
-    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::dds_deadline));
-    EXPECT_EQ(world->engine.losses(LossCause::dds_deadline), 1u);
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(dds::loss_deadline));
+    EXPECT_EQ(world->engine.losses(dds::loss_deadline), 1u);
     ASSERT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) < PowerState::operation_enabled; }, 5s));
 }
 
@@ -235,13 +238,13 @@ TEST_P(StreamLaws, OverDdsAFeedThatEndsMissesItsDeadlineAtOnceAndACommanderThatI
     begin_with();
     if (does_not_follow(Mode::position)) return;
     stream(begin + 40000, Mode::position, 500ms, &member);
-    world->engine.on_client_lost(AuthorityClient::of(member), LossCause::dds_deadline, world->now);
+    world->engine.on_client_lost(AuthorityClient::of(member), dds::loss_deadline, world->now);
     stream(begin + 40000, Mode::position, 300ms, &member);
     EXPECT_TRUE(now().streaming) << "its set-points are renewed, whichever of its writers is gone";
     EXPECT_EQ(events("fail_safe"), 0);
     world->engine.on_client_lost(AuthorityClient::of(member), LossCause::set_points_silent, world->now);
     EXPECT_FALSE(now().streaming) << "without waiting for good_for";
-    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::dds_deadline));
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(dds::loss_deadline));
     ASSERT_TRUE(world->run_until_true([&] { return !moving(a1); }, 5s));
 }
 
@@ -434,7 +437,7 @@ struct StreamAdapters : testing::Test {
         p.value = value;
         p.good_for = good_for;
         p.at = world->now;
-        p.origin = {Door::ethernet_ip, std::make_shared<const std::string>("192.0.2.9:50000"), {}};
+        p.origin = {enip::clients, std::make_shared<const std::string>("192.0.2.9:50000"), {}};
         return world->engine.on_set_point(p, world->now);
     }
     [[nodiscard]] std::ptrdiff_t events() const {

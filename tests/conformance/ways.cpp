@@ -7,6 +7,10 @@
 #include <numeric>
 
 #include "gateway/axis/cia402.hpp"
+#include "gateway/doors/dds/words.hpp"
+#include "gateway/doors/enip/words.hpp"
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "gateway/registers/words.hpp"
 #include "gateway/services/recipes/recipe_read.hpp"
@@ -112,11 +116,11 @@ bool enable_by(Bench& b, const Origin& by) {
 
 class RegisterWay : public Way, public registers::WriteOwner {
 public:
-    [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::modbus_closed, LossCause::modbus_silent}; }
+    [[nodiscard]] std::vector<LossCause> losses() const override { return {modbus::loss_closed, modbus::loss_silent}; }
     [[nodiscard]] const Origin& origin() const override { return plc_; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
-        if (cause == LossCause::modbus_silent) return;  // World::received_at does not advance
+        if (cause == modbus::loss_silent) return;  // World::received_at does not advance
         b.world.received_at.reset();
         b.world.engine.on_client_lost(AuthorityClient::of(plc_), cause, b.world.now);
     }
@@ -171,7 +175,7 @@ protected:
     /// Period of its words.
     [[nodiscard]] virtual Duration period() const { return 100ms; }
 
-    Origin plc_ = origin_of(Door::modbus, "192.0.2.7:50000");
+    Origin plc_ = origin_of(modbus::clients, "192.0.2.7:50000");
     std::pair<std::uint16_t, std::vector<std::uint16_t>> last_;
     std::string refused_;
     int waiting_ = 0;
@@ -235,7 +239,7 @@ private:
 /// A site's own map, written by a master on a serial line.
 class OwnMapWay final : public BlockWay {
 public:
-    OwnMapWay() { plc_ = origin_of(Door::modbus, "serial:/dev/ttyS1"); }
+    OwnMapWay() { plc_ = origin_of(modbus::clients, "serial:/dev/ttyS1"); }
     void fit(Site& site, const Subject&) const override {
         struct Row {
             AxisPoint point;
@@ -439,11 +443,11 @@ protected:
 /// Set_Attribute_Single to the output assembly, by a session.
 class EnipMessageWay final : public EnipWay {
 public:
-    EnipMessageWay() { plc_ = origin_of(Door::ethernet_ip, "192.0.2.7:50000"); }
-    [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::enip_session_closed, LossCause::enip_silent}; }
+    EnipMessageWay() { plc_ = origin_of(enip::clients, "192.0.2.7:50000"); }
+    [[nodiscard]] std::vector<LossCause> losses() const override { return {enip::loss_session_closed, enip::loss_silent}; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
-        if (cause == LossCause::enip_silent) return;  // World::received_at does not advance
+        if (cause == enip::loss_silent) return;  // World::received_at does not advance
         b.world.received_at.reset();
         b.enip->values.messages_ended(peer_);
     }
@@ -470,13 +474,11 @@ public:
         peer_.connection = 1;
         plc_ = enip::origin_of(output, peer_);
     }
-    [[nodiscard]] std::vector<LossCause> losses() const override {
-        return {LossCause::enip_closed, LossCause::enip_timed_out, LossCause::enip_idle};
-    }
+    [[nodiscard]] std::vector<LossCause> losses() const override { return {enip::loss_closed, enip::loss_timed_out, enip::loss_idle}; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
-        if (cause == LossCause::enip_idle) return b.enip->values.idle(output, peer_, b.world.now);
-        b.enip->values.ended(output, peer_, cause == LossCause::enip_closed ? cip::End::closed : cip::End::timed_out, b.world.now);
+        if (cause == enip::loss_idle) return b.enip->values.idle(output, peer_, b.world.now);
+        b.enip->values.ended(output, peer_, cause == enip::loss_closed ? cip::End::closed : cip::End::timed_out, b.world.now);
         opened_ = false;
     }
 
@@ -521,7 +523,7 @@ Move turning(std::int64_t speed) {
 /// A page that holds the axis by a lease and renews it while it is open.
 class HttpWay : public CommandWay {
 public:
-    HttpWay() { by_ = origin_of(Door::http, "anna"); }
+    HttpWay() { by_ = origin_of(http::clients, "anna"); }
     void fit(Site& site, const Subject&) const override { site.axes.at(0).authority_mode = AuthorityMode::lease; }
     [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::lease_ended}; }
     [[nodiscard]] bool prepare(Bench& b) override {
@@ -626,7 +628,7 @@ class ProgramWay final : public StatementWay {
 /// A run of a recipe, which waits for its motion and stops it when it is cancelled.
 class RecipeWay final : public HttpWay {
 public:
-    RecipeWay() { by_ = origin_of(Door::http, "recipe demo"); }
+    RecipeWay() { by_ = origin_of(http::clients, "recipe demo"); }
     [[nodiscard]] bool takes_speeds() const override { return false; }
     void fit(Site&, const Subject&) const override {}
     [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::none}; }
@@ -683,10 +685,10 @@ private:
 /// A peer on the data bus whose end the reader reports.
 class DdsWay final : public HttpWay {
 public:
-    DdsWay() { by_ = origin_of(Door::dds, "yard anna"); }
+    DdsWay() { by_ = origin_of(dds::clients, "yard anna"); }
     void fit(Site&, const Subject&) const override {}
     void cycle(Bench&) override {}
-    [[nodiscard]] std::vector<LossCause> losses() const override { return {LossCause::dds_deadline}; }
+    [[nodiscard]] std::vector<LossCause> losses() const override { return {dds::loss_deadline}; }
     void lose(Bench& b, LossCause cause) override {
         silent = true;
         b.world.engine.on_client_lost(AuthorityClient::of(by_), cause, b.world.now);
@@ -704,7 +706,7 @@ public:
                (cia402::older_mode_of(mode_) != cia402::mode_none && s.catalogue->offers_mode(cia402::older_mode_of(mode_)));
     }
     [[nodiscard]] std::vector<LossCause> losses() const override {
-        return {by_.door == Door::dds ? LossCause::dds_deadline : LossCause::set_points_silent};
+        return {by_.door == dds::clients ? dds::loss_deadline : LossCause::set_points_silent};
     }
     [[nodiscard]] bool prepare(Bench& b) override {
         running_ = false;
@@ -759,7 +761,7 @@ private:
 /// It moved before this gateway existed: another gateway had ordered it, and is gone.
 class FoundWay final : public HttpWay {
 public:
-    FoundWay() { by_ = origin_of(Door::http, "the gateway before"); }
+    FoundWay() { by_ = origin_of(http::clients, "the gateway before"); }
     void fit(Site&, const Subject&) const override {}
     [[nodiscard]] bool unowned() const override { return true; }
     void cycle(Bench&) override {}
@@ -793,9 +795,9 @@ const std::vector<WayKind>& ways_in() {
         {"native", "http_commands", made<NativeWay>},
         {"recipe", "recipes", made<RecipeWay>},
         {"dds", "dds_commands", made<DdsWay>},
-        {"stream_position", "http_set_points", made_stream<Mode::position, Door::http>},
-        {"stream_velocity", "dds_set_points", made_stream<Mode::velocity, Door::dds>},
-        {"stream_torque", "http_set_points", made_stream<Mode::torque, Door::http>},
+        {"stream_position", "http_set_points", made_stream<Mode::position, http::clients>},
+        {"stream_velocity", "dds_set_points", made_stream<Mode::velocity, dds::clients>},
+        {"stream_torque", "http_set_points", made_stream<Mode::torque, http::clients>},
         {"program", "", made<ProgramWay>},
         {"found", "", made<FoundWay>},
     };

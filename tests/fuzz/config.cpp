@@ -1,6 +1,9 @@
 // Fuzz target for the host's configuration: TOML file, environment, --set. Laws: faults have place, text and remedy; numbers are in their
 // ranges for any input.
 #include "gateway/runtime/config.hpp"
+#include "gateway/runtime/door_dds.hpp"
+#include "gateway/runtime/door_http.hpp"
+#include "gateway/runtime/door_modbus.hpp"
 
 #include "tests/fuzz/fuzz.hpp"
 
@@ -27,12 +30,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Config c = read_config(sources, faults);
     for (const auto& f : faults)
         fuzz::require(!f.place.empty() && !f.text.empty() && !f.remedy.empty(), "a fault has place, text and remedy");
-    fuzz::require(c.modbus_idle_timeout_s >= 1 && c.modbus_idle_timeout_s <= 86400, "idle_timeout_s is in its range");
-    fuzz::require(c.modbus_max_connections >= 1 && c.modbus_max_connections <= 8192, "max_connections is in its range");
-    fuzz::require(c.dds_domain >= 0 && c.dds_domain <= 232, "domain is in its range");
+    fuzz::require(c.of<ModbusSettings>().idle_timeout_s >= 1 && c.of<ModbusSettings>().idle_timeout_s <= 86400,
+                  "idle_timeout_s is in its range");
+    fuzz::require(c.of<ModbusSettings>().max_connections >= 1 && c.of<ModbusSettings>().max_connections <= 8192,
+                  "max_connections is in its range");
+    fuzz::require(c.of<DdsSettings>().domain >= 0 && c.of<DdsSettings>().domain <= 232, "domain is in its range");
     fuzz::require(c.spin_us >= 0 && c.spin_us <= 1000, "spin_us is in its range");
     fuzz::require(c.trace_frames >= 64 && c.trace_frames <= 1'000'000, "trace_frames is in its range");
-    fuzz::require(c.http_bind.empty() || parse_host_port(c.http_bind), "http.bind is an address");
-    fuzz::require(c.modbus_bind.empty() || parse_host_port(c.modbus_bind), "modbus.bind is an address");
+    fuzz::require(c.of<HttpSettings>().bind.empty() || parse_host_port(c.of<HttpSettings>().bind), "http.bind is an address");
+    fuzz::require(c.of<ModbusSettings>().bind.empty() || parse_host_port(c.of<ModbusSettings>().bind), "modbus.bind is an address");
     return 0;
 }

@@ -5,6 +5,8 @@
 #include <random>
 #include <set>
 
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/world/witness.hpp"
 
 namespace axisgate::test {
@@ -266,7 +268,7 @@ private:
         c.ticket = g.ticket = make_ticket(g.client ? DoorNumber{1} : first_service_door, world_->next_ticket++);
         c.axis = m.axis;
         c.until_done = pick(2) == 0 && !std::holds_alternative<Move>(body);
-        c.origin = {g.client ? Door::modbus : Door::http, g.client ? plc : anna, g.client ? plc : anna};
+        c.origin = {g.client ? modbus::clients : http::clients, g.client ? plc : anna, g.client ? plc : anna};
         c.body = std::move(body);
         world_->engine.on_command(std::move(c), world_->now);
         given_.push_back(g);

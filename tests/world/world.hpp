@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/wire/fault_line.hpp"
 #include "gateway/wire/twin_bus.hpp"
@@ -223,7 +224,7 @@ public:
         c.axis = axis;
         c.body = std::move(body);
         c.until_done = until_done;
-        c.origin.door = Door::http;
+        c.origin.door = http::clients;
         const Ticket t = c.ticket;
         engine.on_command(std::move(c), now);
         settle_store();

@@ -12,6 +12,7 @@
 #include "gateway/core/parameter_form.hpp"
 #include "gateway/core/plain_text.hpp"
 #include "gateway/doors/dds/axis_sample.hpp"
+#include "gateway/doors/dds/words.hpp"
 
 namespace axisgate::dds {
 namespace {
@@ -348,14 +349,14 @@ std::string DdsDoor::whereabouts(const Bus::Writer& writer) {
 }
 
 Origin DdsDoor::origin_of(const std::string& source, const Bus::Writer& writer) {
-    Origin o{Door::dds, nullptr, std::make_shared<const std::string>(name_for(source))};
+    Origin o{clients, nullptr, std::make_shared<const std::string>(name_for(source))};
     const std::string where = whereabouts(writer);
     o.who = where.empty() ? o.client : std::make_shared<const std::string>(fmt::format("{} ({})", *o.client, where));
     return o;
 }
 
 AuthorityClient DdsDoor::client_of(const std::string& source) {
-    return AuthorityClient::of({Door::dds, nullptr, std::make_shared<const std::string>(name_for(source))});
+    return AuthorityClient::of({clients, nullptr, std::make_shared<const std::string>(name_for(source))});
 }
 
 bool DdsDoor::to_be_done(const Asked& a) {
@@ -461,7 +462,7 @@ void DdsDoor::look_for_gone() {
 
 void DdsDoor::on_gone(const Bus::Writer& writer) {
     for (const auto& source : commanders_.gone(writer))
-        ports_.get<AxisPort>().client_lost(client_of(source), LossCause::dds_deadline);
+        ports_.get<AxisPort>().client_lost(client_of(source), loss_deadline);
 }
 
 void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody body, bool until_done) {
@@ -512,7 +513,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
         e.severity = Severity::warning;
         e.axis = one_line(asked.axis);
         e.who = *origin_of(asked.source, asked.writer).who;
-        e.door = std::string(axisgate::name_of(Door::dds));
+        e.door = std::string(axisgate::name_of(clients));
         e.text = fmt::format("{} ({})", one_line(r.text), axisgate::name_of(r.reason));
         const std::string where = whereabouts(asked.writer);
         const std::string host = where.empty() ? e.who : where;

@@ -21,6 +21,7 @@
 #include "gateway/doors/dds/commands_seen.hpp"
 #include "gateway/doors/dds/fleet.hpp"
 #include "gateway/doors/dds/mirror_end.hpp"
+#include "gateway/doors/dds/words.hpp"
 #include "gateway/services/axis_place.hpp"
 #include "gateway/services/door.hpp"
 #include "gateway/services/ports.hpp"
@@ -50,7 +51,7 @@ public:
     DdsDoor(const DdsDoor&) = delete;
     DdsDoor& operator=(const DdsDoor&) = delete;
 
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return dds_ways; }
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return ways_of_clients; }
     [[nodiscard]] std::string_view name() const override { return "dds"; }
     [[nodiscard]] std::string start() override;
     /// NAME@PARTITION:DOMAIN%INTERFACE: "hall-1@plant:0%lo".

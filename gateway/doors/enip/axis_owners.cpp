@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gateway/doors/enip/axis_values.hpp"
+#include "gateway/doors/enip/words.hpp"
 
 namespace axisgate::enip {
 
@@ -30,7 +31,7 @@ void AxisValues::opened(std::uint32_t output, const cip::Peer& who, Duration tim
     }
     Event e;
     e.kind = "ethernet_ip";
-    e.door = std::string(name_of(Door::ethernet_ip));
+    e.door = std::string(name_of(clients));
     e.who = *owner.origin.who;
     e.text = fmt::format("connection opened: {} ({})", layout_.name_of(output), output);
     port_.note(std::move(e), no_axis);
@@ -83,15 +84,15 @@ void AxisValues::lose(std::uint32_t output, LossCause cause) {
     if (std::exchange(it->second.runs, false)) leases_.let_go(it->second.origin, it->second.held);
 }
 
-void AxisValues::idle(std::uint32_t output, const cip::Peer&, Instant) { lose(output, LossCause::enip_idle); }
+void AxisValues::idle(std::uint32_t output, const cip::Peer&, Instant) { lose(output, loss_idle); }
 
 void AxisValues::ended(std::uint32_t output, const cip::Peer& who, cip::End why, Instant) {
-    lose(output, why == cip::End::timed_out ? LossCause::enip_timed_out : LossCause::enip_closed);
+    lose(output, why == cip::End::timed_out ? loss_timed_out : loss_closed);
     owners_.erase(output);
     Event e;
     e.severity = why == cip::End::closed ? Severity::info : Severity::warning;
     e.kind = "ethernet_ip";
-    e.door = std::string(name_of(Door::ethernet_ip));
+    e.door = std::string(name_of(clients));
     e.who = text_of(who.from);
     e.text =
         fmt::format("connection {}: {} ({})",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "gateway/doors/enip/words.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "gateway/registers/words.hpp"
 
@@ -51,7 +52,7 @@ std::string text_of(cip::Endpoint e) { return fmt::format("{}:{}", address_text(
 
 Origin origin_of(std::uint32_t output, const cip::Peer& who) {
     Origin o;
-    o.door = Door::ethernet_ip;
+    o.door = clients;
     o.who = std::make_shared<const std::string>(text_of(who.from));
     // Each output is a client of its own, so that the end of one is no loss for the axes of another.
     o.client = std::make_shared<const std::string>(fmt::format("{} assembly {}", address_text(who.from.address), output));
@@ -91,7 +92,7 @@ General general_of(Reason reason) noexcept {
 AxisValues::AxisValues(DoorPort& port, registers::RegisterImage& image, std::int64_t lease_s)
     : port_(port),
       image_(image),
-      writer_(port, image, {.door = Door::ethernet_ip, .answer = [](registers::Verdict) { return std::string(); }}),
+      writer_(port, image, {.door = clients, .answer = [](registers::Verdict) { return std::string(); }}),
       leases_(port, lease_s),
       lost_(port, [this](const AuthorityClient& who) {
           return clients_.knows(who) ||
@@ -183,7 +184,7 @@ bool AxisValues::held_by_another(std::uint32_t output, const cip::Peer& who, Ins
         if (id == no_axis) return;
         const AxisPicture& p = port_.image().picture(id);
         const bool somebody = p.authority_until > now && p.authority_holder[0] != 0;
-        held = held || (somebody && !(p.authority == Door::ethernet_ip && me.name == p.authority_holder.data()));
+        held = held || (somebody && !(p.authority == clients && me.name == p.authority_holder.data()));
     });
     return held;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gateway/doors/enip/axis_values.hpp"
+#include "gateway/doors/enip/words.hpp"
 
 namespace axisgate::enip {
 namespace {
@@ -30,7 +31,7 @@ Origin AxisValues::origin_for(AxisId axis, const cip::Peer& who) const {
             return owner.origin;
     }
     Origin o;
-    o.door = Door::ethernet_ip;
+    o.door = clients;
     o.who = std::make_shared<const std::string>(text_of(who.from));
     return o;
 }
@@ -92,7 +93,7 @@ bool AxisValues::MessageWrite::answered(const Result& result) {
 
 void AxisValues::messages_ended(const cip::Peer& way) {
     for (const auto& who : clients_.ended(way))
-        lost_.lost(who, LossCause::enip_session_closed);
+        lost_.lost(who, loss_session_closed);
 }
 
 }  // namespace axisgate::enip

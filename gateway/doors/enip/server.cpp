@@ -28,6 +28,7 @@
 #include "gateway/doors/enip/counters.hpp"
 #include "gateway/doors/enip/host_facts.hpp"
 #include "gateway/doors/enip/tcp_session.hpp"
+#include "gateway/doors/enip/words.hpp"
 #include "gateway/lines/poller.hpp"
 #include "gateway/lines/spare_descriptor.hpp"
 #include "gateway/site/site_state.hpp"
@@ -93,7 +94,7 @@ public:
     ~Impl() override { port_.detach(*this); }
 
     // --- HotDoor
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return enip_ways; }
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return ways_of_clients; }
     [[nodiscard]] std::string_view name() const override { return "enip"; }
     [[nodiscard]] std::vector<std::string> addresses() const override {
         return open_ ? std::vector<std::string>{fmt::format("{}:{}", address_text(bound_), facts_.port)} : std::vector<std::string>{};
@@ -259,7 +260,7 @@ void Server::Impl::close() {
 
 std::optional<Instant> Server::Impl::last_received(const AuthorityClient& client) const {
     std::optional<Instant> newest;
-    if (client.door != Door::ethernet_ip) return newest;
+    if (client.door != clients) return newest;
     for (const cip::SessionKey key : values_.message_clients().sessions_of(client)) {
         if (const auto at = adapter_.last_received(key)) newest = std::max(newest.value_or(*at), *at);
     }
@@ -323,7 +324,7 @@ std::vector<std::uint64_t> Server::Impl::closed_by(const SiteState& wanted) cons
 void Server::Impl::written(const cip::Values::OwnPlace& place, const cip::Peer& who, Instant now) {
     Event e;
     e.kind = "ethernet_ip";
-    e.door = std::string(name_of(Door::ethernet_ip));
+    e.door = std::string(name_of(clients));
     e.who = text_of(who.from);
     e.text = place.attribute == 0
                  ? fmt::format("class {:02X}h instance {} was written as a whole, or reset", place.class_id, place.instance)

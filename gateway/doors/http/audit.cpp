@@ -1,5 +1,6 @@
 // The texts of events about requests. Bodies are not read.
 #include "gateway/doors/http/audit.hpp"
+#include "gateway/doors/http/words.hpp"
 
 #include <fmt/core.h>
 
@@ -15,7 +16,7 @@ Event event_of(const Audit::Asked& asked, std::string_view kind, Severity severi
     e.severity = severity;
     e.text = std::move(text);
     e.who = asked.who;
-    e.door = std::string(name_of(Door::http));
+    e.door = std::string(name_of(clients));
     return e;
 }
 }  // namespace

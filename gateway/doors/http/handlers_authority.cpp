@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/access/authority_view.hpp"
 
 namespace axisgate::http {
@@ -42,7 +43,7 @@ void check_members(const json::object& body, std::initializer_list<std::string_v
 Origin Call::origin() const { return origin_of(request, identity, who()); }
 
 Origin origin_of(const Request& request, const Identity& identity, std::string who) {
-    Origin o{Door::http, std::make_shared<const std::string>(std::move(who)), {}};
+    Origin o{clients, std::make_shared<const std::string>(std::move(who)), {}};
     // A signed-in user is one client from every address, and each of the user's tokens is another one. Without a name, several connections
     // of one page are one client: the host, and the name that the client gives itself.
     std::string name = identity.user.empty() ? request.peer.substr(0, request.peer.rfind(':')) : identity.user;

@@ -3,6 +3,7 @@
 
 #include "gateway/doors/http/handlers.hpp"
 #include "gateway/doors/http/text.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/documents.hpp"
 
 namespace axisgate::http {
@@ -33,7 +34,7 @@ Handled get_backup(Call& c, BackupPort& backups, EventPort& events) {
         e.text = fmt::format("a backup was handed out: the whole database, {} bytes, with users, tokens and all that was stored, {}", bytes,
                              sealed ? "and private keys, sealed with a passphrase" : "in the open");
         e.who = who;
-        e.door = std::string(axisgate::name_of(Door::http));
+        e.door = std::string(axisgate::name_of(clients));
         events.note(std::move(e));
     };
     backups.backup(*passphrase, [respond = c.respond, note_sent = std::move(note_sent), sealed = !passphrase->empty()](

@@ -6,6 +6,7 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/recorder/capture_order.hpp"
 
 namespace axisgate::http {
@@ -48,7 +49,7 @@ Handled arm_capture(Call& c, CapturePort& captures, EventPort& events, const Sit
     e.text = fmt::format("capture {} of {} is armed", name, order.axes.front().name);
     e.axis = order.axes.front().name;
     e.who = c.who();
-    e.door = std::string(axisgate::name_of(Door::http));
+    e.door = std::string(axisgate::name_of(clients));
     captures.arm(std::move(order), [name, e, &events, respond = c.respond](const RecordingFault& fault, const CaptureInfo& info) {
         if (fault.kind != RecordingFault::Kind::none) return respond(kept_refusal("capture", fault, name));
         events.note(e);

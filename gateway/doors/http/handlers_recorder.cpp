@@ -8,6 +8,7 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/doors/http/handlers.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/recipes/recipe_record.hpp"
 #include "gateway/services/recorder/axr.hpp"
 #include "gateway/services/recorder/recording_document.hpp"
@@ -160,7 +161,7 @@ Handled make_recording(Call& c, EventPort& events, RecorderPort& recorder) {
                         e.kind = "recording";
                         e.text = fmt::format("recording {} was made, {} bytes", name, info.bytes);
                         e.who = who;
-                        e.door = std::string(axisgate::name_of(Door::http));
+                        e.door = std::string(axisgate::name_of(clients));
                         events.note(std::move(e));
                         Response r = json_response(recording_document(info), 201);
                         r.headers.set("Location", "/api/v1/recorder/recordings/" + percent_encode(name));

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "gateway/doors/http/accounts.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/access/secrets.hpp"
 
 namespace axisgate::http {
@@ -48,11 +49,11 @@ Handled sign_in(Call& c, const ClockPort& clock) {
                        &clock](bool fits) {
                           const auto session = port->accounts().end_sign_in(name, hash, fits, peer, clock.now_unix_ns());
                           if (!session) {
-                              note_access(*port, Door::http, peer, fmt::format("sign-in refused: {}", shown_name(name)), Severity::warning);
+                              note_access(*port, clients, peer, fmt::format("sign-in refused: {}", shown_name(name)), Severity::warning);
                               return respond(problem(401, "wrong_sign_in", "the user or the password is wrong"));
                           }
                           if (!old.empty()) port->accounts().sign_out(old);  // another cookie replaces the old one
-                          note_access(*port, Door::http, who(session->identity, peer), fmt::format("{} signed in", name));
+                          note_access(*port, clients, who(session->identity, peer), fmt::format("{} signed in", name));
                           keep_uses(port);
                           respond(signed_in(*port, *session, secure));
                       });
@@ -65,7 +66,7 @@ Handled sign_out(Call& c) {
     r.status = 204;
     if (const auto port = c.context.access; port && c.identity.via == Identity::Via::cookie) {
         port->accounts().sign_out(c.identity.session);
-        note_access(*port, Door::http, c.who(), fmt::format("{} signed out", c.identity.user));
+        note_access(*port, clients, c.who(), fmt::format("{} signed out", c.identity.user));
         r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
     } else if (c.identity.session_ended) {
         r.headers.set("Set-Cookie", set_cookie(*c.context.access, "", c.request.secure, true));
@@ -92,7 +93,7 @@ Handled first_sign_in(Call& c, const ClockPort& clock) {
     const auto answer = port->accounts().try_code(*code, peer, clock.now_unix_ns());
     if (answer.pause_s > 0) return paused(answer.pause_s);
     if (!answer.right) {
-        note_access(*port, Door::http, peer, "first sign-in refused: the code is wrong", Severity::warning);
+        note_access(*port, clients, peer, "first sign-in refused: the code is wrong", Severity::warning);
         return problem(401, "wrong_sign_in", "the code is wrong: it was printed when the gateway started for the first time");
     }
     if (!body.good()) return body.refusal();
@@ -116,7 +117,7 @@ Handled first_sign_in(Call& c, const ClockPort& clock) {
                                    port->accounts().code_used();
                                    const auto session = port->accounts().end_sign_in(name, u.hash, true, peer, clock.now_unix_ns());
                                    keep_uses(port);
-                                   note_access(*port, Door::http, session ? who(session->identity, peer) : peer,
+                                   note_access(*port, clients, session ? who(session->identity, peer) : peer,
                                                fmt::format("first sign-in: {} is administrator", name));
                                    respond(session ? signed_in(*port, *session, secure)
                                                    : problem(500, "internal", "the user was made, but not signed in"));

@@ -12,6 +12,7 @@
 
 #include "gateway/doors/http/counters.hpp"
 #include "gateway/doors/http/settings.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/door.hpp"
 #include "gateway/services/ports.hpp"
 #include "gateway/services/services.hpp"
@@ -25,7 +26,7 @@ public:
     /// The owners of the ports, and the services, outlive the server. Without users among the services this machine alone is let in.
     Server(boost::asio::io_context& context, const Ports& ports, Services& services, Settings settings, AssetLookup asset);
     ~Server() override;
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return http_ways; }
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return ways_of_clients; }
     [[nodiscard]] std::string_view name() const override { return secure() ? "https" : "http"; }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

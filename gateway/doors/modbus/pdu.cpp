@@ -1,6 +1,7 @@
 // A read is answered at once; a write leaves a LateAnswer and one ticket per command. Faults of address and state are reported before
 // "busy", so that a fault always has the same answer. A write is never carried out in part.
 #include "gateway/doors/modbus/pdu.hpp"
+#include "gateway/doors/modbus/words.hpp"
 
 #include <fmt/core.h>
 
@@ -52,7 +53,7 @@ Responder::Responder(DoorPort& port, registers::RegisterImage& image, Settings s
       image_(image),
       settings_(std::move(settings)),
       identity_(Identity::gateway(settings_.version, image.word_order())),
-      writer_(port, image, {Door::modbus, settings_.result_timeout, settings_.max_commands, [](Verdict v) {
+      writer_(port, image, {clients, settings_.result_timeout, settings_.max_commands, [](Verdict v) {
                                 return fmt::format("exception {}", static_cast<int>(v));
                             }}) {}
 

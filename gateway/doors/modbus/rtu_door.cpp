@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "gateway/core/event.hpp"
+#include "gateway/doors/modbus/words.hpp"
 
 namespace axisgate::modbus {
 namespace {
@@ -59,7 +60,7 @@ public:
           silence_(io),
           sweep_(io) {
         Origin origin;
-        origin.door = Door::modbus;
+        origin.door = clients;
         origin.who = std::make_shared<const std::string>(settings_.port);
         client_ = AuthorityClient::of(origin);
         responder_.writer().use_number(port_.attach(*this));
@@ -76,7 +77,7 @@ public:
     }
 
     // --- HotDoor
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return modbus_rtu_ways; }
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return rtu_ways; }
     [[nodiscard]] std::string_view name() const override { return "modbus_rtu"; }
     [[nodiscard]] std::vector<std::string> addresses() const override { return {settings_.text}; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }
@@ -106,7 +107,7 @@ public:
         // The master cannot stop any more what it has set in motion.
         if (!up && session_.has_commanded()) {
             session_.forget_commands();
-            port_.client_lost(client_, LossCause::modbus_closed);
+            port_.client_lost(client_, loss_closed);
         }
     }
 

@@ -20,6 +20,7 @@
 #include "gateway/core/places.hpp"
 #include "gateway/doors/modbus/connection.hpp"
 #include "gateway/doors/modbus/endpoint.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/lines/spare_descriptor.hpp"
 
 namespace axisgate::modbus {
@@ -77,11 +78,11 @@ public:
     ~Impl() override { port_.detach(*this); }
 
     // --- HotDoor
-    [[nodiscard]] std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
+    [[nodiscard]] std::span<const WayIn> ways_in() const override { return tcp_ways; }
     [[nodiscard]] std::string_view name() const override { return "modbus"; }
     void on_result(const Result& result) override { responder_.writer().on_result(result); }
     [[nodiscard]] std::optional<Instant> last_received(const AuthorityClient& client) const override {
-        return client.door == Door::modbus ? received(client.name) : std::nullopt;
+        return client.door == clients ? received(client.name) : std::nullopt;
     }
     [[nodiscard]] std::vector<DoorConnection> connections() const override {
         std::vector<DoorConnection> list;
@@ -188,7 +189,7 @@ public:
         times_[i] = {};
         free_.push_back(i);
         counters().connections_open.remove();
-        if (!closing_ && !received(host)) port_.client_lost({Door::modbus, host}, LossCause::modbus_closed);
+        if (!closing_ && !received(host)) port_.client_lost({clients, host}, loss_closed);
     }
 
 private:
@@ -317,7 +318,7 @@ private:
         times_[i] = {port_.now(), never};
         places_[i].since = port_.now();
         Origin origin;
-        origin.door = Door::modbus;
+        origin.door = clients;
         origin.who = std::make_shared<const std::string>(to_text(from));
         places_[i].host = AuthorityClient::of(origin).name;
         places_[i].holder = holder;

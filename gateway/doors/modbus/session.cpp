@@ -1,6 +1,7 @@
 // Answers are sent in the order of the requests. Writes may be outstanding together, so that a slow write does not delay a stop behind it;
 // a read waits for the writes before it.
 #include "gateway/doors/modbus/session.hpp"
+#include "gateway/doors/modbus/words.hpp"
 
 #include <algorithm>
 
@@ -105,7 +106,7 @@ bool Session::commands_now(const Image& image) const {
         if (id == no_axis) continue;
         const AxisPicture& p = image.picture(id);
         // Its lease may have ended while the axis still moves by its command.
-        const bool by_modbus = p.authority == Door::modbus || std::string_view(p.authority_commander.data()).starts_with("modbus ");
+        const bool by_modbus = p.authority == clients || std::string_view(p.authority_commander.data()).starts_with("modbus ");
         if ((p.flags & flag_moving) != 0 && by_modbus) return true;
     }
     return false;

@@ -9,6 +9,7 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/services/documents.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 namespace json = boost::json;
@@ -70,15 +71,15 @@ void end_leases_of(AxisPort& axes, const SitePort& sites, std::string_view clien
     for (const AxisId id : sites.site()->axis_ids) {
         const AxisPicture p = axes.picture(id);
         const std::string holder = p.authority_holder.data();
-        if (p.authority != Door::http || (holder != client && !holder.starts_with(prefix))) continue;
+        if (!has_users(p.authority) || (holder != client && !holder.starts_with(prefix))) continue;
         Command command;
         command.axis = id;
-        command.origin = {Door::http, std::make_shared<const std::string>(by), std::make_shared<const std::string>(holder)};
+        command.origin = {p.authority, std::make_shared<const std::string>(by), std::make_shared<const std::string>(holder)};
         HoldAxis wish;
         wish.kind = HoldAxis::Kind::release;
         command.body = wish;
         (void)axes.submit(std::move(command), [](const Result&) {});
-        axes.client_lost({Door::http, holder}, LossCause::lease_ended);
+        axes.client_lost({p.authority, holder}, LossCause::lease_ended);
     }
 }
 

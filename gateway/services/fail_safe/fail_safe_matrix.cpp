@@ -25,43 +25,9 @@ ByDefault by_default(LossCause cause) {
             none.action(cause, {.endless = false, .moving = true, .powered = true})};
 }
 
-std::string_view described(LossCause cause) {
-    switch (cause) {
-        case LossCause::modbus_closed:
-            return "the last Modbus connection of who commands the axis has ended";
-        case LossCause::modbus_silent:
-            return "who commands it is connected over Modbus, and has asked nothing for longer than watchdog_ms";
-        case LossCause::set_points_silent:
-            return "the set-points that it follows (other than over DDS) are not renewed in time, or their connection has ended";
-        case LossCause::lease_ended:
-            return "who commands it held it by a lease, and the lease has expired or was taken back with the right to command";
-        case LossCause::enip_closed:
-            return "the EtherNet/IP connection of who commands it was closed";
-        case LossCause::enip_timed_out:
-            return "the EtherNet/IP connection of who commands it has timed out (interval x multiplier)";
-        case LossCause::enip_idle:
-            return "the EtherNet/IP scanner of who commands it says that it is idle (program mode)";
-        case LossCause::line_lost:
-            return "the drive could not be reached while it was commanded; done as soon as it answers again";
-        case LossCause::gateway_ends:
-            return "the gateway is told to end";
-        case LossCause::dds_deadline:
-            return "who commands it does so over DDS, and its set-points have missed their deadline or nobody writes for it any more";
-        case LossCause::enip_session_closed:
-            return "who commands it does so by EtherNet/IP messages, and its last session has ended";
-        case LossCause::enip_silent:
-            return "who commands it does so by EtherNet/IP messages, and has sent none for longer than watchdog_ms";
-        case LossCause::motion_unowned:
-            return "it moves and no client of this gateway has ordered it: found at the start, or begun at the drive";
-        case LossCause::none:
-            break;
-    }
-    return "";
-}
-
 json::object choice_of(const FailSafe& chosen) {
     json::object o;
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         const auto& action = chosen.of(cause);
         o[name_of(cause)] = action ? json::value(name_of(*action)) : json::value(nullptr);
     }
@@ -160,11 +126,11 @@ RehearsalSteps steps_in(const json::value& v, std::vector<Fault>& faults) {
 
 json::array loss_causes_document() {
     json::array causes;
-    for (const LossCause cause : loss_causes) {
+    for (const LossCause cause : loss_causes()) {
         const auto [endless, to_a_target] = by_default(cause);
         causes.push_back(json::object{{"cause", name_of(cause)},
                                       {"number", static_cast<int>(cause)},
-                                      {"description", described(cause)},
+                                      {"description", words_of(cause)->description},
                                       {"default_endless", name_of(endless)},
                                       {"default_to_a_target", name_of(to_a_target)}});
     }

@@ -88,7 +88,7 @@ std::string Rehearsals::start(std::vector<std::string> axes, RehearsalSteps step
         RehearsalWish wish;
         wish.axis = name;
         wish.steps = steps;
-        for (const LossCause cause : loss_causes) {
+        for (const LossCause cause : loss_causes()) {
             wish.cause = cause;
             if (of_streams_alone(cause) && !streams(*run.site, name)) {
                 run.left_out.push_back(name);

@@ -11,6 +11,7 @@
 #include "gateway/registers/register_map.hpp"
 #include "gateway/services/documents.hpp"
 #include "gateway/services/recipes/recipe.hpp"
+#include "gateway/site/ways_in.hpp"
 
 namespace axisgate {
 namespace {
@@ -34,10 +35,10 @@ double length_s(Duration d) { return std::chrono::duration<double>(d).count(); }
 double tenths(Duration d) { return std::round(length_s(d) * 10) / 10; }
 json::object wait_step(Duration d) { return {{"wait_s", number_or_count(tenths(std::min(d, RecipeRecord::longest_pause)))}}; }
 /// "modbus 192.0.2.7" for commands that came neither from the page nor from the API; otherwise empty.
-std::string comment_of(const Origin& o) { return o.door == Door::http ? std::string() : o.text(); }
+std::string comment_of(const Origin& o) { return has_users(o.door) ? std::string() : o.text(); }
 /// Steps of a recipe carry its name; actions of the gateway itself have no client.
 bool by_hand(const Origin& o) {
-    if (o.door == Door::none || o.door == Door::internal) return false;
+    if (!has_clients(o.door)) return false;
     return !o.who || !(o.who->starts_with("recipe ") && o.who->find(" by ") != std::string::npos);
 }
 }  // namespace

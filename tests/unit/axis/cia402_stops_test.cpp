@@ -2,6 +2,7 @@
 // controllers, also to a drive that does not answer.
 #include <algorithm>
 
+#include "gateway/doors/http/words.hpp"
 #include "tests/unit/axis/cia402_bench.hpp"
 
 namespace axisgate {
@@ -198,7 +199,7 @@ TEST(Cia402Handshake, TheEndOfAHaltDoesNotGoOnToAPlaceByTheOldCount) {
 /// A controller writes its speed in every cycle. This does not undo the action of another client; only another speed does.
 TEST(Cia402Stops, ASpeedThatIsRepeatedDoesNotUndoWhatSomebodyElseHasDone) {
     Origin panel;
-    panel.door = Door::http;
+    panel.door = http::clients;
     panel.client = std::make_shared<const std::string>("panel");
     Move slow;
     slow.kind = Move::Kind::velocity;
@@ -230,7 +231,7 @@ TEST(Cia402Stops, ASpeedThatIsRepeatedDoesNotUndoWhatSomebodyElseHasDone) {
 
 TEST(Cia402Stops, AModeThatIsRepeatedDoesNotEndWhatSomebodyElseIsAbout) {
     Origin panel;
-    panel.door = Door::http;
+    panel.door = http::clients;
     panel.client = std::make_shared<const std::string>("panel");
     Bench b;
     b.enable(mode_profile_velocity);

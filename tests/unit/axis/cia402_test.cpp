@@ -2,6 +2,7 @@
 #include <array>
 
 #include "gateway/axis/guard.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/axis/cia402_bench.hpp"
 
 namespace axisgate {
@@ -138,7 +139,7 @@ TEST(Cia402, RefusedEnableFallsBack) {
 
 Origin client(std::string name) {
     Origin o;
-    o.door = Door::modbus;
+    o.door = modbus::clients;
     o.client = std::make_shared<const std::string>(std::move(name));
     return o;
 }

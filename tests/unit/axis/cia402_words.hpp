@@ -4,12 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/axis/cia402_bench.hpp"
 
 namespace axisgate::cia402_bench {
 
-inline const Origin controller{Door::modbus, std::make_shared<const std::string>("192.0.2.7:5"), {}};
-inline const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
+inline const Origin controller{modbus::clients, std::make_shared<const std::string>("192.0.2.7:5"), {}};
+inline const Origin bert{http::clients, std::make_shared<const std::string>("bert"), {}};
 
 /// The one order of a decision, if it is of this kind.
 template <class T>

@@ -1,6 +1,8 @@
 // How each situation is reached and each value is observed. A value that only an order can show is observed on a copy, so that one question
 // never changes the answer to the next.
 #include "tests/unit/axis/forgetting_bench.hpp"
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 
 #include <fmt/core.h>
 
@@ -36,9 +38,9 @@ std::string speeds_of(const Move& m) {
 }
 }  // namespace
 
-Origin plc() { return who(Door::modbus, "plc"); }
-Origin panel() { return who(Door::http, "panel"); }
-Origin stranger() { return who(Door::modbus, "stranger"); }
+Origin plc() { return who(modbus::clients, "plc"); }
+Origin panel() { return who(http::clients, "panel"); }
+Origin stranger() { return who(modbus::clients, "stranger"); }
 
 Cia402Axis::Decision Subject::write(const ProcessData& d, const Origin& by) {
     auto r = profile.on_process_data(d, by);

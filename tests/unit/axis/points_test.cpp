@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "gateway/doors/dds/words.hpp"
 #include "tests/unit/axis/points_bench.hpp"
 
 namespace axisgate::test {
@@ -208,7 +209,7 @@ const Change changes[] = {
     {"target velocity", true, [](AxisPicture& p) { p.target_velocity = 9; }},
     {"homing method", true, [](AxisPicture& p) { p.homing_method = 9; }},
     {"set-points accepted", true, [](AxisPicture& p) { p.setpoints_accepted = 9; }},
-    {"authority", true, [](AxisPicture& p) { p.authority = Door::dds; }},
+    {"authority", true, [](AxisPicture& p) { p.authority = dds::clients; }},
     {"authority, until", true, [](AxisPicture& p) { p.authority_until = at_ns(9); }},
     {"authority, holder", true, [](AxisPicture& p) { p.authority_holder[0] = 'x'; }},
     {"latch, by", true, [](AxisPicture& p) { p.stop_latch_by[0] = 'x'; }},

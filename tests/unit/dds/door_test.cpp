@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "gateway/doors/dds/words.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "tests/unit/dds/own_domain.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
@@ -158,7 +160,7 @@ TEST_F(DdsDoorTest, ACommandIsCarriedOutOnceAndAnsweredOnceMoreWhenItIsSentAgain
     EXPECT_EQ(std::get<Move>(done.body).target, 6400);
     EXPECT_EQ(std::get<Move>(done.body).velocity, 3200);
     EXPECT_TRUE(done.until_done);
-    EXPECT_EQ(done.origin.door, Door::dds);
+    EXPECT_EQ(done.origin.door, dds::clients);
     EXPECT_EQ(AuthorityClient::of(done.origin).text(), "dds yard anna");
     Result r;
     r.outcome = Outcome::done;
@@ -256,7 +258,7 @@ TEST_F(DdsDoorTest, AStopToOnesOwnNameIsCarriedOutHereAndSentToTheOther) {
     o.gateway = "hall";
     o.axis = "feeder";
     o.wish = CommandWish::named("halt");
-    o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+    o.origin = {http::clients, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
     door->command(o, [&came](const Result& r) { came.push_back(r); });
     ASSERT_EQ(gateway.submitted.size(), 1u) << "at once";
     EXPECT_TRUE(std::holds_alternative<Halt>(gateway.submitted[0].body));
@@ -303,11 +305,11 @@ TEST_F(DdsDoorTest, SetPointsGoTheirWayAndTheirEndIsALostClient) {
     EXPECT_EQ(gateway.set_points[0].acceleration, 32000);
     EXPECT_FALSE(gateway.set_points[0].deceleration);
     EXPECT_EQ(gateway.set_points[0].good_for, std::chrono::milliseconds(300));
-    EXPECT_EQ(gateway.set_points[0].origin.door, Door::dds);
+    EXPECT_EQ(gateway.set_points[0].origin.door, dds::clients);
     EXPECT_TRUE(gateway.lost.empty());
     peer.close();
     ASSERT_TRUE(until([this] { return !gateway.lost.empty(); }));
-    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{Door::dds, "streamer"}));
+    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{dds::clients, "streamer"}));
     EXPECT_EQ(gateway.lost[0].second, LossCause::set_points_silent);
 }
 
@@ -328,8 +330,8 @@ TEST_F(DdsDoorTest, ACommanderIsLostWhenTheLastWriterThatItCommandedByIsGone) {
     second.close();
     ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));
     ASSERT_EQ(gateway.lost.size(), 1u);
-    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{Door::dds, "yard anna"}));
-    EXPECT_EQ(gateway.lost[0].second, LossCause::dds_deadline);
+    EXPECT_EQ(gateway.lost[0].first, (AuthorityClient{dds::clients, "yard anna"}));
+    EXPECT_EQ(gateway.lost[0].second, dds::loss_deadline);
 }
 
 TEST_F(DdsDoorTest, ACommanderThatAnotherHasReplacedIsNotMissedNorOneThatWroteParametersAndStays) {
@@ -360,7 +362,7 @@ TEST_F(DdsDoorTest, WhoWritesAndIsGoneBeforeItIsReadIsLostAfterItsCommand) {
     peer.close();
     ASSERT_TRUE(until([&] { return !gateway.lost.empty(); }));
     ASSERT_EQ(gateway.submitted.size(), 1u);
-    EXPECT_EQ(gateway.lost[0].second, LossCause::dds_deadline);
+    EXPECT_EQ(gateway.lost[0].second, dds::loss_deadline);
 }
 
 /// Another gateway of the domain, with a site and axes of its own, on the same thread.
@@ -395,7 +397,7 @@ protected:
         o.axis = "feeder";
         o.wish = std::move(wish);
         o.until_done = true;
-        o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+        o.origin = {http::clients, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
         return o;
     }
     void give(FleetOrder o) {
@@ -516,7 +518,7 @@ TEST_F(DdsFleetTest, ACommandToAnotherGatewayIsCarriedOutOnceHoweverOftenItIsSen
 TEST_F(DdsFleetTest, ACommandToThisGatewayStaysHere) {
     give(order("hall", CommandWish::named("enable")));
     ASSERT_EQ(gateway.submitted.size(), 1u);
-    EXPECT_EQ(gateway.submitted[0].origin.door, Door::http);
+    EXPECT_EQ(gateway.submitted[0].origin.door, http::clients);
 }
 
 TEST_F(DdsFleetTest, WhatCannotBeSentIsRefusedBeforeIt) {

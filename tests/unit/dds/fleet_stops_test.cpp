@@ -4,6 +4,7 @@
 
 #include "gateway/doors/dds/fleet.hpp"
 #include "gateway/doors/dds/mirror.hpp"
+#include "gateway/doors/http/words.hpp"
 
 namespace axisgate::dds {
 namespace {
@@ -49,7 +50,7 @@ struct FleetStops : ::testing::Test {
         o.axis = axis_name;
         o.wish = CommandWish::named(command);
         o.wait = wait;
-        o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+        o.origin = {http::clients, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
         fleet.command(
             o, [this](const Result& r) { came.push_back(r); }, now);
     }
@@ -262,7 +263,7 @@ TEST_F(FleetStops, AWishGoesOutWithAllItsMembersInTheUnitOfTheAxis) {
     FleetOrder o;
     o.gateway = "hall-2";
     o.axis = "feeder";
-    o.origin = {Door::http, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
+    o.origin = {http::clients, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna")};
     o.wish = CommandWish::named("move_velocity");
     o.wish.velocity = -2.5;
     o.wish.acceleration = 10.0;

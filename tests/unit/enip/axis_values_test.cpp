@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gateway/doors/enip/words.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/protocols/cip/adapter.hpp"
 #include "gateway/protocols/cip/eds.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
@@ -49,7 +51,7 @@ struct AxisValuesBench final : HotDoor {
         std::vector<LayoutAxis> axes{{41, far, "far", &*catalogue}, {1, one, "feeder", &*catalogue}, {3, three, "slide", &*catalogue}};
         values.use(Layout(std::move(axes), 0x12345678, {}));
     }
-    std::span<const WayIn> ways_in() const override { return enip_ways; }
+    std::span<const WayIn> ways_in() const override { return enip::ways_of_clients; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
 
@@ -134,10 +136,10 @@ TEST(EnipAxisValues, EachEndOfAConnectionHasItsCause) {
         how();
         return d.port.lost.back().second;
     };
-    EXPECT_EQ(end([&] { d.values.idle(151, d.plc, d.port.now()); }), LossCause::enip_idle);
-    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::timed_out, d.port.now()); }), LossCause::enip_timed_out);
-    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::closed, d.port.now()); }), LossCause::enip_closed);
-    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::by_gateway, d.port.now()); }), LossCause::enip_closed);
+    EXPECT_EQ(end([&] { d.values.idle(151, d.plc, d.port.now()); }), enip::loss_idle);
+    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::timed_out, d.port.now()); }), enip::loss_timed_out);
+    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::closed, d.port.now()); }), enip::loss_closed);
+    EXPECT_EQ(end([&] { d.values.ended(151, d.plc, cip::End::by_gateway, d.port.now()); }), enip::loss_closed);
     EXPECT_EQ(d.port.lost.back().first, "ethernet_ip 192.0.2.7 assembly 151");
     EXPECT_NE(d.port.notes.back().first.text.find("site was changed"), std::string::npos);
 }
@@ -146,7 +148,7 @@ TEST(EnipAxisValues, WhoHoldsTheAxisKeepsOthersOut) {
     AxisValuesBench d;
     d.port.time += 1s;
     d.port.edit(d.one, [&](AxisPicture& p) {
-        p.authority = Door::http;
+        p.authority = http::clients;
         p.authority_until = d.port.now() + 10s;
         std::snprintf(p.authority_holder.data(), p.authority_holder.size(), "anne");
     });
@@ -155,7 +157,7 @@ TEST(EnipAxisValues, WhoHoldsTheAxisKeepsOthersOut) {
     EXPECT_FALSE(d.values.held_by_another(153, d.plc, d.port.now()));
     EXPECT_FALSE(d.values.held_by_another(151, d.plc, d.port.now() + 10s)) << "its lease is over";
     d.port.edit(d.one, [](AxisPicture& p) {
-        p.authority = Door::ethernet_ip;
+        p.authority = enip::clients;
         std::snprintf(p.authority_holder.data(), p.authority_holder.size(), "192.0.2.7 assembly 151");
     });
     EXPECT_FALSE(d.values.held_by_another(151, d.plc, d.port.now())) << "it is this client itself";
@@ -184,11 +186,11 @@ TEST(EnipAxisValues, AnOwnerInRunModeHoldsItsAxisAndLetsItGo) {
     EXPECT_EQ(kinds(), Kinds{}) << "not in run mode yet";
     d.values.consumed(151, Bytes(32), d.plc, d.port.now());
     EXPECT_EQ(kinds(), Kinds{take});
-    holds(Door::ethernet_ip, "192.0.2.7 assembly 151");
+    holds(enip::clients, "192.0.2.7 assembly 151");
     d.port.time += 5s;
     d.values.sweep(d.port.now());
     EXPECT_EQ(kinds(), Kinds{take}) << "who goes on holds on";
-    holds(Door::http, "anne");
+    holds(http::clients, "anne");
     d.port.time += 5s;
     d.values.sweep(d.port.now());
     EXPECT_EQ(kinds(), Kinds{}) << "taken over: it is anne's for her time";
@@ -204,7 +206,7 @@ TEST(EnipAxisValues, AnOwnerInRunModeHoldsItsAxisAndLetsItGo) {
 
 TEST(EnipAxisValues, WhoCommandsByMessagesIsLostWithHisLastWay) {
     using Lost = std::vector<std::pair<std::string, LossCause>>;
-    const Lost gone{{"ethernet_ip 192.0.2.7", LossCause::enip_session_closed}};
+    const Lost gone{{"ethernet_ip 192.0.2.7", enip::loss_session_closed}};
     AxisValuesBench d;
     const cip::Peer unconnected{{0xC0000207, 50'000}, 0, 5}, connected{{0xC0000207, 50'000}, 9, 5}, other{{0xC0000207, 50'001}, 0, 6};
     bool later = false;

@@ -8,6 +8,7 @@
 
 #include "gateway/core/assets.hpp"
 #include "gateway/doors/enip/axis_values.hpp"
+#include "gateway/doors/enip/words.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
 
 namespace axisgate::enip {
@@ -52,7 +53,7 @@ struct WindowBench : HotDoor {
         for (const AxisId id : {one, two})
             port.edit(id, [](AxisPicture& p) { p.flags = flag_online | flag_referenced; });
     }
-    std::span<const WayIn> ways_in() const override { return enip_ways; }
+    std::span<const WayIn> ways_in() const override { return enip::ways_of_clients; }
     std::string_view name() const override { return "enip"; }
     void on_result(const Result& r) override { values.on_result(r); }
 

@@ -2,6 +2,8 @@
 // values beside others, the data sheet.
 #include "gateway/doors/enip/window.hpp"
 
+#include "gateway/doors/enip/words.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "tests/unit/enip/window_bench.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -143,7 +145,7 @@ TEST(EnipWindow, OutputsEndInTheLaneAndTheFirstImageIsABase) {
     EXPECT_EQ(std::get<ProcessData>(d.port.commands[0].body).target_position, 200);
     EXPECT_EQ(d.port.commands[0].axis, d.one);
     d.values.idle(310, d.plc, d.port.now());
-    EXPECT_EQ(d.port.lost.back().second, LossCause::enip_idle);
+    EXPECT_EQ(d.port.lost.back().second, enip::loss_idle);
     d.port.commands.clear();
     d.send();
     ASSERT_EQ(d.port.commands.size(), 1u);
@@ -237,7 +239,7 @@ TEST(EnipWindow, OneOwnerOfAnAxisHoweverItIsMapped) {
     EXPECT_FALSE(d.values.overlap(310, 152));
     d.port.time += 1s;
     d.port.edit(d.two, [&](AxisPicture& p) {
-        p.authority = Door::http;
+        p.authority = http::clients;
         p.authority_until = d.port.now() + 10s;
         std::snprintf(p.authority_holder.data(), p.authority_holder.size(), "anne");
     });

@@ -1,6 +1,7 @@
 // The matrix of loss of command is shown with its defaults, changed axis by axis, and rehearsed into a dated report.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/enip/words.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -25,7 +26,7 @@ TEST_F(FailSafeTest, EachCauseIsToldWithItsDefaults) {
     const auto a = call("GET", "/api/v1/fail_safe");
     ASSERT_EQ(a.status, 200);
     const auto& o = a.json.get_object();
-    ASSERT_EQ(o.at("causes").get_array().size(), loss_causes.size());
+    ASSERT_EQ(o.at("causes").get_array().size(), loss_causes().size());
     for (const auto& v : o.at("causes").get_array()) {
         const auto& cause = v.get_object();
         EXPECT_GT(cause.at("description").get_string().size(), 10u);
@@ -101,7 +102,7 @@ TEST_F(FailSafeTest, OneAxisIsChangedAsAWhole) {
     ASSERT_EQ(a.status, 200) << json_text(a.json);
     const FailSafe& now = gateway.site()->site.axes.at(0).fail_safe;
     EXPECT_FALSE(now.of(LossCause::line_lost)) << "what is not named is the default again";
-    EXPECT_EQ(now.of(LossCause::enip_idle), FailSafeAction::halt);
+    EXPECT_EQ(now.of(enip::loss_idle), FailSafeAction::halt);
     EXPECT_EQ(call("GET", path).json.get_object().at("fail_safe").get_object().at("enip_idle"), boost::json::value("halt"));
 }
 
@@ -126,7 +127,7 @@ TEST_F(FailSafeTest, ARehearsalBecomesADatedReport) {
     a = call("GET", "/api/v1/fail_safe/rehearsal");
     ASSERT_EQ(a.at("state"), "done");
     const auto& report = a.json.get_object().at("report").get_object();
-    EXPECT_EQ(report.at("cells").get_array().size(), gateway.site()->site.axes.size() * (loss_causes.size() + 1))
+    EXPECT_EQ(report.at("cells").get_array().size(), gateway.site()->site.axes.size() * (loss_causes().size() + 1))
         << "without set-points, with the gateway gone, and with another one after it";
     EXPECT_EQ(report.at("steps").get_array().size(), rehearsal_steps.size()) << "all of them where none is named";
     EXPECT_EQ(report.at("without_set_points").get_array().size(), gateway.site()->site.axes.size()) << "these drives follow none";
@@ -145,7 +146,7 @@ TEST_F(FailSafeTest, ACellWithoutFiguresIsCountedAndSaysWhy) {
     gateway.give_all([](RehearsalCell& cell) { cell.fault = "it does not move"; });
     const auto a = call("GET", "/api/v1/fail_safe/rehearsal");
     const auto& report = a.json.get_object().at("report").get_object();
-    EXPECT_EQ(report.at("without_figures").to_number<std::size_t>(), loss_causes.size() + 1);
+    EXPECT_EQ(report.at("without_figures").to_number<std::size_t>(), loss_causes().size() + 1);
     EXPECT_EQ(report.at("cells").get_array().at(0).get_object().at("text").get_string(), "no figures: it does not move");
     EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": ["nobody"]})").status, 409);
     EXPECT_EQ(call("POST", "/api/v1/fail_safe/rehearsal", R"({"axes": "all"})").status, 422);
@@ -158,7 +159,7 @@ TEST_F(FailSafeTest, WhatHappensBesideTheLossIsChosen) {
     };
     ASSERT_EQ(start(R"(["second_client", "old_image"])").status, 202);
     gateway.give_all(good);
-    ASSERT_EQ(gateway.wishes.size(), loss_causes.size()) << "no cell in which the gateway is started again";
+    ASSERT_EQ(gateway.wishes.size(), loss_causes().size()) << "no cell in which the gateway is started again";
     for (const RehearsalWish& wish : gateway.wishes) {
         EXPECT_TRUE(wish.steps.has(RehearsalStep::second_client) && wish.steps.has(RehearsalStep::old_image));
         EXPECT_FALSE(wish.steps.has(RehearsalStep::refused_commands) || wish.steps.has(RehearsalStep::gateway_restart) || wish.restart);
@@ -168,14 +169,14 @@ TEST_F(FailSafeTest, WhatHappensBesideTheLossIsChosen) {
     gateway.wishes.clear();
     ASSERT_EQ(start(R"(["gateway_restart"])").status, 202);
     gateway.give_all(good);
-    ASSERT_EQ(gateway.wishes.size(), loss_causes.size() + 1);
+    ASSERT_EQ(gateway.wishes.size(), loss_causes().size() + 1);
     EXPECT_TRUE(gateway.wishes.back().restart);
     const auto last = call("GET", "/api/v1/fail_safe/rehearsal").json.get_object().at("report").get_object().at("cells").get_array().back();
     EXPECT_EQ(last.get_object().at("cause").get_string(), "gateway_restarts");
     gateway.wishes.clear();
     ASSERT_EQ(start("[]").status, 202) << "the loss alone";
     gateway.give_all(good);
-    EXPECT_EQ(gateway.wishes.size(), loss_causes.size());
+    EXPECT_EQ(gateway.wishes.size(), loss_causes().size());
     const auto no = start(R"(["second_client", "earthquake"])");
     EXPECT_EQ(no.status, 422);
     EXPECT_EQ(no.fault().at("pointer").get_string(), "/steps/1");

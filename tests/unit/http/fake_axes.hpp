@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/ports/axes.hpp"
 #include "gateway/services/ports/parameters.hpp"
 #include "tests/unit/http/fake_site.hpp"
@@ -115,7 +116,7 @@ inline AxisPicture standing(std::int64_t position, std::int64_t at_ms = 600) {
     p.flags = flag_online | flag_simulated | flag_referenced | flag_target_reached;
     p.presence = Presence::twin;
     p.target_position = static_cast<std::int32_t>(position);
-    p.authority = Door::http;
+    p.authority = http::clients;
     p.setpoints_accepted = 3;
     p.native_status = 0x1234;
     p.ever_seen = true;

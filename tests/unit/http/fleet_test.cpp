@@ -1,6 +1,7 @@
 // The fleet over HTTP: gateways with their axes, and commands to axes of others, with the same roles as commands to axes of this one.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/http/words.hpp"
 #include "tests/unit/http/harness.hpp"
 
 namespace axisgate::http::test {
@@ -55,7 +56,7 @@ TEST_F(FleetOverHttp, ACommandGoesToItsGatewayAndComesBackWithItsOneResult) {
     EXPECT_EQ(gateway.orders[0].axis, "lift");
     EXPECT_TRUE(gateway.orders[0].until_done);
     EXPECT_EQ(gateway.orders[0].wish.word, CommandWord::enable);
-    EXPECT_EQ(gateway.orders[0].origin.door, Door::http);
+    EXPECT_EQ(gateway.orders[0].origin.door, http::clients);
     gateway.fleet_result.outcome = Outcome::refused;
     gateway.fleet_result.reason = Reason::wrong_state;
     gateway.fleet_result.text = "axis lift is not enabled";

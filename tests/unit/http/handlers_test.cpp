@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "gateway/core/text.hpp"
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/services/documents.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -235,7 +237,7 @@ TEST(HttpDocuments, ALatchedStopNamesItsClientAndWhatMovesTheAxisAgain) {
     p.stop_latch_by = {};
     p.stop_latch = 0b011;
     EXPECT_TRUE(begins(said().second, "the gateway has stopped it")) << said().second;
-    p.fail_safe_cause = static_cast<std::uint16_t>(LossCause::modbus_silent);
+    p.fail_safe_cause = static_cast<std::uint16_t>(modbus::loss_silent);
     EXPECT_TRUE(begins(said().second, "the gateway (modbus_silent) has stopped it")) << said().second;
     p.stop_latch = 0b1001;
     EXPECT_NE(said().second.find("give the input back, then enable the axis"), std::string::npos) << said().second;
@@ -253,7 +255,7 @@ TEST_F(HttpTest, ACommandIsAnsweredWhenTheDriveAcknowledges) {
     const Command& c = gateway.submitted[0];
     EXPECT_EQ(c.axis, gateway.axis("feeder"));
     EXPECT_FALSE(c.until_done);
-    EXPECT_EQ(c.origin.door, Door::http);
+    EXPECT_EQ(c.origin.door, http::clients);
     EXPECT_EQ(*c.origin.who, "127.0.0.1:51123");
     EXPECT_EQ(std::get<Move>(c.body).target, 320000);
     gateway.finish(good_result());

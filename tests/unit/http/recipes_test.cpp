@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gateway/doors/http/stream_hub.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/recipes/recipe_read.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -52,7 +53,7 @@ protected:
     }
     void holds(const std::string& axis, const std::string& who) {
         AxisPicture& p = gateway.pictures[gateway.axis(axis)];
-        p.authority = Door::http;
+        p.authority = http::clients;
         p.authority_holder = {};
         std::ranges::copy(who, p.authority_holder.begin());
         p.authority_until = clock + std::chrono::hours(24);

@@ -2,6 +2,8 @@
 // step. read_recipe accepts the result.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "gateway/services/recipes/recipe_read.hpp"
 #include "tests/unit/http/harness.hpp"
 
@@ -20,7 +22,7 @@ protected:
     Ticket last = 0;
     void SetUp() override { tap.log = &gateway.stretch; }
     AxisId feeder() { return gateway.axis("feeder"); }
-    static Origin by(const char* who, Door door = Door::http) { return {door, std::make_shared<const std::string>(who)}; }
+    static Origin by(const char* who, Door door = http::clients) { return {door, std::make_shared<const std::string>(who)}; }
     Ticket give(CommandBody body, Duration at, const Origin& origin = by("anna")) {
         Command c;
         c.ticket = ++last;
@@ -97,8 +99,8 @@ TEST_F(RecordedSteps, PanelsParametersAndRehearsalsAreSteps) {
     ProcessData d;
     d.target_position = 6400;
     d.controlword = 0x1F;
-    give(d, 1s, by("192.0.2.7", Door::modbus));
-    give(d, 2s, by("192.0.2.7", Door::modbus));  // the repetition has no effect
+    give(d, 1s, by("192.0.2.7", modbus::clients));
+    give(d, 2s, by("192.0.2.7", modbus::clients));  // the repetition has no effect
     const auto point = gateway.site()->site.axes.empty() ? std::nullopt : find_axis(gateway, "feeder")->catalogue->find("AC");
     ASSERT_TRUE(point);
     give(WriteParameter{*point, Value{std::int64_t{20000}}}, 3s);

@@ -3,6 +3,7 @@
 
 #include <boost/json/parse.hpp>
 
+#include "gateway/doors/dds/words.hpp"
 #include "gateway/services/recipes/recipe_read.hpp"
 #include "gateway/services/services.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
@@ -40,8 +41,8 @@ TEST_F(ServicesAlone, RunRecipesOfWhoeverComes) {
     std::vector<SiteFault> faults;
     auto recipe = read_recipe(json::parse(R"({"steps":[{"enable":{"axis":"feeder"}}]})").get_object(), nullptr, faults);
     ASSERT_TRUE(recipe);
-    const auto begun =
-        services->recipes->start("go", std::move(*recipe), {}, {axisgate::Door::dds, std::make_shared<const std::string>("a panel"), {}});
+    const auto begun = services->recipes->start("go", std::move(*recipe), {},
+                                                {axisgate::dds::clients, std::make_shared<const std::string>("a panel"), {}});
     ASSERT_TRUE(std::holds_alternative<json::object>(begun));
     EXPECT_LE(services->deadline(), now) << "the services have one deadline, and it is the recipe's";
     services->on_deadline(now);

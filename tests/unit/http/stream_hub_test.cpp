@@ -7,6 +7,7 @@
 #include <boost/json/serialize.hpp>
 
 #include "gateway/doors/http/websocket_codec.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "tests/unit/http/fake_gateway.hpp"
 
 namespace axisgate::http::test {
@@ -600,7 +601,7 @@ TEST(StreamHub, StopsListeningWhenItEnds) {
 
 TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
     client->commander = [] {
-        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
+        return Origin{axisgate::http::clients, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
                       std::make_shared<const std::string>("anna")};
     };
     say(R"({"set_point":{"axis":"feeder","mode":"position","value":12.5,"velocity":2,"good_for_ms":100}})");
@@ -623,7 +624,7 @@ TEST_F(StreamHubTest, ASetPointIsHandedOnWithoutAnAnswer) {
 
 TEST_F(StreamHubTest, AFeedThatClosesEndsItsStreamUnlessItsClientGivesSetPointsElsewhere) {
     const auto anna = [] {
-        return Origin{axisgate::Door::http, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
+        return Origin{axisgate::http::clients, std::make_shared<const std::string>("anna 10.0.0.7:4711"),
                       std::make_shared<const std::string>("anna")};
     };
     const auto other = hub.add({});
@@ -650,7 +651,7 @@ TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
     EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
     client->commander = [] { return std::optional<Origin>(); };
     EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"position","value":1}})").find("operator"), std::string::npos);
-    client->commander = [] { return Origin{axisgate::Door::http, {}, {}}; };
+    client->commander = [] { return Origin{axisgate::http::clients, {}, {}}; };
     EXPECT_NE(published(R"({"set_point":{"axis":"nobody","mode":"position","value":1}})").find("no axis nobody"), std::string::npos);
     EXPECT_NE(published(R"({"set_point":{"mode":"position","value":1}})").find("axis"), std::string::npos);
     EXPECT_NE(published(R"({"set_point":{"axis":"feeder","mode":"place","value":1}})").find("torque"), std::string::npos);
@@ -663,7 +664,7 @@ TEST_F(StreamHubTest, ASetPointThatCannotBeHandedOnIsToldWithTheReason) {
 }
 
 TEST_F(StreamHubTest, AThousandSetPointsASecondAreNotTooMany) {
-    client->commander = [] { return Origin{axisgate::Door::http, {}, {}}; };
+    client->commander = [] { return Origin{axisgate::http::clients, {}, {}}; };
     for (int i = 0; i < 20'000; ++i) {
         now += milliseconds(1);
         say(R"({"set_point":{"axis":"slide","mode":"position","value":1}})");

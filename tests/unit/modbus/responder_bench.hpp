@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gateway/doors/modbus/pdu.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
 
 namespace axisgate::modbus::test {
@@ -45,7 +46,7 @@ struct ResponderDoor : HotDoor {
     ~ResponderDoor() override { list.detach(*this); }
     ResponderDoor(const ResponderDoor&) = delete;
     ResponderDoor& operator=(const ResponderDoor&) = delete;
-    std::span<const WayIn> ways_in() const override { return modbus_tcp_ways; }
+    std::span<const WayIn> ways_in() const override { return modbus::tcp_ways; }
     std::string_view name() const override { return "modbus"; }
     void on_result(const Result& r) override { responder.writer().on_result(r); }
 

@@ -6,6 +6,7 @@
 
 #include "gateway/core/event.hpp"
 #include "gateway/doors/modbus/rtu_door.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
@@ -266,9 +267,9 @@ TEST_F(RtuDoorTest, AnswersOnceTheLineIsSilent) {
     EXPECT_EQ(line->sent.front(), hex(sealed("01 " + reading_answer)));
     EXPECT_EQ(hot().name(), "modbus_rtu");
     EXPECT_EQ(hot().addresses(), std::vector<std::string>{"serial:/dev/ttyUSB0?baud=115200&format=8E1"});
-    AuthorityClient master{Door::modbus, "/dev/ttyUSB0"};
+    AuthorityClient master{modbus::clients, "/dev/ttyUSB0"};
     ASSERT_TRUE(hot().last_received(master));
-    EXPECT_FALSE(hot().last_received({Door::modbus, "192.0.2.1"}));
+    EXPECT_FALSE(hot().last_received({modbus::clients, "192.0.2.1"}));
     EXPECT_NE(hot().metrics().find("axisgate_modbus_rtu_answers_total 1\n"), std::string::npos) << hot().metrics();
 }
 
@@ -302,11 +303,11 @@ TEST_F(RtuDoorTest, APortThatIsPulledOutIsToldAndItsMasterCountsAsLost) {
     line->events->on_line_state(false, "/dev/ttyUSB0 is gone");
     ASSERT_EQ(port.lost.size(), 1u);
     EXPECT_EQ(port.lost[0].first, "modbus /dev/ttyUSB0");
-    EXPECT_EQ(port.lost[0].second, LossCause::modbus_closed);
+    EXPECT_EQ(port.lost[0].second, modbus::loss_closed);
     io.restart();
     (void)io.run_for(5ms);
     EXPECT_TRUE(line->sent.empty()) << "what waited for its drive has nobody to go to";
-    EXPECT_FALSE(hot().last_received({Door::modbus, "/dev/ttyUSB0"}));
+    EXPECT_FALSE(hot().last_received({modbus::clients, "/dev/ttyUSB0"}));
     line->events->on_line_state(true, "up");
     line->events->on_line_state(false, "gone again");
     EXPECT_EQ(port.lost.size(), 1u) << "who has not commanded since is not lost again";

@@ -5,6 +5,7 @@
 
 #include "gateway/doors/modbus/adu_framer.hpp"
 #include "gateway/doors/modbus/endpoint.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/modbus/net.hpp"
 
 namespace axisgate::modbus {
@@ -180,7 +181,7 @@ TEST(Server, ACommandingConnectionIsNotIdleWhileItsAxisMoves) {
     EXPECT_EQ(c.receive(control_size), adu(1, control));
     net.port.edit(net.axes[1], [](AxisPicture& p) {
         p.flags = flag_moving;
-        p.authority = Door::modbus;
+        p.authority = modbus::clients;
     });
     net.pass(10min);
     EXPECT_FALSE(c.closed());
@@ -239,7 +240,7 @@ TEST(Server, WhenFullAConnectionWhoseAxisMovesStays) {
     EXPECT_EQ(commanding.receive(control_size), adu(1, control));
     net.port.edit(net.axes[1], [](AxisPicture& p) {
         p.flags = flag_moving;
-        p.authority = Door::modbus;
+        p.authority = modbus::clients;
     });
     net.pass(1s);
     EXPECT_TRUE(serves(other.connect()));
@@ -366,18 +367,19 @@ TEST(Server, AHostIsLostWithItsLastConnectionAndHeardUntilThen) {
     tool.connect();
     EXPECT_TRUE(serves(panel));
     const Instant asked = net.port.now();
-    ASSERT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), asked);
-    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.2"}), std::nullopt);
+    ASSERT_EQ(net.port.doors.back()->last_received({modbus::clients, "127.0.0.1"}), asked);
+    EXPECT_EQ(net.port.doors.back()->last_received({modbus::clients, "127.0.0.2"}), std::nullopt);
     net.pass(2s);
-    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), asked) << "an open connection that asks nothing is silent";
+    EXPECT_EQ(net.port.doors.back()->last_received({modbus::clients, "127.0.0.1"}), asked)
+        << "an open connection that asks nothing is silent";
     panel.close();
     net.turn();
     EXPECT_TRUE(net.port.lost.empty()) << "another connection of the same host is there";
     tool.close();
     net.turn();
     ASSERT_EQ(net.port.lost.size(), 1u);
-    EXPECT_EQ(net.port.lost[0], (std::pair{std::string("modbus 127.0.0.1"), LossCause::modbus_closed}));
-    EXPECT_EQ(net.port.doors.back()->last_received({Door::modbus, "127.0.0.1"}), std::nullopt);
+    EXPECT_EQ(net.port.lost[0], (std::pair{std::string("modbus 127.0.0.1"), modbus::loss_closed}));
+    EXPECT_EQ(net.port.doors.back()->last_received({modbus::clients, "127.0.0.1"}), std::nullopt);
     TcpClient again(net);
     EXPECT_TRUE(serves(again.connect()));
     net.server->close();

@@ -1,7 +1,9 @@
 // Order, pipelining and bounds of one client, without a socket.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/http/words.hpp"
 #include "gateway/doors/modbus/session.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/modbus/responder_bench.hpp"
 
 namespace axisgate::modbus {
@@ -235,7 +237,7 @@ TEST_F(SessionTest, OneClientsWritesDoNotHoldUpAnother) {
 }
 
 TEST_F(SessionTest, CommandsNow) {
-    const auto moving = [&](AxisId id, bool on, Door authority = Door::modbus) {
+    const auto moving = [&](AxisId id, bool on, Door authority = modbus::clients) {
         port.edit(id, [&](AxisPicture& p) {
             p.flags = on ? flag_moving : 0;
             p.authority = authority;
@@ -251,7 +253,7 @@ TEST_F(SessionTest, CommandsNow) {
     EXPECT_FALSE(client.session->commands_now(port.image())) << "the axis stands still";
     moving(axes[1], true);
     EXPECT_TRUE(client.session->commands_now(port.image()));
-    moving(axes[1], true, Door::http);
+    moving(axes[1], true, http::clients);
     EXPECT_FALSE(client.session->commands_now(port.image())) << "somebody else moves it";
     moving(axes[2], true);
     EXPECT_FALSE(client.session->commands_now(port.image())) << "another axis";

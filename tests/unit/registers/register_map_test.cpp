@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "gateway/doors/http/words.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "tests/unit/modbus/fake_port.hpp"
 
@@ -23,7 +24,7 @@ AxisPicture sample() {
     p.native_status = 0xA1B2C3D4;
     p.family_number = 5;
     p.setpoints_accepted = 0x7788;
-    p.authority = Door::http;
+    p.authority = http::clients;
     p.controlword = 0x001F;
     p.mode = 6;
     p.target_position = -2;

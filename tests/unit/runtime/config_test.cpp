@@ -1,6 +1,10 @@
 // The file, the environment and --set; every fault has its place.
 #include "gateway/runtime/config.hpp"
 #include "gateway/runtime/config_host.hpp"
+#include "gateway/runtime/door_dds.hpp"
+#include "gateway/runtime/door_enip.hpp"
+#include "gateway/runtime/door_http.hpp"
+#include "gateway/runtime/door_modbus.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +17,11 @@ TEST(Config, DefaultsAreLoopback) {
     std::vector<ConfigFault> faults;
     const Config c = read_config({}, faults);
     EXPECT_TRUE(faults.empty());
-    EXPECT_EQ(c.http_bind, "127.0.0.1:8080");
-    EXPECT_EQ(c.modbus_bind, "127.0.0.1:1502");
-    EXPECT_EQ(c.modbus_gaps, MapGaps::zero);
+    EXPECT_EQ(c.of<HttpSettings>().bind, "127.0.0.1:8080");
+    EXPECT_EQ(c.of<ModbusSettings>().bind, "127.0.0.1:1502");
+    EXPECT_EQ(c.map_gaps, MapGaps::zero);
     EXPECT_EQ(c.data_dir, "./var");
-    EXPECT_FALSE(c.dds_enabled);
+    EXPECT_FALSE(c.of<DdsSettings>().enabled);
     EXPECT_EQ(c.spin_us, 0);
     EXPECT_FALSE(c.recorder_trend_disk_mb) << "what nobody has written keeps marked axes alone";
 }
@@ -33,12 +37,12 @@ TEST(Config, SetBeatsEnvironmentBeatsFile) {
     std::vector<ConfigFault> faults;
     const Config c = read_config(s, faults);
     EXPECT_TRUE(faults.empty()) << faults[0].text;
-    EXPECT_EQ(c.modbus_bind, "127.0.0.1:3");
-    EXPECT_EQ(c.modbus_idle_timeout_s, 7);
-    EXPECT_EQ(c.modbus_gaps, MapGaps::refuse);
+    EXPECT_EQ(c.of<ModbusSettings>().bind, "127.0.0.1:3");
+    EXPECT_EQ(c.of<ModbusSettings>().idle_timeout_s, 7);
+    EXPECT_EQ(c.map_gaps, MapGaps::refuse);
     EXPECT_EQ(c.log_file, "/dev/y");
-    EXPECT_EQ(c.http_bind, "");
-    EXPECT_EQ(c.http_allowed_hosts, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(c.of<HttpSettings>().bind, "");
+    EXPECT_EQ(c.of<HttpSettings>().allowed_hosts, (std::vector<std::string>{"a", "b"}));
 }
 
 TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
@@ -54,13 +58,15 @@ TEST(Config, ListsAreWrittenAsInTheFileOrWithCommasAlone) {
     using List = std::vector<std::string>;
     for (const auto* text : {R"(["127.0.0.2", "fd00::/8"])", R"( [ '127.0.0.2','fd00::/8' , ] )", "[127.0.0.2,fd00::/8]",
                              "127.0.0.2, fd00::/8", "127.0.0.2,fd00::/8"}) {
-        EXPECT_EQ(with({std::string("modbus.allow=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
-        EXPECT_EQ(with({}, {std::string("AXISGATE_MODBUS_ALLOW=") + text}).modbus_allow, (List{"127.0.0.2", "fd00::/8"})) << text;
+        EXPECT_EQ(with({std::string("modbus.allow=") + text}).of<ModbusSettings>().allow, (List{"127.0.0.2", "fd00::/8"})) << text;
+        EXPECT_EQ(with({}, {std::string("AXISGATE_MODBUS_ALLOW=") + text}).of<ModbusSettings>().allow, (List{"127.0.0.2", "fd00::/8"}))
+            << text;
     }
-    EXPECT_EQ(with({"modbus.functions=[3,6, 16]"}).modbus_functions, (List{"3", "6", "16"}));
-    EXPECT_EQ(with({"modbus.functions=[]"}).modbus_functions, List{});
-    EXPECT_EQ(with({R"(http.allowed_hosts=["a", "b.example"])"}).http_allowed_hosts, (List{"a", "b.example"}));
-    EXPECT_EQ(with({"http.allowed_hosts=[::1],[::2]"}).http_allowed_hosts, (List{"[::1]", "[::2]"})) << "brackets of addresses are no list";
+    EXPECT_EQ(with({"modbus.functions=[3,6, 16]"}).of<ModbusSettings>().functions, (List{"3", "6", "16"}));
+    EXPECT_EQ(with({"modbus.functions=[]"}).of<ModbusSettings>().functions, List{});
+    EXPECT_EQ(with({R"(http.allowed_hosts=["a", "b.example"])"}).of<HttpSettings>().allowed_hosts, (List{"a", "b.example"}));
+    EXPECT_EQ(with({"http.allowed_hosts=[::1],[::2]"}).of<HttpSettings>().allowed_hosts, (List{"[::1]", "[::2]"}))
+        << "brackets of addresses are no list";
     for (const auto* bad : {"modbus.functions=[3,six]", R"(modbus.allow=["127.0.0.2)", R"(modbus.allow=["127.0.0.2", "x])",
                             "modbus.functions=[[3]]", "http.allowed_hosts=http://a", "http.allowed_hosts=a:80", "http.allowed_hosts=a,b/c",
                             "http.allowed_hosts=a b", "lines.pty_dir=var", "lines.pty_dir="}) {
@@ -117,7 +123,7 @@ TEST(Config, WhatIsNoNameAndWhatIsWrittenAsAnotherKindIsAFault) {
     faults.clear();
     const Config overridden = read_config(s, faults);
     EXPECT_EQ(overridden.data_dir, "7") << "on the command line all is text";
-    EXPECT_FALSE(overridden.dds_enabled) << "what is overridden does not count";
+    EXPECT_FALSE(overridden.of<DdsSettings>().enabled) << "what is overridden does not count";
     EXPECT_TRUE(faults.empty());
 }
 
@@ -155,18 +161,18 @@ TEST(Config, TheSerialPortOfModbusRtuIsAPathOrALine) {
 TEST(Config, ADoorBeyondThisMachineWithoutNamesIsWarnedOf) {
     for (const auto* bind : {"0.0.0.0:8080", "[::]:8080", "192.0.2.7:80"}) {
         Config c;
-        c.http_bind = bind;
-        c.http_tls_cert = "cert.pem";
+        c.of<HttpSettings>().bind = bind;
+        c.of<HttpSettings>().tls_cert = "cert.pem";
         const auto reported = check_host(c);
         ASSERT_EQ(reported.size(), 1u) << bind;
         EXPECT_EQ(reported[0].place, "http.allowed_hosts");
         EXPECT_TRUE(reported[0].warning);
-        c.http_allowed_hosts = {"axisgate.example"};
+        c.of<HttpSettings>().allowed_hosts = {"axisgate.example"};
         EXPECT_TRUE(check_host(c).empty()) << bind;
     }
     for (const auto* bind : {"127.0.0.1:8080", "127.9.9.9:1", "[::1]:8080", "localhost:8080", ""}) {
         Config c;
-        c.http_bind = bind;
+        c.of<HttpSettings>().bind = bind;
         EXPECT_TRUE(check_host(c).empty()) << bind;
     }
 }
@@ -228,26 +234,26 @@ TEST(Config, CheckNamesWhatIsOpenThatShouldNotBe) {
     };
     Config c;
     EXPECT_EQ(places(c), std::set<std::string>{}) << "as it comes, it is reached from this machine alone";
-    c.http_bind = "0.0.0.0:8080";
-    c.http_allowed_hosts = {"axisgate.example"};
+    c.of<HttpSettings>().bind = "0.0.0.0:8080";
+    c.of<HttpSettings>().allowed_hosts = {"axisgate.example"};
     EXPECT_EQ(places(c), (std::set<std::string>{"http.tls_cert", "users.local_role"}));
     c.users_local_role = "none";
     EXPECT_EQ(places(c), (std::set<std::string>{"http.tls_cert"}));
     c.users_local_role = "engineer";
-    c.http_tls_cert = "cert.pem";
+    c.of<HttpSettings>().tls_cert = "cert.pem";
     EXPECT_EQ(places(c), std::set<std::string>{});
     c = {};
-    c.modbus_bind = "192.0.2.7:502";
+    c.of<ModbusSettings>().bind = "192.0.2.7:502";
     EXPECT_EQ(places(c), (std::set<std::string>{"modbus.allow"}));
-    c.modbus_allow = {"192.0.2.0/24"};
-    c.enip_bind = "*:44818";
+    c.of<ModbusSettings>().allow = {"192.0.2.0/24"};
+    c.of<EnipSettings>().bind = "*:44818";
     EXPECT_EQ(places(c), (std::set<std::string>{"enip.bind"}));
     c = {};
-    c.dds_enabled = true;
+    c.of<DdsSettings>().enabled = true;
     EXPECT_EQ(places(c), std::set<std::string>{}) << "on the loopback interface";
-    c.dds_interface = "eth0";
+    c.of<DdsSettings>().interface_name = "eth0";
     EXPECT_EQ(places(c), (std::set<std::string>{"dds.security"}));
-    c.dds_security = "/etc/axisgate/dds";
+    c.of<DdsSettings>().security = "/etc/axisgate/dds";
     EXPECT_EQ(places(c), std::set<std::string>{});
 }
 

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <thread>
 
+#include "gateway/doors/http/words.hpp"
 #include "gateway/runtime/warm_ports.hpp"
 #include "tests/unit/store/fault_vfs.hpp"
 #include "tests/unit/store/fixture.hpp"
@@ -228,7 +229,7 @@ TEST(AuditEvents, OfSitesAndLocksGoStraightToTheStorageAndNotByTheHotThread) {
     b.ports->modbus.use({[] { return ModbusReport{}; }, [&](bool on) { locked = on; }});
     b.cold->start();
     b.hot->start();
-    const Origin anna{Door::http, std::make_shared<const std::string>("anna"), {}};
+    const Origin anna{http::clients, std::make_shared<const std::string>("anna"), {}};
     int answers = 0;
     b.ports->site.apply_site(Site{}, 0, anna, [&](const SiteAnswer& a) { answers += a.good ? 1 : 100; });
     b.ports->modbus.set_modbus_read_only(true, anna, [&](const std::string& fault, bool) { answers += fault.empty() ? 1 : 100; });

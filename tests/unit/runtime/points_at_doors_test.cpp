@@ -9,6 +9,7 @@
 
 #include "gateway/core/text.hpp"
 #include "gateway/doors/dds/axis_sample.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/registers/register_lists.hpp"
 #include "gateway/registers/register_map.hpp"
 #include "gateway/registers/user_map.hpp"
@@ -59,7 +60,7 @@ AxisPicture running() {
     p.target_velocity = -40;
     p.homing_method = -17;
     p.setpoints_accepted = 4;
-    p.authority = Door::http;
+    p.authority = http::clients;
     p.authority_until = at_ns(31'000'000'000);
     p.authority_holder = {'a', 'n', 'n', 'a'};
     p.presence = Presence::twin;

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <boost/json/parse.hpp>
 
+#include "gateway/doors/dds/words.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/services/descriptions/description_files.hpp"
 #include "gateway/services/parameters/parameter_table.hpp"
 #include "gateway/services/parameters/snapshots.hpp"
@@ -22,7 +24,7 @@ protected:
     FakeGateway gateway;
     std::shared_ptr<AxisJobs> jobs = std::make_shared<AxisJobs>();
     std::shared_ptr<ChangeQueue> changes = std::make_shared<ChangeQueue>();
-    const Origin anna{Door::dds, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna panel")};
+    const Origin anna{dds::clients, std::make_shared<const std::string>("anna"), std::make_shared<const std::string>("anna panel")};
 
     Snapshots snapshots() { return {gateway.ports(), jobs}; }
     void drive_answers(std::int64_t value) {
@@ -52,7 +54,7 @@ TEST_F(OtherDoor, ASnapshotIsTakenComparedAndRestored) {
     ASSERT_EQ(gateway.noted.size(), 1u);
     EXPECT_EQ(gateway.noted[0].door, "dds") << "the event names the door that it came by";
     for (const auto& c : gateway.submitted)
-        EXPECT_EQ(c.origin.door, Door::dds);
+        EXPECT_EQ(c.origin.door, dds::clients);
 
     drive_answers(17);
     std::optional<SnapshotDifference> difference;
@@ -146,7 +148,7 @@ TEST_F(OtherDoor, AnotherClientsStageIsNotReplacedInSilence) {
     const auto document = to_json(gateway.site()->site);
     ASSERT_FALSE(staging.stage(document, anna));
     EXPECT_FALSE(staging.refuse_taken(anna));
-    const Origin other{Door::http, std::make_shared<const std::string>("bert"), std::make_shared<const std::string>("bert")};
+    const Origin other{http::clients, std::make_shared<const std::string>("bert"), std::make_shared<const std::string>("bert")};
     const auto refusal = staging.refuse_taken(other);
     ASSERT_TRUE(refusal);
     EXPECT_EQ(refusal->why, Why::stage_taken);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "gateway/core/assets.hpp"
+#include "gateway/doors/http/words.hpp"
 #include "gateway/store/backup.hpp"
 #include "gateway/store/store.hpp"
 
@@ -111,7 +112,7 @@ inline ParameterWrite a_write(std::string axis, std::string parameter, Value val
     w.axis = std::move(axis);
     w.parameter = std::move(parameter);
     w.value = std::move(value);
-    w.door = Door::http;
+    w.door = http::clients;
     w.who = "192.0.2.7:51123";
     w.at_unix_ns = at;
     w.storage = "eeprom";

@@ -3,6 +3,7 @@
 #include <limits>
 #include <thread>
 
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/unit/store/fixture.hpp"
 
 namespace axisgate::test {
@@ -112,7 +113,7 @@ TEST(Stored, IsTheNewestWriteWithWhoWhenAndWhere) {
     auto first = a_write("feeder", "AC", std::int64_t{100}, 1'000);
     auto second = a_write("feeder", "AC", std::int64_t{200}, 2'000);
     second.previous = std::int64_t{100};
-    second.door = Door::modbus;
+    second.door = modbus::clients;
     second.who = "192.0.2.9:1";
     second.storage = "ram";
     const auto other = a_write("slide", "AC", 1.5, 3'000);

@@ -1,0 +1,22 @@
+// The DDS door's descriptor.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gateway/runtime/door_descriptor.hpp"
+
+namespace axisgate {
+
+struct DdsSettings {
+    bool enabled = false;               ///< [dds] enabled
+    std::int64_t domain = 0;            ///< [dds] domain, 0..232
+    std::string partition = "plant";    ///< [dds] partition: gateways of another one see nothing of this one
+    std::string name;                   ///< [dds] name of this gateway in the domain, 1..63 bytes; empty: the host's name
+    std::string interface_name = "lo";  ///< [dds] interface: network interface; lo: this machine alone
+    std::string security;               ///< [dds] security: folder made by `axisgate pki`; empty: off, everybody in the domain is believed
+};
+
+extern const DoorDescriptor dds_door;
+
+}  // namespace axisgate

@@ -46,7 +46,7 @@ PURE = ("core", "site", "wire", "axis", "protocols/canopen", "protocols/cip", "p
 
 # What a family's files are called, so that who knows one family knows all: see CONTRIBUTING. A role that a family does not need is absent.
 ROLES = ("family", "wire", "decoder", "adapter", "drive", "start", "polls", "feedback", "power", "motion", "homing", "stop", "parameters", "native", "actions", "demand")
-ROLE_PAGES = {"README.md", "ERRATA.md", "vectors.txt"}
+ROLE_PAGES = {"README.md", "ERRATA.md", "vectors.txt", "stands_on.txt"}
 ROLE_FOLDERS = {"twin", "tests", "fuzz"}
 
 
@@ -58,8 +58,10 @@ def role_faults(family, names):
             yield f"adapters/{family}/{name}: no role of a family has this name: {', '.join(ROLES)}"
 
 
-# A family whose drives are another family's with more to them stands on that one: it may include its adapter's and its twin's files.
-STANDS_ON = {"aposs": "cia402", "remote": "cia402"}
+def stands_on(family):
+    """The family whose adapter's and twin's files this one may include, as its own folder says; None: it stands alone."""
+    says = TOP / "adapters" / family / "stands_on.txt"
+    return says.read_text(encoding="utf-8").strip() if says.is_file() else None
 
 
 def room(path):
@@ -97,7 +99,7 @@ def may_include(path, included):
                 return None
             if folder == own + "/twin" and rel.name == "family.cpp":
                 return None
-            base_family = STANDS_ON.get(own.split("/")[1])
+            base_family = stands_on(own.split("/")[1])
             if base_family and folder == f"adapters/{base_family}":
                 return None
             if folder != own:
@@ -109,7 +111,7 @@ def may_include(path, included):
         if r == "twin":
             if folder.startswith("gateway/protocols/"):
                 return None
-            base_family = STANDS_ON.get(own.split("/")[1])
+            base_family = stands_on(own.split("/")[1])
             if base_family and folder == f"adapters/{base_family}/twin":
                 return None
             if folder != own or not (own.endswith("/twin") or pathlib.PurePosixPath(included).name.startswith("twin")):
@@ -174,7 +176,9 @@ def faults_of(path, text):
 # Each rule can fail: a file as it must not be, and the rule that has to find it.
 PROBES = (("rooms", "gateway/engine/engine.cpp", "// x\n#include <boost/asio.hpp>\n"), ("rooms", "gateway/engine/engine.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'),
           ("rooms", "gateway/protocols/canopen/sdo.cpp", '// x\n#include "gateway/drive/polls.hpp"\n'), ("rooms", "gateway/protocols/canopen/sdo.cpp", "// x\n#include <thread>\n"),
-          ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'), ("time", "gateway/engine/engine.cpp", "// x\nsteady_clock::now();\n"),
+          ("rooms", "adapters/uim342/twin.cpp", '// x\n#include "adapters/uim342/wire.hpp"\n'),
+          ("rooms", "adapters/uim342/drive.cpp", '// x\n#include "adapters/cia402/drive.hpp"\n'), ("rooms", "adapters/aposs/drive.cpp", '// x\n#include "adapters/uim342/drive.hpp"\n'),
+          ("time", "gateway/engine/engine.cpp", "// x\nsteady_clock::now();\n"),
           ("open", "gateway/runtime/hot.cpp", "// x\n// TO" "DO\n"), ("head", "gateway/runtime/hot.cpp", "#include <vector>\n"),
           ("json", "gateway/services/recipes/recipe_run.cpp", "// x\n#include <boost/json/value.hpp>\n"), ("json", "gateway/doors/dds/fleet.cpp", "// x\nboost::json::object body;\n"),
           ("once", "gateway/runtime/hot.hpp", "// x\n"), ("length", "gateway/runtime/hot.cpp", "// x\n" * 901))
@@ -203,6 +207,8 @@ def main():
     faults = [f for path in sources for f in faults_of(path, path.read_text(encoding="utf-8"))]
     families = sorted(p.parent.name for p in (TOP / "adapters").glob("*/family.cpp"))
     for f in families:
+        if stands_on(f) and (stands_on(f) not in families or stands_on(stands_on(f))):
+            faults.append(("families", f"adapters/{f}/stands_on.txt: {stands_on(f)} is no family that stands alone"))
         faults += [("roles", what) for what in role_faults(f, [p.name for p in (TOP / "adapters" / f).iterdir()])]
         for need in (f"schema/families/{f}.json", f"adapters/{f}/README.md", f"adapters/{f}/vectors.txt", f"adapters/{f}/tests/facts.json"):
             if not (TOP / need).is_file():

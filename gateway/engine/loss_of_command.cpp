@@ -38,7 +38,7 @@ void LossOfCommand::on_client_lost(const AuthorityClient& who, LossCause cause, 
         if (a->stream.who == who) streams_.end(*a, Reason::interrupted, who.text() + " is gone", now);
     }
     for (auto& [ticket, order] : pending_.orders) {  // orders that the drive accepts from now on begin without their owner
-        if (order.motion && order.motion->who == who) order.owner_lost = cause;
+        if ((order.motion ? order.motion->who : AuthorityClient::of(order.by)) == who) order.owner_lost = cause;
     }
 }
 

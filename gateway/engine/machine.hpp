@@ -388,6 +388,7 @@ struct OrderRecord {
     std::uint64_t client = 0;  ///< 0 for an order of the engine itself
     AxisId axis = no_axis;
     CommandBody body;
+    Origin by;  ///< the client that asked for it; of the engine's own orders the owner of the set-point that waited, or nobody
     DriveId handback = no_drive;
     Result kept;                             ///< the drive's answer while the store is writing
     Value before;                            ///< of a write: the previous value, as far as it is known

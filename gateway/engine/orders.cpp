@@ -128,6 +128,7 @@ void Orders::give(Axis& a, Client* client, CommandBody body, Origin origin, Inst
     record.client = client ? client->number : 0;
     record.axis = a.id;
     record.body = body;
+    record.by = origin;
     Axis& moves = concerned(a, stated(a, body));
     record.motion = Motions::asked(moves, body, origin);
     record.mover = moves.id;
@@ -208,6 +209,7 @@ void Orders::result(const Result& given, Instant now) {
             moved.mover = it->second.mover;
             moved.client = it->second.client;
             moved.body = it->second.body;
+            moved.by = it->second.by;
             moved.owner_lost = it->second.owner_lost;
             record_motion(*a, moved, no_ticket, r, now);
         }
@@ -287,7 +289,7 @@ void Orders::record_motion(Axis& a, OrderRecord& record, Ticket mover, const Res
             Axis* other = machine_.axis(id);
             if (!other) continue;
             if (is_good) machine_.image.picture(id).motion_ticket = mover;
-            auto m = other == &a ? std::nullopt : Motions::asked(*other, record.body, record.motion ? record.motion->origin : Origin{});
+            auto m = other == &a ? std::nullopt : Motions::asked(*other, record.body, record.by);
             if (m && is_good) motion_taken(*other, std::move(*m), record, r.ticket, now);
             if (m && r.outcome == Outcome::failed) motions_.suspect(*other, std::move(*m));
             publisher_.publish(*other, now);

@@ -3,6 +3,7 @@
 // mechanics.
 #include <gtest/gtest.h>
 
+#include "gateway/doors/enip/words.hpp"
 #include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 
@@ -169,8 +170,8 @@ TEST_P(FailSafeLaws, AnEnabledAxisAtRestIsSwitchedOffWhereTheSiteSaysDisable) {
 TEST_P(FailSafeLaws, ALossBehindAnotherIsAsSharpAsIfItWereTheFirst) {
     world = fresh();
     Site s = world->twins(e);
-    s.axes.at(0).fail_safe.of(LossCause::enip_idle) = FailSafeAction::halt;
-    s.axes.at(0).fail_safe.of(LossCause::enip_timed_out) = FailSafeAction::quick_stop;
+    s.axes.at(0).fail_safe.of(enip::loss_idle) = FailSafeAction::halt;
+    s.axes.at(0).fail_safe.of(enip::loss_timed_out) = FailSafeAction::quick_stop;
     start(std::move(s));
     const Result* on = tell(Enable{});
     ASSERT_TRUE(on && good(*on)) << published(on);
@@ -180,15 +181,15 @@ TEST_P(FailSafeLaws, ALossBehindAnotherIsAsSharpAsIfItWereTheFirst) {
     if (r && r->reason == Reason::not_supported) return lacks_velocity(*r);
     ASSERT_TRUE(r && good(*r)) << published(r);
     ASSERT_TRUE(world->run_until_true([&] { return speed(a1) > 3000; }, 20s));
-    lose(LossCause::enip_idle);
+    lose(enip::loss_idle);
     world->run_for(300ms);
     ASSERT_GT(speed(a1), 1000) << "its ramp takes four seconds";
-    lose(LossCause::enip_idle);
+    lose(enip::loss_idle);
     EXPECT_EQ(events("fail_safe"), 1) << "the same again is nothing new";
-    lose(LossCause::enip_timed_out);
+    lose(enip::loss_timed_out);
     ASSERT_TRUE(world->run_until_true([&] { return power_state_of(now().statusword) == PowerState::quick_stop_active; }, 1s));
     EXPECT_EQ(events("fail_safe"), 2);
-    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(LossCause::enip_timed_out));
+    EXPECT_EQ(now().fail_safe_cause, static_cast<std::uint16_t>(enip::loss_timed_out));
     ASSERT_TRUE(rests());
 }
 

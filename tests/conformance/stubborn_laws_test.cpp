@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "gateway/axis/cia402.hpp"
+#include "gateway/doors/http/words.hpp"
+#include "gateway/doors/modbus/words.hpp"
 #include "tests/conformance/laws.hpp"
 #include "tests/conformance/ways.hpp"
 
@@ -89,8 +91,8 @@ private:
 
 class StubbornLaws : public Laws {
 protected:
-    const Origin bert{Door::http, std::make_shared<const std::string>("bert"), {}};
-    const Origin plc{Door::modbus, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
+    const Origin bert{http::clients, std::make_shared<const std::string>("bert"), {}};
+    const Origin plc{modbus::clients, std::make_shared<const std::string>("192.0.2.7:50000"), {}};
     std::uint64_t tickets = 1;
     Family changed;
 
@@ -206,14 +208,15 @@ protected:
     Ticket both = no_ticket;
 
     /// `client_lost`: as soon as the order is on its way. False: the family cannot start two axes together, and its answer says so.
-    [[nodiscard]] bool set_off(bool client_lost = false) {
+    /// `own_too`: the axis that the order names first has a motion prepared as well; without it, only the other one moves.
+    [[nodiscard]] bool set_off(bool client_lost = false, bool own_too = true) {
         const int channels = std::min(2, e.catalogue->most_channels());
-        begin([](AxisSpec& a) { a.fail_safe.of(LossCause::modbus_closed) = FailSafeAction::quick_stop; },
+        begin([](AxisSpec& a) { a.fail_safe.of(modbus::loss_closed) = FailSafeAction::quick_stop; },
               {channels > 1 ? 1u : 2u, channels, true});
         a2 = site->axis_ids.at(1);
         Move m = move_to(400'000, Move::Kind::relative);
         m.prepare_only = true;
-        for (const AxisId axis : {a1, a2}) {
+        for (const AxisId axis : own_too ? std::vector{a1, a2} : std::vector{a2}) {
             const Result* r = ask(axis, m, false);
             EXPECT_TRUE(r);
             if (!r || is_lacking(*r)) return false;
@@ -221,11 +224,11 @@ protected:
         }
         flaw.answers_late = true;
         both = give(a1, StartTogether{{a1, a2}}, plc);
-        if (client_lost) world->engine.on_client_lost(AuthorityClient::of(plc), LossCause::modbus_closed, world->now);
+        if (client_lost) world->engine.on_client_lost(AuthorityClient::of(plc), modbus::loss_closed, world->now);
         EXPECT_TRUE(world->run_until_true([&] { return !flaw.held.empty() || world->result(both); }, 5s));
         if (const Result* r = flaw.held.empty() ? world->result(both) : &flaw.held.front(); !r || !good(*r)) {
             if (client_lost && r && r->reason == Reason::interrupted) return true;  // the stop for the loss came first
-            EXPECT_TRUE(r && is_lacking(*r)) << published(r);
+            EXPECT_TRUE(r && (own_too ? is_lacking(*r) : r->outcome == Outcome::refused && !r->text.empty())) << published(r);
             return false;
         }
         return true;
@@ -255,6 +258,15 @@ TEST_P(JointStartLaws, AClientThatIsLostBeforeTheAnswerLeavesNoAxisMoving) {
     ASSERT_TRUE(world->wait(both, 5s)) << "it has its answer";
     EXPECT_TRUE(stands(5s));
     EXPECT_TRUE(stands(a2, 5s));
+}
+
+/// The order is one of an axis that does not move by it: its loss concerns those that do.
+TEST_P(JointStartLaws, AClientThatIsLostLeavesNoOtherAxisMovingByAnOrderOfOneThatRests) {
+    if (!set_off(true, false)) return;
+    flaw.answers_late = false;
+    ASSERT_TRUE(world->wait(both, 5s)) << "it has its answer";
+    EXPECT_TRUE(stands(a2, 5s));
+    EXPECT_LT(mechanics(a2).position, 390'000) << "it was stopped on its way";
 }
 
 TEST_P(JointStartLaws, AStartThatWasAnsweredAsFailedAndBeginsIsStoppedOnEachAxis) {
@@ -288,7 +300,7 @@ TEST_P(StubbornLaws, AStopThatTheDriveDoesNotAcknowledgeIsGivenAgain) {
 /// It stays enabled, because the drive does not hear that it shall switch off, and its client stays silent: that is one loss.
 TEST_P(StubbornLaws, ASilentClientOfAnAxisAtRestIsLostOnce) {
     const auto fit = [](AxisSpec& a) {
-        a.fail_safe.of(LossCause::modbus_silent) = FailSafeAction::disable;
+        a.fail_safe.of(modbus::loss_silent) = FailSafeAction::disable;
         a.fail_safe.watchdog_ms = 400;
     };
     begin(fit, {1, 1, false});
@@ -298,7 +310,7 @@ TEST_P(StubbornLaws, ASilentClientOfAnAxisAtRestIsLostOnce) {
     world->run_for(10s);
     ASSERT_LT(flaw.stops_unheard, 1000) << "it was to be switched off";
     EXPECT_EQ(events("fail_safe"), 1);
-    EXPECT_EQ(world->engine.losses(LossCause::modbus_silent), 1u);
+    EXPECT_EQ(world->engine.losses(modbus::loss_silent), 1u);
 }
 
 /// A program of the drive pauses while the stop for the loss of its client is unheard, and goes on: it is stopped for that loss again.
@@ -306,7 +318,7 @@ TEST_P(StubbornLaws, AProgramThatGoesOnBehindALossIsStoppedForItAgain) {
     const auto& program = facts_of(e).at("motions").as_object().at("program").as_object();
     if (program.contains("lacks")) return;
     begin([](AxisSpec& a) {
-        a.fail_safe.of(LossCause::modbus_silent) = FailSafeAction::halt;
+        a.fail_safe.of(modbus::loss_silent) = FailSafeAction::halt;
         a.fail_safe.watchdog_ms = 2'000;
     });
     const auto say = [&](const boost::json::value& fact) {

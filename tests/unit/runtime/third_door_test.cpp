@@ -374,7 +374,7 @@ TEST(SeventhAndEighthDoor, ShareNothingThoughTheirClientsHaveOneName) {
     of_seventh.profile_velocity = 4000;
     of_seventh.profile_acceleration = of_seventh.profile_deceleration = 20'000;
     int good = 0;
-    for (const std::uint16_t word : {0x06, 0x07, 0x0F}) {
+    for (const std::uint16_t word : std::initializer_list<std::uint16_t>{0x06, 0x07, 0x0F}) {
         of_seventh.controlword = word;
         write(seventh, of_seventh, ++good, 0);
     }

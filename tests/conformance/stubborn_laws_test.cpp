@@ -223,7 +223,7 @@ protected:
             EXPECT_TRUE(good(*r)) << published(r);
         }
         flaw.answers_late = true;
-        both = give(a1, StartTogether{{a1, a2}}, plc);
+        both = give(a1, own_too ? StartTogether{{a1, a2}} : StartTogether{{a2}}, plc);
         if (client_lost) world->engine.on_client_lost(AuthorityClient::of(plc), modbus::loss_closed, world->now);
         EXPECT_TRUE(world->run_until_true([&] { return !flaw.held.empty() || world->result(both); }, 5s));
         if (const Result* r = flaw.held.empty() ? world->result(both) : &flaw.held.front(); !r || !good(*r)) {

@@ -1,5 +1,4 @@
-// Family aposs: MACS controllers of zub, as nodes on CANopen: the adapter of CiA 402 drives in another dialect, a twin of its own.
-// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a controller.
+// MACS controllers of zub are nodes on CANopen: the family uses the adapter of CiA 402 drives with another dialect, and has its own twin.
 #include "adapters/aposs/family.hpp"
 
 #include "adapters/aposs/twin/twin.hpp"

@@ -1,5 +1,3 @@
-// Adapter of CiA 402 drives: the line.
-// In: calls from outside. Out: what the drives say of them. Every call ends with end(): free places are given away, the next SYNC is set.
 #include "adapters/cia402/adapter.hpp"
 
 #include <utility>
@@ -8,7 +6,7 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-constexpr int rest_cycle = 250;  ///< ms; at rest an axis is looked at as seldom as this, or in its cycle
+constexpr int rest_cycle = 250;  ///< ms; an axis at standstill is observed in this cycle, or in its own if that is longer
 }
 
 void LineAdapter::configure(const LineSetup& setup, Instant now, Out& out) {
@@ -82,7 +80,7 @@ void LineAdapter::on_frame(const Frame& f, Instant now, Out& out) {
 
 void LineAdapter::on_deadline(Instant now, Out& out) {
     Turn t{now, out};
-    // Behind all else that waits here: its identifier is one of the last, and a SYNC behind it would be late.
+    // Sent after all waiting frames: its identifier has nearly the lowest priority, and a SYNC that waits for it would be late.
     if (const auto beat = heartbeat_.on_deadline(now, line_.own_node, canopen::NmtState::operational)) t.out.send(*beat, Priority::poll);
     if (now >= targets_at_) send_targets(t);
     if (up_ && now >= sync_.deadline()) send_sync(t);
@@ -104,14 +102,14 @@ void LineAdapter::send_sync(Turn& t) {
 }
 
 void LineAdapter::end(Turn& t) {
-    if (line_.targets.none() && wished_ != wished_beat()) plan_beats(t);  // the site's beat has waited for those that were led
+    if (line_.targets.none() && wished_ != wished_beat()) plan_beats(t);  // not possible while axes follow set-points
     drives_.each([&](Drive& d) { drive::settle(line_.turns, d, t.now); });
     drive::serve(line_.turns, drives_, t);
     plan_sync(t.now);
     plan_heartbeat(t.now);
 }
 
-/// A number that no drive of the line has. It stays while it can: the drives watch it.
+/// Chooses a node number that no drive of the line has. It is kept as long as possible, because the drives watch it.
 void LineAdapter::choose_own_node(const LineSetup& setup) {
     drive::OptionReader options(setup.options);
     const auto before = line_.own_node;
@@ -126,7 +124,7 @@ void LineAdapter::choose_own_node(const LineSetup& setup) {
 }
 
 void LineAdapter::plan_heartbeat(Instant now) {
-    constexpr Duration usual = std::chrono::milliseconds(50);  // of a bus at 125 kbit/s a hundredth
+    constexpr Duration usual = std::chrono::milliseconds(50);  // one hundredth of a bus at 125 kbit/s
     Duration period{};
     drives_.each([&](const Drive& d) {
         if (up_ && d.watches()) period = std::min(period == Duration::zero() ? usual : period, d.node.watch.time / 4);
@@ -143,7 +141,8 @@ void LineAdapter::plan_beats(Turn& t) {
     canopen::TurnsWish wish{wished_, line_.bit_rate, axis_bits, target_bits, line_.targets.fullest(), {}};
     drives_.each([&](const Drive& d) { wish.nodes.push_back({static_cast<int>(d.axes.size()), d.node.slot}); });
     auto plan = canopen::plan_turns(wish);
-    if (!line_.targets.none() && plan.beat != line_.plan.beat) {  // whoever is led reckons with the beat: others begin when it may change
+    if (!line_.targets.none() && plan.beat != line_.plan.beat) {  // drives that follow set-points calculate with the cycle: their streams
+                                                                  // end when it may change
         wished_ = {};
         return;
     }
@@ -164,10 +163,10 @@ Duration LineAdapter::period() const {
         close = std::min(close, d.pace().period(beat));
     });
     if (!wanted) return Duration::zero();
-    if (streams) return beat;  // by which the drives that follow were told to reckon
+    if (streams) return beat;  // the drives that follow set-points were configured with this cycle
     if (!quick)
         return std::min<Duration>(drive::Pace::rested * beat, std::max<Duration>(beat, milliseconds(rest_cycle / line_.plan.turns)));
-    // Where somebody looks closely, as far as the fullest beat allows it.
+    // For an axis that is observed closely, as far as the load of the fullest cycle permits.
     const auto whole = [](Duration d) { return milliseconds(milliseconds_of(d + std::chrono::microseconds(999))); };
     const Duration least = 2 * wire_time(line_.plan.bits, line_.bit_rate == 0 ? 1'000'000 : line_.bit_rate);
     return std::min<Duration>(beat, std::max<Duration>({whole(close), whole(least), milliseconds(1)}));
@@ -180,7 +179,7 @@ void LineAdapter::plan_sync(Instant now) {
     line_.period = period;
     const int due = line_.targets.in(line_.beat + 1);
     if (due == 0 || targets_for_ == line_.beat + 1) return;
-    // Behind a frame that is on its way, one after the other, and this thread may be a little late.
+    // Time for a frame that is being transmitted, for the targets one after the other, and for a delay of this thread.
     const auto bits = canopen::most_bits(8) + static_cast<std::uint64_t>(due) * target_bits;
     const Duration before = wire_time(bits, line_.bit_rate) + std::chrono::microseconds(200);
     targets_at_ = sync_.deadline() - std::min<Duration>(before, period / 2);

@@ -1,6 +1,5 @@
-// Adapter of CiA 402 drives: the CAN line: who is on it, whose turn it is, what arrives, and the SYNC of all of them.
-// In: setup, line state, commands, set-points, frames, time. Out: frames; feedback, results, links, notices.
-// Never sends a message to all nodes but the SYNC and its own heartbeat.
+// The CAN line of CiA 402 drives: the drives of the line, the received frames, and the common SYNC. The adapter sends no message to all
+// nodes other than SYNC and its own heartbeat.
 #pragma once
 
 #include "adapters/cia402/drive.hpp"
@@ -11,7 +10,7 @@ namespace axisgate::cia402_drive {
 
 class LineAdapter final : public Adapter {
 public:
-    /// `catalogue` is the family's page, for drives whose setup names none.
+    /// `catalogue` is the family's, for drives whose setup names none.
     explicit LineAdapter(const Catalogue& catalogue) : line_(catalogue) {}
     void configure(const LineSetup& setup, Instant now, Out& out) override;
     void on_line(bool up, Instant now, Out& out) override;
@@ -26,27 +25,29 @@ public:
 
 private:
     void end(Turn& t);
-    /// Which drive tells in which beats, by the drives of the site; an axis that is led keeps the beat that it was told to reckon with.
+    /// Distributes the drives of the site over the SYNC cycles. An axis that follows set-points keeps the cycle that it was configured
+    /// with.
     void plan_beats(Turn& t);
     [[nodiscard]] Duration wished_beat() const;
-    /// Between two SYNCs: the beat of the plan, longer at rest, shorter where somebody looks closely and the bus has room; zero: nobody
-    /// listens.
+    /// Time between two SYNCs: the cycle of the plan, longer at standstill, shorter while an axis is observed closely and the bus has
+    /// capacity. Zero: no drive uses SYNC.
     [[nodiscard]] Duration period() const;
     void plan_sync(Instant now);
     void send_targets(Turn& t);
     void send_sync(Turn& t);
     void choose_own_node(const LineSetup& setup);
-    /// As long as a drive that watches it answers. One that is alone and does not answer any more is left to its watchdog.
+    /// The heartbeat is sent as long as a drive that monitors it answers. If none answers any more, it stops, so that the drives' own
+    /// monitoring acts.
     void plan_heartbeat(Instant now);
     Line line_;
     drive::Roster<Drive> drives_;
     std::array<Drive*, 128> by_node_{};
     bool up_ = false;
-    Duration wished_{};  ///< the beat that the plan was made for
+    Duration wished_{};  ///< the cycle for which the plan was made
     canopen::SyncProducer sync_;
-    Instant targets_at_ = never;            ///< so long before the SYNC that they are there with it
-    std::uint64_t targets_for_ = 0;         ///< the beat whose targets went out last
-    canopen::HeartbeatProducer heartbeat_;  ///< the gateway's own
+    Instant targets_at_ = never;            ///< time before the SYNC at which the targets are sent, so that they arrive before it
+    std::uint64_t targets_for_ = 0;         ///< the cycle whose targets were sent last
+    canopen::HeartbeatProducer heartbeat_;  ///< of the gateway
     Duration heartbeat_period_{};
 };
 

@@ -1,5 +1,4 @@
-// Decoder of CANopen captures: the sentences.
-// In: frames. Out: lines such as "node 5: read 6064h:00 position_actual_value = 1500". Never shows a control character.
+// Example of a sentence: "node 5: read 6064h:00 position_actual_value = 1500". Control characters are never shown.
 #include "adapters/cia402/decoder.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +12,7 @@ namespace {
 std::string hex_of(std::span<const std::uint8_t> bytes) { return fmt::format("{:02X}", fmt::join(bytes, " ")); }
 }  // namespace
 
-/// The entry for an object, which may be a further axis' (then `axis` counts from 2): 6864h is 6064h of the second one.
+/// The catalogue entry of an object. It may belong to a further axis (then `axis` counts from 2): 6864h is 6064h of the second axis.
 const Parameter* CanDecoder::entry(Address a, int& axis) const {
     axis = 1;
     if (const Parameter* p = parameter_at(catalogue_, a)) return p;

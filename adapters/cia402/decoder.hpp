@@ -1,5 +1,5 @@
-// Decoder of CANopen captures: each frame as a sentence, objects by name, PDOs by the mapping that was seen on its way into the node.
-// In: frames, with or without their direction. Out: one line per message. Never guesses: what it has not seen it shows as bytes.
+// The decoder of CANopen captures: one sentence per message, with objects by name. PDOs are decoded by the mapping that was written to the
+// node within the capture; PDOs whose mapping was not seen are shown as bytes. The direction of a frame may be unknown.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ public:
 
 private:
     struct Node {
-        std::map<std::uint16_t, std::map<std::uint8_t, std::uint32_t>> maps;  ///< 16xxh, 1Axxh as written
+        std::map<std::uint16_t, std::map<std::uint8_t, std::uint32_t>> maps;  ///< 16xxh, 1Axxh as they were written
         Address asked;
     };
     [[nodiscard]] const Parameter* entry(Address address, int& axis) const;

@@ -1,5 +1,4 @@
-// SetPointStream: one target per cycle of the axis.
-// In: the newest set-point, what is known of the axis. Out: RPDOs of the connection set, which are the first axis'.
+// The RPDOs of the connection set belong to the first axis, so only that axis follows streams.
 #include "adapters/cia402/demand.hpp"
 
 #include <fmt/core.h>
@@ -11,11 +10,11 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-constexpr Duration longest_cycle = std::chrono::milliseconds(255);  ///< 60C2h in whole ms
+constexpr Duration longest_cycle = std::chrono::milliseconds(255);  ///< 60C2h in whole milliseconds
 }
 
 void SetPointStream::follow(const SetPoint& p) {
-    if (!drive_.listens() || drive_.node.stopped || drive_.place() > 0) return;  // the engine asks nobody who has no cyclic mode
+    if (!drive_.listens() || drive_.node.stopped || drive_.place() > 0) return;  // without a cyclic mode there are no set-points
     if (newest_ && newest_->mode != p.mode) end();
     newest_ = p;
 }

@@ -1,6 +1,5 @@
-// SetPointStream: the way of a streamed set-point into a drive that follows one target in each cycle of its own.
-// In: the newest set-point, beats. Out: the next target, within the speed and the ramps of the set-point; RPDOs.
-// Never gives a drive a step that its ramps do not allow: in a cyclic mode nobody else would plan the way.
+// SetPointStream sends streamed set-points to a drive that follows one target per cycle. In a cyclic mode the drive has no profile
+// generator, so each target is calculated here within the speed and the ramps of the set-point.
 #pragma once
 
 #include <optional>
@@ -20,21 +19,21 @@ public:
 
     void follow(const SetPoint& set_point);
     void end() noexcept;
-    /// Its target, if it has its place in the beat that the next SYNC begins.
+    /// Sends the target if the axis has its place in the cycle that the next SYNC begins.
     void before_sync(Turn& t);
-    /// A set-point is here, and its mode is not begun.
+    /// A set-point has arrived and its mode has not been entered.
     [[nodiscard]] bool waits() const noexcept { return newest_ && state_ == State::none; }
-    /// The steps into its mode; nothing: the beats have no room for one more, and the stream is over.
+    /// The steps into the mode of the stream. Empty: the cycles have no free place, and the stream has ended.
     [[nodiscard]] std::optional<Job> begin(Turn& t);
-    /// The drive has refused the time between two targets. True: it has another one, and would go in jerks.
+    /// The drive has refused the interpolation time. True: it uses another one, and would not move evenly.
     [[nodiscard]] bool has_another_time() const noexcept;
-    /// They are done; it stood at `here`.
+    /// The steps are done; the axis stood at `here`.
     void begun(std::int64_t here);
-    /// The mode that the drive shows: another one than that of the stream, again and again, ends it. Targets that nobody follows would be
-    /// made up for in one step.
+    /// The drive shows its mode (6061h). If it differs from the stream's mode several times in succession, the stream ends: the drive would
+    /// cover targets that it did not follow in one step.
     void mode_shown(int mode, Turn& t);
     [[nodiscard]] bool on() const noexcept { return newest_ || state_ != State::none; }
-    /// It gives targets that move the axis.
+    /// True while the targets move the axis.
     [[nodiscard]] bool moves() const noexcept { return state_ >= State::position && led_.velocity() != 0; }
 
 private:
@@ -42,10 +41,10 @@ private:
     void give_back() noexcept;
     [[nodiscard]] Duration cycle() const noexcept;
 
-    static constexpr int sure = 3;  ///< pictures in a row: one may be older than the mode
+    static constexpr int sure = 3;  ///< feedback in succession; one may be older than the change of mode
     State state_ = State::none;
     int astray_ = 0;
-    std::optional<canopen::TargetTurns::Place> place_{};  ///< in the line's beats; it stays while the axis is led
+    std::optional<canopen::TargetTurns::Place> place_{};  ///< in the cycles of the line; kept while the axis follows set-points
     std::optional<SetPoint> newest_;
     drive::Lead led_;
 };

@@ -1,5 +1,3 @@
-// Drive: what it sends next, and what answers and silences mean.
-// In: places on the line, frames, time. Out: requests, results. Never has two SDO transfers with one node.
 #include "adapters/cia402/drive.hpp"
 
 #include <fmt/core.h>
@@ -162,7 +160,7 @@ void Drive::after_sync() noexcept {
 Want Drive::wants(Instant now) const noexcept {
     const Presence& presence = node.presence;
     if (exchanges.active() || presence.is(Phase::down)) return Want::nothing;
-    // In order of what they are: a stop of any axis before all that another one wants.
+    // A stop of any axis comes before all other requests of the node.
     Want most = Want::nothing;
     for (const auto& a : axes)
         if (const Want w = a->wants(now); w != Want::nothing && (most == Want::nothing || w < most)) most = w;
@@ -172,7 +170,7 @@ Want Drive::wants(Instant now) const noexcept {
     if (presence.is(Phase::starting)) return start.waits(now) ? Want::nothing : Want::command;
     return most == Want::nothing && now >= check_at_ ? Want::poll : most;
 }
-/// Of what wants() looks at, and of nothing that waits behind it.
+/// Only requests that wants() considers may cause a wake-up.
 Instant Drive::wish() const noexcept {
     Instant first = never;
     for (const auto& a : axes)
@@ -195,7 +193,7 @@ void Drive::go(Turn& t) {
         ask->axis = at;
         if (node.stopped && ask->why == Ask::Why::stop) nmt.start(Priority::urgent, ask->ticket, t);
         if (ask->step.kind != Step::Kind::nmt) return exchanges.send(std::move(*ask), t);
-        t.out.send(canopen::nmt_frame(ask->step.nmt, node.number), Priority::command, ask->ticket);  // nobody answers it
+        t.out.send(canopen::nmt_frame(ask->step.nmt, node.number), Priority::command, ask->ticket);  // NMT has no answer
         return heed(axes[at]->answered(*ask, {}, t), t);
     }
     if (t.now >= check_at_) exchanges.send({Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0, axes.size()}, t);
@@ -264,11 +262,11 @@ void Drive::look_soon(Instant now) noexcept {
     for (const auto& a : axes)
         a->feedback.look_soon(now);
 }
-/// `cut`: a stop did not wait for it, so that nothing is known of the node.
+/// `cut`: a stop has ended the exchange early, so that it says nothing about the node.
 void Drive::unanswered(bool cut, Turn& t) {
     Presence& presence = node.presence;
     const Ask& ask = exchanges.ask();
-    if (cut && ask.why == Ask::Why::start) return;  // asked again
+    if (cut && ask.why == Ask::Why::start) return;  // the start repeats this request
     if (ask.axis < axes.size()) axes[ask.axis]->unanswered(ask, t);
     node.tickets.failed(ask.ticket, Reason::no_answer,
                         canopen::to_text(ask.step.address) + " was not answered: whether the drive took it is not known", t.out);

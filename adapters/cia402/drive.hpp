@@ -1,7 +1,5 @@
-// Drive: one CANopen node: presence, one SDO transfer at a time, and its axes, who take turns with it.
-// In: commands, set-points, frames, the passing of time, a place on the line. Out: frames, feedback, results, links, notices.
-// Written in: drive.cpp what it sends next, feedback.cpp PDOs, EMCY and heartbeats. Its parts: start.hpp, drive_exchange.hpp. Its axes:
-// drive_axis.hpp.
+// Drive is one CANopen node: its presence, its SDO channel, and its axes, which use the channel in turns. drive.cpp chooses the next
+// request; feedback.cpp evaluates PDOs, EMCY and heartbeats. Parts: start.hpp, drive_exchange.hpp. Axes: drive_axis.hpp.
 #pragma once
 
 #include <memory>
@@ -26,18 +24,18 @@ public:
     Drive(const Drive&) = delete;
     Drive& operator=(const Drive&) = delete;
 
-    /// Other axes of the same node: those that stay go on undisturbed.
+    /// The site has changed the axes of the node. Axes that remain are not disturbed.
     void set_axes(const DriveSetup& setup, Turn& t);
     void line_up(Turn& t) { node.presence.begin(t.now); }
     void line_down(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void follow(const SetPoint& set_point);
-    /// The same drive in another site: how closely its axes are looked at, and their limits, which are set up anew if they are others.
+    /// The site has changed how closely axes are observed, or their limits; changed limits are written to the drive again.
     void look(const DriveSetup& setup);
     void on_frame(const Frame& frame, Turn& t);
-    void before_sync(Turn& t);  ///< the next targets go out
+    void before_sync(Turn& t);  ///< sends the next targets
     void after_sync() noexcept;
-    // asked by drive::settle, serve and wake
+    // called by drive::settle, serve and wake
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant deadline() const noexcept { return std::min(exchanges.deadline(), heartbeat_.deadline()); }
     [[nodiscard]] Instant wish() const noexcept;
@@ -47,17 +45,17 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return node.setup; }
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] int listeners() const noexcept;
-    /// Its PDOs are waited for, or the beat in which they begin.
+    /// The node waits for its PDOs, or for the cycle in which they begin.
     [[nodiscard]] bool beats_wanted() const noexcept {
         return listeners() > 0 || (node.presence.is(Presence::Phase::starting) && start.at_end());
     }
     [[nodiscard]] bool quick() const noexcept;
     [[nodiscard]] bool streams() const noexcept;
-    /// It watches the gateway's heartbeat, and answers.
+    /// It monitors the gateway's heartbeat, and answers.
     [[nodiscard]] bool watches() const noexcept {
         return node.presence.online() && node.presence.watchdog().state == DriveWatchdog::State::armed;
     }
-    /// The gateway has another number on the line: it is set up anew, and goes on meanwhile.
+    /// The gateway's node number has changed: the node is set up again, and remains in operation meanwhile.
     void watch_anew() {
         if (node.presence.is(Presence::Phase::ready) && !axes.empty()) start.begin();
     }
@@ -65,13 +63,13 @@ public:
 
     // --- for its parts --------------------------------------------------------------------------------------------------
     void forget(Reason reason, std::string_view why, Turn& t);
-    /// Of the node, or of its first axis where it has one.
+    /// A notice of the node, or of its first axis if it has one.
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t);
-    /// An answer to an SDO that was not asked, or was answered before.
+    /// An SDO answer arrived that was not requested, or for the second time.
     void stray() noexcept { double_answer_.stray(); }
-    /// It sends heartbeats in this rhythm from now on; zero: it has refused.
+    /// The node sends heartbeats with this period from now on; zero: it has refused.
     void beats(Duration period) noexcept { double_beat_.begin(period); }
-    /// What commands rest on is known, and it is set up.
+    /// All values that commands need are known, and the node is set up.
     void made_ready(Turn& t);
     [[nodiscard]] Duration heartbeat_period() const noexcept { return heartbeat_period_; }
 
@@ -95,15 +93,15 @@ private:
     [[nodiscard]] bool on_pdo(const Frame& frame, Turn& t);
 
     std::size_t slot_;
-    std::size_t turn_ = 0;  ///< whose turn it is among the axes
+    std::size_t turn_ = 0;  ///< the axis that may use the SDO channel next
     drive::Pace pace_;
     Duration heartbeat_period_ = std::chrono::milliseconds(500);
     canopen::HeartbeatWatch heartbeat_;
     canopen::EmergencyGate gate_;
     DoubleAnswer double_answer_;
     DoubleBeat double_beat_;
-    bool two_nodes_reported_ = false;  ///< since the line is up
-    Instant check_at_ = never;         ///< of a node without an axis that listens
+    bool two_nodes_reported_ = false;  ///< since the line came up
+    Instant check_at_ = never;         ///< for a node without an axis whose PDOs are expected
 };
 
 }  // namespace axisgate::cia402_drive

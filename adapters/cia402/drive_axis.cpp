@@ -1,5 +1,3 @@
-// Axis: its commands, step by step.
-// In: commands, answers. Out: the next transfer, the one result of each command. Never has two steps of a command on the way.
 #include "adapters/cia402/drive_axis.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +101,7 @@ void Axis::begin(Command command, Turn& t) {
     job_ = std::move(job);
 }
 
-/// The step of a job that is next, its distance counted from the position that was read before it.
+/// The next step of a job, its distance added to the position that the step before has read.
 Step Axis::here(const Job& job) {
     Step s = job.steps[job.at];
     if (s.from_here) s.bytes = bytes_of(std::clamp<std::int64_t>(job.here + signed_of(s.bytes), INT32_MIN, INT32_MAX), 4);
@@ -139,7 +137,7 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
 Address Axis::asked(const Step& s) const { return s.literal ? s.address : of_axis(s.address, place_); }
 
 void Axis::unanswered(const Ask& ask, Turn& t) {
-    if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // it may have been taken
+    if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // the drive may have accepted it
     if (Stop* stop = stops_.first(); ask.why == Ask::Why::stop && stop) stops_.remove(stop);
     if (ask.why == Ask::Why::turns) turns.forget();
     if (ask.why == Ask::Why::step && job_) {
@@ -149,7 +147,7 @@ void Axis::unanswered(const Ask& ask, Turn& t) {
 }
 
 void Axis::withdraw() {
-    if (!stops_.empty()) return;  // it takes the word back, or is newer than this
+    if (!stops_.empty()) return;  // a stop takes the start bit back, or is newer than this job
     Stop stop;
     stop.command = Command{no_ticket, id_, Disable{}, false, {}};
     stop.job.emplace().command = stop.command;
@@ -158,7 +156,7 @@ void Axis::withdraw() {
 }
 
 void Axis::take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&)) {
-    if (!stops_.empty()) return;  // it is newer than this
+    if (!stops_.empty()) return;  // a stop is newer than this job
     Stop stop;
     stop.command = Command{no_ticket, id_, std::move(body), false, {}};
     if (planned) {
@@ -189,7 +187,7 @@ void Axis::drop(const Job& job) noexcept {
 Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     const Step s = here(job);
     const bool interpolation = s.address == object::cycle || s.address == object::cycle_index;
-    // A drive without 60C2h has no such time; one that does not take it now would follow in jerks.
+    // A drive without 60C2h has no interpolation time. One that does not accept it now would not move evenly.
     const bool other_time = job.stream && interpolation && end.abort == canopen::Abort::device_state && stream.has_another_time();
     if (!end.done() && (!s.optional || other_time)) {
         const std::string text =
@@ -213,7 +211,8 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
         job.here = signed_of(end.data);
         job.data = end.data;
     }
-    // What the drive has just answered is newer than its last PDO: who hears "enabled" finds it shown, and may go on at once.
+    // The status word that was just read is newer than the last PDO. It is shown before the command is answered, so that a client that is
+    // informed of "enabled" finds the axis enabled.
     if (s.kind == Step::Kind::until && s.address == object::statusword && end.done()) {
         const auto word = static_cast<std::uint16_t>(canopen::low_first(end.data));
         if (!job.went) job.status = word;
@@ -222,7 +221,8 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     if (s.kind == Step::Kind::until && end.done() && still_waits(job, s, end, t)) return News::none;
     job.give_up = never;
     job.wait_until = {};
-    const bool taken = s.edge && !std::holds_alternative<Move>(job.command.body);  // what it shows before it has seen the word is old
+    const bool taken = s.edge && !std::holds_alternative<Move>(job.command.body);  // values that the drive shows before it has seen the
+                                                                                   // control word are old
     if (taken) job.wait_until = t.now + seen_by_all;
     if (++job.at < job.steps.size()) {
         if (job.steps[job.at].edge && !job.released) job.wait_until = known.low_since + seen_by_all;
@@ -233,7 +233,7 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     return finish(done, t);
 }
 
-/// The value is not the one that is waited for, and this is not the end of the step: it is looked at again, or the job has failed.
+/// The value is not the expected one, and the step has not ended: read it again, or let the job fail.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
     if (s.away_from) {
         const std::int64_t at = signed_of(end.data), want = static_cast<std::int32_t>(s.want);
@@ -257,7 +257,7 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     node.tickets.failed(job.command.ticket, Reason::drive_refused, std::move(text), t.out);
     const bool started = job.went.has_value();
     drop(job);
-    // What is answered as failed must not come about later.
+    // An order that is answered as failed must not be carried out later.
     if (started) take_back(Halt{}, nullptr);
     if (s.awaits == Step::Awaits::mode) take_back(Halt{}, plan_mode_back);
     return true;
@@ -267,7 +267,7 @@ void Axis::saw_status(unsigned sw) noexcept {
     if (job_ && job_->went && (sw & 0x1000u) == 0) job_->begun = true;
 }
 
-/// Its drive has acknowledged the order of a motion.
+/// The drive has acknowledged the order of a motion.
 void Axis::moves_now(const CommandBody& body, Turn& t) {
     if (const auto* m = std::get_if<Move>(&body)) {
         const Order order = m->kind == Move::Kind::velocity ? Order::velocity : Order::position;
@@ -323,7 +323,7 @@ bool Axis::read_value(const Job& job, const ReadParameter& read, Value& value, T
     return true;
 }
 
-/// What the gateway itself goes by.
+/// Objects whose values the gateway uses itself.
 void Axis::written(const WriteParameter& to) {
     const Parameter* p = node.catalogue().parameter(to.point);
     const auto place = p ? place_of(*p, to.point) : std::nullopt;

@@ -1,7 +1,6 @@
-// Axis: one axis of a node: its queue and stops, and the step that it asks for next.
-// In: commands, answers to what it asked for, time. Out: what it asks for next; results. Its PDOs are its feedback's (feedback.hpp), its
-// streamed set-points demand.hpp's, its plans (motion.cpp, native.cpp) functions of what is known.
-// Never sends a request by itself: the drive has one transfer with the node at a time, and gives it to one axis after the other.
+// Axis is one axis of a node: its queue, its stops, and the next SDO transfer that it needs. It never sends: the node has one SDO channel,
+// and the drive gives it to one axis after the other. Its PDOs are evaluated in feedback.hpp, its streamed set-points in demand.hpp; its
+// plans are in motion.cpp and native.cpp.
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@ public:
         : node(of_node), id_(setup.id), place_(static_cast<std::size_t>(setup.channel - 1)), limits_(limits_of(setup)) {}
 
     using Limits = std::array<std::optional<std::int64_t>, 2>;  ///< of the site: lowest and highest position, increments
-    /// True: the site has others than before; they go out with the next set-up.
+    /// True: the limits have changed; they are written with the next set-up.
     bool set_limits(const AxisSetup& setup) {
         const Limits before = std::exchange(limits_, limits_of(setup));
         return limits_ != before;
@@ -39,26 +38,26 @@ public:
     void want_pdos(std::vector<PdoSetUp::Wanted>& wanted);
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
-    [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< to be read and set up before it is served
-    /// It is gone, or begins anew: nothing that was ordered holds any more. Its tickets are the caller's.
+    [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< must be read and set up before commands are carried out
+    /// The axis is gone, or starts again: all orders are forgotten. The caller answers their tickets.
     void forget();
     void forget_stops() noexcept { stops_.clear(); }
-    /// Somebody else has stopped its node: what is on its way cannot go on.
+    /// Another NMT master has stopped the node: the command in progress cannot continue.
     void node_stopped(Turn& t);
-    /// Each status word, as it comes.
+    /// To be called with each status word that arrives.
     void saw_status(unsigned statusword) noexcept;
 
-    /// Its drive has left operation by itself while the control word still enables it: the word is taken back, so that the power comes
-    /// again by a new order alone.
+    /// The drive has left "operation enabled" by itself while the control word still enables it: writes a control word without the enable
+    /// bits, so that only a new Enable switches the power on again.
     void withdraw();
-    /// An Enable is on its way.
+    /// An Enable is in progress.
     [[nodiscard]] bool enabling() const noexcept { return job_ && std::holds_alternative<Enable>(job_->command.body); }
 
-    /// False: the command is answered, or waits; true: it was a stop, and whatever is on the way is not repeated.
+    /// False: the command was answered, or waits. True: it was a stop, and the transfer in progress is not repeated.
     bool submit(const Command& command, Turn& t);
     [[nodiscard]] drive::Want wants(Instant now) const noexcept;
     [[nodiscard]] Instant wish() const noexcept;
-    /// What it asks for now; nothing: it has changed its mind.
+    /// The transfer that the axis needs now; empty: none any more.
     [[nodiscard]] std::optional<Ask> next(Turn& t);
     enum class News : std::uint8_t { none, deaf, node_resets };
     News answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t);
@@ -66,7 +65,7 @@ public:
 
     [[nodiscard]] AxisId id() const noexcept { return id_; }
     [[nodiscard]] std::size_t place() const noexcept { return place_; }  ///< among the axes of the node, from 0
-    /// It has the profile's objects, so that its PDOs are waited for.
+    /// The axis has the objects of the profile, so that its PDOs are expected.
     [[nodiscard]] bool listens() const noexcept { return node.presence.is(Presence::Phase::ready) && known.profile; }
     [[nodiscard]] bool quick() const noexcept { return listens() && (known.fb.moving || stream.on() || job_ || !stops_.empty()); }
 
@@ -86,7 +85,7 @@ private:
     [[nodiscard]] static Limits limits_of(const AxisSetup& setup) { return {setup.position_min, setup.position_max}; }
     void begin(Command command, Turn& t);
     [[nodiscard]] std::optional<Ask> next_of_its_own(Turn& t);
-    /// A stop of this side's own: `planned`, or what the command means when its turn has come.
+    /// A stop by the gateway itself: `planned` makes its steps; nullptr: the steps of `body` are planned when the stop is sent.
     void take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&));
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
@@ -94,7 +93,7 @@ private:
     News finish(Job& job, Turn& t);
     void moves_now(const CommandBody& body, Turn& t);
     [[nodiscard]] static Step here(const Job& job);
-    [[nodiscard]] Address asked(const Step& step) const;  ///< as the node has it
+    [[nodiscard]] Address asked(const Step& step) const;  ///< the address in the node's object dictionary
     [[nodiscard]] bool read_value(const Job& job, const ReadParameter& read, Value& value, Turn& t);
     [[nodiscard]] std::string native_text(const Job& job) const;
     void written(const WriteParameter& to);

@@ -1,6 +1,5 @@
-// Double: whether two nodes have one number: the heartbeats of each come in the gaps of the other's, and each question is answered twice.
-// In: heartbeats, answers, time. Out: true when it is past doubt, once for as long as it goes on. Never takes one early heartbeat, or a
-// late answer, for a second node.
+// Detects that two nodes have the same number: their heartbeats arrive between each other, and each SDO request is answered twice. One
+// early heartbeat or one late answer is not sufficient. A duplicate is reported once.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace axisgate::cia402_drive {
 
 class DoubleBeat {
 public:
-    /// It is looked at anew. `period`: what the node has acknowledged; zero: none, and its heartbeats say nothing of this.
+    /// Begins again. `period` is the heartbeat period that the node has accepted; zero: no heartbeats, so that they prove nothing.
     void begin(Duration period) noexcept {
         period_ = period;
         beat_.reset();
@@ -22,7 +21,8 @@ public:
     [[nodiscard]] bool beat(Instant now) noexcept {
         const auto before = std::exchange(beat_, now);
         if (!before || period_ <= Duration::zero()) return false;
-        // Of the two gaps between two nodes' beats one is at most half a period long; of one node none is, but for delays.
+        // Of two nodes, one of the two gaps between heartbeats is at most half a period; with one node, no gap is so short except after a
+        // delay.
         if (now - *before < 5 * period_ / 8) {
             in_time_ = 0;
             return ++early_ == enough;
@@ -30,7 +30,7 @@ public:
         if (++in_time_ >= 2) early_ = 0;
         return false;
     }
-    /// It has started: the gap before its next heartbeat is as long as it likes.
+    /// The node has started: the time until its next heartbeat is not defined.
     void restarted() noexcept { beat_.reset(); }
 
 private:
@@ -40,10 +40,10 @@ private:
     int early_ = 0, in_time_ = 0;
 };
 
-/// A late answer happens; one to every question means that there are two who answer.
+/// One late answer is possible. A second answer to every request proves that two nodes answer.
 class DoubleAnswer {
 public:
-    /// An answer came to a question that was not asked, or had its answer.
+    /// An answer arrived that was not requested, or for the second time.
     void stray() noexcept { stray_ = true; }
     [[nodiscard]] bool answered() noexcept {
         in_a_row_ = std::exchange(stray_, false) ? std::min(in_a_row_ + 1, enough + 1) : 0;
@@ -52,7 +52,7 @@ public:
 
 private:
     static constexpr int enough = 12;
-    bool stray_ = false;  ///< to the question before this one
+    bool stray_ = false;  ///< on the request before the present one
     int in_a_row_ = 0;
 };
 

@@ -1,5 +1,3 @@
-// Exchanges: transfers, one after the other.
-// In: questions, frames, time. Out: SDO frames, counted. A question whose late answer may still come goes behind another one.
 #include "adapters/cia402/drive_exchange.hpp"
 
 #include "adapters/cia402/drive.hpp"
@@ -10,7 +8,8 @@ void emit(const std::vector<Frame>& frames, Priority priority, Ticket order, Tur
     for (const Frame& f : frames)
         t.out.send(f, priority, order);
 }
-/// A node that answers at once has done so within this time, behind the SYNC's PDOs of all nodes in the worst case.
+/// The time within which a node has sent its answer if it answers at once: in the worst case after the PDOs of all nodes that follow a
+/// SYNC.
 Duration usual_time(const Line& line) { return std::chrono::milliseconds(50) + 64 * wire_time(140, line.bit_rate); }
 }  // namespace
 
@@ -19,7 +18,7 @@ Exchanges::Exchanges(Drive& drive, const Node& node) : Part(drive), sdo_(node.nu
 Duration Exchanges::patience() const noexcept {
     const Node& node = drive_.node;
     const Duration most = node.line.timing.reply_timeout + 64 * wire_time(140, node.line.bit_rate);
-    // Most numbers that are looked for are nobody's: the last probe alone waits for a slow node, and it takes an answer to those before.
+    // During a search most numbers have no node. Only the last probe waits for a slow node, and it accepts answers to the earlier ones.
     const bool early = ask_.why == Ask::Why::probe && node.presence.is(Presence::Phase::probing) &&
                        node.presence.silences() + 1 < static_cast<std::uint32_t>(node.line.timing.silent_limit);
     return early ? std::min(most, usual_time(node.line)) : most + times_.behind();
@@ -98,7 +97,7 @@ std::optional<canopen::SdoEnd> Exchanges::on_frame(const Frame& f, Turn& t) {
     return end;
 }
 
-/// A node works through its questions in order: while it answers older ones, the newest is waited for.
+/// A node answers requests in order: while it answers older ones, the wait for the newest is extended.
 void Exchanges::late_or_second(Address address, Turn& t) {
     if (!times_.answered(address, true, t.now)) return drive_.stray();
     sdo_.extend(t.now + patience());
@@ -134,7 +133,7 @@ Exchanges::Late Exchanges::on_deadline(Turn& t) {
 Exchanges::Late Exchanges::again(Turn& t) {
     Node& node = drive_.node;
     const bool silent = t.now >= sdo_.deadline();
-    if (!sdo_.beginning() && !silent) {  // it has begun to answer: each further frame has its own time
+    if (!sdo_.beginning() && !silent) {  // the answer has begun: each further frame has its own time-out
         repeat_at_ = never;
         return Late::no;
     }
@@ -142,7 +141,7 @@ Exchanges::Late Exchanges::again(Turn& t) {
     ++node.line.counters.timeouts;
     ++node.line.counters.retries;
     repeated_ = true;
-    // Somebody may have stopped the node (NMT): then it hears a stop only when it is started again.
+    // Another NMT master may have stopped the node; then it accepts a stop only after NMT start.
     if (ask_.why == Ask::Why::stop && ask_.left == after_start - 1)
         t.out.send(canopen::nmt_frame(canopen::NmtCommand::start, node.number), Priority::urgent, ask_.ticket);
     transfer(t);

@@ -1,7 +1,7 @@
-// Exchanges: the one SDO transfer that is on its way to a node, its repeats, and what late answers mean for the questions after it.
-// In: transfers to begin, answers, the passing of time. Out: frames; the end of a transfer, or the news that there is none.
-// A question is repeated when the node should have answered it, as fast as it is known to be, and given up when no answer comes for
-// `reply_timeout` after that. Never takes a late answer for a new one: where one may still come, something else is asked before.
+// Exchanges controls the one SDO transfer that is in progress with a node: its repetitions, its time-out, and late answers. A request is
+// repeated after the time in which this node usually answers, and abandoned `reply_timeout` after that. If the answer to an abandoned
+// request may still arrive, a request for another object is sent first, so that a late answer is never taken for the answer to a new
+// request.
 #pragma once
 
 #include <optional>
@@ -20,31 +20,31 @@ class Drive;
 class Exchanges : public drive::Part<Drive> {
 public:
     Exchanges(Drive& drive, const Node& node);
-    /// A stop that is not answered is sent so often again when the node has been told to start (NMT).
+    /// Further attempts of a stop after NMT start, if it was not answered.
     static constexpr int after_start = 2;
 
     void send(Ask ask, Turn& t);
-    /// The end of the present one, if this frame is that.
+    /// The end of the transfer in progress, if this frame ends it.
     [[nodiscard]] std::optional<canopen::SdoEnd> on_frame(const Frame& frame, Turn& t);
     enum class Late : std::uint8_t {
         no,
-        cut,  ///< a stop has ended it before its time: nothing is known by that
-        over  ///< it has ended without an answer, however often it was asked
+        cut,  ///< a stop has ended the transfer early; this says nothing about the node
+        over  ///< the transfer has ended without an answer after all its repetitions
     };
     [[nodiscard]] Late on_deadline(Turn& t);
     /// The line is down.
     void drop();
-    /// A stop has come: what is on the way is not repeated, and not waited for longer than this node needs for an answer.
+    /// A stop has arrived: the transfer in progress is not repeated, and its answer is awaited only as long as this node usually needs.
     void no_repeats(Instant now) noexcept;
-    /// No answer can come. True: one was waited for.
+    /// No answer can arrive any more. True: one was expected.
     bool give_up() noexcept;
     void nothing_late() noexcept { late_.clear(); }
 
     [[nodiscard]] bool active() const noexcept { return sdo_.busy(); }
     [[nodiscard]] Instant deadline() const noexcept { return active() ? std::min({sdo_.deadline(), repeat_at_, cut_at_}) : never; }
-    /// The present one, or the one that ended last.
+    /// The request in progress, or the last one.
     [[nodiscard]] const Ask& ask() const noexcept { return ask_; }
-    /// Who asked has another place among the axes of the node, or is gone.
+    /// The axis of the request has another place on the node, or is gone.
     void moved(std::size_t axis) noexcept { ask_.axis = axis; }
 
 private:

@@ -1,5 +1,3 @@
-// Handshake: modes, set-points, homings.
-// In: what the drive shows. Out: yes, no, words.
 #include "adapters/cia402/drive_handshake.hpp"
 
 #include <fmt/core.h>
@@ -10,7 +8,8 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-/// CiA 402-2, homing mode: bits 13, 12 and 10 are 0 while it is under way; 12 without a search before it is one that has ended already.
+/// CiA 402-2, homing mode: bits 13, 12 and 10 are 0 while homing is in progress; bit 12 without a search before means that it has ended
+/// already.
 bool homing_begun(const AxisKnown& known, const Job& job, unsigned sw, Instant now) {
     const bool was_attained = job.status & 0x1000u, attained = sw & 0x1000u;
     if (sw & 0x2000u) return true;
@@ -42,7 +41,7 @@ bool met(AxisKnown& known, Job& job, const Step& s, const canopen::SdoEnd& end, 
     if (s.awaits != Step::Awaits::acknowledge) return shown;
     known.acknowledged = shown;
     if (shown) known.no_acknowledge = false;
-    // A drive that has moved without it before is not waited for.
+    // If the drive has started a motion without acknowledgement before, the acknowledgement is not awaited.
     const bool known_to_move = known.no_acknowledge && now >= *job.went + std::chrono::milliseconds(50) && has_begun(known, job);
     if (!shown && known_to_move) unacknowledged(job);
     return shown || known_to_move;

@@ -1,5 +1,4 @@
-// NmtWatch: told once, started three times a minute at most.
-// In: heartbeats. Out: NMT start for this node.
+// A node is started at most three times a minute, and a warning is given once.
 #include "adapters/cia402/drive_nmt.hpp"
 
 #include <fmt/core.h>
@@ -21,7 +20,7 @@ void NmtWatch::stopped(Turn& t) {
     Node& node = drive_.node;
     const bool turns = turning();
     if (!std::exchange(node.stopped, true)) {
-        // A stop that is on its way starts the node by itself.
+        // The exchange of a stop starts the node itself.
         if (drive_.exchanges.ask().why != Ask::Why::stop && drive_.exchanges.give_up())
             node.tickets.failed(drive_.exchanges.ask().ticket, Reason::interrupted, "somebody has stopped the node (NMT stop)", t.out);
         for (const auto& a : drive_.axes)

@@ -1,5 +1,5 @@
-// NmtWatch: what becomes of a node that somebody else has stopped (NMT stop): it answers nothing and shows nothing but its heartbeat.
-// In: states of its heartbeat, silences, answers. Out: NMT start, warnings. Never starts a node that stands: somebody is at work there.
+// NmtWatch treats nodes that another NMT master has stopped: such a node answers no SDO and sends its heartbeat only. A node whose axes
+// stand still is never started, because somebody may be working on it.
 #pragma once
 
 #include "adapters/cia402/drive_node.hpp"
@@ -11,19 +11,20 @@ class Drive;
 class NmtWatch : public drive::Part<Drive> {
 public:
     using Part::Part;
-    /// Its heartbeat says so. One that turns is started again, so that it is seen, and can be stopped.
+    /// The heartbeat reports "stopped". A node with a moving axis is started again, so that its position is known and it can be stopped.
     void stopped(Turn& t);
-    /// It is looked for, or being set up: out of the stopped state it can answer, and nothing starts by that.
+    /// The node is being searched for or set up: it is sent to pre-operational, where it can answer; no axis starts by this.
     void wake(Turn& t);
-    /// It answers, or its PDOs come.
+    /// The node answers, or its PDOs arrive.
     void back(Turn& t);
-    /// It does not answer. Where its heartbeat does not tell why, an axis that may be turning is not given up for that.
+    /// The node does not answer. If one of its axes may be moving, NMT start is sent, because another master may have stopped the node
+    /// without a heartbeat that shows it.
     void silent(Turn& t);
     void start(Priority priority, Ticket order, Turn& t);
 
 private:
     [[nodiscard]] bool turning() const noexcept;
-    int starts_ = 0;  ///< since `since_`
+    int starts_ = 0;  ///< number of NMT starts since `since_`
     Instant since_{};
 };
 

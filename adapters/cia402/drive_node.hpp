@@ -1,5 +1,4 @@
-// Node: what the axes of one CANopen node share: their line, the setup, presence, open tickets, notices.
-// In and out: members. Never knows which transfer is on its way: that is the drive's.
+// Node holds the members that the axes of one CANopen node share: the line, the setup, presence, open tickets, notices.
 #pragma once
 
 #include <optional>
@@ -21,24 +20,24 @@ namespace axisgate::cia402_drive {
 using drive::Presence;
 using drive::Turn;
 
-/// What a drive's family has otherwise than this one, if it is served here: the member "dialect" of its page.
+/// The differences of another family that this adapter serves: the member "dialect" of its catalogue.
 struct Dialect {
     std::string noun = "CiA 402 drive";
-    int channels = 1;  ///< the page's own
-    /// A node without the profile's objects is served, too: its parameters alone.
+    int channels = 1;  ///< of the catalogue
+    /// Nodes without the profile's objects are accepted, with their parameters only.
     bool profile_optional = false;
-    /// What only its nodes have, and a search knows them by; device_type: the profile's number in it.
+    /// An object that only nodes of this family have, by which a search recognises them; for device_type, the profile number in it.
     Address mark = object::device_type;
-    /// EMCY codes FF00h to FFFFh carry a number of the catalogue's in their low byte.
+    /// The low byte of EMCY codes FF00h to FFFFh is an error number of the catalogue.
     bool errors_in_low_byte = false;
-    /// A node's memory wears out: between two stores of its parameters there is at least this time. Zero: no such guard.
+    /// Minimum time between two stores of the parameters, to protect the memory of the drive. Zero: no limit.
     Duration between_stores{};
-    /// Options of the drive "object_2300" and so on may say where a row of the catalogue stands on this drive.
+    /// Options of the drive such as "object_2300" may state the index of a catalogue row on this drive.
     bool places_move = false;
 };
 [[nodiscard]] Dialect dialect_of(const Catalogue& catalogue);
 
-/// What the drives of one line share.
+/// The members that the drives of one line share.
 struct Line {
     explicit Line(const Catalogue& of_family) : catalogue(of_family) {}
     void take(const LineSetup& setup);
@@ -47,25 +46,27 @@ struct Line {
     drive::Turns turns;
     AdapterCounters counters;
     std::uint32_t bit_rate = 0;
-    std::uint8_t own_node = 127;  ///< the gateway's, for its heartbeat
+    std::uint8_t own_node = 127;  ///< node number of the gateway, for its heartbeat
 
-    // --- beats ------------------------------------------------------------------------------------------------------------------
-    canopen::SyncTurns plan;                          ///< whose beats are whose; targets go by its beat, which stands while an axis is led
-    canopen::TargetTurns targets;                     ///< places of axes that are led
-    int led = 0;                                      ///< so many
-    std::uint64_t beat = 0;                           ///< SYNCs that were sent
-    Instant synced_at{};                              ///< the last one
-    Duration period = std::chrono::milliseconds(20);  ///< between two of them now
-    /// Of an axis, now: between two pictures of it.
+    // --- SYNC cycles -----------------------------------------------------------------------------------------------------------
+    canopen::SyncTurns plan;                          ///< which nodes report in which cycles; targets use its cycle, which is constant
+                                                      ///< while an axis follows set-points
+    canopen::TargetTurns targets;                     ///< places of the axes that follow set-points
+    int led = 0;                                      ///< number of axes that follow set-points
+    std::uint64_t beat = 0;                           ///< number of SYNCs sent
+    Instant synced_at{};                              ///< time of the last SYNC
+    Duration period = std::chrono::milliseconds(20);  ///< present time between two SYNCs
+    /// The present time between two reports of one axis.
     [[nodiscard]] Duration cycle() const noexcept { return period * plan.turns; }
-    /// What is sent now reaches a node before the next SYNC, in a beat that leaves `slot`; a node that has none waits for the plan.
+    /// True if a frame sent now reaches the node before the next SYNC, in a cycle with remainder `slot`. A node without a slot waits for
+    /// the plan.
     [[nodiscard]] bool in_turn(int slot, Instant now) const noexcept {
         if (slot < 0) return false;
         return plan.turns == 1 || (static_cast<int>(beat % static_cast<unsigned>(plan.turns)) == slot && now < synced_at + period / 2);
     }
 };
 
-/// What a drive shall do when the gateway's heartbeat stops: 6007h. `none`: it does not watch it.
+/// The reaction of a drive when the gateway's heartbeat stops (6007h). `none`: the drive does not monitor it.
 struct Watch {
     std::int64_t option = 3;  ///< 1 fault, 2 disable voltage, 3 quick stop
     std::string_view action = "quick_stop";
@@ -86,12 +87,12 @@ struct Node {
         const auto moved = places.find(dialect.mark.index);
         return {moved == places.end() ? dialect.mark.index : moved->second, dialect.mark.sub};
     }
-    /// Its beats by the line's plan, which is in force.
+    /// The plan of the line that is now in force gives the node this slot.
     void take_slot(int of_plan, Turn& t) {
         slot = of_plan;
         if (!setup.axes.empty()) presence.beats({line.plan.beat, line.plan.turns}, t.out);
     }
-    /// The number that a catalogue has for an error code.
+    /// The catalogue's number for an error code.
     [[nodiscard]] std::uint16_t number_of(std::uint16_t code) const noexcept {
         return dialect.errors_in_low_byte && code >= 0xFF00 ? static_cast<std::uint16_t>(code & 0xFFu) : code;
     }
@@ -100,20 +101,20 @@ struct Node {
     DriveSetup setup;
     const Dialect dialect;
     std::uint8_t number;
-    int slot = -1;                                     ///< its beats by the line's plan
-    bool stopped = false;                              ///< somebody else has stopped it (NMT): it answers nothing, and its PDOs do not come
-    Duration mode_timeout = std::chrono::seconds(1);   ///< from 6060h until 6061h shows it
-    Duration start_timeout = std::chrono::seconds(1);  ///< from the start bit until the drive shows that it has taken it
+    int slot = -1;                                     ///< its cycles in the plan of the line
+    bool stopped = false;                              ///< another NMT master has stopped it: no SDO answers and no PDOs
+    Duration mode_timeout = std::chrono::seconds(1);   ///< from the write of 6060h until 6061h shows the mode
+    Duration start_timeout = std::chrono::seconds(1);  ///< from the start bit until the drive has acknowledged it
     bool keep_quick_stop = true;
-    bool keep_limits = true;  ///< option drive_limits: the site's limits of position go into 607Dh
+    bool keep_limits = true;  ///< option drive_limits: the site's position limits are written to 607Dh
     Watch watch;
     Places places;
     Presence presence;
     drive::Tickets tickets;
     drive::Notices notices;
-    /// Its parameters went into its EPROM: counted and told where it wears out.
+    /// The parameters were stored in the EPROM. Counts the stores and returns a warning if the memory of this drive wears out.
     [[nodiscard]] std::string stored(Turn& t);
-    std::optional<Instant> stored_at{};  ///< nothing: not since it was set up
+    std::optional<Instant> stored_at{};  ///< empty: not since it was set up
     std::uint32_t stores = 0;
 };
 

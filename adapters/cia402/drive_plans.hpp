@@ -1,5 +1,5 @@
-// Plans: each command as a short list of transfers, from what is known of its axis.
-// In: a command, what is known. Out: steps, or why it is refused. A control word that moves is the last of its list.
+// Plans turn a command into a short list of SDO transfers, by the known state of the axis, or state why the command is refused. A control
+// word that starts a motion is the last transfer of its list.
 #pragma once
 
 #include <algorithm>
@@ -15,34 +15,34 @@ struct Node;
 
 enum class Order : std::uint8_t { none, position, velocity, homing };
 
-/// What is known of an axis.
+/// The known state of an axis.
 struct AxisKnown {
     AxisFeedback fb;
-    std::uint16_t cw = 0;         ///< as the drive has it
-    int mode = 0;                 ///< 6061h, as it was shown last
-    int ordered_mode = 0;         ///< 6060h, as the drive has it
-    Instant low_since{};          ///< bit 4 of the control word
-    bool acknowledged = false;    ///< the last set-point was, by status bit 12
-    bool no_acknowledge = false;  ///< the drive has moved without it
+    std::uint16_t cw = 0;         ///< as it was written to the drive
+    int mode = 0;                 ///< 6061h, as last shown
+    int ordered_mode = 0;         ///< 6060h, as it was written to the drive
+    Instant low_since{};          ///< since when bit 4 of the control word is 0
+    bool acknowledged = false;    ///< status bit 12 has acknowledged the last set-point
+    bool no_acknowledge = false;  ///< the drive has started a motion without acknowledgement
     std::uint32_t modes = 0;
     bool profile = true;  ///< it has a status word
     std::int64_t homing_method = 0;
     std::array<std::int64_t, 3> rates{10'000, 50'000, 50'000};  ///< 6081h, 6083h, 6084h
     Order order = Order::none;
-    /// 60C2h: value times ten to the power of the index, in seconds; as the drive has it.
+    /// 60C2h: value times ten to the power of the index, in seconds; as it was written to the drive.
     struct Interpolation {
         std::int64_t value = 0, index = -3;
         bool operator==(const Interpolation&) const = default;
     } interpolation;
 
     [[nodiscard]] bool offers(int m) const noexcept { return m >= 1 && m <= 32 && (modes >> (m - 1) & 1u); }
-    /// The mode that follows set-points of this kind: 8, 9, 10, or the older 7 and 4 of a drive that has not those.
+    /// The mode that follows set-points of this kind: 8, 9, 10, or the older 7 and 4 if the drive does not have those.
     [[nodiscard]] int stream_mode(SetPoint::Mode kind) const noexcept {
         const int cyclic = 8 + static_cast<int>(kind);
         const int older = kind == SetPoint::Mode::position ? 7 : kind == SetPoint::Mode::torque ? 4 : 0;
         return !offers(cyclic) && offers(older) ? older : cyclic;
     }
-    /// Above what a drive shows that stands: a thousandth of its profile velocity.
+    /// True if the velocity is above what a drive shows at standstill: one thousandth of the profile velocity.
     [[nodiscard]] bool turns() const noexcept { return std::llabs(fb.velocity) > std::max<std::int64_t>(rates[0] / 1000, 0); }
     /// By the status word and the velocity that were read or shown last.
     [[nodiscard]] bool moves_under_power() const noexcept {
@@ -53,15 +53,15 @@ struct AxisKnown {
     [[nodiscard]] bool on() const noexcept { return state() == 0x27; }
 };
 
-/// Empty, or why the command is refused. `axis`: its place on the node.
+/// Returns an empty text, or why the command is refused. `axis` is its place on the node.
 [[nodiscard]] std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job& job, Instant now, Reason& reason);
-/// A stop is planned when its turn has come: what is on then counts.
+/// A stop is planned when it is sent, by the state of the axis at that time.
 void plan_stop(const AxisKnown& known, Job& job);
-/// `cycle`: between two of its targets. Up to 255 ms it is said in ms, above in tens.
+/// `cycle` is the time between two targets. Up to 255 ms it is given in ms, above in units of 10 ms.
 [[nodiscard]] AxisKnown::Interpolation interpolation_of(Duration cycle) noexcept;
-/// The drive's own place is its first target, and only then the mode is another.
+/// The first target is the actual position; the mode is changed after that.
 void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, Duration cycle, Job& job);
-/// The mode that was ordered does not come: the one that is shown is ordered again.
+/// The ordered mode is not reached: orders the mode that the drive shows again.
 void plan_mode_back(const AxisKnown& known, Job& job);
 // native.cpp
 [[nodiscard]] std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason);

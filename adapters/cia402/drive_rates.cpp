@@ -1,5 +1,4 @@
-// Rates: five objects, read at the start and whenever one may have changed.
-// In: answers. Out: rates in force. CiA 402-2: 605Ah 1 and 5 brake on 6084h, 2 and 6 on 6085h; without 605Ah a quick stop uses 6085h.
+// CiA 402-2: 605Ah 1 and 5 brake with 6084h, 2 and 6 with 6085h; without 605Ah a quick stop uses 6085h.
 #include "adapters/cia402/drive_rates.hpp"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ DriveRates Rates::in_force() const noexcept {
     DriveRates r{value(0), value(1), value(2), 0};
     if (!option || *option == 2 || *option == 6) r.quick_stop = value(3);
     if (option && (*option == 1 || *option == 5)) r.quick_stop = value(2);
-    if (wants()) r.quick_stop = 0;  // by which of them it brakes is not known yet
+    if (wants()) r.quick_stop = 0;  // which of them it uses is not known yet
     return r;
 }
 

@@ -1,6 +1,6 @@
-// AnswerTimes: which SDO answers a node still owes, and how long it takes for one.
-// In: questions, answers, time. Out: when a question is worth repeating, how long it is worth waiting, and whether an answer that nobody
-// waits for is a late one or a second one. Bounded: of more questions than it keeps, or of older ones, no answer is expected any more.
+// AnswerTimes knows which SDO answers a node still owes and how long the node needs for an answer. From this follow the time after which a
+// request is repeated, the time-out, and whether an unexpected answer is a late one or comes from a second node. The list is bounded:
+// requests that no longer fit, or are too old, are not expected to be answered.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ public:
         if (size_ == owed_.size()) remove(0);
         owed_[size_++] = {address, now};
     }
-    /// An answer about this object is here. False: nobody has asked, so that a second node has answered the same question. `learn`: the
-    /// whole answer has come by one frame, so that its time says how fast the node is.
+    /// An answer about this object has arrived. False: there was no such request, so a second node has answered the same request. `learn`:
+    /// the answer was complete in one frame, so that its time shows how fast the node is.
     bool answered(Address address, bool learn, Instant now) noexcept {
         drop_old(now);
         std::optional<std::size_t> oldest;
@@ -30,15 +30,15 @@ public:
         if (!oldest) return false;
         const Duration took = now - owed_[*oldest].sent;
         remove(*oldest);
-        // With two of them open it is not known which one this answers; the second answer tells.
+        // With two requests outstanding it is not known which one this answers; the second answer decides.
         if (learn && open == 1) slowest_ = std::max(took, slowest_ - slowest_ / 16);
         return true;
     }
-    /// A question without an answer may be sent again after this time: `base` for a node of which nothing is known.
+    /// The time after which a request without an answer may be repeated: `base` for a node without measured times.
     [[nodiscard]] Duration repeat_after(Duration base, Duration most) const noexcept {
         return std::clamp<Duration>(4 * slowest_, std::min(base, most), most);
     }
-    /// What it owes comes before the answer to a new question.
+    /// The time for the answers that come before the answer to a new request.
     [[nodiscard]] Duration behind() const noexcept { return static_cast<int>(size_) * slowest_; }
     void forget() noexcept {
         size_ = 0;

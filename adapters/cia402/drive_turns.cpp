@@ -1,5 +1,4 @@
-// PdoTurns: out of use, its type, into use again in the beat that brings it to its own.
-// In: beats, answers. Out: steps. A node that cannot be moved in a few tries is told of and left alone.
+// A node whose PDOs cannot be moved in a few attempts is reported and left as it is.
 #include "adapters/cia402/drive_turns.hpp"
 
 #include <fmt/core.h>
@@ -79,7 +78,7 @@ void PdoTurns::answered(bool done, Turn& t) {
     if (act_ != Act::on) return void(act_ = act_ == Act::off ? Act::type : Act::on);
     act_ = Act::rest;
     p.missed = 0;
-    drive_.feedback.begin(t.now);  // they have not come for a while
+    drive_.feedback.begin(t.now);  // the PDOs have paused
 }
 
 }  // namespace axisgate::cia402_drive

@@ -1,6 +1,6 @@
-// PdoTurns: that the PDOs of an axis come in the beats that are its node's by the line's plan, and no others.
-// In: the beats in which they came, answers. Out: writes that set how many SYNCs a PDO is apart (1800h:02), and in which beat it is taken
-// into use: from there a node counts. Never goes by how a node counts: it looks where its PDOs come, and moves them by the difference.
+// PdoTurns makes sure that the PDOs of an axis arrive in the SYNC cycles that the line's plan gives to its node. It writes the transmission
+// type (1800h:02), and the cycle in which it enables a PDO decides from where the node counts. Nodes count differently, so the cycle in
+// which PDOs actually arrive is observed, and they are moved by the difference.
 #pragma once
 
 #include <array>
@@ -17,27 +17,27 @@ public:
     enum Pdo : std::uint8_t { status, motion };
     using Part::Part;
 
-    /// Its set-up writes PDOs with so many turns.
+    /// The set-up of the node writes PDOs with this transmission type.
     void set_up(int turns) noexcept;
-    /// What was on its way is gone.
+    /// The transfer in progress was lost.
     void forget() noexcept { act_ = Act::rest; }
-    /// In the present beat.
+    /// A PDO arrived in the present cycle.
     void came(Pdo which, Turn& t);
-    /// A write of it may go now.
+    /// True if a write may be sent now.
     [[nodiscard]] bool wants(Instant now) const noexcept;
     [[nodiscard]] Step next();
     void answered(bool done, Turn& t);
-    /// Its PDOs do not come in one beat, and cannot be moved.
+    /// The PDOs of the axis do not arrive in one cycle, and cannot be moved.
     [[nodiscard]] bool apart() const noexcept { return reported_[status].tries > most_tries || reported_[motion].tries > most_tries; }
 
 private:
-    static constexpr int sure = 4, most_tries = 4, settled = 64;  ///< now and then a PDO is held up behind another frame of its node
+    static constexpr int sure = 4, most_tries = 4, settled = 64;  ///< a PDO is occasionally delayed by another frame of its node
     enum class Act : std::uint8_t { rest, off, type, on };
     struct Reported {
-        int turns = 1;                ///< its transmission type
-        int wanted_slot = -1;         ///< it is taken into use in a beat that leaves this; below 0: with NMT start, in its own
-        int error = 0, missed = 0;    ///< so many beats beside its own, so often in a row
-        int tries = 0, in_place = 0;  ///< moves that did not help; times in a row in its beat
+        int turns = 1;                ///< transmission type
+        int wanted_slot = -1;         ///< it is enabled in a cycle with this remainder; below 0: enabled by NMT start, in its own
+        int error = 0, missed = 0;    ///< difference in cycles, and how often in succession it was seen
+        int tries = 0, in_place = 0;  ///< attempts without success; times in succession in the right cycle
     };
     [[nodiscard]] bool misplaced(const Reported& pdo) const noexcept;
     void give_up(Reported& pdo, std::string_view why, Turn& t);

@@ -1,4 +1,3 @@
-// Words: states by bits 0 to 6, then what else is set.
 #include "adapters/cia402/drive_words.hpp"
 
 #include <fmt/core.h>

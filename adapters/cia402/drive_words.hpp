@@ -1,5 +1,5 @@
-// Words of a status word (6041h), for answers that say why a motion has not begun.
-// In: the word, the mode that the drive shows. Out: a sentence's part. Bits 10, 12 and 13 mean what they mean in that mode.
+// The text of a status word (6041h), for answers that say why a motion has not begun. The meaning of bits 10, 12 and 13 depends on the
+// mode.
 #pragma once
 
 #include <cstdint>

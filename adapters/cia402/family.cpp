@@ -1,5 +1,3 @@
-// Family cia402: any drive with that profile on CANopen: the table of its makers, and its scan.
-// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
 #include "adapters/cia402/family.hpp"
 
 #include "adapters/cia402/adapter.hpp"

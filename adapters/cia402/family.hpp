@@ -1,5 +1,4 @@
-// Family cia402, what families that stand on it have in common with it: node numbers to be searched, identifiers on the line.
-// In: what a scan wants, addresses. Out: plans. Never decides anything about a drive.
+// The functions that the CANopen families share: the node numbers of a scan, and the CAN identifiers of a node.
 #pragma once
 
 #include <span>
@@ -14,9 +13,10 @@ const Family& family_cia402();
 namespace axisgate::cia402_drive {
 
 [[nodiscard]] ScanPlan scan_nodes(const ScanWish& wish);
-/// The lower seven bits of what a node sends and is sent are its number. NMT and SYNC are nobody's: other CANopen families send them, too.
+/// The lower seven bits of a node's identifiers are its number. NMT and SYNC belong to no node, because other CANopen families send them,
+/// too.
 [[nodiscard]] std::vector<CanIdentifiers> identifiers(std::span<const std::string> addresses);
-/// Family::stated, by the numbers of the objects: an object of another axis of the node names that axis' channel.
+/// Family::stated by object numbers: an object of another axis of the node stands for the channel of that axis.
 [[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);
 
 }  // namespace axisgate::cia402_drive

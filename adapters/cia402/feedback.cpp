@@ -1,5 +1,3 @@
-// Feedback, of a node and of its axes: what PDOs, EMCY and heartbeats tell.
-// In: frames that nobody asked for. Out: feedback when both PDOs of one SYNC are here; notices. Never mixes two instants in one picture.
 #include <fmt/core.h>
 
 #include <cstdlib>
@@ -13,7 +11,7 @@ void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
     if (!node.presence.online()) return node.presence.received(t.now);
     const std::uint16_t number = node.number_of(e.code);
     const ErrorCode* known = node.catalogue().error(number);
-    // An EMCY does not say of which axis it is: each that shows a fault then tells it by this code.
+    // An EMCY does not name its axis: each axis that shows a fault reports this code.
     for (const auto& a : axes)
         a->feedback.on_error_code(number);
     if (!gate_.admits(e, t.now)) return;
@@ -27,7 +25,7 @@ void Drive::on_emergency(const canopen::Emergency& e, Turn& t) {
 void Drive::on_heartbeat(const Frame& f, Turn& t) {
     const auto news = heartbeat_.on_frame(f, t.now);
     Presence& presence = node.presence;
-    // Its answers may be one on the bus, where both send the same bits at the same time: heartbeats drift apart.
+    // SDO answers of two nodes may be identical and coincide on the bus; heartbeats do not stay synchronous.
     if (news != canopen::NodeNews::started && double_beat_.beat(t.now)) tell_two_nodes("heartbeats come in the gaps of others", t);
     if (news == canopen::NodeNews::started) {
         double_beat_.restarted();
@@ -45,7 +43,7 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
         nmt.back(t);
     }
     presence.received(t.now);
-    // It has left the operational state by itself: no PDOs come, and its watch of the gateway may be what it tells of.
+    // The node has left the operational state by itself: it sends no PDOs, and its monitoring of the gateway may be the reason.
     if (news == canopen::NodeNews::state && heartbeat_.state() == canopen::NmtState::pre_operational &&
         presence.is(Presence::Phase::ready) && listeners() > 0)
         start.begin();
@@ -122,7 +120,7 @@ void Feedback::on_status_word(std::uint32_t word, Turn& t) {
     drive_.known.fb.native_status = word;
     judge(t);
 }
-/// The axis stands, so its demand has gone the same way.
+/// The axis is at standstill, so its demand position has changed by the same amount.
 void Feedback::on_position(std::int64_t position, Turn& t) {
     AxisFeedback& fb = drive_.known.fb;
     fb.position_demand += position - fb.position;
@@ -167,15 +165,16 @@ void Feedback::learnt(Turn& t) {
     status_new_ = motion_new_ = false;
     deaf_ = 0;
     node.presence.answered();
-    ++node.line.counters.exchanges;  // a SYNC is the question, both PDOs are the answer
+    ++node.line.counters.exchanges;  // a SYNC counts as the request, both PDOs as the answer
     check_at_ = t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150));
     seen_ = true;
     watch_power(drive_.known.fb.native_status);
     judge(t);
 }
 
-/// A drive whose power was taken (STO, a safe enable, its own switch) falls to switch on disabled, and its control word still says enable
-/// operation: one that goes back by itself would run again. Two pictures, since one may be older than the word.
+/// If the power is removed (STO, a safe enable input, a switch at the drive), the drive goes to "switch on disabled" while its control word
+/// still says "enable operation". A drive that returns by itself would then run again. Two reports are needed, since one may be older than
+/// the control word.
 void Feedback::watch_power(unsigned sw) {
     const unsigned low = sw & 0x4Fu, six = sw & 0x6Fu;
     const bool off = low == 0x40 || low == 0 || six == 0x21 || six == 0x23;
@@ -188,7 +187,7 @@ void Feedback::watch_power(unsigned sw) {
     if ((sw & 0x10u) || six == 0x27) power_lost_ = false;
 }
 
-/// By the mode that the drive shows: velocity, torque and the modes that follow a stream have no end of their own.
+/// By the mode that the drive shows: velocity, torque and cyclic modes have no end of their own.
 Course Feedback::course() const noexcept {
     switch (drive_.known.mode) {
         case 1:
@@ -232,14 +231,14 @@ void Feedback::judge(Turn& t) {
     judge_order(sw);
     if (fb.power != AxisFeedback::Power::on) fb.moving = fb.velocity != 0;
     if (!fb.fault) fb.error_code = 0;
-    if (fb.fault && !was_fault && fb.error_code == 0) {  // its EMCY was lost: the fault is told with its number
+    if (fb.fault && !was_fault && fb.error_code == 0) {  // its EMCY was lost: the fault is reported when its number has been read
         need_code_ = true;
         return;
     }
     if (!need_code_) emit(t);
 }
 
-/// How far it is with what was ordered.
+/// The progress of the ordered motion.
 void Feedback::judge_order(unsigned sw) {
     AxisKnown& known = drive_.known;
     AxisFeedback& fb = known.fb;
@@ -251,7 +250,7 @@ void Feedback::judge_order(unsigned sw) {
             known.order = Order::none;
         }
     }
-    // Bit 10 of the motion before may stand in the first status after a new set-point: it counts from the second one on.
+    // Bit 10 of the previous motion may still be set in the first status word after a new set-point; it counts from the second one on.
     const bool fresh = std::exchange(fresh_, fresh_ > 0 ? fresh_ - 1 : 0) > 0;
     fb.target_reached = known.order == Order::position && known.mode == 1 && (sw & 0x400u) && !fresh;
     const bool on_its_way = (known.order == Order::position && !fb.target_reached) || fb.homing;

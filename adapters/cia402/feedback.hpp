@@ -1,6 +1,5 @@
-// Feedback: what the PDOs of an axis tell, turned into its picture, and the watch whether they come.
-// In: PDOs, answers that are newer than they, time. Out: feedback when both PDOs of one SYNC are here. Never mixes two instants in one
-// picture.
+// Feedback turns the PDOs of an axis into its feedback and monitors that they arrive. Feedback is reported when both PDOs of one SYNC have
+// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too.
 #pragma once
 
 #include <span>
@@ -19,29 +18,30 @@ public:
 
     void begin(Instant now);
     void forget() noexcept;
-    /// Whatever was set up in it is gone, and so are its zero and what was ordered.
+    /// The node has restarted: its set-up, its zero position and its orders are lost.
     void restarted();
     void on_status(std::span<const std::uint8_t> bytes, Turn& t);
     void on_motion(std::span<const std::uint8_t> bytes, Turn& t);
     void after_sync() noexcept;
-    /// Read by SDO just now: newer than the last PDO.
+    /// Read by SDO and newer than the last PDO.
     void on_status_word(std::uint32_t word, Turn& t);
     void on_position(std::int64_t position, Turn& t);
-    /// Of an EMCY; 0: all errors are gone. The first one is the cause, what follows from it does not take its place.
+    /// From an EMCY; 0: no error any more. The first code is the cause; codes that follow do not replace it.
     void on_error_code(std::uint16_t code) noexcept;
-    /// Read by SDO, since its EMCY was lost.
+    /// Read by SDO, because the EMCY was lost.
     void error_code_read(const canopen::SdoEnd& end, Turn& t);
     [[nodiscard]] bool needs_error_code() const noexcept { return need_code_; }
-    /// A motion or a homing has been ordered: what the last one attained must not stand for it.
+    /// A motion or homing was ordered: the result of the previous one must not count for it.
     void ordered(Order order, Turn& t);
 
-    /// What the axis brakes with has changed: told at once, where there is a picture already.
+    /// The deceleration in force has changed: it is reported at once if feedback was reported before.
     void tell_rates(Turn& t);
 
-    // --- whether PDOs come --------------------------------------------------------------------------------------------------
+    // --- monitoring of the PDOs ---------------------------------------------------------------------------------------------
     [[nodiscard]] Instant check_at() const noexcept { return check_at_; }
     void look_soon(Instant at) noexcept { check_at_ = std::min(check_at_, at); }
-    /// It has answered instead of sending PDOs. True: again and again; somebody has reset it, or taken them away.
+    /// The node has answered by SDO but sends no PDOs. True: this has happened several times; the node was reset, or another master has
+    /// disabled its PDOs.
     [[nodiscard]] bool deaf(Instant now) noexcept;
 
 private:
@@ -53,12 +53,12 @@ private:
     [[nodiscard]] Course course() const noexcept;
 
     bool status_new_ = false, motion_new_ = false, need_code_ = false;
-    bool seen_ = false;        ///< a whole picture has come since the start
-    bool power_lost_ = false;  ///< it has left operation by itself, and has no voltage since
-    int fallen_ = 0;           ///< pictures in a row of an axis that is off under a control word that enables it
-    int fresh_ = 0;            ///< status words since a new set-point that do not tell of it yet
+    bool seen_ = false;        ///< complete feedback has arrived since the start
+    bool power_lost_ = false;  ///< the drive has left operation by itself, and has had no voltage since
+    int fallen_ = 0;           ///< reports in succession of an axis that is off under a control word that enables it
+    int fresh_ = 0;            ///< status words since a new set-point that do not concern it yet
     Instant check_at_ = never;
-    int deaf_ = 0;  ///< answers by SDO in a row without a PDO between them
+    int deaf_ = 0;  ///< SDO answers in succession without a PDO between them
 };
 
 }  // namespace axisgate::cia402_drive

@@ -1,5 +1,3 @@
-// Plans of power, motion, homing and stops.
-// In: a command, what is known of its axis. Out: steps, or why not. Never sends.
 #include <fmt/core.h>
 
 #include "adapters/cia402/drive_node.hpp"
@@ -10,13 +8,13 @@ namespace {
 constexpr std::uint16_t on_word = 0x0F, halt_bit = 0x100, go_word = 0x3F;
 bool fits_i32(std::int64_t v) { return v >= INT32_MIN && v <= INT32_MAX; }
 
-/// What the drive does next counts by the mode that it shows: a set-point of a mode that is not in force yet is lost.
+/// A drive carries out the next set-point in the mode that it shows: a set-point for a mode that is not in force yet is lost.
 void enter_mode(const Node& node, const AxisKnown& known, Job& job, int mode) {
     if (known.mode == mode && known.ordered_mode == mode) return;
     job.write(object::mode, mode, 1);
     job.await(Step::Awaits::mode, object::mode_shown, 0xFF, static_cast<std::uint8_t>(mode), node.mode_timeout);
 }
-/// Bit 4 of the motion before is taken back: a halt stands until the new target goes.
+/// Resets bit 4 of the previous motion; a halt remains in force until the new target is sent.
 void take_start_back(const AxisKnown& known, Job& job) {
     if (known.cw & start_bit) job.word(static_cast<std::uint16_t>((known.cw & halt_bit) | on_word));
 }
@@ -25,15 +23,15 @@ void plan_homing(const Node& node, const AxisKnown& known, Job& job, std::option
     if (method) job.write(object::homing_method, *method, 1);
     enter_mode(node, known, job, 6);
     job.word(on_word);
-    job.await(Step::Awaits::value, object::statusword, 0, 0, {});  // what it shows before
+    job.await(Step::Awaits::value, object::statusword, 0, 0, {});  // value before the step
     job.start_word(on_word | start_bit);
 }
 
 std::string plan_enable(const AxisKnown& known, Job& job, Reason& reason) {
     reason = Reason::wrong_state;
     if (known.fb.fault) return "the drive is in a fault: reset it first";
-    // Nothing may move because of this: no speed is wanted, and positioning waits for its start bit. A mode of a stream stays in force
-    // until another is shown: its target is where the axis is.
+    // A change of mode must not move the axis: the target velocity is 0, and positioning waits for its start bit. A cyclic mode stays in
+    // force until another one is shown, with the actual position as its target.
     if (known.offers(3) || known.offers(9)) job.write(object::target_velocity, 0, 4, true);
     if (known.mode == 7 || known.mode == 8) {
         job.read(object::position);
@@ -95,7 +93,8 @@ std::string plan_move(const Node& node, const AxisKnown& known, Job& job, const 
         (mode == 1 && !rate(object::profile_velocity, m.velocity)))
         return "velocity, acceleration and deceleration are numbers from 1 to 4294967295";
     if (mode == 3) {
-        // The speed follows the mode: one that came late would run at a speed that was answered as failed.
+        // The velocity is written after the change of mode: a change that is late would otherwise run at a velocity that was answered as
+        // failed.
         if (known.mode != 3 || known.ordered_mode != 3) job.write(object::target_velocity, 0, 4);
         enter_mode(node, known, job, 3);
         job.write(object::target_velocity, m.target, 4);
@@ -127,7 +126,7 @@ std::string plan(const Node& node, const AxisKnown& known, std::size_t axis, Job
     if (std::holds_alternative<ResetFault>(body)) {
         if (!known.fb.fault) return job.read(object::error_code), "";
         job.word(0x00), job.word(0x80);
-        // Until the drive has seen it; a fault whose cause stands stays.
+        // Until the drive has seen it; a fault whose cause persists remains.
         job.until(0x08, 0x00);
         job.steps.back().optional = true;
         job.steps.back().patience = std::chrono::milliseconds(200);
@@ -155,7 +154,7 @@ void plan_stop(const AxisKnown& known, Job& job) {
     } else if (std::holds_alternative<QuickStop>(job.command.body)) {
         job.word(0x0B);
     } else if (known.fb.quick_stopping) {
-        job.word(0x0B | halt_bit);  // the drive has stopped by itself, perhaps: another word would enable it
+        job.word(0x0B | halt_bit);  // the drive may have stopped by itself: another control word would enable it
     } else {
         job.word(static_cast<std::uint16_t>((known.cw & 0x0Fu) | halt_bit));
     }
@@ -173,7 +172,7 @@ void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, 
     job.write(object::cycle_index, time.index, 1, true);
     const int entered = known.stream_mode(mode);
     const bool in_force = known.mode == entered && known.ordered_mode == entered;
-    if (known.turns()) {  // it would be torn back to the place that is read while it moves: it stands before
+    if (known.turns()) {  // the axis would be pulled back to the position that was read while it moved, so it must stand still first
         job.word(on_word | halt_bit);
         job.until_standstill();
     } else {
@@ -190,8 +189,8 @@ void plan_stream(const Node& node, const AxisKnown& known, SetPoint::Mode mode, 
     if (mode == SetPoint::Mode::velocity) job.write(object::target_velocity, 0, 4);
     if (mode == SetPoint::Mode::torque) job.write(object::target_torque, 0, 2);
     enter_mode(node, known, job, entered);
-    if (!in_force) target_here();  // the mode may have taken its time
-    // Interpolation is switched on by bit 4.
+    if (!in_force) target_here();  // the change of mode may have taken some time
+    // Bit 4 switches the interpolation on.
     const std::uint16_t cw = entered == 7 ? on_word | start_bit : on_word;
     if (known.cw != cw || entered == 7 || known.turns()) job.word(cw);
 }

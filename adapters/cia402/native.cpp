@@ -1,5 +1,4 @@
-// Plans of parameters of the catalogue, objects by their numbers, and the actions of the family.
-// In: points, texts, names. Out: steps, or why not.
+// Plans of parameters, of objects by their numbers, and of the family's actions.
 #include <fmt/core.h>
 
 #include <charconv>
@@ -31,7 +30,7 @@ bool hex(std::string_view text, unsigned& n) {
     const auto [p, ec] = std::from_chars(text.data(), text.data() + text.size(), n, 16);
     return ec == std::errc{} && p == text.data() + text.size();
 }
-/// "6064:00" at the beginning of a line that goes on.
+/// "6064:00" at the beginning of a longer text.
 std::optional<Address> address_in(std::string_view s) {
     unsigned index = 0, sub = 0;
     if (s.size() < 8 || s[4] != ':' || !hex(s.substr(0, 4), index) || !hex(s.substr(5, 2), sub)) return std::nullopt;
@@ -61,7 +60,7 @@ std::optional<ObjectWrite> object_write(const Catalogue& catalogue, std::string_
     return ObjectWrite{*a, std::move(bytes)};
 }
 
-/// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, as they are on the wire.
+/// "6064:00?", "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" in bytes, in the order on the bus.
 std::string plan_native(const Node& node, Job& job, const Native& native, Reason& reason) {
     const std::string_view s(reinterpret_cast<const char*>(native.send.data()), native.send.size());
     if (const auto a = address_in(s); a && s[7] == '?' && s.size() == 8) {

@@ -1,7 +1,6 @@
-// Stated: what a write of an object, or an action, would do to an axis, read before it is sent.
-// In: bodies of commands. Out: targets, rates for later motions, or that it cannot be read.
-// Never knows mode or state of the drive: a target counts as a motion, and a control word that runs or starts what is in the drive is
-// unread.
+// The effect of an object write or an action on an axis, determined before it is sent: targets, rates for later motions, or that it cannot
+// be determined. Mode and state of the drive are not known here: a target counts as a motion, and a control word that continues or starts
+// an order in the drive counts as not readable.
 #include "adapters/cia402/drive_node.hpp"
 #include "adapters/cia402/family.hpp"
 
@@ -18,14 +17,14 @@ Stated moves(Move::Kind kind, std::int64_t target) {
     return s;
 }
 
-/// An object of the profile, as the first axis has it.
+/// An object of the profile; the address is that of the first axis.
 Stated of_profile(Address a, std::int64_t v) {
     Stated s{Kind::nothing};
     if (a == object::controlword) {
         const bool runs = (v & 0x0F) == 0x0F && (v & 0x100) == 0;
         s.kind = runs ? Kind::unread : Kind::nothing;
     } else if (a == object::mode) {
-        s.kind = v == 0 || v == 1 || v == 6 ? Kind::nothing : Kind::unread;  // the others run at once when the axis is on
+        s.kind = v == 0 || v == 1 || v == 6 ? Kind::nothing : Kind::unread;  // the others start at once when the axis is enabled
     } else if (a == object::target_position || a == object::interpolated_position) {
         return moves(Move::Kind::absolute, v);
     } else if (a == object::target_velocity) {
@@ -33,7 +32,7 @@ Stated of_profile(Address a, std::int64_t v) {
     } else if (a == object::target_torque || in(a, 0x6042, 0x6042) || in(a, 0x60B0, 0x60B2) || in(a, 0x60C1, 0x60C1)) {
         s.kind = v == 0 && a == object::target_torque ? Kind::nothing : Kind::unread;  // torque, vl mode, offsets, further sets of data
     } else if (in(a, 0x6082, 0x6082)) {
-        s.kind = v == 0 ? Kind::nothing : Kind::unread;  // a speed at which the axis goes on behind its target
+        s.kind = v == 0 ? Kind::nothing : Kind::unread;  // the velocity at which the axis continues past its target
     } else if (v > 0) {
         if (a == object::profile_velocity) s.sets.velocity = v;
         if (a == object::profile_acceleration) s.sets.acceleration = v;
@@ -43,7 +42,7 @@ Stated of_profile(Address a, std::int64_t v) {
     return s;
 }
 
-/// `p`: the catalogue's row of it; nullptr: none.
+/// `p` is its row of the catalogue; nullptr if there is none.
 Stated of_object(const Catalogue& catalogue, int channel, Address a, std::int64_t v, const Parameter* p) {
     if (a.index < 0x2000) return {Kind::nothing};  // communication, store, restore
     if (a.index < 0x6000) return {p && !p->live ? Kind::nothing : Kind::unread};
@@ -57,8 +56,8 @@ Stated of_object(const Catalogue& catalogue, int channel, Address a, std::int64_
 
 Stated of_native(const Catalogue& catalogue, int channel, const Native& native) {
     const auto write = object_write(catalogue, {reinterpret_cast<const char*>(native.send.data()), native.send.size()});
-    if (!write) return {Kind::nothing};  // a question, or it is refused
-    // An object of 16 or 8 bits is told by its sign as one of 32 is.
+    if (!write) return {Kind::nothing};  // a read, or it is refused
+    // The sign of an object of 16 or 8 bits is treated as that of one of 32 bits.
     const bool word = write->address == object::controlword || of_first_axis(write->address) == object::controlword;
     const std::int64_t v = word ? static_cast<std::int64_t>(canopen::low_first(write->bytes)) : signed_of(write->bytes);
     if (write->bytes.size() > 4 && write->address.index >= 0x6000) return {Kind::unread};
@@ -82,7 +81,7 @@ Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body) 
         return s;
     }
     if (const auto* action = std::get_if<Action>(&body)) {
-        // A restart may begin a program that is in the drive; CiA 402 alone has none.
+        // A restart may begin a program in the drive; drives of the plain CiA 402 family have none.
         const bool programs = catalogue.document().if_contains("dialect") != nullptr;
         const bool restarts = action->name == "nmt_reset_node" || action->name == "nmt_reset_communication";
         return {programs && restarts ? Kind::unread : Kind::nothing};

@@ -1,5 +1,4 @@
-// Parameters: a maker's description laid over the family's page.
-// In: texts. Out: the catalogue's own JSON, read as every catalogue is. Never guesses a unit: a file does not say one.
+// The result is a catalogue in JSON, which is read like every catalogue. Units are not derived, because an EDS does not contain any.
 #include "adapters/cia402/parameters.hpp"
 
 #include <fmt/core.h>
@@ -59,10 +58,10 @@ json::value json_of(const Value& value) {
     if (const auto* s = std::get_if<std::string>(&value)) return json::value(*s);
     return nullptr;
 }
-/// What hangs on the node number is not the same for two drives of one description.
+/// Values that depend on the node number differ between two drives of one description.
 json::value json_of(const canopen::EdsValue& v) { return v.plus_node ? json::value() : json_of(v.value); }
 
-/// SYNC, EMCY, error control, SDO channels and PDOs, store and restore: the gateway sets them when the drive boots, or by a command.
+/// SYNC, EMCY, error control, SDO channels and PDOs, store and restore: the gateway writes them when the drive starts, or by a command.
 bool is_gateways(std::uint16_t index) {
     const auto in = [index](std::uint16_t from, std::uint16_t through) { return index >= from && index <= through; };
     return in(0x1005, 0x1007) || in(0x1010, 0x1011) || in(0x1014, 0x1017) || in(0x1200, 0x12FF) || in(0x1400, 0x1BFF) || in(0x1F80, 0x1F8F);
@@ -72,7 +71,7 @@ std::string_view group_of(std::uint16_t index) {
     return index < 0x2000 ? "communication" : index < 0x6000 ? "maker" : index < 0xA000 ? "profile" : "network";
 }
 
-/// The words of a file as a name: "Speed, max." is speed_max.
+/// The object name of a file as a parameter name: "Speed, max." is speed_max.
 std::string as_name(std::string_view words) {
     std::string out;
     for (const char c : words) {
@@ -111,7 +110,7 @@ public:
     }
 
 private:
-    /// Where it is read from, and whether: an entry that can only be written is nothing where the gateway alone writes.
+    /// Where the value is read from, and whether it can be read: a write-only entry is left out where only the gateway writes.
     static std::string_view access_of(const EdsEntry& e, bool reads_only) {
         const bool read = canopen::can_read(e.access), write = canopen::can_write(e.access) && !reads_only;
         return read && write ? "RW" : read ? "R" : write ? "W" : "";
@@ -139,7 +138,7 @@ private:
             p["count"] = n;
         }
         if (const auto type = catalogue_type(e.type); p.at("type").as_string() != type) {
-            // Its bits and words were of another type.
+            // The bits and enumerated values of the catalogue belong to another type.
             p["type"] = type;
             for (const auto* of_type : {"allowed", "values", "fields", "meanings", "alternate", "min", "max", "default"})
                 p.erase(of_type);
@@ -156,14 +155,14 @@ private:
         if (covered_.contains(at) || e.type == DataType::domain) return;
         const auto object = eds_.objects.find(at.index);
         const bool variable = object == eds_.objects.end() || object->second.shape == canopen::EdsShape::variable;
-        if (!variable && at.sub == 0 && !canopen::can_write(e.access)) return;  // how many there are
+        if (!variable && at.sub == 0 && !canopen::can_write(e.access)) return;  // number of entries
         const std::string_view access = access_of(e, is_gateways(at.index));
         if (access.empty()) return;
         const std::string words = variable || object == eds_.objects.end() ? e.name : object->second.name + " " + e.name;
         const std::string id = id_of(at, variable);
         std::string name = as_name(words);
         if (taken_.contains(name)) name = as_name(fmt::format("{} {:04x} {:02x}", name.substr(0, longest_name - 8), at.index, at.sub));
-        if (!taken_.insert(name).second || !taken_.insert(id).second) return;  // one of the page's has this very name: its own object wins
+        if (!taken_.insert(name).second || !taken_.insert(id).second) return;  // a catalogue row has the same name, and takes precedence
         const bool writable = access != "R";
         const bool at_once =
             writable && (e.access == canopen::EntryAccess::write_only || e.access == canopen::EntryAccess::read_write_output || e.mappable);
@@ -187,7 +186,7 @@ private:
         out.push_back(std::move(p));
     }
 
-    /// The file's limits and default; what it does not say is the page's. `all`: there is no page.
+    /// Limits and default of the file, completed by those of the catalogue. `all`: the catalogue has no such row.
     void values(const EdsEntry& e, json::object& p, bool all) const {
         const bool number = catalogue_type(e.type) != "bytes" && catalogue_type(e.type) != "text" && e.type != DataType::boolean;
         const auto put = [&](const char* key, const canopen::EdsValue& v, bool fits) {
@@ -201,7 +200,7 @@ private:
             const auto* v = p.if_contains(key);
             return v && v->is_number() ? std::optional(v->to_number<double>()) : std::nullopt;
         };
-        // One end of the page's and one of the file's can cross: then the file's alone holds.
+        // One limit of the catalogue and one of the file can contradict each other; then only the file counts.
         if (const auto low = end("min"), high = end("max"); low && high && *low > *high) p[e.low.given() ? "max" : "min"] = nullptr;
     }
 
@@ -215,7 +214,7 @@ private:
     std::set<std::string> taken_;
 };
 
-/// Any bytes as text of JSON and back: each byte is the letter of its number.
+/// Any bytes as a JSON text and back: each byte is the character with its number.
 std::string letters_of(std::string_view bytes) {
     std::string out;
     out.reserve(bytes.size());
@@ -243,7 +242,7 @@ std::string bytes_of_letters(std::string_view text) {
 
 json::value number_or_nothing(const std::optional<std::uint32_t>& n) { return n ? json::value(*n) : json::value(); }
 
-/// Modes that page and file both have; the page's, if the file does not say.
+/// Modes that both the catalogue and the file have; those of the catalogue if the file has no list.
 json::array modes_of(const Catalogue& page, const canopen::Eds& eds) {
     const auto supported = eds.entries.find({0x6502, 0});
     const auto bits = supported == eds.entries.end() ? std::nullopt : as_integer(supported->second.fallback.value);

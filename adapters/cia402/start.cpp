@@ -1,5 +1,3 @@
-// Start: the steps of the node and of its axes, and what their answers mean.
-// In: answers. Out: transfers, one after the other; what was read decides what is written.
 #include "adapters/cia402/start.hpp"
 
 #include <fmt/core.h>
@@ -38,7 +36,7 @@ void Start::probed(const canopen::SdoEnd& end, Turn& t) {
 
 void Start::begin() {
     Presence& presence = drive_.node.presence;
-    if (presence.is(Presence::Phase::ready)) presence.found();  // set up anew
+    if (presence.is(Presence::Phase::ready)) presence.found();  // set up again
     steps_.clear();
     at_ = 0;
     for (const Address a : {object::vendor, object::product, object::revision, object::watched_heartbeat})
@@ -86,7 +84,7 @@ void Start::set_up() {
     steps_.push_back({go});
 }
 
-/// Nothing is written where the site limits nothing; what was armed before stays in the drive until somebody writes it.
+/// Nothing is written if the site has no limits. Limits that were written before stay in the drive until somebody writes others.
 void Start::set_up_limits() {
     Presence& presence = drive_.node.presence;
     limits_open_ = 0;
@@ -114,8 +112,8 @@ void Start::limit_set(const Step& step, const Axis& axis, const canopen::SdoEnd&
     presence.limited({DriveLimits::State::refused, std::move(text)});
 }
 
-/// 1016h:01 holds the number of the node that is watched and the time in ms; the watch begins with its first heartbeat after that. What it
-/// shall do comes first. One that watched this gateway before and shall not any more must not miss it.
+/// 1016h:01 contains the monitored node number and the time in ms; monitoring begins with the first heartbeat after the write. The reaction
+/// is written first. A drive that has monitored this gateway before and no longer shall must not detect a missing heartbeat.
 void Start::set_up_watch() {
     const Watch& watch = drive_.node.watch;
     const bool watched = ((watched_ >> 16) & 0x7Fu) == drive_.node.line.own_node && (watched_ & 0xFFFFu) != 0;
@@ -129,7 +127,7 @@ void Start::set_up_watch() {
     steps_.push_back({{Step::Kind::write, object::watched_heartbeat, bytes_of(entry, 4), 0, 0, true}});
 }
 
-/// An answer to what set_up_watch has asked for.
+/// An answer to a transfer of set_up_watch.
 void Start::watch_set(const Step& step, const canopen::SdoEnd& end, Turn& t) {
     const Watch& watch = drive_.node.watch;
     if (!watch.on || drive_.node.presence.watchdog().state == DriveWatchdog::State::refused) return;
@@ -169,7 +167,7 @@ void Start::done(Turn& t) {
     steps_.clear();
     node.presence.made_ready();
     node.presence.report(title(), t.out);
-    // It is served all the same: what is safe with another model of the same maker, the plant knows and the gateway does not.
+    // The drive is used all the same: the plant knows whether another model of the same manufacturer is safe; the gateway does not.
     if (const std::string fault = differs(expected_, reported_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
     drive_.made_ready(t);
@@ -197,7 +195,7 @@ void Start::answered(const canopen::SdoEnd& end, Turn& t) {
     } else if (step.kind == Step::Kind::read) {
         identity_read(step.address, end);
     }
-    // What was read decides what is written.
+    // The values that were read decide what is written.
     if (at_ == steps_.size() && step.kind == Step::Kind::read) set_up();
 }
 
@@ -245,7 +243,7 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     if (a == object::cycle && end.done()) known.interpolation.value = raw;
     if (a == object::cycle_index && end.done()) known.interpolation.index = signed_of(end.data);
     if (a == object::error_code && end.done()) known.fb.error_code = node.number_of(static_cast<std::uint16_t>(raw));
-    // A quick stop must end in quick stop active, where it can be seen, and not in a drive that is off.
+    // A quick stop must end in "quick stop active", where it is visible, not in a drive that is switched off.
     if (a == object::quick_stop_option) change_quick_stop_ = end.done() && node.keep_quick_stop && raw < 5;
 }
 
@@ -268,7 +266,7 @@ void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
         p.settings.transmission = static_cast<std::uint8_t>(node.line.plan.turns);
         wanted.push_back({std::move(p), false});
     }
-    if (place_ > 0) return;  // the receive PDOs of the connection set are the first axis'
+    if (place_ > 0) return;  // the receive PDOs of the connection set belong to the first axis
     for (const auto kind : {SetPoint::Mode::position, SetPoint::Mode::velocity, SetPoint::Mode::torque}) {
         const int mode = known.stream_mode(kind);
         if (known.offers(mode))

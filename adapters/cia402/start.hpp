@@ -1,5 +1,5 @@
-// Start: how a node is found, what is read of it, and how it is set up to be heard and led.
-// In: answers. Out: reads, then writes. A node that the site does not name (a scan) is read and never written to.
+// Start finds a node, reads its identity and state, and sets it up for PDOs, monitoring and set-points. A node that the site does not name
+// (in a scan) is only read, never written.
 #pragma once
 
 #include <string>
@@ -22,16 +22,16 @@ public:
 
     void probe(Turn& t);
     void probed(const canopen::SdoEnd& end, Turn& t);
-    void begin();       ///< all of it anew
-    void begin_axes();  ///< those that are new to the node; the others go on
-    /// What was being set up may be gone: it is begun again when its turn comes.
+    void begin();       ///< all steps from the beginning
+    void begin_axes();  ///< the axes that are new to the node; the others continue
+    /// The set-up may be lost: it is repeated when it is due.
     void forget() noexcept { steps_.clear(); }
     void next(Turn& t);
     /// "CiA 402 drive, vendor 99h, product 1h, revision 1h".
     [[nodiscard]] std::string title() const;
-    /// It is set up, but for NMT start.
+    /// The set-up is complete except for NMT start.
     [[nodiscard]] bool at_end() const noexcept { return at_ < steps_.size() && steps_[at_].step.kind == Step::Kind::nmt; }
-    /// For its own beat: from NMT start on its PDOs count SYNCs. Or for the next look at a node that moves.
+    /// Waits for the node's own cycle, because its PDOs count SYNCs from NMT start on; or for the next read of a moving node.
     [[nodiscard]] bool waits(Instant now) const noexcept;
     [[nodiscard]] Instant wish() const noexcept { return sets_pdos() ? pdos_.look_at() : never; }
     void answered(const canopen::SdoEnd& end, Turn& t);
@@ -40,7 +40,7 @@ private:
     struct StartStep {
         Step step;
         Axis* axis = nullptr;  ///< nullptr: of the node
-        bool pdos = false;     ///< in its place those of PdoSetUp
+        bool pdos = false;     ///< the steps of PdoSetUp take this place
     };
     [[nodiscard]] bool sets_pdos() const noexcept { return at_ < steps_.size() && steps_[at_].pdos; }
     void add_axes();
@@ -57,10 +57,10 @@ private:
     std::vector<StartStep> steps_;
     std::size_t at_ = 0;
     std::string identity_;
-    ExpectedIdentity expected_;  ///< of the description, if the site names one
+    ExpectedIdentity expected_;  ///< from the description, if the site names one
     Identity reported_;
-    std::size_t limits_open_ = 0;  ///< writes of 607Dh that are not answered yet
-    std::uint32_t watched_ = 0;    ///< 1016h:01 as it was found
+    std::size_t limits_open_ = 0;  ///< outstanding writes of 607Dh
+    std::uint32_t watched_ = 0;    ///< 1016h:01 as it was read
 };
 
 }  // namespace axisgate::cia402_drive

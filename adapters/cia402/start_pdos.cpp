@@ -1,5 +1,4 @@
-// PdoSetUp: one PDO after the other.
-// In: answers. Out: transfers. Of a PDO that was refused nothing more is written, but for a second time in pre-operational.
+// After a PDO was refused, nothing more is written to it, except for a second attempt in pre-operational.
 #include "adapters/cia402/start_pdos.hpp"
 
 #include <fmt/core.h>
@@ -77,7 +76,7 @@ void PdoSetUp::read(const canopen::SdoEnd& end) {
     plan_writes(in_use ? canopen::id_word(has.settings) : out_of_use);
 }
 
-/// CiA 301, 7.5.2.36: an identifier may be changed while the PDO is out of use alone.
+/// CiA 301, 7.5.2.36: an identifier may be changed only while the PDO is disabled.
 void PdoSetUp::plan_writes(std::uint32_t id_word) {
     const canopen::Pdo& wanted = wanted_[at_].pdo;
     writes_ = canopen::writes_of(wanted);

@@ -1,7 +1,6 @@
-// PdoSetUp: brings the PDOs of the gateway into a node, also into one that maps them in pre-operational alone.
-// In: the PDOs that are wanted, answers. Out: reads and writes one after the other, NMT pre-operational for this node where it is needed.
-// A node that moves is looked at first: PDOs that are as they should be are not touched, and where the node refuses to have others set as
-// it is, it is asked for its state instead until it stands. Never sends a node to pre-operational while an axis of it moves.
+// PdoSetUp writes the gateway's PDOs into a node, also if the node accepts a mapping in pre-operational only (NMT). While an axis of the
+// node moves, its PDOs are read first and left as they are if they are correct; if the node refuses a change, the set-up waits until the
+// axis stands still. A node is never sent to pre-operational while one of its axes moves.
 #pragma once
 
 #include <optional>
@@ -21,12 +20,12 @@ public:
     using Part::Part;
     struct Wanted {
         canopen::Pdo pdo;
-        bool optional;  ///< a node that refuses it is served without
+        bool optional;  ///< a node that refuses it is used without it
     };
 
     void begin(std::vector<Wanted> wanted);
     [[nodiscard]] bool over() const noexcept { return at_ >= wanted_.size(); }
-    /// The next look at a node that moves; `never`: it does not wait.
+    /// The next read of a moving node; `never`: it does not wait.
     [[nodiscard]] Instant look_at() const noexcept { return watches_ && seen_ == 0 ? look_at_ : never; }
     [[nodiscard]] Step next();
     /// False: the node cannot be set up.
@@ -44,13 +43,13 @@ private:
 
     std::vector<Wanted> wanted_;
     std::size_t at_ = 0;
-    bool careful_ = false;  ///< it moves: what is there already is compared
+    bool careful_ = false;  ///< the node moves: existing PDOs are compared
     bool tried_ = false;    ///< it was sent to pre-operational
     std::optional<canopen::PdoReader> reader_;
     std::vector<canopen::SdoWrite> writes_;
     std::size_t written_ = 0;
     bool writes_now_ = false;
-    // while it moves, and does not let its PDOs be set
+    // the node moves and refuses changes of its PDOs
     bool watches_ = false;
     Instant look_at_{};
     std::size_t axis_ = 0, seen_ = 0;

@@ -1,5 +1,3 @@
-// Wire of a CiA 402 drive: numbers, mappings, places.
-// In: texts, values. Out: bytes, PDOs. Never guesses a type: what the catalogue does not have has none.
 #include "adapters/cia402/wire.hpp"
 
 #include <charconv>

@@ -1,5 +1,5 @@
-// Wire of a CiA 402 drive on CANopen: node numbers, the objects that the gateway uses, the PDOs that it sets up, types of the catalogue.
-// In: texts, values. Out: node numbers, bytes, mappings. CANopen itself is gateway/protocols/canopen.
+// Node numbers, objects, PDOs and data types of a CiA 402 drive on CANopen. A type is never guessed: an object that the catalogue does not
+// have has none. CANopen itself is in gateway/protocols/canopen.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 namespace axisgate::cia402_drive {
 using canopen::Address;
 
-/// 1..127; 0: the text is no node number.
+/// 1..127; 0: the text is not a node number.
 [[nodiscard]] int node_of(std::string_view address) noexcept;
-/// Empty, or what would be right.
+/// Empty, or what a valid address would be.
 [[nodiscard]] std::string check_address(std::string_view address);
 
 namespace object {
@@ -33,37 +33,38 @@ inline constexpr Address device_type{0x1000, 0}, error_register{0x1001, 0}, watc
     modes{0x6502, 0};
 }  // namespace object
 
-/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both at the SYNCs that are their node's. A second axis has TPDO 3
-/// and 4. RPDO 1, 2, 3: target position, velocity, torque; taken over at the SYNC. Control words go by SDO: each is acknowledged.
+/// TPDO 1: status word, position, mode shown. TPDO 2: velocity, demand. Both are sent at the SYNCs of their node. A second axis has TPDO 3
+/// and 4. RPDO 1, 2, 3: target position, velocity, torque; they take effect at the SYNC. Control words are sent by SDO, so that each is
+/// acknowledged.
 [[nodiscard]] canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis = 0);
 [[nodiscard]] canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis = 0);
 /// `interpolated`: position by 60C1h, for mode 7.
 [[nodiscard]] canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated = false);
 inline constexpr std::uint32_t status_base = 0x180, motion_base = 0x280, per_axis = 0x200;
-/// Of an axis in its turn: status (7 bytes) and motion (8); and of a target (4).
+/// Bits of an axis in its cycle: status (7 bytes) and motion (8); and of a target (4).
 inline constexpr std::uint32_t axis_bits = canopen::most_bits(7) + canopen::most_bits(8), target_bits = canopen::most_bits(4);
-inline constexpr int most_axes = 2;  ///< four transmit PDOs in the connection set, two for each
+inline constexpr int most_axes = 2;  ///< the connection set has four transmit PDOs, two for each axis
 
-/// Bytes of an object from a whole number, low byte first.
+/// The bytes of an integer for an object, low byte first.
 [[nodiscard]] std::vector<std::uint8_t> bytes_of(std::int64_t value, std::size_t size);
 [[nodiscard]] std::int64_t signed_of(std::span<const std::uint8_t> bytes) noexcept;
 
-/// A line of the native language that writes an object: "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" as bytes on the
-/// wire. Nothing: it is none.
+/// A native statement that writes an object: "6081:00=20000" where the catalogue has the type, "2100:01=x01FF" as bytes on the bus. Empty:
+/// it is no such statement.
 struct ObjectWrite {
     Address address;
     std::vector<std::uint8_t> bytes;
 };
 [[nodiscard]] std::optional<ObjectWrite> object_write(const Catalogue& catalogue, std::string_view line);
 
-/// Indexes of a catalogue's rows, and what a site says that they are on its drive.
+/// Indexes of catalogue rows, and their indexes on a drive as the site states them.
 using Places = std::map<std::uint16_t, std::uint16_t>;
 
-/// Where a point of the catalogue stands in the dictionary; nothing: it does not. `axis`: from 0, for rows that have an index per axis.
+/// The address of a parameter in the object dictionary; empty: it has none. `axis` counts from 0, for rows that have an index per axis.
 [[nodiscard]] std::optional<Address> place_of(const Parameter& parameter, Point point, int axis = 0, const Places& places = {});
-/// "object_2300" = "9216" of a drive's options: rows at 2300h stand at 2400h (9216) on this drive.
+/// "object_2300" = "9216" in the options of a drive: rows at 2300h are at 2400h (9216) on this drive.
 [[nodiscard]] Places moved_places(const std::map<std::string, std::string>& options);
-/// Objects of the profile stand 800h higher for each further axis (CiA 402, several devices in one node).
+/// Objects of the profile are 800h higher for each further axis (CiA 402, several devices in one node).
 [[nodiscard]] constexpr Address of_axis(Address a, std::size_t axis) noexcept {
     return a.index >= 0x6000 && a.index < 0xA000 ? Address{static_cast<std::uint16_t>(a.index + 0x800 * axis), a.sub} : a;
 }
@@ -72,7 +73,7 @@ using Places = std::map<std::uint16_t, std::uint16_t>;
     return a.index >= 0x6800 && a.index < 0xA000 ? Address{static_cast<std::uint16_t>(0x6000 + (a.index - 0x6000) % 0x800), a.sub} : a;
 }
 [[nodiscard]] std::optional<canopen::DataType> type_of(ValueType type) noexcept;
-/// The entry of the catalogue for an object; nullptr: none.
+/// The catalogue row of an object; nullptr if there is none.
 [[nodiscard]] const Parameter* parameter_at(const Catalogue& catalogue, Address address);
 
 }  // namespace axisgate::cia402_drive

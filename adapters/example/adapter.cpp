@@ -1,5 +1,4 @@
-// Adapter of the example drive: the line.
-// In: calls from outside. Out: what the drives say of them. What is no telegram, or nobody's, is counted.
+// Lines that are not telegrams, or not answers of a drive of the line, are counted.
 #include "adapters/example/adapter.hpp"
 
 #include "gateway/core/text.hpp"

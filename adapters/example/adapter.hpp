@@ -1,5 +1,5 @@
-// Adapter of the example drive: the line: who can be on it, and what arrives.
-// In: setup, line state, commands, frames, time. Out: frames; feedback, results, links, notices. Never has two requests on the line.
+// The adapter of the example drive: which drives can be on the line, and what a received line means. One request is outstanding on the line
+// at a time.
 #pragma once
 
 #include "adapters/example/drive.hpp"
@@ -7,7 +7,7 @@
 
 namespace axisgate::example {
 
-/// Empty if `address` is 1..99, else what would be right.
+/// Empty if `address` is 1..99, else what a valid address would be.
 [[nodiscard]] std::string check_address(std::string_view address);
 
 class LineAdapter final : public drive::TurnsAdapter<Drive> {

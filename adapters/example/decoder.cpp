@@ -1,5 +1,4 @@
-// Decoder of the example drive: the sentences.
-// In: lines. Out: what is asked of whom, or answered. The direction is in the telegram.
+// The direction is in the telegram.
 #include "adapters/example/decoder.hpp"
 
 #include <fmt/core.h>

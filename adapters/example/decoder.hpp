@@ -1,5 +1,5 @@
-// Decoder of the example drive: recorded bytes to sentences; a recording may begin and end within a telegram.
-// In: frames. Out: one line per telegram, "drive 5 axis 1: R21 = 1500". Never guesses: what is no telegram is shown as it came.
+// The decoder of the example drive: one sentence per telegram, "drive 5 axis 1: R21 = 1500". A recording may begin and end within a
+// telegram; text that is not a telegram is shown unchanged.
 #pragma once
 
 #include "adapters/example/wire.hpp"

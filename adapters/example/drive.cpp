@@ -1,5 +1,4 @@
-// Drive: what is asked, and what answers mean.
-// In: telegrams. Out: telegrams, the state of an axis. Takes an answer by its address, axis and item, and a write's by its value, too.
+// An answer fits a request with the same address, axis and item; the answer to a write must also have the same value.
 #include "adapters/example/drive.hpp"
 
 #include <algorithm>
@@ -29,8 +28,8 @@ Telegram Drive::write(int channel, std::string item, std::int64_t value) const {
     return {address_, channel, std::move(item), Kind::value, std::to_string(value)};
 }
 
-/// R06 speed, R07 acceleration, R08 deceleration, R09 deceleration of a quick stop: whoever has read or written them. A value that is not
-/// acknowledged as it was sent is no value.
+/// R06 speed, R07 acceleration, R08 deceleration, R09 deceleration of a quick stop, from any read or write. A value that was not
+/// acknowledged as it was sent is not used.
 bool Drive::learn_rate(const Telegram& answer) {
     if (answer.kind != Kind::value || answer.axis < 1 || answer.axis > channels) return false;
     DriveRates& rates = axis(answer.axis).rates;
@@ -43,7 +42,7 @@ bool Drive::learn_rate(const Telegram& answer) {
     return rate != nullptr;
 }
 
-/// S00: "bits,position,velocity,demand,fault". Bits: 0 on, 1 moves, 2 at its target, 3 referenced.
+/// S00: "bits,position,velocity,demand,fault". Bits: 0 on, 1 in motion, 2 target reached, 3 referenced.
 int Drive::learn(const Telegram& answer) {
     unsigned bits = 0, fault = 0;
     long long position = 0, velocity = 0, demand = 0;

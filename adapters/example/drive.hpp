@@ -1,6 +1,5 @@
-// Drive: the language of one example drive with up to four axes; how one talks to such a drive is gateway/drive/dialogue.hpp.
-// In: commands and telegrams, one at a time. Out: telegrams, what they mean.
-// Written in: drive.cpp what is asked and learnt, motion.cpp the commands.
+// Drive implements the language of the example drive, which has up to four axes; drive/dialogue.hpp does the rest. drive.cpp has the state
+// of an axis, motion.cpp the commands.
 #pragma once
 
 #include "adapters/example/wire.hpp"

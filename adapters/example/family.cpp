@@ -1,5 +1,4 @@
-// Family example: the table of its makers, and its scan. A template for others: built and tested with all suites, not shipped.
-// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about a drive.
+// The example is a template for other families: it is built and tested in all suites, and not shipped.
 #include "adapters/example/adapter.hpp"
 #include "adapters/example/decoder.hpp"
 #include "adapters/example/native.hpp"

@@ -1,5 +1,4 @@
-// Drive, part motion: each command as a short list of telegrams, and what follows from their answers.
-// In: commands, answers. Out: steps. Never begins a motion whose values were refused.
+// A motion is ordered only after the drive has accepted its values.
 #include <fmt/core.h>
 
 #include "adapters/example/drive.hpp"
@@ -23,7 +22,7 @@ std::string Drive::plan(Job& job, Reason& reason) const {
         return add(write(channel, "R25", 0));
     if (const auto* set = std::get_if<SetPosition>(&body)) {
         job.steps.push_back(write(channel, "R25", set->position));
-        return add(poll(channel));  // done when the axis shows it
+        return add(poll(channel));  // complete when the axis shows it
     }
     if (const auto* move = std::get_if<Move>(&body); move && !move->prepare_only) return plan_move(job, *move, reason);
     if (const auto* native = std::get_if<Native>(&body)) return plan_native(job, *native, reason);
@@ -49,7 +48,7 @@ std::string Drive::plan_move(Job& job, const Move& move, Reason& reason) const {
     if (move.acceleration) job.steps.push_back(write(channel, "R07", *move.acceleration));
     if (move.deceleration) job.steps.push_back(write(channel, "R08", *move.deceleration));
     if (move.velocity && !turns) job.steps.push_back(write(channel, "R06", *move.velocity));
-    // A distance becomes the place where it ends, so that a repeat does not move twice: it goes on in `stepped`.
+    // A distance is converted to its final position, so that a repetition does not move twice; `stepped` adds the motion.
     const bool relative = move.kind == Move::Kind::relative;
     job.steps.push_back(relative ? poll(channel) : write(channel, turns ? "R22" : "R21", move.target));
     return {};

@@ -1,5 +1,4 @@
-// Native: what a client's own telegram would do.
-// In: registers that are written. Out: what is stated by them. Never sends.
+// The effect of a native telegram on an axis, determined before it is sent.
 #pragma once
 
 #include "gateway/core/catalogue.hpp"
@@ -7,7 +6,7 @@
 
 namespace axisgate::example {
 
-/// Family::stated, by the registers of the README.
+/// Family::stated, by the registers in the README.
 [[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);
 
 }  // namespace axisgate::example

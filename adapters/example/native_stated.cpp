@@ -1,5 +1,4 @@
-// Stated: what a register that is written would do, read before it is sent.
-// In: bodies of commands. Out: R21 and R22 as motions, R06 to R09 as rates. Never knows a register that is not in the README.
+// R21 and R22 are motions, R06 to R09 rates; all registers are listed in the README.
 #include "adapters/example/native.hpp"
 #include "gateway/core/text.hpp"
 
@@ -30,7 +29,7 @@ Stated of_register(std::string_view item, std::optional<std::int64_t> value) {
 Stated stated(const Catalogue& catalogue, int, const CommandBody& body) {
     if (const auto* native = std::get_if<Native>(&body)) {
         const std::string_view s(reinterpret_cast<const char*>(native->send.data()), native->send.size());
-        if (s.size() < 4 || s[3] != '=') return {What::nothing};  // a question, or it is refused
+        if (s.size() < 4 || s[3] != '=') return {What::nothing};  // a read, or it is refused
         return of_register(s.substr(0, 3), parse_whole(s.substr(4), INT64_MIN, INT64_MAX));
     }
     if (const auto* write = std::get_if<WriteParameter>(&body)) {

@@ -1,5 +1,4 @@
-// Wire of the example drive: the form of a telegram and its checksum: the low byte of the sum of all characters before the `*`, in hex.
-// In: telegrams, lines. Out: lines, telegrams. Never takes a line whose checksum is wrong.
+// The checksum is the low byte of the sum of all characters before the `*`, in hex.
 #include "adapters/example/wire.hpp"
 
 #include <fmt/core.h>

@@ -1,7 +1,5 @@
-// Actions: every motion command by name, and the messages beyond them: program handling, error texts, what a drive says of a parameter,
-// command table, curves. In: names with checked arguments. Out: exchanges, an answer in words.
-// Never sends what is inferred where the option says off; an entry or a curve is checked before the drive's memory is touched, and read
-// back.
+// An entry or a curve is checked completely before the drive's memory is changed, and read back afterwards. Inferred messages are not sent
+// if the option says off.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -13,7 +11,7 @@
 
 namespace axisgate::linmot {
 namespace {
-constexpr std::size_t most_text = 16'000;  ///< of what comes in rows
+constexpr std::size_t most_text = 16'000;  ///< limit of results that consist of rows
 std::int64_t whole(const std::vector<Value>& v, std::size_t i) { return i < v.size() ? as_integer(v[i]).value_or(0) : 0; }
 std::string text(const std::vector<Value>& v, std::size_t i) {
     const auto* s = i < v.size() ? std::get_if<std::string>(&v[i]) : nullptr;
@@ -48,7 +46,7 @@ void Actions::begin(Turn& t) {
     begin_transfer(action, t);
 }
 
-/// Of a table entry or a curve: the whole of it is made before anything is sent.
+/// Begins the transfer of a table entry or a curve, which is complete before the first telegram is sent.
 void Actions::begin_transfer(const Action& action, Turn& t) {
     const auto number = static_cast<std::uint16_t>(whole(action.values, 0));
     if (action.name == "table.read" || action.name == "curve.read") return drive_.transfers.begin_read(action.name == "curve.read", number);
@@ -132,7 +130,7 @@ void Actions::add_row(std::string row) {
     if (rows.size() < most_text) rows += (rows.empty() ? "" : "\n") + std::move(row);
 }
 
-/// What comes in several answers: a list, the presence of the table's entries.
+/// Results that consist of several answers: a list, the presence of the table's entries.
 void Actions::rows_answered(const std::string& name, const Telegram& telegram, Turn& t) {
     const auto a = config_of(telegram);
     if (!a) return fail(Reason::drive_refused, "the answer has another form", t);
@@ -158,7 +156,7 @@ void Actions::rows_answered(const std::string& name, const Telegram& telegram, T
     }
 }
 
-/// Usage, type, lower and upper limit, default, one answer each; the job's number keeps the type.
+/// Usage, type, lower and upper limit, default: one answer each. The job's number stores the type.
 void Actions::info_answered(int step, const ConfigAnswer& a, Turn& t) {
     static constexpr const char* what[] = {"usage", "type", "min", "max", "default"};
     if (step == 1) job().number = a.value;

@@ -1,5 +1,3 @@
-// Adapter of the LinMot drives: the line: who may send now, and whose answer came.
-// In: calls from outside. Out: what the drives give back. Never decides about a drive.
 #include "adapters/linmot/adapter.hpp"
 
 #include <fmt/core.h>

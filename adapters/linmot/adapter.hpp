@@ -1,7 +1,6 @@
-// Adapter of the LinMot drives: one line, several drives by ID, one exchange at a time.
-// In: setup, line state, commands, bytes, time. Out: bytes; feedback, samples, results, links, notices.
-// The drive speaks only when asked, so the line is free when its answer is here or given up.
-// Never sends to an ID that the setup does not name, and never takes a telegram of another ID for an answer.
+// The adapter of LinMot drives: one line, several drives by ID, one exchange at a time. A drive sends only on request, so the line is free
+// when its answer has arrived or has timed out. Only IDs of the setup are addressed, and a telegram of another ID is never taken for an
+// answer.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace axisgate::linmot {
 
-/// Empty if `address` is the ID of a drive, 0..255, else what would be right.
+/// Empty if `address` is the ID of a drive, 0..255, else what a valid address would be.
 [[nodiscard]] std::string check_address(std::string_view address);
 
 class LineAdapter final : public drive::TurnsAdapter<Drive> {
@@ -34,7 +33,7 @@ private:
 
     Bus bus_;
     Framer framer_;
-    Drive* asked_ = nullptr;  ///< whose answer is waited for
+    Drive* asked_ = nullptr;  ///< its answer is awaited
 };
 
 }  // namespace axisgate::linmot

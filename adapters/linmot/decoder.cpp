@@ -1,6 +1,5 @@
-// Decoder of LinRS: text for telegrams.
-// In: bytes. Out: one line per telegram, and one for what the recording has of one at its edges.
-// Never holds more than one unfinished telegram and the end of one per direction.
+// A recording may begin or end within a telegram; the fragments get one line each. At most one incomplete telegram and one fragment are
+// kept per direction.
 #include "adapters/linmot/decoder.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +10,7 @@
 
 namespace axisgate::linmot {
 namespace {
-constexpr std::size_t longest_telegram = 63 + 4;  // the length byte, what it does not count
+constexpr std::size_t longest_telegram = 63 + 4;  // the length byte, and the bytes that it does not count
 
 std::string hex(std::span<const std::uint8_t> data) { return fmt::format("{:02X}", fmt::join(data, " ")); }
 std::string bits(const boost::json::object& document, const char* list, std::uint16_t word) {
@@ -136,7 +135,7 @@ void LineDecoder::strange(Stream& s, std::span<const std::uint8_t> bytes, std::s
     if (s.before.size() >= longest_telegram) begin(s, lines);
 }
 
-/// From here on telegrams follow one another: what was before the first one is the end of another, or strange.
+/// From here on, telegrams follow each other. The bytes before the first one are the end of another telegram, or not LinRS.
 void LineDecoder::begin(Stream& s, std::vector<std::string>& lines) {
     if (std::exchange(s.begun, true) || s.before.empty()) return;
     if (s.before.size() < longest_telegram && s.before.back() == end_byte) {
@@ -154,7 +153,8 @@ std::vector<std::string> LineDecoder::finish() {
         std::vector<std::uint8_t> rest;
         s.framer.reset([&](std::span<const std::uint8_t> bytes, std::string_view) { rest.assign(bytes.begin(), bytes.end()); });
         if (!s.before.empty()) {
-            // No telegram was whole: a start byte among these may be one of its data, and the end is the last that a telegram can follow.
+            // No telegram was complete: a start byte among these bytes may be data, and the fragment is the last part that a telegram can
+            // follow.
             std::vector<std::uint8_t> all(s.before);
             all.insert(all.end(), rest.begin(), rest.end());
             std::size_t end = 0;

@@ -1,7 +1,5 @@
-// Decoder of LinRS: recorded bytes as one readable line per telegram, down to the named motion command.
-// In: runs of bytes in order, with their direction if it is known; a recording may begin and end within a telegram. Out: text; what is
-// inferred is said to be so.
-// Never changes anything and never guesses silently.
+// The decoder of LinRS: recorded bytes as one line of text per telegram, down to the named motion command. A recording may begin and end
+// within a telegram, and the direction may be unknown. Text that rests on inferred layouts says so.
 #pragma once
 
 #include <array>
@@ -21,7 +19,7 @@ public:
     std::vector<std::string> on_frame(const Frame& frame, std::optional<bool> to_drive) override;
     std::vector<std::string> finish() override;
 
-    /// A telegram in words. Answers have main ID 0; requests for a response have it, too, and no data.
+    /// The text of a telegram. Answers have main ID 0; so have requests for a response, which have no data.
     [[nodiscard]] std::string describe(const Telegram& telegram, std::optional<bool> to_drive) const;
 
 private:
@@ -32,13 +30,14 @@ private:
     Motions motions_;
     struct Stream {
         Framer framer;
-        bool begun = false;                ///< what is strange is no end of a telegram that began before the recording
-        std::vector<std::uint8_t> before;  ///< until then: bytes of no telegram
-        std::vector<std::string> strange;  ///< ... and what is said of them if they are no end of one
+        bool begun = false;                ///< a telegram was seen: strange bytes are no longer the end of a telegram that began before the
+                                           ///< recording
+        std::vector<std::uint8_t> before;  ///< until then: bytes that belong to no telegram
+        std::vector<std::string> strange;  ///< ... and their descriptions, if they are not the end of a telegram
     };
     static void strange(Stream& s, std::span<const std::uint8_t> bytes, std::string_view why, std::vector<std::string>& lines);
     static void begin(Stream& s, std::vector<std::string>& lines);
-    std::array<Stream, 3> streams_;  // from the drive, to it, not known
+    std::array<Stream, 3> streams_;  // from the drive, to the drive, unknown
 };
 
 }  // namespace axisgate::linmot

@@ -1,5 +1,4 @@
-// AxisDemand: the ramps of acknowledged moves.
-// In: moves, statuses. Out: the demand. Never goes on where the drive stands before it should: somebody else has ended the motion.
+// The calculation ends when the drive stops before the calculated end, because then something else has ended the motion.
 #include "adapters/linmot/demand.hpp"
 
 #include <cmath>
@@ -39,7 +38,7 @@ void AxisDemand::moves(Turn& t) {
 
 void AxisDemand::stops(Turn& t) {
     if (!demand_.known()) return;
-    if (drive_.feedback.status().state() != state::enabled) return forget();  // on a ramp that is not known
+    if (drive_.feedback.status().state() != state::enabled) return forget();  // it decelerates with an unknown ramp
     demand_.stop(t.now, {.acceleration = a_ * 100.0 + 1, .deceleration = deceleration() * 100.0, .start_speed = 0});
 }
 

@@ -1,5 +1,5 @@
-// AxisDemand: where the axis should be, worked out from the moves that the drive has acknowledged: its default response has the position
-// alone. In: beginnings and ends of motions. Out: demand and its source in the feedback. Forgotten where a motion is not the gateway's own.
+// AxisDemand calculates the demand position of the axis from the moves that the drive has acknowledged, because the default response
+// contains the actual position only. It is unknown during motions that the gateway did not order.
 #pragma once
 
 #include "adapters/linmot/drive_part.hpp"
@@ -11,11 +11,11 @@ class AxisDemand : public Part {
 public:
     using Part::Part;
 
-    /// A move is being sent, at these rates in the drive's counts.
+    /// A move is being sent, with these rates in the drive's counts.
     void ordered(const Move& move, std::uint32_t velocity, std::uint32_t acceleration, std::uint32_t deceleration) noexcept;
-    /// The end of an endless one.
+    /// The stop of an endless move.
     void ordered_stop(const Move& move, std::uint32_t deceleration) noexcept;
-    /// The drive has taken it.
+    /// The drive has accepted it.
     void moves(Turn& t);
     void stops(Turn& t);
     void rest(double place) { demand_.rest(place); }
@@ -24,15 +24,15 @@ public:
 
     /// Of the last move, in counts of 1e-5 m/s^2; 0: none.
     [[nodiscard]] std::uint32_t ordered_deceleration() const noexcept { return d_; }
-    /// Of the last move; else the drive's own; else 1 m/s^2. Counts of 1e-5 m/s^2.
+    /// Of the last move; else that of the drive; else 1 m/s^2. Counts of 1e-5 m/s^2.
     [[nodiscard]] std::uint32_t deceleration() const noexcept;
-    /// Where it should be now if it moves, else where it is.
+    /// The calculated position during a motion, else the actual position.
     [[nodiscard]] double place(Instant now) const;
 
 private:
     Demand demand_;
     Move move_;
-    std::uint32_t v_ = 0, a_ = 0, d_ = 0;  ///< of the last move; 0: the drive's own
+    std::uint32_t v_ = 0, a_ = 0, d_ = 0;  ///< of the last move; 0: that of the drive
 };
 
 }  // namespace axisgate::linmot

@@ -1,5 +1,5 @@
-// Drive: what is sent next: stops, a stream, the values at the start, commands, polls, in this order; what a silence means.
-// In: the adapter's calls. Out: telegrams and results by its parts. After a silence nothing is sent for as long as its answer may come.
+// The order of transmission: stops, the stream, the values at the start, commands, polls. After a time-out nothing is sent for as long as
+// the answer may still arrive.
 #include "adapters/linmot/drive.hpp"
 
 #include <fmt/core.h>
@@ -97,7 +97,7 @@ void Drive::submit(const Command& command, Turn& t) {
     if (drive::admit(command, title(), presence, jobs.queue, tickets, t) == drive::Admission::urgent) stops.add(command, t);
 }
 
-// --- what is sent next -------------------------------------------------------------------------------------------------------
+// --- transmission ------------------------------------------------------------------------------------------------------------
 
 Want Drive::wants(Instant now) const noexcept {
     if (presence.is(Phase::down) || !exchanges.ready(now)) return Want::nothing;
@@ -135,7 +135,7 @@ void Drive::go(Turn& t) {
     exchanges.send({request(id_, Main::response, 1), Purpose::poll}, t);
 }
 
-// --- what comes --------------------------------------------------------------------------------------------------------------
+// --- reception ---------------------------------------------------------------------------------------------------------------
 
 void Drive::on_telegram(const Telegram& telegram, Turn& t) {
     const Request r = exchanges.answered();

@@ -1,6 +1,5 @@
-// One LinMot drive, put together from its parts; what is sent next, and what an answer or a silence means for all of them.
-// In: commands, its answers, the passing of time, a place on the line. Out: telegrams, feedback, samples, results, links, notices.
-// Never commands a motion that nobody asked for, and never asks two things at once.
+// Drive is one LinMot drive, made of its parts. It chooses the next telegram and passes answers and time-outs to the parts. One request is
+// outstanding at a time.
 #pragma once
 
 #include <string>
@@ -42,7 +41,7 @@ public:
     void on_deadline(Turn& t);
 
     // --- for its parts --------------------------------------------------------------------------------------------------
-    /// Forgets what only a drive that answers can know. With a reason: everything that waits ends by it.
+    /// Forgets everything that depends on the drive's presence. If `why` is given, all waiting commands fail with this reason.
     void lost(Turn& t, std::string why);
     [[nodiscard]] std::uint8_t id() const noexcept { return id_; }
     [[nodiscard]] std::string title() const;
@@ -71,7 +70,7 @@ public:
     Actions actions{*this};
 
 private:
-    /// It answers: found, and not lost since.
+    /// The drive was found and has not been lost since.
     [[nodiscard]] bool served() const noexcept {
         return presence.is(drive::Presence::Phase::ready) || presence.is(drive::Presence::Phase::starting);
     }

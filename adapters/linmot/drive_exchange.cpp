@@ -1,6 +1,3 @@
-// Exchanges: what is sent and waited for, and which telegram is its answer.
-// In: requests, telegrams of this drive's ID. Out: bytes of the line. Never two exchanges at once; after a silence nothing for as long as
-// its answer may still come.
 #include "adapters/linmot/drive_exchange.hpp"
 
 #include "adapters/linmot/drive.hpp"

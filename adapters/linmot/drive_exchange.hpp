@@ -1,6 +1,6 @@
-// Exchanges: the one telegram that is on its way to a drive, its repeats, and the wait for late answers.
-// In: telegrams to send, answers, the passing of time. Out: bytes. Every telegram may be repeated but those that are marked: control words
-// and reads change nothing the second time, and a motion command with the same count is not executed twice.
+// Exchanges controls the one telegram that is outstanding with a drive: its repetitions, and the wait for late answers. Telegrams may be
+// repeated unless they are marked: control words and reads have no effect the second time, and a motion command with the same count is not
+// executed twice.
 #pragma once
 
 #include "adapters/linmot/drive_part.hpp"
@@ -8,14 +8,14 @@
 
 namespace axisgate::linmot {
 
-/// Why something was asked; decides what its answer does.
+/// The purpose of a request; it decides how the answer is used.
 enum class Purpose : std::uint8_t { probe, core, poll, job, stop, release, stream };
 struct Request {
     Telegram telegram;
     Purpose purpose = Purpose::poll;
-    bool any_length = false;  ///< native: whatever comes from this ID is the answer
-    bool once = false;        ///< not to be repeated by itself: the drive counts such telegrams
-    bool quiet = false;       ///< its answer may take seconds: silence is none, and the line is not held
+    bool any_length = false;  ///< native: any telegram from this ID is the answer
+    bool once = false;        ///< not repeated automatically: the drive counts such telegrams
+    bool quiet = false;       ///< the answer may take seconds: a time-out does not count, and the line is not reserved
 };
 
 class Exchanges : public Part {
@@ -23,14 +23,14 @@ public:
     using Part::Part;
 
     void send(Request request, Turn& t);
-    /// An answer to what was asked: of its group, with its number where it carries one.
+    /// The telegram answers the request: same group, and the same number if the answer has one.
     [[nodiscard]] bool answers(const Telegram& telegram) const noexcept;
     [[nodiscard]] Request answered();
-    /// True: it has ended without an answer, however often it was sent.
+    /// True: the exchange has ended without an answer after all repetitions.
     [[nodiscard]] bool on_deadline(Turn& t);
-    /// on_deadline has sent the same telegram again in this turn.
+    /// on_deadline has repeated the telegram in this turn.
     [[nodiscard]] bool repeated(Instant now) const noexcept { return active() && repeated_at_ == now; }
-    /// A late answer may still come: until then nothing is sent.
+    /// A late answer may still arrive; until then nothing is sent.
     void missed(Instant now) noexcept;
     void nothing_late() noexcept { late_.settled(); }
     void drop() noexcept { exchange_.drop(); }

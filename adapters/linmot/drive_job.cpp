@@ -1,5 +1,4 @@
-// Jobs: which verb a command is, and how a job ends.
-// In: commands in order, answers. Out: the verb's telegrams, exactly one result. A streamed set-point is a job without a ticket.
+// A streamed set-point is a job without a ticket.
 #include "adapters/linmot/drive_job.hpp"
 
 #include <fmt/core.h>
@@ -45,10 +44,10 @@ Instant Jobs::wish() const noexcept {
 }
 
 bool Jobs::go(Turn& t) {
-    // Commands that end at once make room for the next one.
+    // Commands that end without an exchange make room for the next one.
     while (idle() && !queue.empty())
         begin_next(t);
-    if (idle() && !set_points.empty()) {  // a move without a ticket; its answers say where the axis is, so no poll is held up
+    if (idle() && !set_points.empty()) {  // a move without a ticket; its answers report the position, so no poll is delayed
         Command c;
         c.axis = drive_.axis();
         c.body = set_points.take().as_move();
@@ -61,7 +60,7 @@ bool Jobs::go(Turn& t) {
     Request r{std::move(*telegram), Purpose::job};
     r.any_length = std::holds_alternative<Native>(job_.command.body);
     r.once = job_.transfer.active;
-    // The drive answers the start of its software after about 3 s: for so long no stop could pass on this line.
+    // The drive answers the start of its software after about 3 s; if the line waited for this, no stop could be sent meanwhile.
     r.quiet = r.telegram.main == static_cast<std::uint8_t>(Main::program) && r.telegram.sub == 4;
     drive_.exchanges.send(std::move(r), t);
     return true;

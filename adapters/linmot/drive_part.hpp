@@ -1,5 +1,4 @@
-// What the parts of one drive have in common: its line, its options, and how each part reaches the others.
-// In: the line's setup, the drive's options. Out: members. Never lets one drive look into another.
+// The base of the parts of one drive: access to the line, to the options, and to the other parts.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ using drive::Turn;
 class Drive;
 using Part = drive::Part<Drive>;
 
-/// What the drives of a line have in common.
+/// The members that the drives of a line share.
 struct Bus : drive::Bus {
     explicit Bus(const Catalogue& of_family) : drive::Bus(of_family), motions(of_family) {}
     Motions motions;
@@ -26,20 +25,20 @@ struct Bus : drive::Bus {
     std::size_t drives = 0;  ///< on the line
 };
 
-/// The drive's options of the site, read once (README.md).
+/// The options of the drive in the site, read once (README.md).
 struct DriveOptions {
     bool warn_inferred = false;       ///< warn_word = inferred
-    bool inferred = true;             ///< messages that stand in no page of the maker may be sent
+    bool inferred = true;             ///< messages that no page of the manufacturer describes may be sent
     bool stop_by_off3 = false;        ///< quick_stop = off3
-    bool keeps_limits = true;         ///< drive_limits: the site's limits of position go into its RAM
+    bool keeps_limits = true;         ///< drive_limits: the site's position limits are written to the drive's RAM
     bool streams = false;             ///< set_points = auto or stream
-    std::vector<std::string> faults;  ///< options that could not be read
+    std::vector<std::string> faults;  ///< texts about options that could not be read
 };
 [[nodiscard]] DriveOptions drive_options(const DriveSetup& setup, const Bus& bus);
 
-/// What a move uses that names no rate, in the drive's counts; nothing: the drive does not tell it.
+/// The values that a move without rates uses, in the drive's counts; empty: the drive has not reported them.
 struct Limits {
-    static constexpr std::uint16_t upids[] = {0x14BE, 0x14BF, 0x14C0};  ///< read before a drive is served
+    static constexpr std::uint16_t upids[] = {0x14BE, 0x14BF, 0x14C0};  ///< read before commands are accepted
     std::optional<std::uint32_t> velocity, acceleration, deceleration;
     [[nodiscard]] std::optional<std::uint32_t>& at(std::size_t i) noexcept {
         return i == 0 ? velocity : i == 1 ? acceleration : deceleration;

@@ -1,5 +1,5 @@
-// Verbs: CiA 402's and the drive's own, each as the telegrams that it takes one after the other.
-// In: the job, what the drive shows. Out: telegrams, the job's end. Never goes on where the drive shows something else than it should.
+// The verbs of a LinMot drive: those of CiA 402 and the drive's own, each as a sequence of telegrams. A verb ends its job when the drive
+// shows an unexpected state.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace axisgate::linmot {
 
-/// power.cpp: the control word as the drive has it.
+/// power.cpp: the control word that is in force in the drive.
 class ControlWord : public Part {
 public:
     using Part::Part;
     [[nodiscard]] Telegram write(std::uint16_t word);
     [[nodiscard]] std::uint16_t word() const noexcept { return word_; }
-    /// After a restart of the gateway, or somebody else's telegram: as the status word shows it.
+    /// After a restart of the gateway, or a telegram of another master: the control word that the status word shows.
     void shown(const Status& status) noexcept;
     void forget() noexcept { known_ = false; }
     /// The drive has restarted.
     void cleared() noexcept { word_ = cw_off; }
 
 private:
-    std::uint16_t word_ = cw_off;  ///< last written, or read off the status word
+    std::uint16_t word_ = cw_off;  ///< last written, or derived from the status word
     bool known_ = false;
 };
 
@@ -41,39 +41,40 @@ public:
     std::optional<Telegram> request(Turn& t) override;
 };
 
-/// motion.cpp: a motion command: sent once with a new count, executed when the drive shows that count. Takes over jobs of other verbs.
+/// motion.cpp: a motion command is sent once with a new count, and was executed when the drive shows that count. Also continues jobs of
+/// other verbs.
 class MotionOrders final : public Verb {
 public:
     using Verb::Verb;
-    /// The job goes on as this motion; it is sent when the line is free.
+    /// The job continues with this motion, which is sent when the line is free.
     void begin_motion(const Motion& motion, std::vector<Value> values);
     std::optional<Telegram> request(Turn& t) override;
     void answered(const Telegram& telegram, Turn& t) override;
 
     [[nodiscard]] Telegram telegram(const Motion& motion, std::uint8_t count, std::span<const Value> values) const;
     [[nodiscard]] std::uint8_t next_count() noexcept { return count_ = static_cast<std::uint8_t>((count_ + 1) & 0x0F); }
-    /// A default response is here.
+    /// A default response has arrived.
     void seen(const Status& status, Turn& t);
     void found() noexcept { count_ = 0; }
     void has_target(bool target) noexcept { to_target_ = target, wanted_ = target ? Course::to_target : Course::unknown; }
-    /// The motion that is being sent is a move to the end of the numbers: it runs until it is told otherwise.
+    /// The motion that is being sent is a move to the end of the number range: it runs until the next order.
     void endless() noexcept { wanted_ = Course::endless; }
     void no_target() noexcept { to_target_ = false, course_ = wanted_ = Course::unknown; }
     void forget() noexcept { fresh_ = to_target_ = false, course_ = wanted_ = Course::unknown; }
-    /// Of the last motion that the drive has taken.
+    /// Of the last motion that the drive has accepted.
     [[nodiscard]] Course course() const noexcept { return course_; }
-    /// A move was answered as failed: should the drive show its count all the same, it is stopped.
+    /// A move was answered as failed: if the drive shows its count later, it is stopped.
     void given_up(std::uint8_t count) noexcept { orphan_ = count; }
-    /// Counts are somebody else's from here on.
+    /// From now on, the counts belong to another master.
     void no_orphan() noexcept { orphan_.reset(); }
     [[nodiscard]] bool fresh() const noexcept { return fresh_; }
     [[nodiscard]] bool to_target() const noexcept { return to_target_; }
 
 private:
     std::uint8_t count_ = 0;                                      ///< of the last motion command, as the drive shows it in state 8
-    bool fresh_ = false;                                          ///< taken, and not yet seen by a poll
+    bool fresh_ = false;                                          ///< accepted, and not yet seen by a poll
     bool to_target_ = false;                                      ///< the last motion has a target
-    Course course_ = Course::unknown, wanted_ = Course::unknown;  ///< of the motion that was taken; of the one that is being sent
+    Course course_ = Course::unknown, wanted_ = Course::unknown;  ///< of the accepted motion; of the one that is being sent
     std::optional<std::uint8_t> orphan_;                          ///< count of a move that was answered as failed
 };
 
@@ -82,23 +83,23 @@ class Moves final : public Verb {
 public:
     using Verb::Verb;
     void begin(Turn& t) override;
-    std::optional<Telegram> request(Turn&) override { return std::nullopt; }  // it has begun a motion, or has ended
+    std::optional<Telegram> request(Turn&) override { return std::nullopt; }  // the verb has begun a motion, or has ended
 
 private:
     void begin_move(const Move& move, Turn& t);
 };
 
-/// homing.cpp: Home, and the watch over a search.
+/// homing.cpp: Home, and the monitoring of the drive's search.
 class Homing final : public Verb {
 public:
     using Verb::Verb;
     void begin(Turn& t) override;
     std::optional<Telegram> request(Turn& t) override;
-    /// With each status: has the search ended, or was it ended?
+    /// To be called with each status: detects the end of the search.
     void watch(Turn& t);
     /// The drive is in an error. True: a search has ended by it.
     [[nodiscard]] bool broken() noexcept { return std::exchange(searching_, false); }
-    /// The search has ended: the control word's bit is to be taken back.
+    /// The search has ended: the homing bit of the control word is to be reset.
     [[nodiscard]] bool to_release() const noexcept { return release_; }
     void release(Turn& t);
     void release_lost() noexcept { release_ = true; }
@@ -109,7 +110,7 @@ private:
     bool release_ = false, searching_ = false;
 };
 
-/// parameters.cpp: points of the catalogue.
+/// parameters.cpp: parameters of the catalogue.
 class Parameters final : public Verb {
 public:
     using Verb::Verb;
@@ -124,7 +125,7 @@ private:
     void rom_answered(const Telegram& telegram, ValueType type, Turn& t);
 };
 
-/// parameters_transfer.cpp: what takes many telegrams: a job's transfer, asked before its verb.
+/// parameters_transfer.cpp: values that need many telegrams. A job's transfer is served before its verb.
 class Transfers : public Part {
 public:
     using Part::Part;
@@ -133,18 +134,18 @@ public:
     void begin_write(bool curve, std::uint16_t id, std::vector<std::uint8_t> first, std::vector<std::uint8_t> second = {});
     [[nodiscard]] bool active() const noexcept;
     [[nodiscard]] std::optional<Telegram> request();
-    /// True: it is over, and the job's transfer has what the drive has. An end with a fault is told here.
+    /// True: the transfer is complete and contains the drive's values. A fault is answered here.
     [[nodiscard]] bool answered(const Telegram& telegram, Turn& t);
-    /// After a silence: from the beginning, three times in all.
+    /// After a time-out: begins again, three attempts in all.
     [[nodiscard]] bool again();
-    /// What was read or written, as text.
+    /// The value that was read or written, as text.
     [[nodiscard]] std::string text() const;
 
 private:
     [[nodiscard]] Transfer& now() const noexcept;
 };
 
-/// native.cpp: a telegram of the client's own.
+/// native.cpp: a telegram that the client has written.
 class NativeTelegram final : public Verb {
 public:
     using Verb::Verb;
@@ -152,7 +153,7 @@ public:
     void answered(const Telegram& telegram, Turn& t) override;
 };
 
-/// actions.cpp: motion commands by name, and the messages beyond them.
+/// actions.cpp: motion commands by name, and further messages.
 class Actions final : public Verb {
 public:
     using Verb::Verb;

@@ -1,6 +1,3 @@
-// Family linmot: the table of its makers, and its scan.
-// In: nothing. Out: functions, and what lines of the family are like unless the site says otherwise.
-// Never decides anything about a drive.
 #include "adapters/linmot/adapter.hpp"
 #include "adapters/linmot/decoder.hpp"
 #include "adapters/linmot/native.hpp"
@@ -17,8 +14,8 @@ const Family& family_linmot() {
         [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> { return linmot::twin::make_twin(c, setup); },
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<linmot::LineDecoder>(c); },
         linmot::check_address,
-        "17",   // 11h, the ID of every printed telegram
-        38400,  // no factory rate is known: the switch S1 decides; a choice
+        "17",   // 11h, the ID in every telegram of the manual
+        38400,  // no factory bit rate is known (switch S1 selects it); a choice
         "8N1",
         false,
         true,

@@ -1,5 +1,4 @@
-// Feedback: default responses, one after the other.
-// In: the newest one. Out: the axis' picture, what has changed in it. An error is an alarm once, for as long as it stands.
+// An error is reported as an alarm once, as long as it persists.
 #include "adapters/linmot/feedback.hpp"
 
 #include <fmt/core.h>
@@ -50,7 +49,7 @@ void Feedback::learn(const Status& s, Turn& t) {
         operated_ = kept_ = braked_ = false;
     }
     watch_power(t);
-    // The place has another name from here on: the difference is no way that was gone.
+    // The position has been redefined: the difference is not a motion.
     if (before.state() == state::homing && before.sub_state() != finished && (s.state() != state::homing || s.sub_state() == finished))
         track_.clear();
     track(s, t.now);
@@ -61,7 +60,8 @@ void Feedback::learn(const Status& s, Turn& t) {
     if (first || before.state_var != s.state_var) sample("StateVar", std::int64_t{s.state_var}, t);
 }
 
-/// Status bit 3 stands while the motor brakes by an error; without bit 0 or 1 of the control word the drive never comes to its error state.
+/// Status bit 3 is set while the motor decelerates because of an error; without bit 0 or 1 of the control word the drive never enters its
+/// error state.
 void Feedback::keep_error() noexcept {
     const Status& s = status_;
     if (in_error()) {
@@ -76,7 +76,8 @@ void Feedback::keep_error() noexcept {
     }
 }
 
-/// Safe voltage enable or another input has taken the power, and the control word would give it back with the input: it is withdrawn.
+/// The safe voltage enable or another input has removed the power, and the control word would restore it together with the input: it is
+/// withdrawn.
 void Feedback::watch_power(Turn& t) {
     const Status& s = status_;
     if (s.state() >= state::enabled) {
@@ -84,7 +85,7 @@ void Feedback::watch_power(Turn& t) {
         return;
     }
     if (in_error()) return;
-    if ((drive_.control.word() & 0x0F) != 0x0F) operated_ = false;  // it does not ask for operation: OFF1, OFF3
+    if ((drive_.control.word() & 0x0F) != 0x0F) operated_ = false;  // the control word does not request operation: OFF1, OFF3
     if (!operated_ || drive_.jobs.is(drive_.power) || drive_.jobs.is(drive_.reset) || !drive_.stops.empty()) return;
     operated_ = false;
     drive_.stops.take_back(Disable{}, t);
@@ -93,7 +94,7 @@ void Feedback::watch_power(Turn& t) {
         fmt::format("drive {} has left operation by itself ({}): enable it again when that is over", drive_.title(), state_text()), t);
 }
 
-/// A halt brakes with what the last move had (demand.hpp), a move without a rate of its own with the drive's: the lower of them is shown.
+/// A halt decelerates with the rate of the last move (demand.hpp), a move without a rate with that of the drive: the lower one is shown.
 DriveRates Feedback::rates() const noexcept {
     const Limits& own = drive_.limits;
     DriveRates r;
@@ -131,14 +132,15 @@ void Feedback::publish(Turn& t) {
     fb_.fault = in_error() || kept_;
     fb_.rates = rates();
     fb_.course = drive_.stream.on() ? Course::endless : drive_.motion.course();
-    // Status bit 4 mirrors bit 1 of the effective control word, to which X4.12 (SVE) is always mapped [L4400].
+    // Status bit 4 shows bit 1 of the effective control word, to which X4.12 (SVE) is always mapped [L4400].
     fb_.safe_stop = (drive_.control.word() & 2) != 0 && !s.bit(4) && main != state::not_ready;
     fb_.warning = s.bit(bit::warning);
     fb_.referenced = s.bit(bit::homed);
     fb_.error_code = in_error() ? sub : std::uint16_t{0};
     fb_.internal_limit = fb_.fault && (sub == 0x07 || sub == 0x08 || sub == 0x87 || sub == 0x88);
     fb_.quick_stopping = main == state::aborting || main == state::quick_stop;
-    // Its own state, as CiA 402 codes it. Not below: there it follows from the control word that this gateway keeps, not from a client's.
+    // The drive's state in the coding of CiA 402. Lower states are not shown: they follow from the control word of this gateway, not from
+    // that of a client.
     const bool standing_by = main == state::tests || main == state::ready_to_operate;
     fb_.statusword = fb_.quick_stopping       ? std::optional<std::uint16_t>(0x0007)
                      : main >= state::enabled ? std::optional<std::uint16_t>(0x0027)

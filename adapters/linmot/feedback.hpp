@@ -1,6 +1,5 @@
-// Feedback: what a drive's default response tells, turned into the axis' picture.
-// In: status word, StateVar, position. Out: feedback, alarms, samples of the drive's own words. Never shows what the drive did not say; the
-// speed is the change of its position over the last tenth of a second.
+// Feedback turns the default response of a drive (status word, StateVar, position) into the feedback of the axis, into alarms, and into
+// samples of the drive's own values. The velocity is the change of the position during the last 100 ms.
 #pragma once
 
 #include <deque>
@@ -17,7 +16,7 @@ public:
 
     void learn(const Status& status, Turn& t);
     void publish(Turn& t);
-    /// The line was down, the drive was lost: what it said counts no more.
+    /// The line went down or the drive was lost: reported values are no longer valid.
     void unknown() noexcept { known_ = false; }
     void forget() noexcept;
     void homing_begins() noexcept { fb_.homing_attained = fb_.homing_error = false; }
@@ -27,8 +26,8 @@ public:
     [[nodiscard]] bool known() const noexcept { return known_; }
     [[nodiscard]] const Status& status() const noexcept { return status_; }
     [[nodiscard]] const AxisFeedback& fb() const noexcept { return fb_; }
-    /// An error that the drive has shown while it braked and does not show any more, because its power was taken before it came to its
-    /// error state: it stands here until it is reset.
+    /// An error that the drive showed while it decelerated and shows no more, because its power was removed before it entered its error
+    /// state. It is kept here until a reset.
     [[nodiscard]] bool error_kept() const noexcept { return kept_; }
     void error_reset() noexcept { kept_ = braked_ = false; }
     [[nodiscard]] bool in_error() const noexcept { return status_.state() == state::error || status_.state() == state::setup_error; }
@@ -49,10 +48,10 @@ private:
     Status status_;
     AxisFeedback fb_;
     std::uint8_t reported_error_ = 0;
-    bool braked_ = false;                                 ///< it brakes by an error
-    bool kept_ = false;                                   ///< that error is gone from its status without a reset
-    bool operated_ = false;                               ///< it was enabled, and its word was not taken back since
-    std::deque<std::pair<Instant, std::int32_t>> track_;  ///< places of the last 100 ms
+    bool braked_ = false;                                 ///< it decelerates because of an error
+    bool kept_ = false;                                   ///< that error has disappeared from the status without a reset
+    bool operated_ = false;                               ///< it was enabled, and its control word was not withdrawn since
+    std::deque<std::pair<Instant, std::int32_t>> track_;  ///< positions of the last 100 ms
 };
 
 }  // namespace axisgate::linmot

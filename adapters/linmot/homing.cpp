@@ -1,5 +1,5 @@
-// Homing: the drive's own search (control word bit 11, done at StateVar 090Fh), or its place given a name (Master Homing).
-// In: home commands, states. Out: control words. Never leaves the bit set when the search has ended.
+// Either the drive searches its home position (control word bit 11, complete at StateVar 090Fh), or the present position is redefined
+// (Master Homing). The bit is always reset when the search has ended.
 #include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"

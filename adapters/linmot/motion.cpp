@@ -1,5 +1,5 @@
-// Motion: moves as commands of the VA interpolator, and how a motion command is known to have been executed: its count comes back.
-// In: moves in increments (0.1 um). Out: motion commands. Never uses a velocity, acceleration or deceleration that nobody gave or read.
+// Moves are commands of the VA interpolator, in increments of 0.1 um. The drive acknowledges a motion command by showing its count. Only
+// rates that a client gave or the drive reported are used.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace axisgate::linmot {
 namespace {
 constexpr Duration look_again = std::chrono::milliseconds(5);
-constexpr int looks = 6;  ///< at the count of a motion command until it counts as not executed
-/// Increments per second into counts of 1e-6 m/s (1 = 10), per second squared into 1e-5 m/s2 (1 = 100); never 0.
+constexpr int looks = 6;  ///< reads of the count of a motion command until it counts as not executed
+/// Increments per second to counts of 1e-6 m/s (1 = 10), per second squared to 1e-5 m/s2 (1 = 100); never 0.
 std::int64_t counts(std::int64_t value, std::int64_t per) { return std::max<std::int64_t>((value + per / 2) / per, 1); }
 }  // namespace
 
@@ -57,7 +57,8 @@ void Moves::begin_move(const Move& move, Turn& t) {
     constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
     if (v > most || a > most || d > most)
         return wrong(Reason::out_of_range, fmt::format("velocity is at most {} and acceleration {} increments", most * 10, most * 100));
-    // An endless motion is a move to the end of the numbers: 010xh is proven on drives, the endless commands' layouts are inferred.
+    // An endless motion is a move to the end of the number range: 010xh is proven on drives, the layouts of the endless commands are
+    // inferred.
     constexpr std::int64_t far = std::numeric_limits<std::int32_t>::max();
     const std::int64_t target = endless ? (move.target > 0 ? far : -far) : move.target;
     if (target < -far - 1 || target > far)
@@ -88,7 +89,7 @@ Telegram MotionOrders::telegram(const Motion& motion, std::uint8_t count, std::s
 
 void MotionOrders::seen(const Status& s, Turn& t) {
     fresh_ = false;
-    // It had no answer, and the drive has taken it: who ordered it was told that it failed.
+    // The command was not answered, but the drive has accepted it; the client was informed that it failed.
     if (orphan_ && s.state() == state::enabled && (s.sub_state() & 0x0F) == *orphan_ && s.bit(bit::moving)) {
         orphan_.reset();
         drive_.notice(Severity::warning, "motion", 0,
@@ -98,7 +99,7 @@ void MotionOrders::seen(const Status& s, Turn& t) {
     if (s.state() == state::enabled && !drive_.jobs.is(*this)) count_ = s.sub_state() & 0x0F;
 }
 
-/// Once, with a new count; then the count is looked for.
+/// Sent once, with a new count; then the count is read.
 std::optional<Telegram> MotionOrders::request(Turn&) {
     if (job().step > 0) return linmot::request(drive_.id(), Main::response, 1);
     job().step = 1;
@@ -122,7 +123,7 @@ void MotionOrders::answered(const Telegram&, Turn& t) {
         return refuse(Reason::drive_refused, fmt::format("drive {} refused {}: {}", drive_.title(), j.text, feedback.error_text()), t,
                       s.sub_state());
     }
-    // Most errors stop the motor first: the state after that says which it was.
+    // Most errors stop the motor first: the state after that shows which error it was.
     if (s.state() == state::quick_stop && ++j.step <= looks) {
         j.not_before = t.now + look_again;
         return;

@@ -1,5 +1,4 @@
-// Motions: the catalogue's layouts, packed and unpacked.
-// In: values. Out: bytes. Never checks ranges: command_arguments.hpp has done that.
+// Ranges of values are checked by command_arguments.hpp, not here.
 #include "adapters/linmot/motion_commands.hpp"
 
 #include <fmt/core.h>
@@ -22,7 +21,7 @@ Motions::Motions(const Catalogue& catalogue) {
         m.header = static_cast<std::uint16_t>(wire->get_object().at("header").as_int64());
         const auto* inferred = o.if_contains("inferred");
         m.inferred = inferred && inferred->is_bool() && inferred->get_bool();
-        m.anywhere = m.header <= 0x0080 && m.header != 0x0090;  // general commands but Master Homing
+        m.anywhere = m.header <= 0x0080 && m.header != 0x0090;  // general commands except Master Homing
         by_header_.emplace(m.header, m);
     }
 }

@@ -1,5 +1,4 @@
-// PositionStream: its periods, one after the other.
-// In: set-points, answers. Out: motion commands. Each is a place and a speed that the drive can be at, a period from now.
+// Each motion command is a position and a speed that the drive can reach within one period.
 #include "adapters/linmot/motion_stream.hpp"
 
 #include <fmt/core.h>
@@ -12,8 +11,9 @@
 namespace axisgate::linmot {
 namespace {
 constexpr Duration shortest_period = std::chrono::milliseconds(2), longest_period = std::chrono::milliseconds(5);  // [L3914-3944]
-constexpr Duration for_the_drive = std::chrono::microseconds(700);  ///< to answer, and for the host: what LinRS takes is not public
-constexpr std::size_t stream_bytes = 10;                            ///< of 031xh: header, place, speed
+constexpr Duration for_the_drive = std::chrono::microseconds(700);  ///< time of the drive for an answer, and of the host; the value for
+                                                                    ///< LinRS is not public
+constexpr std::size_t stream_bytes = 10;                            ///< of 031xh: header, position, speed
 }  // namespace
 
 Duration stream_period(const Bus& bus) noexcept {
@@ -28,7 +28,7 @@ bool PositionStream::take(const SetPoint& p) {
         state_.newest = p;
         return true;
     }
-    if (state_.on) state_.ending = true;  // another mode
+    if (state_.on) state_.ending = true;  // the mode has changed
     return false;
 }
 
@@ -88,7 +88,7 @@ void PositionStream::answered(Turn& t) {
         t);
 }
 
-/// The drive has left it already, or never began.
+/// The drive has left the stream already, or has never begun it.
 void PositionStream::end(Reason reason, std::string why, Turn& t) {
     forget();
     t.out.stream_ends.push_back({drive_.axis(), reason, std::move(why)});

@@ -1,7 +1,7 @@
-// PositionStream: the drive's own position stream (031xh) for set-points over the lane, where the line can hold its period.
-// In: the newest set-point. Out: one motion command each period, with place and speed on the way there; its answers say where the axis is,
-// so nothing else is asked. The newest set-point is held when none comes: a stream that starves is an error of the drive (0083h), and who
-// is silent is the engine's to judge. Never streams on a line without a bit rate, nor beside another drive: their periods cannot be kept.
+// PositionStream uses the drive's position stream (031xh) for streamed set-points, if the line can keep its period: one motion command per
+// period, whose answer reports the position, so that no other request is sent. Without a new set-point the last one is repeated, because
+// the drive goes into error 0083h if the stream stops; the engine monitors the client. A line without a bit rate, or with a second drive,
+// cannot keep the period.
 #pragma once
 
 #include <optional>
@@ -12,30 +12,31 @@
 
 namespace axisgate::linmot {
 
-/// 0: this line cannot hold a stream.
+/// 0: this line cannot keep the period of a stream.
 [[nodiscard]] Duration stream_period(const Bus& bus) noexcept;
 
 class PositionStream : public Part {
 public:
     using Part::Part;
 
-    /// False: it is not streamed, and a stream that runs is ended first.
+    /// False: the set-point is not streamed, and a stream in progress is ended first.
     [[nodiscard]] bool take(const SetPoint& set_point);
-    /// A command that moves or stops has come.
+    /// A command that moves or stops the axis has arrived.
     void interrupt() noexcept;
     void begin(Turn& t);
     void send(Turn& t);
     void answered(Turn& t);
-    /// It has ended already, or nothing of before counts: no end is sent.
+    /// The stream has ended already, or the drive was lost: its end is not sent.
     void forget() { state_ = {}; }
 
     [[nodiscard]] bool on() const noexcept { return state_.on; }
     [[nodiscard]] bool ending() const noexcept { return state_.ending; }
     [[nodiscard]] bool waits() const noexcept { return state_.newest.has_value(); }
     [[nodiscard]] Instant next() const noexcept { return state_.next; }
-    /// For an answer, while it runs: its period alone. It goes on with its next set-point: the drive may have heard it all the same.
+    /// Time-out of an answer during a stream: one period. The stream then continues with its next set-point, because the drive may have
+    /// received the command.
     [[nodiscard]] std::optional<Duration> patience() const noexcept;
-    /// So short a silence is none.
+    /// A silence of this length does not count.
     [[nodiscard]] bool received_lately(Instant now) const noexcept;
 
 private:

@@ -1,6 +1,5 @@
-// Native exchanges: a telegram of the client's own, completed by the drive's ID, length and frame.
-// In: hex text "sub main data...", or bytes: the same, or a whole telegram for this ID. Out: the answer in hex and in bytes.
-// Never sends to another ID. A motion command whose count did not change is sent, and the answer says that it was not executed.
+// A telegram that the client has written: "sub main data..." in hex, or bytes (the same, or a complete telegram for this ID). ID, length
+// and frame are added here. A motion command whose count did not change is sent, and the answer states that it was not executed.
 #include "adapters/linmot/native.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +47,7 @@ std::optional<Telegram> NativeTelegram::request(Turn& t) {
     if (telegram.main == static_cast<std::uint8_t>(Main::motion)) drive_.motion.no_orphan();
     if (telegram.main == static_cast<std::uint8_t>(Main::motion) || telegram.main == static_cast<std::uint8_t>(Main::control_word))
         drive_.demand.forget();
-    // A live parameter is written by a motion command, others by the messages of their group, all of them by a restart.
+    // Live parameters are written by a motion command, others by the messages of their group, all of them by a restart.
     const auto main = static_cast<Main>(telegram.main);
     job().number = main == Main::motion || main == Main::parameters || main == Main::program ? 1 : 0;
     return telegram;

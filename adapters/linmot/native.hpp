@@ -1,5 +1,4 @@
-// Native: a client's own telegram as bytes, and what it would do.
-// In: text or bytes that a person wrote. Out: bytes, or what is stated by them. Never sends.
+// The bytes of a native telegram, and its effect on the axis, determined before it is sent.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace axisgate::linmot {
 
-/// Pairs of hex digits, blanks and commas between them; nothing: it is no such text.
+/// Pairs of hex digits, separated by blanks and commas; empty: the text has another form.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> native_bytes(std::span<const std::uint8_t> text);
 /// Family::stated. Positions in increments of 0.1 um, as the axis has them.
 [[nodiscard]] Stated stated(const Catalogue& catalogue, int channel, const CommandBody& body);

@@ -1,7 +1,7 @@
-// Stated: what a telegram of the client's own, an action or a parameter write would do to the axis, read before it is sent.
-// In: bodies of commands. Out: the target and the rates of VAI commands in increments, rates of predefined moves, or that it cannot be
-// read. Never knows what the drive holds: cams, curves, triggers, command tables, 16 bit commands (their unit is a parameter) and
-// increments of a target that is not known are unread, and so is a control word that could let a frozen motion go on.
+// The effect of a native telegram, an action or a parameter write on the axis: target and rates of VAI commands in increments, rates of
+// predefined moves. The state of the drive is not known here. Therefore these are reported as not readable: cams, curves, triggers, command
+// tables, 16-bit commands (their unit is a parameter), increments of an unknown target, and a control word that could continue a frozen
+// motion.
 #include <algorithm>
 #include <array>
 
@@ -22,7 +22,7 @@ bool in(std::uint16_t header, std::initializer_list<std::uint16_t> list) { retur
 Stated of_word(std::uint16_t word) {
     constexpr std::uint16_t runs = 0x002F,
                             moves = 0xB740;  // operation without freeze; go to position, jog, special, clearance, initial, search
-    if ((word & 0x0F) != 0x0F) return {Kind::nothing};  // a drive below operation enabled moves nothing
+    if ((word & 0x0F) != 0x0F) return {Kind::nothing};  // a drive below operation enabled does not move
     if ((word & moves) != 0 || (word & runs) != runs) return {(word & moves) != 0 ? Kind::unread : Kind::nothing};
     return {(word & cw_home) != 0 ? Kind::homing : Kind::unread};
 }
@@ -36,7 +36,7 @@ Stated of_live(std::uint16_t upid, std::int64_t value) {
     return s;
 }
 
-/// Which motion the arguments of a command are, by its header.
+/// The kind of motion that the arguments of a command describe, by its header.
 std::optional<Move::Kind> kind_of(std::uint16_t h) {
     if (in(h, {0x0100, 0x0130, 0x0140, 0x0180, 0x0200, 0x0230, 0x0240, 0x0280, 0x0300, 0x0310, 0x0320, 0x07E0, 0x07F0, 0x0B00, 0x0B30,
                0x0B40, 0x0B80, 0x0C00, 0x0C30, 0x0C40, 0x0C50, 0x0C60, 0x0C70, 0x0C80, 0x3800, 0x3810, 0x3830, 0x3840, 0x3850}))
@@ -46,7 +46,7 @@ std::optional<Move::Kind> kind_of(std::uint16_t h) {
     return std::nullopt;
 }
 
-/// Stops, waits, texts of the drive's memory and its variables.
+/// Stops, waits, changes of the drive's memory and its variables.
 bool harmless(std::uint16_t h) {
     const bool memory = h >= 0x0500 && h <= 0x0560, waits = h >= 0x2100 && h <= 0x22F0, variables = h >= 0x2400 && h <= 0x24F0;
     return memory || waits || variables ||
@@ -93,7 +93,7 @@ Stated of_bytes(const Catalogue& catalogue, std::span<const std::uint8_t> b) {
     const Motions motions(catalogue);
     const Motion* motion = b.size() >= 2 ? motions.of_header(static_cast<std::uint16_t>(b[0] | b[1] << 8)) : nullptr;
     if (!motion) return {Kind::unread};
-    if (motion->header == 0x0020 && b.size() >= 6) {  // its value is of the parameter's size
+    if (motion->header == 0x0020 && b.size() >= 6) {  // the size of its value is that of the parameter
         std::int64_t value = 0;
         for (std::size_t i = 4; i < b.size() && i < 8; ++i)
             value |= std::int64_t{b[i]} << 8 * (i - 4);
@@ -107,7 +107,7 @@ Stated of_native(const Catalogue& catalogue, const Native& native) {
     const auto bytes = native.is_text ? native_bytes(native.send) : std::optional(native.send);
     if (!bytes || bytes->size() < 2) return {Kind::nothing};  // it is refused
     std::span<const std::uint8_t> b(*bytes);
-    // A whole telegram: start, ID, length, 02h, and its end; a checksum behind it or none.
+    // A complete telegram: start, ID, length, 02h, and its end, with or without a checksum.
     const bool whole = b.size() >= 7 && b[0] == 1 && b[3] == 2 && b.back() == 4 && b[2] >= 3 &&
                        (b.size() == std::size_t{b[2]} + 4 || b.size() == std::size_t{b[2]} + 6);
     if (whole) b = b.subspan(4, std::size_t{b[2]} - 1);
@@ -137,7 +137,7 @@ Stated of_action(const Catalogue& catalogue, const Action& action) {
     if (!command) return {Kind::nothing};  // it is refused
     const Motions motions(catalogue);
     const Motion* motion = motions.named(command->id);
-    if (!motion) return {Kind::nothing};  // texts, tables and curves: begun by a motion command
+    if (!motion) return {Kind::nothing};  // texts, tables and curves: a motion command starts them
     std::vector<Value> values = action.values;
     if (values.size() != command->arguments.size()) values = check_arguments(*command, action.argument).values;
     return of_motion(*motion, values);

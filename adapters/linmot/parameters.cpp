@@ -1,6 +1,6 @@
-// Parameters: RAM values by the read that comes with a default response and by Write Live Parameter, ROM values by the parameter messages.
-// In: reads and writes of catalogue points. Out: values as the drive has them. What was written is read back: a RAM write has no answer of
-// its own. Entries of the command table and curves are texts, carried by parameters_transfer.cpp.
+// RAM values are read together with a default response and written by Write Live Parameter; ROM values use the parameter messages. Each
+// value is read back, because a RAM write has no answer of its own. Entries of the command table and curves are texts, transferred by
+// parameters_transfer.cpp.
 #include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
@@ -41,7 +41,7 @@ Place place_of(const Catalogue& catalogue, Point point) {
 }
 }  // namespace
 
-/// Whichever the command has.
+/// The point of the read or of the write.
 Point Parameters::point() {
     const CommandBody& body = job().command.body;
     const auto* read = std::get_if<ReadParameter>(&body);
@@ -57,13 +57,13 @@ void Parameters::done(Value v, Turn& t) {
     succeed({}, t, std::move(v));
 }
 
-/// A write that nobody has ordered is one of the site's limits.
+/// A write without a client's command is one of the site's limits.
 void Parameters::without_success(drive::Failure& how, Turn& t) {
     Verb::without_success(how, t);
     if (job().command.ticket == no_ticket) drive_.start.limit_set(how.text, t);
 }
 
-/// A text of the command table or of a curve: what is to be written is checked as a whole, before the drive is asked anything.
+/// A text of the command table or of a curve is checked completely before the first telegram is sent.
 bool Parameters::begin_text(const Parameter& parameter, Turn& t) {
     const auto* item = parameter.wire.if_contains("item");
     const bool curve = item && item->as_string() == "curve";
@@ -107,7 +107,7 @@ std::optional<Telegram> Parameters::request(Turn& t) {
     if (!write) return p.rom ? request16(id, Main::parameters, 0, p.upid) : request16(id, Main::ram, 0, p.upid);
     const std::uint32_t raw = raw_of(write->value);
     if (p.rom) return request48(id, Main::parameters, 1, p.upid, raw);
-    // RAM: written by a motion command, then read; once more with another count where the first was not executed.
+    // RAM: written by a motion command, then read; if the command was not executed, once more with another count.
     if (job().step % 2 == 1) return request16(id, Main::ram, 0, p.upid);
     const std::vector<Value> values{std::int64_t{p.upid}, std::int64_t{raw}};
     job().count = drive_.motion.next_count();
@@ -131,7 +131,7 @@ void Parameters::answered(const Telegram& telegram, Turn& t) {
     }
     if (p.rom) return rom_answered(telegram, p.parameter->type, t);
     if (!write) return done(value_of(telegram.u32(default_size), p.parameter->type), t);
-    if (job().step++ % 2 == 0) return;  // written; now it is read
+    if (job().step++ % 2 == 0) return;  // written; the read comes next
     const std::uint32_t raw = raw_of(write->value);
     const Value is = value_of(telegram.u32(default_size), p.parameter->type), wanted = value_of(raw, p.parameter->type);
     if (is == wanted) {
@@ -151,7 +151,7 @@ void Parameters::rom_answered(const Telegram& telegram, ValueType type, Turn& t)
     const auto a = config_of(telegram);
     if (!a) return fail(Reason::drive_refused, "the answer has another form", t);
     if (a->communication == 0) return done(value_of(a->value, type), t);
-    // C0h and C3h: this drive has no such value; what else it says is its refusal.
+    // C0h and C3h: this drive does not have the value; other codes are refusals.
     const bool absent = (a->communication == 0xC0 || a->communication == 0xC3) && std::holds_alternative<ReadParameter>(job().command.body);
     refuse(absent ? Reason::not_supported : Reason::drive_refused, refusal(a->communication), t, a->communication);
 }

@@ -1,5 +1,4 @@
-// Command table entries and curves: texts into bytes and back [LinRS pages: entry of 64 bytes, info block of 70 bytes, points of 4 bytes].
-// In: bytes, texts. Out: texts, bytes, faults with their place. Never guesses what a damaged text may have meant.
+// LinRS pages: entry of 64 bytes, info block of 70 bytes, points of 4 bytes.
 #include "adapters/linmot/parameters_tables.hpp"
 
 #include <fmt/core.h>
@@ -56,7 +55,7 @@ std::optional<double> number(std::string_view s) {
     return ec == std::errc{} && end == s.data() + s.size() && std::isfinite(n) ? std::optional(n) : std::nullopt;
 }
 
-/// "key=value; key=value" behind what stands before the first of them.
+/// "key=value; key=value", and the text before the first of them.
 struct Parts {
     std::map<std::string, std::string, std::less<>> of;
     std::string fault;
@@ -137,7 +136,7 @@ std::string entry_text(const Motions& motions, std::span<const std::uint8_t> ent
         if (const auto next = at(entry, 2, 2); next != 0 && next != no_entry) text += fmt::format("; next={}", next);
         if (const auto name = name_of(entry, name_at, name_size + 1); !name.empty()) text += "; name=" + name;
     }
-    // Counts in the header, links of 0 and reserved bytes are lost in words: then the bytes speak.
+    // The text does not contain counts in the header, links of 0 and reserved bytes: if they are not zero, the entry is shown in bytes.
     const auto back = entry_of(motions, text);
     return std::ranges::equal(back.bytes, entry) ? text : "hex=" + to_hex(entry);
 }

@@ -1,6 +1,5 @@
-// Command table entries and curves on their way: read word by word, written word by word and read back.
-// In: a job that carries a transfer, answers. Out: telegrams one after the other; at the end the bytes, or why not.
-// Never repeats a single word: the drive counts them. After a silence the whole transfer begins anew.
+// Command table entries and curves are read and written word by word, and read back after a write. A single word is never repeated, because
+// the drive counts the words: after a time-out the whole transfer begins again.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ void Transfers::begin_write(bool curve, std::uint16_t id, std::vector<std::uint8
     now() = {.active = true, .curve = curve, .write = true, .id = id, .blocks = {std::move(first), std::move(second)}};
 }
 
-/// Steps: 0 clear or ask for sizes; 1 make room; 2 and 3 write the blocks; 4 and 5 read them.
+/// Steps: 0 clear or read the sizes; 1 allocate; 2 and 3 write the blocks; 4 and 5 read them.
 std::optional<Telegram> Transfers::request() {
     const Transfer& x = now();
     const std::uint8_t id = drive_.id();
@@ -86,7 +85,7 @@ bool Transfers::answered(const Telegram& telegram, Turn& t) {
     }
     x.at += 4;
     const bool full = x.at >= x.sizes[block];
-    // The drive and this side must agree on the end of a block: else a word was lost or is one too many.
+    // The drive and the gateway must agree on the end of a block; otherwise a word was lost or was received twice.
     if (full != (a->communication == done)) return fail(Outcome::failed, "the drive ends its block at another place");
     if (!full) return false;
     x.at = 0;

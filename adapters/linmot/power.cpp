@@ -1,5 +1,5 @@
-// Power: the control word's way from anywhere to operation enabled, and the acknowledgement of errors.
-// In: the drive's state. Out: the next control word, or the end. Never enables what somebody froze: a frozen motion would go on.
+// The sequence of control words from any state to operation enabled, and the acknowledgement of errors. A drive that another master has
+// frozen is not enabled, because the frozen motion would continue.
 #include <fmt/core.h>
 
 #include "adapters/linmot/drive.hpp"
@@ -24,7 +24,7 @@ void ControlWord::shown(const Status& s) noexcept {
     if (s.state() == state::aborting) word_ = static_cast<std::uint16_t>(word_ & ~cw_abort);
 }
 
-/// 0 and 1 need bit 0 low once, 2 needs it high; 5 is passed in about 300 ms; 12 is left by /Abort.
+/// States 0 and 1 need bit 0 low once, state 2 needs it high; state 5 ends after about 300 ms; state 12 is left by /Abort.
 std::optional<Telegram> Power::request(Turn& t) {
     Feedback& feedback = drive_.feedback;
     ControlWord& control = drive_.control;
@@ -38,7 +38,7 @@ std::optional<Telegram> Power::request(Turn& t) {
                                    drive_.title()),
                        t);
     if (t.now >= job().limit) {
-        drive_.stops.take_back(Disable{}, t);  // what is answered as failed must not come about later
+        drive_.stops.take_back(Disable{}, t);  // an order that is answered as failed must not be carried out later
         fail(Reason::drive_refused,
              fmt::format("drive {} stays in {}; control word bits may be held by its inputs, its parameters or another tool",
                          drive_.title(), feedback.state_text()),
@@ -73,7 +73,7 @@ std::optional<Telegram> Power::request(Turn& t) {
     return linmot::request(drive_.id(), Main::response, 1);
 }
 
-/// Bit 7 rises while bit 0 is low, so that the drive rests in switch on disabled or ready afterwards.
+/// Bit 7 rises while bit 0 is low, so that the drive ends in switch on disabled or ready.
 std::optional<Telegram> FaultReset::request(Turn& t) {
     const Feedback& feedback = drive_.feedback;
     ControlWord& control = drive_.control;

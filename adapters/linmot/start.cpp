@@ -1,5 +1,4 @@
-// Start: the first exchanges with a drive.
-// In: its answers. Out: reads; what is said of its presence. A drive without an axis (a scan) is asked for its state alone.
+// A drive without an axis (in a scan) is asked for its state only.
 #include "adapters/linmot/start.hpp"
 
 #include <fmt/core.h>
@@ -51,7 +50,7 @@ void Start::read_next(Turn& t) {
     drive_.exchanges.send({request16(drive_.id(), Main::ram, 0, Limits::upids[reading_.at()]), Purpose::core}, t);
 }
 
-/// The limits of predefined moves: what a move uses that names none.
+/// The limits of predefined moves: the rates of a move without own rates.
 void Start::read(const Telegram& telegram, Turn& t) {
     if (const auto status = status_of(telegram)) drive_.feedback.learn(*status, t);
     drive_.limits.at(reading_.at()) = telegram.size == ram_size ? std::optional(telegram.u32(default_size)) : std::nullopt;
@@ -65,7 +64,7 @@ void Start::read_silent(Turn& t) {
     if (reading_.done()) ready("; it does not answer reads of RAM values", t);
 }
 
-/// RAM is as at power-on after each restart of the drive, and that is a start here, too.
+/// The RAM has its power-on values after each restart of the drive, which leads to a start here, too.
 void Start::set_limits() {
     const auto& axes = drive_.setup().axes;
     const Catalogue& page = drive_.bus.catalogue;

@@ -1,5 +1,4 @@
-// Start: how a drive is found: its first answer, the values that moves rest on.
-// In: answers to probes and reads, silences. Out: presence, links. Never writes anything to a drive that was just found.
+// Start finds a drive and reads the values that moves need. Nothing is written to a drive that was just found.
 #pragma once
 
 #include <string>
@@ -15,9 +14,9 @@ public:
 
     void probe(Turn& t);
     void probed(const Telegram& telegram, Turn& t);
-    /// A probe had no answer.
+    /// A probe has timed out.
     void absent(Turn& t);
-    /// It answers in a form that this gateway does not read: it cannot be served.
+    /// The answer has a form that this gateway does not read: the drive cannot be used.
     void not_ours(std::string why, Turn& t);
     [[nodiscard]] std::string reconfigured(const Telegram& telegram) const;
 
@@ -25,22 +24,22 @@ public:
     void read_next(Turn& t);
     void read(const Telegram& telegram, Turn& t);
     void read_silent(Turn& t);
-    /// The site's limits of position into 146Eh and 146Fh (RAM), as writes of the drive's own that stand behind what waits.
+    /// Writes the site's position limits to 146Eh and 146Fh (RAM), behind the commands that wait.
     void set_limits();
-    /// That the site wants other ones now, or none, is told with the drive's next word.
+    /// Reports with the next answer of the drive that the site has changed or removed the limits.
     void tell_limits(Turn& t);
-    /// One of them has ended. `fault`: empty, or why the drive does not take it.
+    /// A write of a limit has ended. `fault`: empty, or why the drive refuses it.
     void limit_set(std::string fault, Turn& t);
-    /// The limits of predefined moves may be others now: unknown, and asked again at once.
+    /// The limits of predefined moves may have changed: they are unknown, and read again at once.
     void read_again();
 
 private:
     void ready(std::string_view more, Turn& t);
 
     drive::Reading reading_;
-    std::size_t limits_open_ = 0;  ///< writes that have not ended
+    std::size_t limits_open_ = 0;  ///< outstanding writes
     bool limits_untold_ = false;
-    std::string not_ours_;  ///< why a drive that answers cannot be served
+    std::string not_ours_;  ///< why a drive that answers cannot be used
 };
 
 }  // namespace axisgate::linmot

@@ -1,5 +1,4 @@
-// Stops: the words of each, and what shows that it has been done.
-// In: stops in order, statuses. Out: telegrams, results. One that the drive does not follow is sent four times, and then told as failed.
+// A stop that the drive does not follow is sent four times and then reported as failed.
 #include "adapters/linmot/stop.hpp"
 
 #include <fmt/core.h>
@@ -22,11 +21,11 @@ void Stops::add(const Command& command, Turn& t) {
 }
 
 void Stops::take_back(CommandBody stop, Turn& t) {
-    if (!empty()) return;  // an order of somebody's is on its way, and is newer
+    if (!empty()) return;  // a client's stop is in progress, and is newer
     Command own;
     own.axis = drive_.axis();
     own.body = std::move(stop);
-    // Tables, curves and the drive's own program are served without power.
+    // Tables, curves and the drive's own program can be accessed without power.
     const auto moves = [&](const Command& c) {
         const bool by_name =
             std::holds_alternative<Action>(c.body) && stated(drive_.bus.catalogue, 1, c.body).kind != Stated::Kind::nothing;
@@ -47,7 +46,7 @@ std::optional<Telegram> Stops::request(Turn& t) {
     const Feedback& feedback = drive_.feedback;
     ControlWord& control = drive_.control;
     while (Stop* s = lane_.first()) {
-        // Control words end a stream by themselves; a halt is a motion command, and the stream is left before it.
+        // Control words end a stream; a halt is a motion command, so the stream must be ended before it.
         if (drive_.stream.on() && !std::holds_alternative<Halt>(s->command.body)) drive_.stream.forget();
         const std::uint8_t main = feedback.status().state();
         drive_.homing.no_release();
@@ -60,7 +59,7 @@ std::optional<Telegram> Stops::request(Turn& t) {
                 return control.write(static_cast<std::uint16_t>(cw_on & ~(drive_.options.stop_by_off3 ? cw_quick_stop : cw_abort)));
             if (main == state::tests || main == state::ready_to_operate) return control.write(cw_off);
         } else if (main == state::homing || (main > state::enabled && main != state::aborting && main != state::quick_stop)) {
-            return control.write(cw_on);  // halt: a search or a move of the drive's own ends when its bit is taken back
+            return control.write(cw_on);  // halt: a search or another motion of the drive ends when its control bit is reset
         } else if (!feedback.known() || main == state::enabled) {
             MotionOrders& motion = drive_.motion;
             if (s->step == 0) s->count = motion.next_count();
@@ -68,7 +67,7 @@ std::optional<Telegram> Stops::request(Turn& t) {
             const std::vector<Value> values{std::int64_t{drive_.demand.deceleration()}};
             return motion.telegram(*drive_.bus.motions.named("017xh"), s->count, values);
         }
-        over(Outcome::accepted, Reason::none, {}, t);  // nothing moves that this drive could stop
+        over(Outcome::accepted, Reason::none, {}, t);  // there is no motion that this drive could stop
     }
     return std::nullopt;
 }
@@ -86,7 +85,7 @@ void Stops::answered(Turn& t) {
     else if (main == state::enabled && s->step == 1)
         done = (status.sub_state() & 0x0F) == s->count;
     if (!done) {
-        if (++s->tries < 4) return;  // sent again at once: the same word, the same count
+        if (++s->tries < 4) return;  // sent again at once: the same control word, the same count
         return over(Outcome::failed, Reason::drive_refused,
                     fmt::format("drive {} stays in {} after {}; its control word may be held by inputs, parameters or another tool",
                                 drive_.title(), drive_.feedback.state_text(), name_of(s->command.body)),

@@ -1,5 +1,5 @@
-// Stops: halt by VAI Stop, quick stop by /Abort (or OFF3, an option), disable by the switch on bit. They overtake all that waits.
-// In: urgent commands. Out: one telegram each, ended by what the drive shows. Never waits for more than the exchange in progress.
+// Stops carries out halt by VAI Stop, quick stop by /Abort (or OFF3, an option), and disable by the switch-on bit. A stop is sent before
+// all waiting requests; only the exchange in progress is completed first. It ends when the drive shows its effect.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ public:
     using Part::Part;
 
     void add(const Command& command, Turn& t);
-    /// The gateway's own: a motion that nobody waits for, or a control word that would give the power back by itself.
+    /// A stop by the gateway itself: for a motion whose client was informed of its failure, or a control word that would restore the power.
     void take_back(CommandBody stop, Turn& t);
-    /// Of the first one; nothing: none of them has anything to stop, and they are answered.
+    /// The telegram of the first stop; empty: no stop has anything to end, and all were answered.
     [[nodiscard]] std::optional<Telegram> request(Turn& t);
     void answered(Turn& t);
     void silent(Turn& t);
@@ -32,7 +32,7 @@ public:
 
     [[nodiscard]] bool empty() const noexcept { return lane_.empty(); }
     [[nodiscard]] Ticket order() const noexcept { return empty() ? no_ticket : lane_.first()->command.ticket; }
-    /// Nothing but a halt wants to go: it leaves a stream to end by itself.
+    /// No stop waits except a halt, before which the stream must end.
     [[nodiscard]] bool empty_or_halt() const noexcept { return empty() || std::holds_alternative<Halt>(lane_.first()->command.body); }
 
 private:

@@ -1,5 +1,3 @@
-// Wire: framing by length, checksums, fields of answers.
-// In: bytes. Out: telegrams and values. Never holds more than one unfinished telegram and the run of bytes that it came in.
 #include "adapters/linmot/wire.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Wire of the LinMot drives: LinRS telegrams (01h, ID, length, 02h, sub ID, main ID, data, 04h) and the values in their answers.
-// In: bytes of a serial line, values. Out: telegrams, bytes. The end of a telegram is found by its length: 01h, 02h and 04h occur in data.
-// Never keeps anything but an unfinished telegram; never decides what an answer is for.
+// LinRS telegrams (01h, ID, length, 02h, sub ID, main ID, data, 04h) and the values in their answers. The end of a telegram is found by its
+// length, because 01h, 02h and 04h also occur in data.
 #pragma once
 
 #include <array>
@@ -16,20 +15,20 @@ namespace axisgate::linmot {
 
 inline constexpr std::uint8_t start_byte = 0x01, end_byte = 0x04;  ///< of a telegram
 
-/// Checksum behind the data. Only `none` is proven on drives: covered bytes and start values of the others are not public.
+/// The checksum after the data. Only `none` is proven on drives: covered bytes and start values of the others are not public.
 struct ChecksumRule {
     enum class Kind : std::uint8_t { none, sum, crc, crc_reflected };
     Kind kind = Kind::none;
-    std::uint8_t from = 0;         ///< first byte that counts: 0 the telegram start, 3 the data start
+    std::uint8_t from = 0;         ///< first byte that is covered: 0 the telegram start, 3 the data start
     std::uint16_t start = 0xFFFF;  ///< of both CRCs
     [[nodiscard]] std::size_t size() const noexcept { return kind == Kind::none ? 0 : 2; }
 };
-/// Over a telegram from its first byte to its last data byte.
+/// Calculated from the first byte of the telegram to its last data byte.
 [[nodiscard]] std::uint16_t checksum(std::span<const std::uint8_t> telegram, const ChecksumRule& rule) noexcept;
 
-/// What stands between telegram start and end.
+/// The part of a telegram between its ID and its end.
 struct Telegram {
-    static constexpr std::size_t most_data = 60;  ///< the length byte counts 2..63, three of them are 02h, sub ID and main ID
+    static constexpr std::size_t most_data = 60;  ///< the length byte is 2..63; three of the counted bytes are 02h, sub ID and main ID
     std::uint8_t id = 0;
     std::uint8_t sub = 0;
     std::uint8_t main = 0;
@@ -48,16 +47,16 @@ struct Telegram {
         add16(value);
         add16(value >> 16);
     }
-    /// Low byte first; bytes that are not there count as 0.
+    /// Low byte first; missing bytes count as 0.
     [[nodiscard]] std::uint16_t u16(std::size_t at) const noexcept;
     [[nodiscard]] std::uint32_t u32(std::size_t at) const noexcept { return std::uint32_t{u16(at)} | std::uint32_t{u16(at + 2)} << 16; }
     bool operator==(const Telegram& o) const noexcept;
 };
 [[nodiscard]] std::vector<std::uint8_t> pack(const Telegram& telegram, const ChecksumRule& rule);
-/// Bytes of a telegram with so much data.
+/// Length of a telegram with `data` bytes of data.
 [[nodiscard]] inline std::size_t wire_size(std::size_t data, const ChecksumRule& rule) noexcept { return data + 7 + rule.size(); }
 
-/// Finds telegrams in a byte stream. Bytes that belong to none are given away as they are, with the reason.
+/// Finds telegrams in a byte stream. Bytes that belong to no telegram are passed on with the reason.
 class Framer {
 public:
     using OnTelegram = std::function<void(const Telegram&, std::span<const std::uint8_t> bytes)>;
@@ -65,14 +64,14 @@ public:
 
     void set(const ChecksumRule& rule) { rule_ = rule; }
     void push(std::span<const std::uint8_t> bytes, const OnTelegram& telegram, const OnJunk& junk);
-    /// The line has fallen silent or the wait is over: what is unfinished is no telegram.
+    /// The line has become silent or the time-out has expired: incomplete bytes are not a telegram.
     void reset(const OnJunk& junk = {});
     [[nodiscard]] bool pending() const noexcept { return !held_.empty(); }
 
 private:
     void look(const OnTelegram& telegram, const OnJunk& junk);
     ChecksumRule rule_;
-    std::vector<std::uint8_t> held_;  ///< at most one telegram of greatest length and what came behind it in the same run
+    std::vector<std::uint8_t> held_;  ///< at most one telegram of maximum length and the bytes after it of the same run
 };
 
 // --- message IDs (main ID, sub ID) --------------------------------------------------------------------------------------
@@ -93,7 +92,7 @@ enum class Main : std::uint8_t {
 [[nodiscard]] Telegram request48(std::uint8_t id, Main main, std::uint8_t sub, std::uint16_t index, std::uint32_t value);
 
 // --- answers --------------------------------------------------------------------------------------------------------------
-/// The default response in the form that new drives have; its content can be reconfigured in the drive, and then it has another length.
+/// The default response in the form of new drives. Its content can be configured in the drive, which changes its length.
 struct Status {
     std::uint8_t communication = 0;
     std::uint16_t status = 0;
@@ -104,9 +103,9 @@ struct Status {
     [[nodiscard]] bool bit(int n) const noexcept { return (status >> n & 1) != 0; }
 };
 inline constexpr std::size_t default_size = 9;  ///< data of the default response
-inline constexpr std::size_t ram_size = 13;     ///< the same with the value of a RAM read behind it
-inline constexpr std::size_t warn_size = 13;    ///< inferred: warn word and two bytes of unknown meaning behind it
-/// Of a default response, or of what begins with one.
+inline constexpr std::size_t ram_size = 13;     ///< the same, followed by the value of a RAM read
+inline constexpr std::size_t warn_size = 13;    ///< inferred: followed by the warn word and two bytes of unknown meaning
+/// Of a default response, or of a telegram that begins with one.
 [[nodiscard]] std::optional<Status> status_of(const Telegram& t) noexcept;
 
 /// Answer of the parameter, curve and command table groups.
@@ -123,7 +122,7 @@ struct ConfigAnswer {
 /// Name of a parameter type: "UINT16".
 [[nodiscard]] std::string_view type_name(std::uint8_t code) noexcept;
 
-// --- the drive's words ----------------------------------------------------------------------------------------------------
+// --- states and bits ------------------------------------------------------------------------------------------------------
 namespace state {
 inline constexpr std::uint8_t not_ready = 0, disabled = 1, ready = 2, setup_error = 3, error = 4, tests = 5, ready_to_operate = 6,
                               enabled = 8, homing = 9, initial = 11, aborting = 12, freezing = 13, quick_stop = 14, last = 20;
@@ -133,6 +132,6 @@ inline constexpr int enabled = 0, error = 3, locked = 6, warning = 7, in_target 
 }
 inline constexpr std::uint16_t cw_off = 0x003E, cw_on = 0x003F, cw_quick_stop = 0x0004, cw_abort = 0x0010, cw_acknowledge = 0x0080,
                                cw_home = 0x0800;
-inline constexpr std::uint8_t finished = 0x0F;  ///< sub state of states that come to an end
+inline constexpr std::uint8_t finished = 0x0F;  ///< sub state of a completed state
 
 }  // namespace axisgate::linmot

@@ -1,5 +1,3 @@
-// What no known page of the maker shows: one list of messages; commands have their marks in the catalogue.
-// In: IDs. Out: yes or no. Never knows a drive.
 #include "adapters/linmot/wire_inferred.hpp"
 
 #include "adapters/linmot/wire.hpp"

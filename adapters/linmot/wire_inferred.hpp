@@ -1,6 +1,5 @@
-// What no known page of the maker shows: the messages, and the commands of the catalogue that rest on them.
-// In: a message's IDs, or a command. Out: whether it is concluded instead of read. Never decides whether it may be sent: the drive's option
-// `inferred` does.
+// Messages and commands that no known page of the manufacturer describes. The option `inferred` of a drive decides whether they may be
+// sent.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +9,8 @@
 
 namespace axisgate::linmot {
 
-/// A message to a drive whose layout is concluded from its neighbours, from other buses of the family or from public programs. What such
-/// programs prove on drives (00h/01h, RAM reads) is none. Motion commands have their mark in the catalogue.
+/// The layout of this message is inferred from its neighbours, from other buses of the family or from public programs. Messages that such
+/// programs prove on drives (00h/01h, RAM reads) are not inferred. Motion commands are marked in the catalogue.
 [[nodiscard]] bool inferred(std::uint8_t main, std::uint8_t sub) noexcept;
 /// The mark of a command, by its id.
 [[nodiscard]] bool inferred(const Catalogue& catalogue, std::string_view command);

@@ -1,5 +1,3 @@
-// Adapter of the remote family: the line.
-// In: calls from outside. Out: what the drives say of them. Every call ends with what a drive has to send.
 #include "adapters/remote/adapter.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Adapter of the remote family: the axes of other gateways on one mirror line, each asked and told of by its GATEWAY/AXIS.
-// In: setup, line state, commands, telegrams, time. Out: telegrams; feedback, results, links. Never waits for one axis with another: the
-// line is a place in this process and carries what it is given.
+// The adapter of the remote family: the axes of other gateways on one mirror line, each with the address GATEWAY/AXIS. The line is inside
+// this process and has no transmission time, so the axes never wait for each other.
 #pragma once
 
 #include "adapters/remote/drive.hpp"

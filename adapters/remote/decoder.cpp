@@ -1,5 +1,3 @@
-// Decoder of the remote family: the sentences.
-// In: lines. Out: what is asked, answered or told of an axis.
 #include "adapters/remote/decoder.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,5 @@
-// Decoder of the remote family: recorded telegrams of a mirror line to sentences; a recording may begin and end within a telegram.
-// In: frames. Out: one line per telegram, "hall-2/feeder is asked: move_absolute p=1500". Never guesses: what is none is shown as it came.
+// The decoder of the remote family: one sentence per telegram, "hall-2/feeder is asked: move_absolute p=1500". A recording may begin and
+// end within a telegram; text that is not a telegram is shown unchanged.
 #pragma once
 
 #include "gateway/drive/text_lines.hpp"

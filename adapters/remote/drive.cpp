@@ -1,5 +1,4 @@
-// Drive: what it sends next, and what states and silences mean.
-// In: telegrams, time. Out: requests, feedback, links. Never asks for a state twice at once.
+// Only one request for the state is outstanding at a time.
 #include "adapters/remote/drive.hpp"
 
 #include <algorithm>
@@ -58,7 +57,7 @@ void Drive::submit(const Command& c, Turn& t) {
 std::uint64_t Drive::send(const mirror::Order& order, Priority priority, Turn& t, std::uint64_t number) {
     if (number == 0) number = line_.next++;
     std::string text = mirror::text_of({Telegram::Kind::request, number, setup_.address, body_of(order)});
-    // Whatever a stop may come into the middle of has ended with that: it is a line of its own.
+    // A stop may interrupt another telegram, which ends with the line break: the stop is a line of its own.
     if (priority == Priority::urgent) text.insert(0, "\n");
     for_each_run(drive::bytes_of(text), [&](const Frame& f) { t.out.send(f, priority); });
     return number;
@@ -121,7 +120,7 @@ void Drive::on_deadline(Turn& t) {
     if (poll_.on_deadline(t.now, line_.counters) == drive::Late::over) asked_in_vain("the mirror line does not answer", false, t);
 }
 
-/// A question for the state had no answer, or the answer that there is none.
+/// A request for the state was not answered, or the answer was that the axis does not exist.
 void Drive::asked_in_vain(std::string_view why, bool gone, Turn& t) {
     const bool was_online = presence_.online();
     if (gone && !presence_.is(Phase::absent)) {
@@ -140,7 +139,7 @@ void Drive::lost(const std::string& why, Turn& t) {
     running_.reset();
     renewal_.reset();
     asked_.reset();
-    // Stops that have no answer yet are sent on: who is not heard may hear.
+    // Stops without an answer are still repeated: a gateway that does not answer may still receive them.
     tickets_.fail_all(Reason::no_answer, why, t.out);
     presence_.report(why, t.out);
 }
@@ -164,7 +163,7 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
             ++line_.counters.exchanges;
             answered(*answer, t);
         } else if (renewal_ && renewal_->number == telegram.number) {
-            // The motion has ended there: there is nothing to renew.
+            // The motion has ended at the other gateway: there is nothing to renew.
             if (answer->outcome != Outcome::accepted && answer->outcome != Outcome::done && answer->reason != Reason::busy)
                 renewal_.reset();
         } else if (telegram.number >= line_.next || telegram.number == 0) {
@@ -188,7 +187,7 @@ void Drive::on_telegram(const Telegram& telegram, Turn& t) {
         timer_.soon(t.now + line_.timing.poll_period);
     }
     presence_.answered();
-    // Asked before the axis was told to move or to stop: it tells of the time before.
+    // This state was requested before the axis was ordered to move or stop, so it is too old.
     if (polled && telegram.number < newest_) return timer_.soon(t.now);
     learn(*state, t);
     if (ran) finish({Outcome::accepted, Reason::none, 0, {}}, t);
@@ -217,10 +216,10 @@ void Drive::learn(const mirror::State& s, Turn& t) {
     fb.velocity = s.velocity;
     fb.error_code = s.error_code;
     fb.native_status = s.statusword;
-    // By the mode that its gateway shows; rates and inputs of its drive are not in the mirror.
+    // By the mode that the other gateway shows; the mirror has no rates and inputs of the drive.
     fb.course = s.mode == 1 ? Course::to_target : s.mode == 3 || (s.mode >= 8 && s.mode <= 10) ? Course::endless : Course::unknown;
     fb.simulated = s.simulated;
-    // As old as it is there; what counts as stale there is never fresh here.
+    // The age is that at the other gateway: feedback that is stale there is never fresh here.
     const Duration age = std::max(Duration(std::chrono::milliseconds(std::min<std::int64_t>(s.age_ms, 86'400'000))),
                                   s.stale ? line_.stale_after + 1ms : Duration::zero());
     fb.at = std::max(time_zero + 1ns, t.now - age);

@@ -1,7 +1,6 @@
-// Drive: one axis of another gateway: its state by question and by what its gateway tells unasked, one command at a time, stops beside it.
-// In: commands, telegrams, the passing of time. Out: telegrams, feedback, results, links.
-// Written in: drive.cpp what it sends next and what it learns, motion.cpp the verbs and their results. Never sends a command twice; a stop
-// it does. A velocity move holds at the other gateway only while it is renewed from here: what is cut off there ends by itself.
+// Drive is one axis of another gateway: its state by request and by reports of its gateway, and one command at a time, with stops beside
+// it. A command is never sent twice; a stop is repeated. A velocity move continues at the other gateway only while it is renewed from here,
+// so it ends by itself if the connection is lost. drive.cpp has transmission and feedback, motion.cpp the verbs and their results.
 #pragma once
 
 #include <optional>
@@ -18,19 +17,20 @@ namespace axisgate::remote {
 using drive::Presence;
 using drive::Turn;
 
-/// What the axes of one line share.
+/// The members that the axes of one line share.
 struct Line : drive::Bus {
     using drive::Bus::Bus;
     void take(const LineSetup& setup, Instant now);
     Duration stale_after{};
-    std::uint64_t next = 0;  ///< number of the next request: those of an adapter made later are greater
+    std::uint64_t next = 0;  ///< number of the next request; it is higher in an adapter that was made later
 };
 
 class Drive {
 public:
     static constexpr int channels = 1;
-    static constexpr Duration hold = std::chrono::seconds(2);            ///< of a velocity move, at the other gateway ...
-    static constexpr Duration renewed = std::chrono::milliseconds(600);  ///< ... and how often it is renewed
+    static constexpr Duration hold = std::chrono::seconds(2);            ///< duration of a velocity move at the other gateway without a
+                                                                         ///< renewal ...
+    static constexpr Duration renewed = std::chrono::milliseconds(600);  ///< ... and the interval of renewals
     Drive(Line& line, const DriveSetup& setup);
 
     void line_up(Turn& t) { presence_.begin(t.now); }
@@ -38,7 +38,7 @@ public:
     void remove(std::string_view why, Turn& t);
     void submit(const Command& command, Turn& t);
     void on_telegram(const mirror::Telegram& telegram, Turn& t);
-    /// Sends what there is to be sent now.
+    /// Sends all requests that are due.
     void go(Turn& t);
     [[nodiscard]] Instant deadline() const noexcept;
     void on_deadline(Turn& t);
@@ -52,7 +52,7 @@ private:
         Ticket ticket = no_ticket;
         std::uint64_t number = 0;
         mirror::Order order;
-        Instant again = Instant{};  ///< sent then, for as many times as are left
+        Instant again = Instant{};  ///< time of the next repetition, if any are left
         int left = 0;
     };
     struct Running {
@@ -62,7 +62,7 @@ private:
     };
     struct Renewal {
         mirror::Order order;
-        std::uint64_t number = 0;  ///< of the last one that was sent
+        std::uint64_t number = 0;  ///< of the last request
         Instant next = never;
     };
 
@@ -91,9 +91,10 @@ private:
     drive::Pace pace_;
     std::optional<Running> running_;
     std::optional<Renewal> renewal_;
-    std::optional<Renewal> asked_;  ///< of the velocity move on its way: in force once that is taken, for a refusal changes nothing
+    std::optional<Renewal> asked_;  ///< of the velocity move that was requested: in force once that is accepted, because a refusal changes
+                                    ///< nothing
     AxisFeedback axis_;
-    std::uint64_t newest_ = 0;  ///< the greatest number of those that moved the axis: what was asked before tells of what was before
+    std::uint64_t newest_ = 0;  ///< the highest number of the requests that moved the axis: states that were requested before are older
 };
 
 }  // namespace axisgate::remote

@@ -1,5 +1,4 @@
-// Family remote: the table of its makers. An axis of another gateway is a drive here; between the two stands the fleet.
-// In: a catalogue, a line, an address. Out: adapter, twin, decoder. Never decides anything about an axis.
+// An axis of another gateway is a drive of this family; the DDS fleet connects the two gateways.
 #include "adapters/remote/adapter.hpp"
 #include "adapters/remote/decoder.hpp"
 #include "adapters/remote/twin/twin.hpp"
@@ -14,7 +13,7 @@ const Family& family_remote() {
         [](const Catalogue&, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<remote::LineDecoder>(); },
         mirror::check_address,
         "hall-2/axis-1",
-        0,  // the line is in this process: no wire, no bit rate
+        0,  // the line is inside this process: no bit rate
         "",
         false,
         true,
@@ -25,7 +24,7 @@ const Family& family_remote() {
         false,
         true,  // on a line dds
         nullptr,
-        // Natives and writes of parameters are refused, and its one action is a question.
+        // Native statements and parameter writes are refused, and the only action is a query.
         [](const Catalogue&, int, const CommandBody&) { return Stated{Stated::Kind::nothing}; },
     };
     return family;

@@ -1,5 +1,4 @@
-// Drive, part motion: each command as one request, and what follows from its answer.
-// In: commands from the queue, answers. Out: requests, the one result. What the axis may do is the other gateway's to decide.
+// Each command is one request. The other gateway decides what the axis may do.
 #include <fmt/core.h>
 
 #include <utility>
@@ -23,7 +22,7 @@ void Drive::begin(Command command, Turn& t) {
         r.order.wait_ms = milliseconds_of(renewed);
         asked_ = std::move(r);
     }
-    // A little longer than the other end waits: its word is better than none.
+    // Slightly longer than the other gateway waits: its answer is more precise than a time-out.
     running_ = Running{std::move(command), number, t.now + answer_time_ + line_.timing.reply_timeout};
 }
 
@@ -67,7 +66,7 @@ void Drive::answered(const mirror::Answer& answer, Turn& t) {
     }
     const bool homes = std::holds_alternative<Home>(body);
     if (homes || std::holds_alternative<Move>(body)) {
-        axis_.target_reached = false;  // the old "reached" must not stand for the new target
+        axis_.target_reached = false;  // "target reached" of the old target must not be reported for the new one
         axis_.moving = true;
         axis_.homing = homes;
         axis_.homing_attained = axis_.homing_error = false;

@@ -1,5 +1,3 @@
-// Bus: the line's numbers as its drives reckon with them.
-// In: the site's setup. Out: timing within its ranges, times on the wire, notices. Never keeps the setup.
 #include "gateway/drive/bus.hpp"
 
 #include <utility>

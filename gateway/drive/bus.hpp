@@ -1,5 +1,5 @@
-// Bus: what the drives of one line share: their family's page, the line's timing and speed, whose turn it is, what was counted.
-// In: the line's setup. Out: members that the adapter and its drives use. Never sends, and never knows a drive.
+// Bus holds what the drives of one line share: the catalogue of their family, the timing and bit rate of the line, the order of
+// transmission (Turns) and the line's counters. It sends nothing and does not know the drives.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@
 
 namespace axisgate::drive {
 
-/// A family that shares more adds it to one of these by deriving.
+/// A family that shares more values derives its own bus from this one.
 struct Bus {
     explicit Bus(const Catalogue& of_family) noexcept : catalogue(of_family) {}
 
-    /// Timing and speed of the line; `defaults` are the family's.
+    /// Sets timing and bit rate of the line. `defaults` are the family's.
     void take(const LineSetup& setup, const Timing& defaults) noexcept;
-    /// Time of so many bytes on a serial line; none where the rate is not known (TCP).
+    /// Transmission time of `bytes` on a serial line; zero if the bit rate is not known (TCP).
     [[nodiscard]] Duration wire(std::size_t bytes) const noexcept;
 
-    /// On a line of bytes anything else is counted as no word of its language.
+    /// Returns false and counts a garbled frame if the frame does not carry bytes: a serial line has no other kind of frame.
     [[nodiscard]] bool is_run(const Frame& frame) noexcept {
         if (frame.kind != Frame::Kind::bytes) ++counters.garbled;
         return frame.kind == Frame::Kind::bytes;
@@ -33,12 +33,12 @@ struct Bus {
     Timing timing;
     std::uint32_t bit_rate = 0;  ///< bit/s; 0: not known
     std::uint8_t bits_per_byte = 10;
-    Turns turns;  ///< who sends says there when an exchange begins and ends
+    Turns turns;  ///< the sender reports here when an exchange begins and ends
     AdapterCounters counters;
-    Duration on_wire{};  ///< of the longest request with its answer, where a family reckons with one number
+    Duration on_wire{};  ///< time of the longest request and its answer, in families that calculate with one number
 };
 
-/// What could not be read in a line's options is told as notices of the line.
+/// Reports options of the line that could not be read as notices of the line.
 void tell_faults(OptionReader& options, Turn& t);
 
 }  // namespace axisgate::drive

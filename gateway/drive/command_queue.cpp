@@ -1,5 +1,3 @@
-// CommandQueue: what waits for one axis, and what is said to who may not wait.
-// In: commands, the drive's presence. Out: the queue, or a refusal. Never drops a command that it took.
 #include "gateway/drive/command_queue.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,6 @@
-// CommandQueue and StopLane: what waits for one axis, in order; and the stops, which wait for nothing but a place on the wire.
-// In: commands. Out: the next one; those that a stop ends. Bounded: what finds the queue full is refused as busy, a stop that finds its
-// lane full is its family's to send unwatched. Neither of them sends, and both leave results to Tickets.
+// CommandQueue holds the commands that wait for one axis, in order. StopLane holds the stops, which wait for a free place on the line only.
+// Both are bounded: a command that finds the queue full is refused as busy; if the lane is full, the family sends the stop without waiting
+// for its answer. Neither of them sends; results are given by Tickets.
 #pragma once
 
 #include <array>
@@ -16,32 +16,35 @@
 
 namespace axisgate::drive {
 
-/// Move, Home or StartTogether: what every stop ends, whether it waits or runs. What other commands move is the family's to know.
+/// True for Move, Home and StartTogether, which every stop ends, whether they wait or are in progress. Other commands that move an axis are
+/// known to the family only.
 [[nodiscard]] bool is_motion(const CommandBody& body) noexcept;
-/// What a stop (Halt, QuickStop, Disable) ends: motions; with the power off what would bring that back, too.
+/// True if `stop` (Halt, QuickStop, Disable) ends the command `body`: motions, and after a stop that switches the power off also commands
+/// that would switch it on again.
 [[nodiscard]] bool ended_by(const CommandBody& stop, const CommandBody& body) noexcept;
 
 class CommandQueue {
 public:
     explicit CommandQueue(std::size_t limit = 64) noexcept : limit_(limit) {}
 
-    [[nodiscard]] bool push(Command command);  ///< false: full
+    [[nodiscard]] bool push(Command command);  ///< false: the queue is full
     [[nodiscard]] bool empty() const noexcept { return waiting_.empty(); }
     [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
     [[nodiscard]] std::size_t limit() const noexcept { return limit_; }
     [[nodiscard]] const Command& front() const noexcept { return waiting_.front(); }
     [[nodiscard]] Command pop();
-    /// One that waits is of this kind and axis.
+    /// True if a command of this kind waits for the axis.
     template <class Body>
     [[nodiscard]] bool holds(AxisId axis) const noexcept {
         for (const Command& c : waiting_)
             if (c.axis == axis && std::holds_alternative<Body>(c.body)) return true;
         return false;
     }
-    /// Forgets them; their tickets are answered by Tickets::fail_all.
+    /// Removes all commands. Tickets::fail_all answers them.
     void clear() noexcept { waiting_.clear(); }
 
-    /// Ends what `ends(command)` names as failed and interrupted, with "interrupted by halt". Returns how many.
+    /// Answers each command for which `ends(command)` is true as failed (interrupted) with the text "interrupted by halt", and removes it.
+    /// Returns their number.
     template <class Ends>
     std::size_t interrupt(Ends&& ends, std::string_view by, Tickets& tickets, Turn& t) {
         std::size_t n = 0;
@@ -64,25 +67,25 @@ private:
 };
 
 enum class Admission : std::uint8_t {
-    queued,   ///< it waits in the queue, its ticket is open
-    urgent,   ///< a stop: its ticket is open, and it is the caller's
-    answered  ///< refused: the line is down, the drive does not answer, too many wait
+    queued,   ///< the command waits in the queue; its ticket is open
+    urgent,   ///< the command is a stop; its ticket is open, and the caller carries it out
+    answered  ///< the command was refused: line down, drive offline, or queue full
 };
-/// What every family does with a command first. `name`: for messages ("feeder (ID 5)"). A stop is refused only while the line is down: a
-/// drive that does not answer may still hear.
+/// The first checks that every family applies to a command. `name` is used in messages ("feeder (ID 5)"). A stop is refused only while the
+/// line is down, because a drive that does not answer may still receive it.
 [[nodiscard]] Admission admit(const Command& command, std::string_view name, const Presence& presence, CommandQueue& queue,
                               Tickets& tickets, Turn& t);
 
-/// A motion that was ordered while a quick stop or a power-off of its axis is on its way would undo it where the drive itself knows no
-/// quick stop active: it is refused as interrupted, unless an Enable waits before it. `stop`: what is on its way; nullptr: nothing that
-/// counts. True: it has been answered.
+/// Refuses a motion that arrives while a quick stop or a power-off of its axis is being sent, because it would cancel the stop in drives
+/// that do not have a state "quick stop active". The motion is accepted if an Enable waits before it. `stop` is the stop that is being
+/// sent, nullptr if there is none. Returns true if the motion was answered (refused, interrupted).
 bool refused_behind(const CommandBody* stop, const Command& command, const CommandQueue& queue, Turn& t);
 
-/// Stops on their way, in order of arrival, at places that stay while they are: `Stop` is the family's, and has what one needs of it.
+/// The stops that are being carried out, in order of arrival. A stop keeps its address until it is removed. `Stop` is a type of the family.
 template <class Stop, std::size_t limit>
 class StopLane {
 public:
-    /// Its place; nullptr: `limit` are on their way already.
+    /// Returns the stored stop; nullptr if `limit` stops are stored already.
     Stop* add(Stop stop) {
         for (std::size_t i = 0; i < limit; ++i) {
             if (taken_[i]) continue;
@@ -93,7 +96,7 @@ public:
         }
         return nullptr;
     }
-    /// Takes it out. It may be used until the next `add`.
+    /// Removes the stop. The object remains valid until the next `add`.
     void remove(Stop* stop) {
         const auto place = static_cast<std::size_t>(stop - stops_.data());
         if (!taken_[place]) return;
@@ -112,7 +115,7 @@ public:
     [[nodiscard]] std::size_t size() const noexcept { return size_; }
     [[nodiscard]] Stop* first() noexcept { return size_ == 0 ? nullptr : &stops_[order_[0]]; }
     [[nodiscard]] const Stop* first() const noexcept { return size_ == 0 ? nullptr : &stops_[order_[0]]; }
-    /// In order of arrival. `f` may take out the stop that it is called with.
+    /// Calls `f` in order of arrival. `f` may remove the stop that it is called with.
     template <class F>
     void each(F&& f) {
         const auto order = order_;

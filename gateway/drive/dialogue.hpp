@@ -1,7 +1,6 @@
-// Dialogue: a drive that answers each request by one message, as most text and register languages do: everything of it but its language.
-// In: commands, set-points, messages, the passing of time, a place on the line. Out: requests; feedback, results, links, ends of streams.
-// The family derives, and says by the functions of Language what a command is in messages and what a message means.
-// One question at a time; a stop goes before what waits, and ends it; what came too late is never taken for something new.
+// Dialogue is a complete drive for languages in which each request is answered by one message, as in most text and register protocols. The
+// family derives from it and implements Language: which messages a command needs, and what a message means. One request is outstanding at a
+// time. A stop is sent before all waiting requests and ends them; a late answer is never taken for the answer to a newer request.
 #pragma once
 
 #include <algorithm>
@@ -23,17 +22,17 @@
 
 namespace axisgate::drive {
 
-/// `Message` is the family's: a value that can be compared. Axes are told apart by their channel 1..`Channels`.
+/// `Message` is a type of the family whose values can be compared. The axes are identified by their channel 1..`Channels`.
 template <class Message, int Channels>
 class Dialogue : public DriveBase, protected Language<Message> {
 public:
     static constexpr int channels = Channels;
-    static constexpr std::size_t stop_limit = 8;  ///< on their way at once; one more is refused as busy
+    static constexpr std::size_t stop_limit = 8;  ///< stops that can be in progress at once; a further one is refused as busy
     using Job = DialogueJob<Message>;
 
     Dialogue(Bus& bus, const DriveSetup& setup, std::size_t slot) : DriveBase(setup, bus.timing, slot, Channels), bus_(bus) {}
 
-    // --- for LineAdapter, and for settle, serve and wake ------------------------------------------------------------------------
+    // --- for LineAdapter, settle, serve and wake -----------------------------------------------------------------------------------
     void line_up(Turn& t) { presence.begin(t.now); }
     void line_down(std::string_view why, Turn& t) {
         remove(why, t);
@@ -45,7 +44,7 @@ public:
         stops_.clear();
         end_all(Reason::line_down, why, t);
     }
-    /// The site has other axes of this drive: those that stay go on.
+    /// The site has changed the axes of this drive. Axes that remain are not disturbed.
     void set_axes(const DriveSetup& setup, Turn& t);
     void look(const DriveSetup& setup) noexcept {
         if (pace_.take(setup)) polls_.hurry();
@@ -62,7 +61,7 @@ public:
     void on_deadline(Turn& t);
 
 protected:
-    // --- for its language -------------------------------------------------------------------------------------------------------
+    // --- for the language -----------------------------------------------------------------------------------------------------------
     [[nodiscard]] AxisFeedback& axis(int channel) noexcept { return at(channel).feedback; }
     [[nodiscard]] const AxisFeedback& axis(int channel) const noexcept { return axes_[place(channel)].feedback; }
     [[nodiscard]] int channel_of(AxisId axis) const noexcept {
@@ -72,18 +71,18 @@ protected:
     [[nodiscard]] const Catalogue& catalogue() const noexcept { return bus_.catalogue; }
 
 private:
-    /// What was asked, and why.
+    /// An outstanding request and its purpose.
     struct Ask {
         enum class Why : std::uint8_t { probe, poll, step, stop } why = Why::probe;
         Message message;
         Ticket ticket = no_ticket;
-        int channel = 0;                    ///< 0: of the whole drive
-        std::uint64_t job = 0;              ///< whose step it is
-        std::optional<CommandBody> body{};  ///< of a stop that a client has ordered
+        int channel = 0;                    ///< 0: the request concerns the whole drive
+        std::uint64_t job = 0;              ///< number of the job that the request is a step of
+        std::optional<CommandBody> body{};  ///< the client's command, if the request is a stop
     };
     struct Axis {
         AxisFeedback feedback;
-        Move followed;  ///< whose ramps and speed the drive was told last by a stream
+        Move followed;  ///< speed and ramps that a stream has sent to the drive last
     };
     [[nodiscard]] static Polls::Item item(int channel) noexcept { return static_cast<Polls::Item>(channel); }
     [[nodiscard]] static std::size_t place(int channel) noexcept { return has(channel) ? static_cast<std::size_t>(channel) : 0; }
@@ -110,12 +109,12 @@ private:
     Exchange<Ask> exchange_;
     LateMarks<Message, 8> late_;
     Pace pace_;
-    Polls polls_;  ///< items are channels
+    Polls polls_;  ///< the items are channels
     SetPoints set_points_;
     bool streamed_last_ = false;
     std::optional<Job> job_;
     std::uint64_t jobs_ = 0;
-    std::array<Axis, Channels + 1> axes_;  ///< by channel; 0: of a channel that there is not
+    std::array<Axis, Channels + 1> axes_;  ///< by channel; entry 0 stands for a channel that does not exist
 };
 
 }  // namespace axisgate::drive

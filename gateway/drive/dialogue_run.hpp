@@ -1,6 +1,5 @@
-// Dialogue, second half: what is sent next, and what answers and silences mean.
-// In: the calls of the adapter. Out: as dialogue.hpp says, which includes this; nobody else does.
-// Never repeats what a client worded itself, nor a set-point.
+// Dialogue, second half: the choice of the next request, and the treatment of answers and of time-outs. Only dialogue.hpp includes this
+// file. Requests that a client has written itself and set-points are never repeated.
 #pragma once
 
 #include <fmt/core.h>
@@ -9,7 +8,7 @@
 
 namespace axisgate::drive {
 
-// --- what is to be done ----------------------------------------------------------------------------------------------------------
+// --- commands and set-points -----------------------------------------------------------------------------------------------------
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
@@ -24,7 +23,7 @@ void Dialogue<Message, Channels>::set_axes(const DriveSetup& setup, Turn& t) {
         set_points_.forget(a.id);
         if (job_ && its(job_->command)) job_.reset();
         polls_.drop(item(a.channel));
-        if (std::exchange(at(a.channel).feedback, {}).moving)  // nobody could stop it any more
+        if (std::exchange(at(a.channel).feedback, {}).moving)  // after its removal no client could stop the axis
             (void)stops_.add({Ask::Why::stop, this->stop({no_ticket, a.id, QuickStop{}, false, {}}), no_ticket, a.channel, 0});
     }
     for (const AxisSetup& a : setup.axes)
@@ -69,7 +68,7 @@ void Dialogue<Message, Channels>::begin(Job job, Turn& t) {
     }
 }
 
-/// A motion without a ticket. Speed and ramps are settings that the drive keeps: they are told again only where they change.
+/// A motion without a ticket. The drive keeps speed and ramps as settings, so they are sent again only when they change.
 template <class Message, int Channels>
 typename Dialogue<Message, Channels>::Job Dialogue<Message, Channels>::job_for(const SetPoint& p) {
     Job job;
@@ -88,7 +87,7 @@ typename Dialogue<Message, Channels>::Job Dialogue<Message, Channels>::job_for(c
     return job;
 }
 
-// --- what is sent next -----------------------------------------------------------------------------------------------------------
+// --- transmission ----------------------------------------------------------------------------------------------------------------
 
 template <class Message, int Channels>
 Want Dialogue<Message, Channels>::wants(Instant now) const noexcept {
@@ -110,10 +109,11 @@ void Dialogue<Message, Channels>::go(Turn& t) {
     while (!job_ && !queue_.empty()) {
         Job next;
         next.command = queue_.pop();
-        at(channel_of(next.command.axis)).followed = {};  // it may set what a stream has set
+        at(channel_of(next.command.axis)).followed = {};  // the command may change settings that the stream has sent
         begin(std::move(next), t);
     }
-    const bool poll_first = streamed_last_ && polls_.due(t.now);  // where the axis is must be seen, however fast set-points come
+    const bool poll_first = streamed_last_ && polls_.due(t.now);  // the position must be read regularly, even while set-points arrive
+                                                                  // without a pause
     streamed_last_ = !job_ && !set_points_.empty() && !poll_first;
     if (streamed_last_) begin(job_for(set_points_.take()), t);
     if (job_) {
@@ -126,8 +126,8 @@ void Dialogue<Message, Channels>::go(Turn& t) {
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::send(Ask ask, int retries, Turn& t) {
-    // A late answer to the same question would be taken for the new one: something else is asked before, whose answer comes behind it.
-    // A stop waits for nothing.
+    // A late answer to an earlier request of the same kind could be taken for the answer to this one. Therefore another request is sent
+    // first: the drive answers in order, so the answers after that one are new. A stop does not wait for this.
     if (ask.why != Ask::Why::stop && late_.has(this->mark_of(ask.message))) {
         ask = {Ask::Why::poll, this->probe(late_.has(this->mark_of(this->probe(false)))), no_ticket, 0, 0};
         if (late_.has(this->mark_of(ask.message))) late_.clear();
@@ -146,7 +146,7 @@ void Dialogue<Message, Channels>::transmit(Turn& t) const {
     t.out.send(this->frame_of(exchange_.request().message), priority, exchange_.request().ticket);
 }
 
-// --- what comes ------------------------------------------------------------------------------------------------------------------
+// --- reception -------------------------------------------------------------------------------------------------------------------
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
@@ -156,7 +156,7 @@ void Dialogue<Message, Channels>::on_message(const Message& answer, Turn& t) {
         ++bus_.counters.unexpected;
         return presence.received(t.now);
     }
-    const bool again = exchange_.tries() > 1;  // the other copies' answers may still come
+    const bool again = exchange_.tries() > 1;  // the answers to the other copies may still arrive
     const Ask ask = exchange_.answered(bus_.counters);
     const Message mark = this->mark_of(ask.message);
     if (again) late_.add(mark);
@@ -215,7 +215,7 @@ void Dialogue<Message, Channels>::finish(const Job& job, const Reported& what, T
     if (!job.streamed || !fb.moving) (void)polls_.soon(item(channel), t.now);
     if (job.streamed) return;
     if (std::holds_alternative<Move>(body)) {
-        fb.target_reached = false;  // the old "reached" must not stand for the new target
+        fb.target_reached = false;  // "target reached" of the old target must not be reported for the new one
         fb.moving = true;
         emit(channel, t);
     }
@@ -254,7 +254,7 @@ void Dialogue<Message, Channels>::emit(int channel, Turn& t) {
         if (a.channel == channel) t.out.feedback.push_back({a.id, fb});
 }
 
-// --- what does not come ----------------------------------------------------------------------------------------------------------
+// --- time-outs -------------------------------------------------------------------------------------------------------------------
 
 template <class Message, int Channels>
 void Dialogue<Message, Channels>::on_deadline(Turn& t) {
@@ -272,7 +272,7 @@ void Dialogue<Message, Channels>::on_deadline(Turn& t) {
     tickets.failed(ask.ticket, Reason::no_answer, this->words_of(ask.message) + " was not answered: whether the drive took it is not known",
                    t.out);
     if (presence.silent(t.now) == Presence::Silence::counted) return;
-    // Stops that were not sent yet still are: a drive that is not heard may hear.
+    // Stops that wait are sent all the same: a drive that does not answer may still receive them.
     end_all(Reason::no_answer, "the drive does not answer", t);
     presence.report("the drive does not answer", t.out);
 }

@@ -1,6 +1,5 @@
-// DriveBase: what every drive is to its line and to its own parts: its setup and place, whether it answers, who waits for a result, what it
-// tells. In: the site's setup. Out: members, notices.
-// Never sends, and never decides anything: that is for the family, which derives.
+// DriveBase holds the members that the drives of all families have: setup and slot, presence, open tickets and notices. It sends nothing
+// and decides nothing; the family derives from it.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ namespace axisgate::drive {
 
 class DriveBase {
 public:
-    /// `channels`: axes that a drive of this kind can have.
+    /// `channels` is the number of axes that a drive of this kind can have.
     DriveBase(const DriveSetup& of_site, const Timing& timing, std::size_t slot, int channels = 1, Tickets places = Tickets())
         : setup_(of_site), presence(of_site.id, timing), tickets(std::move(places)), slot_(slot), notices_(of_site.id) {
         for (const AxisSetup& a : of_site.axes)
@@ -32,9 +31,9 @@ public:
     [[nodiscard]] const DriveSetup& setup() const noexcept { return setup_; }
     [[nodiscard]] std::size_t slot() const noexcept { return slot_; }
     [[nodiscard]] const std::string& name() const noexcept { return setup_.name; }
-    /// Its only one; no_axis: it can have several, or the site has none for it.
+    /// The only axis of the drive; no_axis if the drive can have several axes or the site defines none.
     [[nodiscard]] AxisId axis() const noexcept { return axis_; }
-    /// By which its points are numbered: its own one, or its family's page.
+    /// The catalogue that numbers the drive's parameters: its own one, else the family's.
     [[nodiscard]] const Catalogue& catalogue_or(const Catalogue& page) const noexcept {
         return setup_.catalogue ? *setup_.catalogue : page;
     }
@@ -43,11 +42,11 @@ public:
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t, AxisId axis) {
         notices_.tell(severity, axis, kind, code, std::move(text), t.now, t.out);
     }
-    /// Of its only axis, or of the drive as a whole.
+    /// A notice of the only axis, or of the drive as a whole.
     void notice(Severity severity, std::string_view kind, std::int32_t code, std::string text, Turn& t) {
         notice(severity, kind, code, std::move(text), t, axis_);
     }
-    /// What could not be read in its options.
+    /// Reports options of the drive that could not be read.
     void tell_setup(const std::vector<std::string>& faults, Turn& t) {
         for (const std::string& fault : faults)
             notice(Severity::warning, "setup", 0, fault, t);

@@ -1,6 +1,6 @@
-// Exchange: one request on its way and the wait for its answer, with its repeats; and what may still come of requests that were given up.
-// In: requests, answers, time. Out: whether it is to be sent again or over, and when to look again.
-// Never sends by itself, never decides whether an answer fits: both are the family's. Nothing is allocated for an exchange.
+// Exchange is one outstanding request with its time-out and its repetitions; LateMarks and LateTime remember which answers to abandoned
+// requests may still arrive. An exchange does not send and does not decide whether an answer fits: the family does both. An exchange
+// allocates no memory.
 #pragma once
 
 #include <algorithm>
@@ -13,26 +13,27 @@
 
 namespace axisgate::drive {
 
-/// What the passing of time means for an exchange.
+/// The state of an exchange after some time has passed.
 enum class Late : std::uint8_t {
-    no,      ///< not yet
-    repeat,  ///< to be sent again now; its deadline is new
-    over     ///< it has ended without an answer
+    no,      ///< the time-out has not expired
+    repeat,  ///< the request is to be sent again now; the new deadline is set
+    over     ///< the exchange has ended without an answer
 };
 
-/// `Request` is the family's: what is sent, and why (so that the answer finds who asked).
+/// `Request` is a type of the family: the message, and its purpose (so that the answer finds the requester).
 template <class Request>
 class Exchange {
 public:
     [[nodiscard]] bool active() const noexcept { return active_; }
-    /// Of the present one, or of the one that ended last.
+    /// The outstanding request, or the last one if none is outstanding.
     [[nodiscard]] const Request& request() const noexcept { return request_; }
     [[nodiscard]] Request& request() noexcept { return request_; }
-    [[nodiscard]] Instant sent() const noexcept { return sent_; }  ///< for the first time
+    [[nodiscard]] Instant sent() const noexcept { return sent_; }  ///< first transmission
     [[nodiscard]] int tries() const noexcept { return tries_; }
     [[nodiscard]] Instant deadline() const noexcept { return active_ ? deadline_ : never; }
 
-    /// `patience`: until the answer counts as lost, the time on the wire included. Whatever was active before is forgotten.
+    /// `patience` is the time after which the answer counts as lost, including the transmission time. A request that was outstanding before
+    /// is forgotten.
     void begin(Request request, Instant now, Duration patience, int retries) {
         request_ = std::move(request);
         active_ = true;
@@ -42,19 +43,20 @@ public:
         tries_ = 1;
         left_ = retries;
     }
-    /// An answer has begun: the rest of it may take until `until`. Never sooner than it was.
+    /// The first bytes of the answer have arrived; the rest may take until `until`. The deadline never becomes earlier.
     void extend(Instant until) noexcept { deadline_ = std::max(deadline_, until); }
-    /// It must not be sent again, though its answer is still waited for (a stop has overtaken it).
+    /// The request must not be repeated, but its answer is still expected (a stop has overtaken it).
     void no_repeats() noexcept { left_ = 0; }
     [[nodiscard]] bool repeatable() const noexcept { return left_ > 0; }
 
-    /// Its answer is here. Returns it as it was, so that the next may begin while this one is worked on.
+    /// Ends the exchange because its answer has arrived. Returns the request, so that the next exchange can begin while the answer is
+    /// evaluated.
     Request answered(AdapterCounters& counters) {
         ++counters.exchanges;
         active_ = false;
         return request_;
     }
-    /// Counts the time-out and the repeat.
+    /// Counts time-outs and repetitions.
     [[nodiscard]] Late on_deadline(Instant now, AdapterCounters& counters) noexcept {
         if (!active_ || now < deadline_) return Late::no;
         ++counters.timeouts;
@@ -68,7 +70,7 @@ public:
         deadline_ = now + patience_;
         return Late::repeat;
     }
-    /// Ends without an answer and without a count: the line went down, the drive was removed.
+    /// Ends the exchange without an answer and without counting it: the line went down or the drive was removed.
     void drop() noexcept { active_ = false; }
 
 private:
@@ -79,10 +81,10 @@ private:
     int tries_ = 0, left_ = 0;
 };
 
-/// Where answers carry a mark (command word and index, object index and subindex, a sequence number): the marks of requests that were given
-/// up, or sent twice, and may still be answered. A request with such a mark waits behind another exchange with the same drive: a drive
-/// answers in order, so what comes after that one's answer is new; then `clear`. Full: the drive has been silent for so long that it counts
-/// as absent; one more is not kept.
+/// For protocols whose answers carry a mark (command word and index, object index and subindex, sequence number): the marks of requests
+/// that were abandoned or sent twice and may still be answered. A request with such a mark waits until another exchange with the same drive
+/// has ended: the drive answers in order, so all later answers are new, and `clear` is called. If the list is full, the mark is not stored;
+/// by then the drive has been silent for so long that it counts as absent.
 template <class Mark, std::size_t limit = 8>
 class LateMarks {
 public:
@@ -101,12 +103,13 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Where answers carry no mark: until when a late one may still come, on one line or from one drive. What cannot be told from it waits.
+/// For protocols whose answers carry no mark: the time until which a late answer may arrive, on a line or from a drive. Requests whose
+/// answers cannot be distinguished from it wait until then.
 class LateTime {
 public:
-    /// A request was given up at `now`; its answer may come for `time` more.
+    /// A request was abandoned at `now`; its answer may arrive during the following `time`.
     void missed(Instant now, Duration time) noexcept { until_ = std::max(until_, now + time); }
-    /// Whatever was late has come: an answer proved it (a drive answers in order), or the line was down.
+    /// No late answer can arrive any more: an answer has proved it (the drive answers in order), or the line was down.
     void settled() noexcept { until_ = Instant{}; }
     [[nodiscard]] bool over(Instant now) const noexcept { return now >= until_; }
     [[nodiscard]] Instant until() const noexcept { return until_; }

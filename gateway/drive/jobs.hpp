@@ -1,6 +1,6 @@
-// Jobs: the queue of one drive and the command that is being carried out; Verb: what one kind of command is in a family's exchanges.
-// In: commands, what verbs make of the ends of their exchanges, stops. Out: exactly one result per command.
-// Never sends, and never two commands at once: what a job's steps are, and when the next begins, is the family's.
+// Jobs holds the command queue of one drive and the command in progress (the job). A Verb carries out one kind of command by the exchanges
+// of a family. One command is in progress at a time, and each command has exactly one result. The family decides which steps a job has and
+// when the next one begins.
 #pragma once
 
 #include <cstdint>
@@ -14,31 +14,31 @@
 
 namespace axisgate::drive {
 
-/// How a job ends without success.
+/// The result of a job that ended without success.
 struct Failure {
     Outcome outcome = Outcome::failed;
     Reason reason = Reason::none;
     std::string text;
     std::int32_t code = 0;
-    bool dropped = false;  ///< by a stop, or because the drive is gone
+    bool dropped = false;  ///< a stop has ended the job, or the drive is gone
 };
 
-/// What every job has. A family's has a name of its own for it, and adds where it stands.
+/// The members that every job has. The family derives its own job and adds the state of its steps.
 template <class Verb>
 struct JobBase {
-    Verb* verb = nullptr;             ///< nobody: nothing is being done
-    Command command;                  ///< no_ticket: the drive's own business
-    std::string text;                 ///< of its result
-    std::vector<std::uint8_t> bytes;  ///< native: what came back
+    Verb* verb = nullptr;             ///< nullptr: no job is in progress
+    Command command;                  ///< its ticket is no_ticket if the gateway began the job itself
+    std::string text;                 ///< text of the result
+    std::vector<std::uint8_t> bytes;  ///< answer to a native statement
     [[nodiscard]] bool idle() const noexcept { return !verb; }
 };
 
-/// `Part` is the family's, and its drive has `jobs`.
+/// `Part` is the family's part class; its drive has a member `jobs`.
 template <class Part, class Job>
 class VerbBase : public Part {
 public:
     using Part::Part;
-    /// Its job ends so, and the result is given next. A verb may add to the text.
+    /// The job is about to end with this failure. A verb may add to the text of the result.
     virtual void without_success(Failure&, Turn&) {}
 
 protected:
@@ -54,7 +54,7 @@ protected:
     }
 };
 
-/// `Part`'s drive has `tickets`; a Job is a JobBase.
+/// The drive of `Part` has a member `tickets`; `Job` derives from JobBase.
 template <class Part, class Job>
 class JobsBase : public Part {
 public:
@@ -72,14 +72,14 @@ public:
         job_.command = std::move(command);
         return job_;
     }
-    /// The drive's own business: nobody waits for it.
+    /// Begins a job of the drive itself, whose result no client waits for.
     Job& begin_own(auto& verb, CommandBody body = {}) {
         Command own;
         own.axis = this->drive_.axis();
         own.body = std::move(body);
         return begin(verb, std::move(own));
     }
-    /// It is over, and its command is answered by who takes it.
+    /// Ends the job without a result; the caller answers its command.
     Job hand_over() { return std::exchange(job_, Job{}); }
     void over(Outcome outcome, std::string text, Turn& t, Value value = {}) {
         if (!idle()) end(outcome, Reason::none, std::move(text), 0, std::move(value), t);
@@ -95,14 +95,14 @@ public:
     void fail(Reason reason, std::string text, Turn& t, std::int32_t code = 0) {
         over(Failure{Outcome::failed, reason, std::move(text), code}, t);
     }
-    /// A stop ends what `ends(command)` names, whether it waits or is being carried out.
+    /// A stop ends each command for which `ends(command)` is true, whether it waits or is in progress.
     template <class Ends>
     void interrupt(Ends&& ends, std::string_view by, Turn& t) {
         if (!idle() && ends(job_.command))
             over(Failure{Outcome::failed, Reason::interrupted, CommandQueue::interrupted_by(by), 0, true}, t);
         queue.interrupt(ends, by, this->drive_.tickets, t);
     }
-    /// The drive is gone: nothing is left.
+    /// The drive is gone: the job and all waiting commands fail.
     void fail_all(Reason reason, std::string_view why, Turn& t) {
         over(Failure{Outcome::failed, reason, std::string(why), 0, true}, t);
         while (!queue.empty())

@@ -1,5 +1,5 @@
-// Language: what Dialogue asks a family about its drives' messages: how each is worded, what each means.
-// In: commands, messages. Out: messages, values, words for people. Never keeps what it was asked, sends or reads a clock.
+// Language is the interface by which Dialogue asks a family about the messages of its drives: the message for each command, and the meaning
+// of each answer. Its functions send nothing and read no clock.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace axisgate::drive {
 
-/// What an answer says, whatever the language.
+/// The content of an answer, independent of the protocol.
 struct Reported {
     bool refused = false;
-    std::int32_t code = 0;  ///< of the refusal: the catalogue has its words
-    std::string text;       ///< the value; of a refusal what came
+    std::int32_t code = 0;  ///< error code of a refusal; the catalogue has its text
+    std::string text;       ///< the value; for a refusal the received text
 };
 
-/// A command taken apart into exchanges, one after the other.
+/// A command as a sequence of exchanges.
 template <class Message>
 struct DialogueJob {
     Command command;
     std::vector<Message> steps;
     std::size_t at = 0;
-    bool streamed = false;  ///< a set-point: it owes no result, and is not repeated, because the next one is newer
+    bool streamed = false;  ///< the job is a set-point: it has no result, and it is not repeated because the next set-point is newer
     std::uint64_t number = 0;
 };
 
-/// `Message` is the family's: a value that can be compared.
+/// `Message` is a type of the family whose values can be compared.
 template <class Message>
 class Language {
 public:
@@ -39,28 +39,31 @@ public:
 
 protected:
     [[nodiscard]] virtual Frame frame_of(const Message& request) const = 0;
-    /// A message without what its answer cannot be known by: an answer fits a request if their marks are equal.
+    /// The part of a message by which its answer is recognised: an answer fits a request if their marks are equal.
     [[nodiscard]] virtual Message mark_of(const Message& message) const = 0;
-    /// What a write is answered with, besides its mark.
+    /// Whether the answer fits the request in the members that the mark does not contain.
     [[nodiscard]] virtual bool answers(const Message& /*request*/, const Message& /*answer*/) const { return true; }
     [[nodiscard]] virtual Reported reported(const Message& answer) const = 0;
-    /// A request that changes nothing, and another one with another mark: whether somebody is there; what parts late answers from new ones.
+    /// A request that changes nothing. `other` selects a second one with another mark, which separates late answers from new ones.
     [[nodiscard]] virtual Message probe(bool other) const = 0;
-    /// What the link says of a drive that was found; `answer` is the probe's, nullptr if it was found by something else.
+    /// The text for the link of a drive that was found. `answer` is the answer to the probe; nullptr if another message showed that the
+    /// drive is present.
     [[nodiscard]] virtual std::string title(const Message* answer) const = 0;
-    /// The question for the state of an axis.
+    /// The request that reads the state of an axis.
     [[nodiscard]] virtual Message poll(int channel) const = 0;
-    /// A state of an axis, whoever asked for it: taken into its AxisFeedback. Returns the channel; 0: it is none.
+    /// Stores a reported state in the AxisFeedback of its axis, whether it was requested or not. Returns the channel; 0 if the message is
+    /// not a state.
     [[nodiscard]] virtual int learn(const Message& answer) = 0;
-    /// The request of a Halt, QuickStop or Disable.
+    /// The request for a Halt, QuickStop or Disable.
     [[nodiscard]] virtual Message stop(const Command& command) const = 0;
-    /// Adds the steps of a command; a Move without speed or ramps leaves those that the drive has. Empty, or why it is refused.
+    /// Adds the steps of a command. A Move without speed or ramps keeps those that are set in the drive. Returns an empty text, or why the
+    /// command is refused.
     [[nodiscard]] virtual std::string plan(Job& job, Reason& reason) const = 0;
-    /// A step was answered well: more steps may be added.
+    /// A step was successful. The language may add further steps.
     virtual void stepped(Job&, const Message& /*answer*/) {}
-    /// The last step was: what is known by that before the next poll.
+    /// The last step was successful: sets the feedback that follows from this before the next poll.
     virtual void acted(const CommandBody&, AxisFeedback&) {}
-    /// A request in messages for people.
+    /// The text of a request for messages to the user.
     [[nodiscard]] virtual std::string words_of(const Message& request) const = 0;
 };
 

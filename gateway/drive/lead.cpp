@@ -1,5 +1,3 @@
-// Lead: the largest step that still can be braked to the target. In: a target, ramps, a cycle. Out: a place. Never divides by a cycle of 0:
-// such a cycle changes nothing.
 #include "gateway/drive/lead.hpp"
 
 #include <algorithm>
@@ -17,7 +15,7 @@ double Lead::speed_towards(double wanted, const LeadRamps& ramps, double cycle_s
 double Lead::towards(double target, const LeadRamps& ramps, double cycle_s) noexcept {
     if (cycle_s <= 0) return place_;
     const double way = target - place_, step = ramps.deceleration * cycle_s, half = step / 2;
-    // The speed from which it just stops at the target, in steps of one cycle.
+    // The highest speed from which the axis stops at the target, in steps of one cycle.
     const double brake = std::sqrt(half * half + 2 * ramps.deceleration * std::fabs(way)) - half;
     speed_towards(std::copysign(std::min({ramps.velocity, brake, std::fabs(way) / cycle_s}), way), ramps, cycle_s);
     if (std::fabs(way) <= std::fabs(velocity_) * cycle_s + 0.5 && std::fabs(velocity_) <= 2 * step + 1) {

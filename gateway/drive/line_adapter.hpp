@@ -1,8 +1,8 @@
-// LineAdapter: what every adapter does with its calls: which drive they are for, who came and went, what follows from each.
-// In: the calls of core/adapter.hpp. Out: calls of the drives; each call ends with `end`, so that a free place is given away at once.
-// The family says what is on its line (`take`, `fault`, `make`) and what a frame is (`arrived`). Never decides about a drive.
-// `Drive` is as Roster wants it, and has `line_up(t)`, `line_down(why, t)`, `remove(why, t)` (ends everything; its link is not told),
-// `submit(command, t)`; with several axes `set_axes(setup, t)`; if its drives follow streams, `follow(set_point)`.
+// LineAdapter implements the calls of core/adapter.hpp for all families: it finds the drive of each call, keeps the list of drives, and
+// ends each call with `end`, so that a place on the line that has become free is used at once. The family says what the line has (`take`,
+// `fault`, `make`) and what a frame means (`arrived`).
+// Requirements for `Drive`: those of Roster; `line_up(t)`, `line_down(why, t)`, `remove(why, t)` (ends everything; its link is not
+// reported), `submit(command, t)`; `set_axes(setup, t)` for drives with several axes; `follow(set_point)` for drives that follow streams.
 #pragma once
 
 #include <fmt/core.h>
@@ -73,22 +73,22 @@ public:
     }
 
 protected:
-    /// The line's timing and options.
+    /// Sets the timing and the options of the line.
     virtual void take(const LineSetup& setup, Turn& t) = 0;
-    /// Empty, or why this drive cannot be on the line: its address is none, or is another's.
+    /// Returns why this drive cannot be on the line (its address is invalid or in use); empty if it can.
     [[nodiscard]] virtual std::string fault(const DriveSetup& drive, const LineSetup& line) const = 0;
     [[nodiscard]] virtual std::unique_ptr<Drive> make(const DriveSetup& setup, std::size_t slot, Turn& t) = 0;
-    /// A drive is about to be removed: nobody may point to it any more.
+    /// The drive is about to be removed; no pointer to it may be kept.
     virtual void leaving(Drive&, Turn&) {}
-    /// They are all gone, and the new ones there.
+    /// The removed drives are gone and the new ones exist.
     virtual void fitted() {}
-    /// The line came up or went down; the drives are told next. What was being received is lost.
+    /// The line came up or went down; the drives are informed after this call. Bytes of an incomplete message are lost.
     virtual void line_changed(Turn& t) = 0;
-    /// While the line is up.
+    /// A frame arrived while the line is up.
     virtual void arrived(const Frame& frame, Turn& t) = 0;
-    /// Something has happened to this drive.
+    /// The state of this drive may have changed.
     virtual void settle(Drive& drive, Turn& t) = 0;
-    /// The end of a call from outside.
+    /// Called at the end of each call of the adapter.
     virtual void end(Turn& t) = 0;
 
     [[nodiscard]] bool up() const noexcept { return up_; }
@@ -109,12 +109,12 @@ private:
     bool up_ = false;
 };
 
-/// Of drives that take turns on the line: the rest of what an adapter is but `arrived`. A drive is as `settle`, `serve` and `wake` want
-/// it.
+/// An adapter whose drives take turns on the line. The family adds `arrived`. `Drive` must meet the requirements of `settle`, `serve` and
+/// `wake`.
 template <class Drive>
 class TurnsAdapter : public LineAdapter<Drive> {
 public:
-    /// `bus` is the family's, and lives as long as this.
+    /// `bus` belongs to the family and lives as long as this object.
     explicit TurnsAdapter(Bus& bus) noexcept : shared_(bus) {}
     void on_deadline(Instant now, Out& out) override {
         Turn t{now, out};
@@ -133,12 +133,12 @@ protected:
         looked_at_ = t.now;
         if (this->up()) give(t);
     }
-    /// Gives every free place of the line away.
+    /// Gives every free place of the line to a drive.
     virtual void give(Turn& t) { serve(shared_.turns, this->drives(), t); }
 
 private:
     Bus& shared_;
-    Instant looked_at_{};  ///< what was due by then is seen to: the deadline is no earlier
+    Instant looked_at_{};  ///< deadlines until then have been handled: the reported deadline is not earlier
 };
 
 }  // namespace axisgate::drive

@@ -1,5 +1,3 @@
-// Notices: the bucket that bounds what one drive tells.
-// In: one notice and the instant. Out: it, or nothing but a count. Never holds back an alarm.
 #include "gateway/drive/notices.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Notices: what a drive tells on its way to the journal, bounded in number, so that a chattering input cannot fill it.
-// In: notices. Out: those that are within 20 at once and 10 in a second; alarms always. What was left out is counted in the next that is
-// told.
+// Notices limits how many notices one drive sends to the journal, so that a chattering input cannot fill it: 20 at once and 10 per second;
+// alarms always pass. The next notice states how many were omitted.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +13,12 @@ namespace axisgate::drive {
 class Notices {
 public:
     static constexpr int at_once = 20;
-    static constexpr Duration refill = std::chrono::milliseconds(100);  ///< for each further one
+    static constexpr Duration refill = std::chrono::milliseconds(100);  ///< time after which one more notice is allowed
 
     explicit Notices(DriveId drive = no_drive) noexcept : drive_(drive) {}
 
     void tell(Severity severity, AxisId axis, std::string_view kind, std::int32_t code, std::string text, Instant now, Out& out);
-    [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }  ///< since the last that was told
+    [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }  ///< since the last notice that was sent
 
 private:
     DriveId drive_;

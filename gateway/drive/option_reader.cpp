@@ -1,6 +1,3 @@
-// OptionReader: words, switches and numbers of a site's options.
-// In: the options as text. Out: values, and one sentence for each that could not be read, with what would be right and what is used.
-// Never takes half of a number: what stands behind it makes it none.
 #include "gateway/drive/option_reader.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Overtaken: keeps a full bus fair: who has waited for an answer while many others got theirs?
-// In: exchanges that begin and end, time. Out: whether something that can wait may be sent now, and when to ask again.
-// Never holds up commands or stops, and never for longer than the bus needs to show that nobody answers.
+// Overtaken keeps a full CAN bus fair: it delays polls while an outstanding request has been overtaken by several newer ones. It never
+// delays commands or stops, and delays polls only until the bus has shown that the drive does not answer.
 #pragma once
 
 #include <array>
@@ -11,10 +10,10 @@
 
 namespace axisgate::drive {
 
-/// A CAN bus serves the lowest identifier first, and on a full one that goes on without end: the answers of high IDs would never come, and
-/// their exchanges would hold all places but one. So no poll begins while an exchange has been overtaken by `limit` others. If it is still
-/// open when nothing else is, and the bus was left to it for `grace`, then it is not the bus that holds it up (its drive is silent), and
-/// the others need not wait for its time-out.
+/// CAN transmits the frame with the lowest identifier first. On a full bus the answers with high identifiers would never be transmitted,
+/// and their exchanges would occupy all places but one. Therefore an adapter starts no poll while an outstanding request has been overtaken
+/// by `limit` newer ones. If the request is still open after the bus was free of other exchanges for `grace`, the drive is silent and the
+/// bus is not the cause; other polls then need not wait for its time-out.
 class Overtaken {
 public:
     void set(std::uint32_t limit, Duration grace) noexcept {
@@ -38,7 +37,7 @@ public:
         alone_since_ = never;
     }
 
-    /// May something that can wait begin at `now`?
+    /// True if an exchange that can wait may begin at `now`.
     [[nodiscard]] bool may_begin(Instant now) noexcept {
         std::size_t behind = 0, had_their_chance = 0;
         for (std::size_t i = 0; i < size_; ++i) {
@@ -49,8 +48,8 @@ public:
             }
         }
         if (behind == 0 || behind + had_their_chance < size_) {
-            alone_since_ = never;  // whose grace it was has ended, or is not alone any more: a deadline that is over must not stay
-            return behind == 0;    // else asked again when one of the others ends
+            alone_since_ = never;  // the overtaken exchange has ended or is not alone any more; an expired deadline must not remain
+            return behind == 0;    // if false: the caller asks again when another exchange ends
         }
         if (alone_since_ == never) alone_since_ = now;
         if (now < alone_since_ + grace_) return false;
@@ -59,7 +58,7 @@ public:
         alone_since_ = never;
         return true;
     }
-    /// When to ask may_begin again although nothing has ended; `never`: only then.
+    /// When to call may_begin again even if no exchange has ended; `never`: only after one has ended.
     [[nodiscard]] Instant deadline() const noexcept { return alone_since_ == never ? never : alone_since_ + grace_; }
 
 private:

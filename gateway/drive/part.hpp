@@ -1,11 +1,10 @@
-// Part: one thing of a drive, with a state of its own, that reaches the other parts by its drive.
-// In: the drive that it belongs to, whose member it is. Out: nothing. Never outlives its drive, and is never copied: the others know its
-// place.
+// Part is the base of a member of a drive that has a state of its own and reaches the other parts through the drive. It is never copied,
+// because the other parts hold its address.
 #pragma once
 
 namespace axisgate::drive {
 
-/// `Drive` is the family's, and may be declared alone where its parts are.
+/// `Drive` is a type of the family; a forward declaration is sufficient.
 template <class Drive>
 class Part {
 public:

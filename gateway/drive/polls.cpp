@@ -1,5 +1,3 @@
-// Polls: the rhythm of what is asked again, and the choice among what is due.
-// In: periods, instants. Out: one item at a time. Never goes back in time: what was missed is asked once.
 #include "gateway/drive/polls.hpp"
 
 #include <algorithm>
@@ -50,7 +48,7 @@ void Polls::clear() noexcept { entries_.clear(); }
 
 std::optional<Polls::Item> Polls::next(Instant now) {
     Entry* best = nullptr;
-    Entry* slow = nullptr;  // the best of those that are neither first nor quick
+    Entry* slow = nullptr;  // the best of the items that are neither first nor quick
     const auto before = [](const Entry& a, const Entry& b) {
         if (a.timer.deadline() != b.timer.deadline()) return a.timer.deadline() < b.timer.deadline();
         return a.asked < b.asked;

@@ -1,6 +1,5 @@
-// Polls: what is asked again and again, and when: a timer for one thing, a list for many.
-// In: periods, the passing of time. Out: what is due, the longest overdue first; when the next will be.
-// Never asks twice for what was missed: who is late goes on from now. Never starves one for another.
+// Polls decides what is read periodically, and when: PollTimer for one value, Polls for many. A poll that was missed is not made up for,
+// and the item that is longest overdue comes first, so that no item is delayed for ever by another.
 #pragma once
 
 #include <algorithm>
@@ -14,23 +13,23 @@
 
 namespace axisgate::drive {
 
-/// The instant of one poll that comes back. It keeps its rhythm while it is asked in time.
+/// The time of one periodic poll. The period is kept as long as the polls are sent in time.
 class PollTimer {
 public:
     void stop() noexcept { next_ = never; }
     void soon(Instant now) noexcept { next_ = now; }
-    /// Now, if it is asked at all.
+    /// Makes the poll due now, if it is active.
     void hurry() noexcept {
         if (next_ != never) next_ = Instant{};
     }
-    /// First at a share of the period by place, so that many drives that start together are not asked together.
+    /// Delays the first poll by a part of the period that depends on `place`, so that drives that start together are not polled together.
     void begin(Instant now, Duration period, std::size_t place) noexcept {
         next_ = now + period * static_cast<std::int64_t>(place % 16) / 16;
     }
-    /// It is being asked: again a period after it was due, and never more than a period from now.
+    /// The poll is being sent. The next one is due one period after this one was due, but not more than one period from now.
     void asked(Instant now, Duration period) noexcept;
     [[nodiscard]] bool due(Instant now) const noexcept { return now >= next_; }
-    /// Overdue by a whole period.
+    /// True if the poll is overdue by a whole period.
     [[nodiscard]] bool late(Instant now, Duration period) const noexcept { return next_ != never && now >= next_ + period; }
     [[nodiscard]] Instant deadline() const noexcept { return next_; }
 
@@ -38,12 +37,12 @@ private:
     Instant next_ = never;
 };
 
-/// How often a drive is asked: in its line's rhythm, or in one of its own while an axis of it is looked at closely.
+/// The poll period of a drive: that of its line, or a shorter one while a client observes one of its axes closely.
 class Pace {
 public:
-    static constexpr int rested = 4;  ///< an axis that stands waits so many periods
+    static constexpr int rested = 4;  ///< an axis at standstill is polled every `rested` periods
 
-    /// True: it is looked at more closely than before.
+    /// Returns true if the drive is now observed more closely than before.
     bool take(const DriveSetup& setup) noexcept {
         Duration closest{};
         for (const AxisSetup& a : setup.axes)
@@ -53,7 +52,7 @@ public:
         return closer;
     }
     [[nodiscard]] bool close() const noexcept { return own_ > Duration::zero(); }
-    /// `line`: the line's period of an axis that moves.
+    /// `line` is the line's poll period for a moving axis.
     [[nodiscard]] Duration period(Duration line, bool moves = true) const noexcept {
         if (close()) return std::min(own_, line);
         return moves ? line : rested * line;
@@ -63,28 +62,29 @@ private:
     Duration own_{};
 };
 
-/// Several things of one drive, or of the channels of one. `Item` is the family's number for "this question about that axis".
+/// The periodic reads of one drive, or of the channels of one drive. `Item` is the family's number for a value of an axis.
 class Polls {
 public:
     using Item = std::uint32_t;
-    static constexpr std::size_t limit = 256;  ///< one more is not taken
-    static constexpr int quick_in_a_row = 3;   ///< then one of the others has its turn
+    static constexpr std::size_t limit = 256;  ///< a further item is not accepted
+    static constexpr int quick_in_a_row = 3;   ///< then one of the other items is polled
 
-    /// Asks `item` every `period`, first at `first`; known ones get the new period and keep their instant if it comes sooner. False: full.
+    /// Polls `item` every `period`, beginning at `first`. An item that is known gets the new period, and keeps its next time if that is
+    /// earlier. False: the list is full.
     bool every(Item item, Duration period, Instant first);
-    /// Once, before everything else that is due; a known one keeps its period. False: full.
+    /// Reads `item` once, before all others that are due. An item that is known keeps its period. False: the list is full.
     bool soon(Item item, Instant now);
-    /// All of them as soon as there is a place.
+    /// Makes all items due now.
     void hurry() noexcept {
         for (Entry& e : entries_)
             e.timer.hurry();
     }
-    /// Those of an axis that moves go before those of axes that stand.
+    /// Items of a moving axis are polled before those of an axis at standstill.
     void quick(Item item, bool on) noexcept;
     void drop(Item item) noexcept;
     void clear() noexcept;
 
-    /// What to ask now; its next instant is set. Nothing: nothing is due.
+    /// The item to read now; its next time is set. Empty if no item is due.
     [[nodiscard]] std::optional<Item> next(Instant now);
     [[nodiscard]] bool due(Instant now) const noexcept { return deadline() <= now; }
     [[nodiscard]] Instant deadline() const noexcept;
@@ -93,10 +93,11 @@ public:
 private:
     struct Entry {
         Item item = 0;
-        Duration period{};  ///< 0: once
+        Duration period{};  ///< 0: read once
         PollTimer timer;
         bool quick = false, first = false;
-        std::uint64_t asked = 0;  ///< count at which it was asked last: of those due at one instant the one that waited longest
+        std::uint64_t asked = 0;  ///< value of the counter when the item was read last: of the items due at one instant, the one that has
+                                  ///< waited longest comes first
     };
     [[nodiscard]] Entry* find(Item item) noexcept;
     std::vector<Entry> entries_;
@@ -104,21 +105,21 @@ private:
     int quick_run_ = 0;
 };
 
-/// The values that are read one after the other when a drive was found: first those that commands rest on, then the rest.
+/// The values that are read one after the other after a drive was found: first those that commands need, then the others.
 class Reading {
 public:
-    static constexpr int tries = 2;  ///< silences after which one is given up and stays unknown
+    static constexpr int tries = 2;  ///< time-outs after which a value is skipped and remains unknown
 
-    /// `core` of `all` first.
+    /// The first `core` of `all` values are those that commands need.
     void begin(std::size_t core, std::size_t all) noexcept { *this = Reading(core, all); }
     Reading() noexcept = default;
     [[nodiscard]] bool pending() const noexcept { return at_ < all_; }
     [[nodiscard]] bool core_pending() const noexcept { return at_ < core_; }
     [[nodiscard]] std::size_t at() const noexcept { return at_; }
-    /// This one could not be had, although the drive answers others.
+    /// True if this value could not be read although the drive answers other requests.
     [[nodiscard]] bool given_up() const noexcept { return silent_ >= tries; }
     void silent() noexcept { ++silent_; }
-    /// Read, refused or given up. True: it was the last of the core.
+    /// The value was read, refused or skipped. Returns true if it was the last one that commands need.
     bool done() noexcept {
         silent_ = 0;
         if (at_ < all_) ++at_;

@@ -1,5 +1,3 @@
-// Presence: the phases of one drive and the pauses between its probes.
-// In: what its exchanges come to. Out: phases, the next probe, links. Never waits longer than pause_max for the next probe.
 #include "gateway/drive/presence.hpp"
 
 #include <algorithm>
@@ -64,7 +62,7 @@ void Presence::lose(Instant now, Duration pause) noexcept {
 }
 
 void Presence::received(Instant now) noexcept {
-    // While a probe is out, the next one is: its answer or its silence tells.
+    // While a probe is outstanding, its answer or its time-out decides when the next one is due.
     if ((phase_ == Phase::absent || phase_ == Phase::probing) && next_probe_ != never) next_probe_ = std::min(next_probe_, now);
 }
 

@@ -1,6 +1,5 @@
-// Presence: whether one drive answers: looking for it, losing it, asking again after growing pauses.
-// In: answers and silences of its exchanges, the passing of time. Out: its phase, when the next probe is due, DriveLinks on each change.
-// Never sends, and never answers commands: who is told that the drive was lost ends what waits for it (Tickets::fail_all).
+// Presence knows whether one drive answers: it controls the search for the drive, its loss, and the pauses between probes, which grow up to
+// pause_max. It never sends and never answers commands: its caller ends the waiting commands when it reports the loss (Tickets::fail_all).
 #pragma once
 
 #include <cstdint>
@@ -16,68 +15,68 @@ class Presence {
 public:
     enum class Phase : std::uint8_t {
         down,      ///< the line is down
-        probing,   ///< nobody knows yet whether it is there: probes follow one another until `silent_limit`
-        absent,    ///< it does not answer: a probe after each pause, which doubles from pause_min to pause_max
-        starting,  ///< it answered; what commands rest on is being read
+        probing,   ///< not known yet whether the drive is present: probes follow one another until `silent_limit`
+        absent,    ///< the drive does not answer: one probe after each pause, which doubles from pause_min to pause_max
+        starting,  ///< the drive answered; the values that commands need are being read
         ready,
-        restarting  ///< it was told to restart: left alone until its time is over, then probed
+        restarting  ///< the drive was ordered to restart: no request until its time is over, then probes
     };
     enum class Silence : std::uint8_t {
-        counted,      ///< no more is known by that
-        lost,         ///< it has become absent just now
-        still_absent  ///< and the next pause has begun
+        counted,      ///< counted; the phase has not changed
+        lost,         ///< the drive has become absent
+        still_absent  ///< the drive is still absent; the next pause has begun
     };
 
-    /// `timing` outlives this, and may change between two calls.
+    /// `timing` must outlive this object, and may change between two calls.
     Presence(DriveId drive, const Timing& timing) noexcept : drive_(drive), timing_(&timing) {}
 
-    // --- what happens -----------------------------------------------------------------------------------------------------
-    /// The line is up, or the drive is to be looked for anew: the first probe is due at once.
+    // --- events -----------------------------------------------------------------------------------------------------------
+    /// The line is up, or the drive is to be searched for again: the first probe is due at once.
     void begin(Instant now) noexcept;
-    /// The line is down, or the drive is removed.
+    /// The line is down, or the drive was removed.
     void close() noexcept;
-    /// A probe has gone out: none is due until it is answered or not.
+    /// A probe was sent: the next one is due when it was answered or has timed out.
     void probe_sent() noexcept;
-    /// It has answered, whatever it said: silences are counted anew.
+    /// The drive has answered, with any content: the count of time-outs begins again.
     void answered() noexcept { silent_ = 0; }
-    /// A probe was answered by a drive of this family.
+    /// A drive of this family has answered a probe.
     void found() noexcept;
-    /// Everything is known that commands rest on.
+    /// All values that commands need are known.
     void made_ready() noexcept { phase_ = Phase::ready; }
-    /// An exchange has had no answer, however often it was sent.
+    /// An exchange has timed out after all its repetitions.
     [[nodiscard]] Silence silent(Instant now) noexcept;
-    /// It counts as absent for another reason (it is no drive of this family; it refuses everything). `pause` 0: pause_min.
+    /// The drive counts as absent for another reason (it belongs to another family, or refuses all requests). `pause` 0: pause_min.
     void lose(Instant now, Duration pause = {}) noexcept;
-    /// Something came from it that nobody had asked for: who is looked for is asked at once.
+    /// An unrequested message arrived from the drive: the next probe is sent at once.
     void received(Instant now) noexcept;
-    /// It was told to restart, and will not answer for `time`.
+    /// The drive was ordered to restart and will not answer for `time`.
     void restart(Instant now, Duration time) noexcept;
 
-    // --- what is known ----------------------------------------------------------------------------------------------------
+    // --- state ------------------------------------------------------------------------------------------------------------
     [[nodiscard]] Phase phase() const noexcept { return phase_; }
     [[nodiscard]] bool is(Phase phase) const noexcept { return phase_ == phase; }
-    /// It has answered, and has not been lost since.
+    /// True if the drive has answered and has not been lost since.
     [[nodiscard]] bool online() const noexcept {
         return phase_ == Phase::starting || phase_ == Phase::ready || phase_ == Phase::restarting;
     }
     [[nodiscard]] bool ever_found() const noexcept { return ever_found_; }
     [[nodiscard]] std::uint32_t silences() const noexcept { return silent_; }
     [[nodiscard]] Duration retry_pause() const noexcept { return retry_pause_; }
-    /// Of the next probe; `never` while one is out, or none is wanted.
+    /// Time of the next probe; `never` while one is outstanding or none is needed.
     [[nodiscard]] Instant deadline() const noexcept { return next_probe_; }
     [[nodiscard]] bool probe_due(Instant now) const noexcept { return now >= next_probe_; }
 
-    /// What its own watchdog was programmed to; said with the next report.
+    /// The setting of the drive's own watchdog, for the next link report.
     void watched(DriveWatchdog watchdog) { watchdog_ = std::move(watchdog); }
     [[nodiscard]] const DriveWatchdog& watchdog() const noexcept { return watchdog_; }
-    /// What became of the site's limits in the drive; said with the next report.
+    /// How the drive has taken over the site's limits, for the next link report.
     void limited(DriveLimits limits) { limits_ = std::move(limits); }
-    /// The same, said at once if the drive has been spoken of.
+    /// As above; reported at once if a link was reported before.
     void limited(DriveLimits limits, Out& out);
     [[nodiscard]] const DriveLimits& limits() const noexcept { return limits_; }
-    /// The beats in which it tells; said at once if it has been spoken of.
+    /// The intervals at which the drive reports; reported at once if a link was reported before.
     void beats(DriveBeats beats, Out& out);
-    /// Says whether it is online, and why, unless exactly that was said last.
+    /// Reports whether the drive is online, and why, unless the last report was the same.
     void report(std::string text, Out& out);
 
 private:

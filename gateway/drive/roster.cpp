@@ -1,5 +1,3 @@
-// Roster: when two setups of a drive are the same.
-// In: two setups. Out: yes or no. Never minds the order of the site's drives.
 #include "gateway/drive/roster.hpp"
 
 namespace axisgate::drive {

@@ -1,7 +1,7 @@
-// Roster: the drives of one line: who stays, who goes and who is new when the site changes; and whose an axis is.
-// In: the line's setup. Out: drives by slot and by axis. Never touches a drive that is the same in both setups.
-// `Drive` has `const DriveSetup& setup() const`, `void look(const DriveSetup&)` (how closely its axes are looked at, told each time) and
-// `static constexpr int channels` (axes with a channel above are on no drive).
+// Roster is the list of the drives of one line. When the site changes, it decides which drives remain, go or are new; it finds the drive of
+// an axis. A drive that is equal in both setups is not touched.
+// Requirements for `Drive`: `const DriveSetup& setup() const`; `void look(const DriveSetup&)`, called at each change (how closely its axes
+// are observed); `static constexpr int channels` (an axis with a higher channel belongs to no drive).
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@
 
 namespace axisgate::drive {
 
-/// The same drive with the same axes and options: it goes on undisturbed.
+/// The same drive with the same axes and options: it is not disturbed.
 [[nodiscard]] bool same_drive(const DriveSetup& a, const DriveSetup& b);
 
 template <class Drive>
 class Roster {
 public:
-    /// Removed and changed ones first, so that their addresses are free: `removed(drive)` ends what is theirs. Then for each new one
-    /// `fault(setup)`: empty, or why it cannot be on this line (its address is none, or another's), which is told as its link; else
-    /// `make(setup, slot)` builds it. Returns the new ones.
+    /// Removes removed and changed drives first, so that their addresses are free; `removed(drive)` ends their commands. For each new
+    /// drive, `fault(setup)` returns why it cannot be on this line (invalid address, or address in use), which is reported as its link; if
+    /// it returns an empty text, `make(setup, slot)` creates the drive. Returns the new drives.
     template <class Removed, class Fault, class Make>
     std::vector<Drive*> fit(const LineSetup& setup, Removed&& removed, Fault&& fault, Make&& make, Out& out) {
         for (auto& d : drives_) {
@@ -62,8 +62,8 @@ public:
         return fresh;
     }
 
-    /// For drives with several axes, before `fit`: one that is the same but for its axes goes on. `axes_changed(drive, setup)` makes the
-    /// new setup its own.
+    /// For drives with several axes, before `fit`: a drive that differs in its axes only remains, and `axes_changed(drive, setup)` gives it
+    /// the new setup.
     template <class AxesChanged>
     void fit_axes(const LineSetup& setup, AxesChanged&& axes_changed) {
         each([&](Drive& d) {
@@ -76,20 +76,20 @@ public:
         });
     }
 
-    /// nullptr: nobody.
+    /// nullptr: the axis belongs to no drive.
     [[nodiscard]] Drive* of(AxisId axis) const noexcept {
         const auto it = std::ranges::lower_bound(by_axis_, axis, {}, [](const auto& p) { return p.first; });
         return it != by_axis_.end() && it->first == axis ? it->second : nullptr;
     }
     [[nodiscard]] Drive* at(std::size_t slot) const noexcept { return slot < drives_.size() ? drives_[slot].get() : nullptr; }
-    /// In order of slots.
+    /// Calls `f` in order of slots.
     template <class F>
     void each(F&& f) const {
         for (const auto& d : drives_) {
             if (d) f(*d);
         }
     }
-    /// The first that `is(drive)`; nullptr: none.
+    /// The first drive for which `is(drive)` is true; nullptr if there is none.
     template <class Is>
     [[nodiscard]] Drive* find(Is&& is) const {
         for (const auto& d : drives_) {
@@ -99,19 +99,20 @@ public:
     }
 
 private:
-    std::vector<std::unique_ptr<Drive>> drives_;  ///< by slot; empty places are nullptr
+    std::vector<std::unique_ptr<Drive>> drives_;  ///< by slot; free places are nullptr
     std::vector<std::pair<AxisId, Drive*>> by_axis_;
 };
 
-// What an adapter does with the two of them. A drive has `slot()`, `wants(now)`, `deadline()` (of what it waits for), `wish()` (when it
-// will want something without being asked), `go(t)` (it has a place: it sends, or wants nothing any more) and `on_deadline(t)`.
+// The connection of Turns and Roster in an adapter. Requirements for a drive: `slot()`, `wants(now)`, `deadline()` (of an outstanding
+// exchange), `wish()` (when it will have something to send), `go(t)` (it has a place on the line: it sends, or its wants(now) becomes
+// nothing) and `on_deadline(t)`.
 
-/// After anything has happened to a drive.
+/// To be called after each change of a drive.
 template <class Drive>
 void settle(Turns& turns, const Drive& drive, Instant now) {
     turns.settle(drive.slot(), drive.wants(now), drive.deadline(), drive.wish());
 }
-/// Gives every free place away. The end of each call from outside.
+/// Gives every free place to a drive. To be called at the end of each call of the adapter.
 template <class Drive>
 void serve(Turns& turns, const Roster<Drive>& drives, Turn& t) {
     while (const auto slot = turns.next(t.now)) {
@@ -121,7 +122,7 @@ void serve(Turns& turns, const Roster<Drive>& drives, Turn& t) {
         settle(turns, *d, t.now);
     }
 }
-/// Looks at each drive whose deadline has come, once.
+/// Calls each drive whose deadline has expired, once.
 template <class Drive>
 void wake(Turns& turns, const Roster<Drive>& drives, Turn& t) {
     for (std::size_t n = 0; n < slot_limit; ++n) {

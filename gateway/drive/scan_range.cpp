@@ -1,5 +1,3 @@
-// Scan range: numbers as addresses.
-// In: texts of a person. Out: addresses in order. Never a plan and a fault at once.
 #include "gateway/drive/scan_range.hpp"
 
 #include <fmt/core.h>

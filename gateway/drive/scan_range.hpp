@@ -1,6 +1,5 @@
-// Scan range: the addresses of a scan where drives are numbered.
-// In: what somebody wishes, the numbers that there can be, the family's check. Out: the plan, or what is wrong with the wish.
-// Never asks anybody, and never more than `last - first + 1` addresses.
+// The addresses of a scan on lines whose drives have numbers: either a plan, or why the request is not valid. A plan has at most `last -
+// first + 1` addresses.
 #pragma once
 
 #include <string>
@@ -10,7 +9,8 @@
 
 namespace axisgate::drive {
 
-/// Every number from `wish.from` (else `first`) to `wish.to` (else `last`), in order. `check`: empty, or why a text is no address.
+/// All numbers from `wish.from` (default `first`) to `wish.to` (default `last`), in order. `check` returns why a text is not an address;
+/// empty if it is one.
 [[nodiscard]] ScanPlan scan_range(const ScanWish& wish, int first, int last, std::string (*check)(std::string_view));
 
 }  // namespace axisgate::drive

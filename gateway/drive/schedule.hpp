@@ -1,6 +1,5 @@
-// Schedule: when each drive of a line wants to be looked at again, and who waits for a place on the wire.
-// In: slots 0..slot_limit-1 with an instant each. Out: the earliest instant, the slots that are due, in O(log n); rings in order of
-// arrival. Fixed size, allocates nothing; never holds a slot twice.
+// The containers of Turns: a heap of deadlines and rings of waiting drives, by slots 0..slot_limit-1. Changes of a deadline take O(log n).
+// The size is fixed and no memory is allocated.
 #pragma once
 
 #include <array>
@@ -11,9 +10,9 @@
 
 namespace axisgate::drive {
 
-inline constexpr std::size_t slot_limit = 256;  ///< drives of one line; one more is told to be too many
+inline constexpr std::size_t slot_limit = 256;  ///< drives of one line; a further drive is reported as one too many
 
-/// A binary heap of slots by instant, with the place of each slot kept, so that an instant can be changed.
+/// A binary heap of slots by instant. The position of each slot is stored, so that its instant can be changed.
 class DeadlineHeap {
 public:
     DeadlineHeap() noexcept { clear(); }
@@ -25,7 +24,7 @@ public:
     [[nodiscard]] Instant earliest() const noexcept { return size_ == 0 ? never : when_[heap_[0]]; }
     [[nodiscard]] std::size_t first() const noexcept { return heap_[0]; }
 
-    /// Adds a slot or changes its instant; `never` takes it out.
+    /// Adds a slot or changes its instant; `never` removes it.
     void set(std::size_t slot, Instant at) noexcept {
         const std::uint16_t place = place_[slot];
         if (at == never) {
@@ -88,7 +87,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Slots in order of arrival. The caller sees to it that a slot stands in it once at most.
+/// Slots in order of arrival. The caller makes sure that a slot is not in the ring twice.
 class Ring {
 public:
     [[nodiscard]] bool empty() const noexcept { return size_ == 0; }

@@ -1,6 +1,5 @@
-// SetPoints: the streamed set-points that wait for a place on the wire: the newest of each axis and no other.
-// In: set-points, what takes them away. Out: the next one, in the order in which axes began to wait. Never sends; never holds more than one
-// per axis, so its bound is the axes of the drive.
+// SetPoints holds the streamed set-points that wait for transmission: only the newest of each axis, in the order in which the axes began to
+// wait. Its bound is the number of axes of the drive.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace axisgate::drive {
 
 class SetPoints {
 public:
-    /// Takes the place of the one that its axis has waiting.
+    /// Replaces the waiting set-point of the same axis.
     void put(const SetPoint& p) {
         const auto it = std::ranges::find(waiting_, p.axis, &SetPoint::axis);
         if (it == waiting_.end()) return waiting_.push_back(p);
@@ -25,7 +24,7 @@ public:
         waiting_.erase(waiting_.begin());
         return p;
     }
-    /// A command moves or stops the axis: what waits would undo it.
+    /// To be called when a command moves or stops the axis: a waiting set-point would cancel the command.
     void forget(AxisId axis) {
         std::erase_if(waiting_, [axis](const SetPoint& p) { return p.axis == axis; });
     }

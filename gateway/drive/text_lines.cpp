@@ -1,6 +1,4 @@
-// Text lines: a decoder's sentences around those of the family.
-// In: frames of both directions. Out: a sentence for each line, and for what the recording has of one at its edges. Never shows a control
-// character.
+// Control characters are never shown in a sentence.
 #include "gateway/drive/text_lines.hpp"
 
 #include <algorithm>
@@ -17,7 +15,7 @@ std::string shown(std::string text) {
 std::vector<std::string> TextDecoder::on_frame(const Frame& frame, std::optional<bool> to_drive) {
     std::vector<std::string> reported;
     Stream& s = streams_[to_drive.value_or(true) ? 0 : 1];
-    if (frame.kind == Frame::Kind::can_error) return reported;  // the controller's word, and nobody's text
+    if (frame.kind == Frame::Kind::can_error) return reported;  // reported by the CAN controller; not text of the protocol
     s.lines.push(text_of(frame), [&](std::string_view line) {
         const bool first = !std::exchange(s.begun, true);
         const std::string_view what = first ? "the end of a telegram that began before the recording: " : "unknown, no telegram: ";

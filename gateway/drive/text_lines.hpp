@@ -1,5 +1,5 @@
-// Text lines: a byte stream as lines, for languages whose messages are lines of text; and their decoder, all but the sentences.
-// In: frames. Out: lines; sentences for people. Never keeps more than one line of a direction, and loses no byte without giving it.
+// TextLines splits a byte stream into lines, for protocols whose messages are lines of text; TextDecoder is the decoder of such protocols
+// without their sentences. At most one incomplete line per direction is kept, and no byte is lost.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace axisgate::drive {
 
-/// The bytes of a run as text, for as long as the frame is; and text as what Frame::run and for_each_run take.
+/// text_of: the bytes of a run as text, valid as long as the frame. bytes_of: text as the argument of Frame::run and for_each_run.
 [[nodiscard]] inline std::string_view text_of(const Frame& frame) noexcept {
     return {reinterpret_cast<const char*>(frame.data().data()), frame.data().size()};
 }
@@ -25,9 +25,9 @@ namespace axisgate::drive {
 
 class TextLines {
 public:
-    /// A line ends with `end`, which is not part of it, and begins anew with each of `starts`. Empty ones are none.
+    /// A line ends with `end`, which is not part of it, and each character of `starts` begins a new line. Empty lines are skipped.
     TextLines(char end, std::string_view starts, std::size_t longest) : end_(end), starts_(starts), longest_(longest) {}
-    /// What was cut off by a start, or came to `longest` bytes without an end, is given as a line, too.
+    /// An incomplete line that a start character has cut off, or that has reached `longest` bytes, is passed on as a line, too.
     template <class F>
     void push(std::string_view bytes, F&& line) {
         for (const char c : bytes) {
@@ -36,7 +36,7 @@ public:
             if (c != end_) line_ += c;
         }
     }
-    /// What has begun and not ended.
+    /// The incomplete line.
     [[nodiscard]] std::string take_rest() { return std::exchange(line_, {}); }
 
 private:
@@ -46,7 +46,8 @@ private:
     std::string line_;
 };
 
-/// A recording may begin and end within a line. Of a language whose lines carry a check: what is left of one is not taken for a whole one.
+/// A recording may begin and end within a line. In protocols whose lines carry a checksum, such a fragment is not taken for a complete
+/// line.
 class TextDecoder : public Decoder {
 public:
     explicit TextDecoder(const TextLines& lines) : streams_{Stream{lines}, Stream{lines}} {}
@@ -54,15 +55,15 @@ public:
     std::vector<std::string> finish() final;
 
 protected:
-    /// Nothing: it is no telegram of this language.
+    /// Empty if the line is not a telegram of this protocol.
     [[nodiscard]] virtual std::optional<std::string> sentence(std::string_view line) const = 0;
 
 private:
     struct Stream {
         TextLines lines;
-        bool begun = false;  ///< what comes now is not cut off at its beginning
+        bool begun = false;  ///< the next line is complete at its beginning
     };
-    std::array<Stream, 2> streams_;  ///< one for each direction; one whose direction is not known is the first's
+    std::array<Stream, 2> streams_;  ///< one for each direction; an unknown direction uses the first
 };
 
 }  // namespace axisgate::drive

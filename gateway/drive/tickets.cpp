@@ -1,5 +1,3 @@
-// Tickets: who still waits for a result, and the one place at which results leave a drive.
-// In: commands, answers. Out: Results with the axis that the command was for. Never answers what is not open.
 #include "gateway/drive/tickets.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Timing: the site's numbers laid over a family's defaults.
-// In: LineTiming, in which zero (retries: -1) means "not said". Out: a Timing within its ranges.
-// Never tells of a number that it had to bend: the site document has been checked for that.
+// In LineTiming zero (retries: -1) means that the site gives no value. A value outside its range is limited without a report, because the
+// check of the site has reported it.
 #include "gateway/drive/timing.hpp"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Turn: one call of an adapter from outside, as it is handed down through a family's classes.
-// In: the instant of the call. Out: what it gives back, gathered in `out`. Never kept beyond the call.
+// Turn is one call of an adapter: its instant, and the output that is collected during the call. It is not kept beyond the call.
 #pragma once
 
 #include "gateway/core/adapter.hpp"

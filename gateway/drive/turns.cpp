@@ -1,6 +1,4 @@
-// Turns: places on the wire and who gets the next one.
-// In: wishes, exchanges that begin and end, time. Out: slots. Each wish stands in one ring once; one that has changed meanwhile is passed
-// over. Never gives away more places than there are.
+// A drive is in a ring at most once. An entry whose wish has changed meanwhile is skipped.
 #include "gateway/drive/turns.hpp"
 
 #include <algorithm>
@@ -46,12 +44,12 @@ void Turns::settle(std::size_t slot, Want want, Instant deadline, Instant wish) 
             ring_[r].push(slot);
         }
     }
-    // Who waits for a place, or has one, is not due by a wish.
+    // A drive that waits for a place, or has one, is not called for its wish.
     const bool may_wish = want == Want::nothing && place_[slot] == Place::none;
     heap_.set(slot, may_wish ? std::min(deadline, wish) : deadline);
 }
 
-/// Commands and polls of one drive are what it sends next, whichever of them brought it here.
+/// Commands and polls of one drive take each other's places: the drive sends what it needs next.
 bool Turns::right(RingOf ring, Want want) noexcept {
     switch (ring) {
         case urgents:
@@ -102,8 +100,8 @@ Instant Turns::deadline() const noexcept {
     Instant d = heap_.earliest();
     const bool poll_waits = waits(quicks) || waits(polls);
     if ((!poll_waits && !waits(urgents) && !waits(commands) && !waits(probes)) || in_flight_ >= rules_.window) return d;
-    // Somebody waits for the silence after an answer to end, or for overtaken ones to have had their chance; else places become free only
-    // by what arrives.
+    // Waiting exchanges wait for the end of the pause after an answer, or of the grace time of overtaken exchanges; otherwise only a
+    // received frame or a time-out frees a place.
     if (quiet_until_ > now_) d = std::min(d, quiet_until_);
     if (poll_waits && rules_.overtaken_limit != 0 && overtaken_.deadline() > now_) d = std::min(d, overtaken_.deadline());
     return d;

@@ -1,7 +1,6 @@
-// Turns: whose turn it is on one line: how many exchanges may be on their way, who waits for a place, who has to be looked at, and when.
-// In: what each drive wants, exchanges that begin and end, the passing of time. Out: the next drive that may send; the line's deadline.
-// One place (RS-485, serial, a TCP connection) or many (CAN). Never sends; never lets silent drives, or polls, or commands starve the
-// others.
+// Turns decides which drive of a line may send next. A line has one place for exchanges (RS-485, serial, a TCP connection) or several
+// (CAN). Stops come first; the rules below make sure that silent drives, polls and commands cannot delay each other for ever. Turns also
+// holds the deadlines of the drives.
 #pragma once
 
 #include <array>
@@ -15,22 +14,22 @@
 
 namespace axisgate::drive {
 
-/// What a drive would send if it were given a place now, in the order in which places are given.
+/// The request that a drive would send next, in the order of priority.
 enum class Want : std::uint8_t {
     nothing,
-    urgent,   ///< a stop: before all that waits. Where a stop need not wait for the exchange in progress (CAN), its family sends it at once
-    command,  ///< before polls, but every ninth place is a poll's or a probe's while one waits
-    quick_poll,  ///< of an axis that moves: before those of axes that stand, three in a row at most while one of them waits
+    urgent,   ///< a stop: before all waiting requests. If it need not wait for the exchange in progress (CAN), the family sends it at once
+    command,  ///< before polls, but every ninth place goes to a poll or probe if one waits
+    quick_poll,  ///< poll of a moving axis: before axes at standstill, at most three in succession while one of those waits
     poll,
-    probe  ///< of a drive that does not answer: in turn with polls, and only within `probe_window`
+    probe  ///< of a drive that does not answer: alternates with polls, and only within `probe_window`
 };
 
 struct TurnRules {
-    std::size_t window = 1;        ///< exchanges on their way at once, 1..slot_limit
-    std::size_t probe_window = 1;  ///< of these to drives that do not answer, 1..window
-    Duration pause{};              ///< silence kept after an answer (`heard`); 0: none
-    /// Where the bus and not the order of sending decides who is answered first (CAN): no poll begins while an exchange has been overtaken
-    /// by so many others (overtaken.hpp). 0: never held up.
+    std::size_t window = 1;        ///< exchanges in progress at once, 1..slot_limit
+    std::size_t probe_window = 1;  ///< of these, exchanges with drives that do not answer, 1..window
+    Duration pause{};              ///< silence after an answer (`received`); 0: none
+    /// For buses on which arbitration decides which drive is answered first (CAN): no poll begins while a request has been overtaken by
+    /// this number of newer ones (overtaken.hpp). 0: polls are never delayed.
     std::uint32_t overtaken_limit = 0;
     Duration overtaken_grace{};
 };
@@ -41,27 +40,26 @@ public:
 
     void set(const TurnRules& rules) noexcept;
     [[nodiscard]] const TurnRules& rules() const noexcept { return rules_; }
-    /// Nobody wants anything and nothing is on its way: the line went down or came up, or the drives changed (then each is settled anew).
+    /// Forgets all wishes and exchanges: the line went down or came up, or the drives changed (then each of them is settled again).
     void forget_wishes() noexcept;
     void line_changed(Instant now) noexcept;
-    /// The drive was removed. Its exchange, if there was one, holds no place any more.
+    /// The drive was removed; its exchange, if there was one, no longer occupies a place.
     void remove(std::size_t slot) noexcept;
 
-    /// After anything has happened to a drive: what it wants, when it is to be looked at for its own sake (its exchange's deadline), and
-    /// when it will want something without being asked (its next poll or probe). The last counts only while it wants nothing and no
-    /// exchange of its is on the way.
+    /// To be called after each change of a drive: the kind of request that it would send, the deadline of its exchange, and the time of its
+    /// next poll or probe (`wish`). `wish` counts only while `want` is nothing and the drive has no exchange in progress.
     void settle(std::size_t slot, Want want, Instant deadline, Instant wish) noexcept;
-    /// Who may send now, if anybody: it is to send, or to say that it wants nothing any more, and to be settled.
+    /// The drive that may send now, if any. The caller lets it send and then settles it.
     [[nodiscard]] std::optional<std::size_t> next(Instant now) noexcept;
-    /// The next drive whose deadline has come; it is to be looked at and settled.
+    /// The next drive whose deadline has expired. The caller calls it and then settles it.
     [[nodiscard]] std::optional<std::size_t> due(Instant now) const noexcept;
-    /// Of the whole line; `never`: only when something arrives.
+    /// The earliest deadline of the line; `never`: only a received frame can change anything.
     [[nodiscard]] Instant deadline() const noexcept;
 
-    /// An exchange holds a place from here on; one per drive. `probe`: to a drive that does not answer.
+    /// An exchange occupies a place from now on; at most one per drive. `probe`: the drive does not answer at present.
     void began(std::size_t slot, bool probe) noexcept;
     void ended(std::size_t slot) noexcept;
-    /// Something has arrived: the line's pause begins.
+    /// A frame was received: the pause of the line begins.
     void received(Instant now) noexcept {
         if (rules_.pause > Duration::zero()) quiet_until_ = now + rules_.pause;
     }
@@ -79,7 +77,7 @@ private:
     DeadlineHeap heap_;
     std::array<Ring, rings> ring_;
     std::array<Want, slot_limit> want_{};
-    std::array<std::uint8_t, slot_limit> in_ring_{};  ///< a bit for each ring
+    std::array<std::uint8_t, slot_limit> in_ring_{};  ///< one bit for each ring
     std::array<Place, slot_limit> place_{};
     Overtaken overtaken_;
     std::size_t in_flight_ = 0, probes_in_flight_ = 0;

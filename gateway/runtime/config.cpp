@@ -1,9 +1,8 @@
-// Configuration: one table of keys serves the file, the environment and --set.
-// In: texts. Out: values, or faults with file, line and remedy. Never stops at the first fault.
+// One table of keys serves the file, the environment and --set. All faults are collected, each with file, line and remedy.
 #include "gateway/runtime/config.hpp"
 
-// The library asserts what hostile text makes untrue ("[*x]"), and in a release build tells the compiler that it holds. It checks the same
-// again in plain code and reports it: its assertions are left out, and so is what a release build makes of them.
+// The library asserts conditions that hostile text violates ("[*x]"); in a release build the assertion tells the compiler that the
+// condition holds. The library checks the same again in plain code and reports it, so its assertions are removed.
 #ifdef NDEBUG
 #undef NDEBUG
 #endif
@@ -27,8 +26,8 @@ std::string_view without_blanks(std::string_view s) {
     return first == std::string_view::npos ? std::string_view() : s.substr(first, s.find_last_not_of(" \t") + 1 - first);
 }
 
-/// A list as the file has it, ["a", "b"], in the form with bare commas; any other text as it is, also [::1],[::2]. A shell may have eaten
-/// the quotes.
+/// A list in the form of the file, ["a", "b"], or with plain commas; any other text is unchanged, including [::1],[::2]. A shell may have
+/// removed the quotes.
 std::string bare_list(const std::string& text) {
     std::string_view s = without_blanks(text);
     if (s.size() < 2 || s.front() != '[' || s.back() != ']') return text;
@@ -116,7 +115,7 @@ const Key own_keys[] = {
     {"recorder", "freeze_on", [](Config& c, const std::string& s) { return setting::any_text(c.recorder_freeze_on, s); }},
 };
 
-/// The gateway's own keys and those of the doors.
+/// The keys of the gateway and of the doors.
 class Keys {
 public:
     explicit Keys(std::span<const DoorDescriptor* const> doors) {
@@ -157,7 +156,7 @@ private:
     std::vector<const Key*> all_;
 };
 
-/// What to write, if the value is written as something that this key never is.
+/// The remedy for a value of a kind that this key never has.
 Unfit wrong_kind(const toml::node& node, Written written) {
     if (written == Written::as_text && !node.is_string()) return "write a text in double quotes";
     if (written == Written::as_list && !node.is_array() && !node.is_string()) return "write a list in square brackets";
@@ -185,15 +184,16 @@ bool has_foreign(std::string_view text) {
     return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
 }
 
-/// Whether a line with letters beyond ASCII is one that the TOML library reads without looking such a letter up as white space or as a part
-/// of a key, which it does not do safely: a comment, or `key = "..."` or `key = ["...", "..."]` with all of them inside the quotes.
+/// Whether a line with characters beyond ASCII is one of those that the TOML library reads safely: a comment, or `key = "..."` or `key =
+/// ["...", "..."]` with all such characters inside the quotes. Elsewhere it looks them up as white space or parts of a key, which is not
+/// safe.
 bool foreign_letters_are_quoted(std::string_view line) {
     const auto skip = [&](auto&& wanted) {
         while (!line.empty() && wanted(line.front()))
             line.remove_prefix(1);
     };
     const auto blank = [](char c) { return c == ' ' || c == '\t'; };
-    // Strings of several lines begin so, and an empty string beside another would be taken for them.
+    // Multi-line strings begin like this, and an empty string beside another could be taken for their beginning.
     if (line.find("'''") != std::string_view::npos || line.find("\"\"\"") != std::string_view::npos) return false;
     skip(blank);
     if (!line.starts_with('#')) {
@@ -219,7 +219,7 @@ bool foreign_letters_are_quoted(std::string_view line) {
     return true;
 }
 
-/// Line of the first letter beyond ASCII that stands where it must not; 0: there is none.
+/// The line of the first character beyond ASCII at a forbidden place; 0: none.
 std::size_t line_of_foreign_letter(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     for (std::size_t number = 1; !text.empty(); ++number) {
@@ -236,7 +236,7 @@ using Places = std::map<const Key*, std::string>;
 
 void read_config_file(Config& c, const Keys& keys, const ConfigSources& sources, Places& places, std::vector<ConfigFault>& faults) {
     const auto place = [&](const toml::source_region& r) { return fmt::format("{}:{}", sources.file_name, r.begin.line); };
-    // TOML knows no control characters but tab and line ends, and the parser does not take NUL as a fault but as a reason to end.
+    // TOML permits no control characters except tab and line ends. The parser does not report NUL as a fault but ends there.
     for (std::size_t i = 0, line = 1; i < sources.file_text->size(); ++i) {
         const auto byte = static_cast<unsigned char>((*sources.file_text)[i]);
         line += byte == '\n';
@@ -325,7 +325,7 @@ Config read_config(const ConfigSources& sources, std::vector<ConfigFault>& fault
         std::string name = entry.substr(prefix.size(), equals - prefix.size());
         std::ranges::transform(name, name.begin(), [](unsigned char x) { return static_cast<char>(std::tolower(x)); });
         const Key* best = keys.find_joined(name);
-        if (!best) continue;  // other programs of the house may use the prefix too
+        if (!best) continue;  // other programs may use the prefix, too
         apply(best->section, best->name, entry.substr(equals + 1), entry.substr(0, equals));
     }
     for (const auto& o : sources.overrides) {

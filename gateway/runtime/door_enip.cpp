@@ -73,7 +73,7 @@ public:
         return address_is_late(bind) || address_is_taken(bind, SOCK_STREAM) || address_is_taken(bind, SOCK_DGRAM);
     }
     [[nodiscard]] std::string left_out() const override {
-        // Another program on this host has the usual ports, and this configuration does not name them.
+        // Another program on this host uses the standard ports, and the configuration does not name other ones.
         return settings_.bind_named ? "" : "there is no EtherNet/IP door: name an address with [enip] bind, or \"off\"";
     }
     void opened() override {

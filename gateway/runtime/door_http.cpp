@@ -73,7 +73,7 @@ std::unique_ptr<RunningDoor> make_http_door(const DoorHouse& house, std::vector<
     auto server = std::make_unique<http::Server>(house.service, house.ports.all(), house.services, hs,
                                                  [](std::string_view path) { return asset(path); });
     const auto identity = open_tls(house.config, unix_now_ns() / 1'000'000'000, faults);
-    if (!faults.empty()) return nullptr;  // never plain text where the configuration asks for TLS
+    if (!faults.empty()) return nullptr;  // plain text must not be used if the configuration requests TLS
     server->use_tls(identity);
     return std::make_unique<RunningHttp>(std::move(server), c.bind);
 }

@@ -85,7 +85,7 @@ private:
 
 std::unique_ptr<RunningDoor> make_modbus_door(const DoorHouse& house, std::vector<ConfigFault>&) {
     bool read_only = house.config.of<ModbusSettings>().read_only;
-    // A switch made while the gateway ran is newer than the file.
+    // A lock that was changed at run time is newer than the file.
     if (const auto kept = house.store.document("setting", "modbus.read_only"); kept && *kept) read_only = (*kept)->text == "true";
     return std::make_unique<RunningModbus>(house, read_only);
 }
@@ -134,7 +134,7 @@ const DoorDescriptor modbus_door{
     .name = "modbus",
     .words = &modbus::door_words,
     .settings = modbus_keys,
-    .wanted = [](const Config&) { return true; },  // even without an address: services ask it for its state
+    .wanted = [](const Config&) { return true; },  // made even without an address, because services ask it for its state
     .make = make_modbus_door,
     .clients = {.key = "[modbus] max_connections",
                 .most =

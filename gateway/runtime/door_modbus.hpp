@@ -15,12 +15,12 @@ struct ModbusSettings {
     std::int64_t idle_timeout_s = 60;     ///< [modbus] idle_timeout_s, 1..86400
     std::int64_t max_connections = 1024;  ///< [modbus] max_connections, 1..8192
     std::vector<std::string> allow;       ///< [modbus] allow: addresses and networks that may connect; empty: all
-    std::vector<std::string> functions;   ///< [modbus] functions: function codes that are served; empty: all
-    bool read_only = false;               ///< [modbus] read_only: writes but a pure stop get exception 1
+    std::vector<std::string> functions;   ///< [modbus] functions: function codes that are accepted; empty: all
+    bool read_only = false;               ///< [modbus] read_only: writes other than a pure stop get exception 1
     /// [modbus_rtu] port: path of a serial port, or the URI of a byte line (serial:, tcp:, tcp-listen:, pty:); empty: no Modbus RTU door
     std::string rtu_port;
-    std::int64_t rtu_baud = 19200;   ///< [modbus_rtu] baud, 50..12000000 bit/s, where the URI does not say
-    std::string rtu_format = "8E1";  ///< [modbus_rtu] format, 8 data bits, where the URI does not say
+    std::int64_t rtu_baud = 19200;   ///< [modbus_rtu] baud, 50..12000000 bit/s, if the URI does not contain it
+    std::string rtu_format = "8E1";  ///< [modbus_rtu] format, 8 data bits, if the URI does not contain it
     std::int64_t rtu_unit = 1;       ///< [modbus_rtu] unit, 1..247: slave address of this gateway
 };
 
@@ -28,10 +28,10 @@ struct ModbusSettings {
 struct RtuPort {
     bool used = false;
     LineUri uri;
-    std::string name;        ///< for people: "/dev/ttyUSB0"; of other kinds of line the URI without options
-    std::uint32_t baud = 0;  ///< bit/s, for the silence between frames; also where the line itself has no rate
+    std::string name;        ///< for messages: "/dev/ttyUSB0"; for other kinds of lines the URI without options
+    std::uint32_t baud = 0;  ///< bit/s, for the silence between frames; also if the line itself has no bit rate
     SerialFormat format;
-    std::string fault;  ///< why it cannot be, and what would be right
+    std::string fault;  ///< why it cannot be used, and what a valid setting would be
 };
 [[nodiscard]] RtuPort rtu_port(const Config& config);
 

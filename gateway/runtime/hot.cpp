@@ -1,6 +1,5 @@
-// Hot: the turn. Everything that is ready is done, then what it caused is handed on, then the loop sleeps until the next deadline.
-// In: handlers of the loop, mailboxes, deadlines. Out: results to doors, everything else to the other threads.
-// Never does more than a bounded amount of work between two looks at the clock.
+// One turn of the loop: all ready handlers are called, their effects are passed on, and the loop sleeps until the next deadline. The work
+// between two readings of the clock is bounded.
 #include "gateway/runtime/hot.hpp"
 
 #include <fmt/core.h>
@@ -22,7 +21,8 @@ constexpr std::size_t stored_ring = 8192;
 constexpr int handlers_per_turn = 128;
 constexpr int turns_unannounced_limit = 8;
 constexpr Duration reports_period = std::chrono::milliseconds(100), reports_again = std::chrono::milliseconds(1);
-/// At rest nobody waits for what is due: it is done together with what is due a little later, because a wake-up costs more than the work.
+/// At standstill no client waits for periodic work: it is combined with work that is due slightly later, because a wake-up costs more than
+/// the work.
 constexpr Duration rest_gathers = std::chrono::milliseconds(5);
 constexpr Duration stop_limit = std::chrono::milliseconds(1500);
 }  // namespace
@@ -52,7 +52,8 @@ int Hot::start() {
             cpu_set_t set;
             CPU_ZERO(&set);
             CPU_SET(static_cast<unsigned>(settings_.cpu), &set);
-            (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // a wish: without the processor it runs anywhere
+            (void)pthread_setaffinity_np(pthread_self(), sizeof set, &set);  // optional: if the processor is not available, the thread runs
+                                                                             // on any
         }
         first.set_value(rank);
         run();
@@ -75,14 +76,14 @@ void Hot::run() {
     while (!finished_) {
         end_turn();
         turns_.end(now());
-        // Nothing was ready before the end of this turn, and nobody waits to be told: what has come since, the sleep finds as well.
+        // If no handler was ready before the end of this turn, and nothing must be announced, later arrivals are found by the sleep.
         std::size_t ran = all_done && !out_.unannounced() ? 0 : io_.poll_one();
-        // The other threads hear of it when this one has nothing more to send: to wake them first would put a system call, and on a busy
-        // processor their work, between a command and its frame.
+        // The other threads are woken after this one has sent everything: otherwise a system call, and on a busy processor the work of
+        // those threads, would come between a command and its frame.
         if (ran == 0 || ++turns_unannounced_ >= turns_unannounced_limit) announce();
         if (ran == 0 && settings_.spin_us > 0) {
             const Instant until = now() + spin;
-            // A door's own look is the shortest way to its clients; the loop as a whole is asked every fourth time.
+            // A door's own poll is the shortest way to its clients; the whole loop is polled every fourth time.
             for (unsigned i = 0; ran == 0; ++i) {
                 const Instant t = now();
                 if (t >= until || t >= turns_.armed()) break;
@@ -124,7 +125,7 @@ void Hot::announce() {
 
 void Hot::end_turn() {
     Instant t = now();
-    for (int round = 0; round < 8; ++round) {  // what doors submit on a result belongs to the same turn, up to a bound
+    for (int round = 0; round < 8; ++round) {  // commands that doors submit because of a result belong to the same turn, up to a bound
         if (engine_.deadline() <= t) engine_.on_deadline(t);
         turn_commands_.clear();
         turn_commands_.swap(submitted_);
@@ -137,12 +138,12 @@ void Hot::end_turn() {
             if (number > 0 && number <= doors_.size()) {
                 if (HotDoor* door = doors_[number - 1u]) door->on_result(r);
             } else if (number >= first_service_door && number != engine_itself && out_.results) {
-                (void)out_.results->push(std::move(r));  // never full: no more tickets are given out than it has places
+                (void)out_.results->push(std::move(r));  // never full: it has as many places as tickets that can be outstanding
             }
         }
         if (submitted_.empty() && results_.empty()) break;
     }
-    if (!settled_ && engine_.settled()) {  // said at once: somebody waits for it to say `ready`
+    if (!settled_ && engine_.settled()) {  // reported at once, because `ready` waits for it
         settled_ = true;
         next_reports_ = t;
     }
@@ -166,7 +167,7 @@ void Hot::note(Event&& event, AxisId axis) {
 void Hot::on_event(Event event, Instant at) { events_.send(std::move(event), at); }
 
 DoorNumber Hot::attach(HotDoor& door) {
-    doors_.push_back(&door);  // a number is never given twice: late results of a detached door find nobody
+    doors_.push_back(&door);  // a number is not used again, so late results of a detached door find no door
     return static_cast<DoorNumber>(doors_.size());
 }
 
@@ -204,24 +205,24 @@ void Hot::on_sample(const Sample& sample) {
     for (HotDoor* door : doors_) {
         if (door) door->on_sample(sample);
     }
-    if (out_.samples) (void)out_.samples->push(Sample(sample));  // a state: the next reading replaces one that was not taken
+    if (out_.samples) (void)out_.samples->push(Sample(sample));  // a state: the next report replaces one that was lost
 }
 
 void Hot::on_store(StoreOrder order) {
     const Ticket ticket = order.ticket;
     if (!out_.cold || !out_.cold->push(std::move(order))) {
-        // Told in the next turn, not from inside the engine's own call.
+        // Reported in the next turn, not within a call of the engine.
         boost::asio::post(
             io_, [this, ticket] { engine_.on_stored(ticket, "the database cannot keep up: too many writes wait for the disk", now()); });
     }
 }
 
 void Hot::on_twin_memory(const std::string& drive, NonVolatile memory) {
-    if (out_.cold) (void)out_.cold->push(TwinMemory{drive, std::move(memory)});  // the next change carries the whole memory again
+    if (out_.cold) (void)out_.cold->push(TwinMemory{drive, std::move(memory)});  // the next change contains the whole memory again
 }
 
 std::unique_ptr<Line> Hot::make_line(const LineSpec& spec, const LineSetup& setup) {
-    const Family* family = find_family(spec.family);  // none: a CAN line of several
+    const Family* family = find_family(spec.family);  // none: a CAN line with several families
     return make_real_line(spec.uri, setup, io_, family ? family->default_format : "8N1", settings_.ptys, stale_send_limit, settings_.fleet,
                           line_clock_);
 }
@@ -251,7 +252,7 @@ void Hot::publish_reports(Instant now) {
     if (const std::unique_lock hold(reports_mutex_, std::try_to_lock); hold) {
         reports_.swap(made);
     } else {
-        next_reports_ = now + reports_again;  // they are being read at this moment
+        next_reports_ = now + reports_again;  // they are being read at present
     }
 }
 

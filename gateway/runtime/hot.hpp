@@ -1,6 +1,6 @@
-// Hot: the thread that a PLC feels: lines, twins, engine and the cyclic doors on one io_context, with no hand-over between them.
-// In: commands of the warm thread, what lines and sockets bring, time. Out: results, events, snapshots of reports.
-// Never waits for a disk, a lock or another thread.
+// Hot is the thread with real-time requirements: lines, twins, engine and the cyclic doors run on one io_context, so that no message
+// between them passes to another thread. It never waits for a disk, a lock or another thread; results, events and reports go to the other
+// threads through mailboxes.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@
 
 namespace axisgate {
 
-/// What the warm thread may read at any time: the newest reports of lines and drives, at most 200 ms old.
+/// The newest reports of lines and drives, at most 200 ms old, which the warm thread may read at any time.
 struct Reports {
     std::vector<LineReport> lines;                      ///< by LineId
     std::vector<DriveStatus> drives;                    ///< by DriveId
@@ -42,9 +42,9 @@ struct HotSettings {
     std::int64_t spin_us = 0;
     int cpu = -1;
     std::size_t trace_frames = 4096;
-    Instant (*clock)() noexcept = monotonic_now;  ///< never goes backwards; a test has its own
-    PairEnd fleet{};                              ///< takes the other ends of mirror lines; empty: there is no fleet
-    PtyPlaces ptys{};                             ///< where lines of the site may link pseudo-terminals
+    Instant (*clock)() noexcept = monotonic_now;  ///< monotonic; tests use their own clock
+    PairEnd fleet{};                              ///< takes the other ends of mirror lines; empty: there is no DDS fleet
+    PtyPlaces ptys{};                             ///< where lines of the site may place links to pseudo-terminals
 };
 
 class Hot final : public EngineHost, public DoorPort {
@@ -54,8 +54,8 @@ public:
         Mailbox<Result>* results = nullptr;  ///< to the warm thread: results of its own commands
         Mailbox<Sample>* samples = nullptr;  ///< to the warm thread
         Mailbox<ColdJob>* cold = nullptr;
-        std::function<void()> changed{};  ///< hot thread: an axis' picture has changed since it was wanted to know (want_change)
-        /// Another thread has something to hear of. Hot thread.
+        std::function<void()> changed{};  ///< hot thread: an axis' picture has changed since want_change
+        /// Another thread must be woken. Hot thread.
         [[nodiscard]] bool unannounced() const noexcept {
             return (results && results->unannounced()) || (samples && samples->unannounced()) || (cold && cold->unannounced());
         }
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] Mailbox<Stored>& stored() noexcept { return stored_; }
     /// Any thread: cells of the image; axis pictures by AxisCell.
     [[nodiscard]] const Image& image_for_readers() const noexcept { return image_; }
-    /// Any thread: Outlets::changed is called once, after the next change of an axis' picture.
+    /// Any thread: requests one call of Outlets::changed, after the next change of an axis' picture.
     void want_change() noexcept { change_wanted_.store(true, std::memory_order_release); }
     [[nodiscard]] std::shared_ptr<const Reports> reports() const {
         const std::lock_guard hold(reports_mutex_);
@@ -83,16 +83,16 @@ public:
     }
     [[nodiscard]] Engine& engine() noexcept { return engine_; }  ///< before start(), or on the hot thread
 
-    /// A site is in force: all doors look it up anew. Hot thread, or before start().
+    /// A site is in force: all doors take it over. Hot thread, or before start().
     void publish_site(const SiteState& site);
-    /// The doors of this thread that are attached; before start(), or when no door comes or goes.
+    /// The attached doors of this thread; before start(), or while no door is attached or detached.
     [[nodiscard]] std::vector<HotDoor*> doors() const;
 
-    /// Returns the real-time rank of its thread; 0: it has none.
+    /// Returns the real-time priority of its thread; 0: it has none.
     int start();
-    /// Stops moving axes, gives them a moment, closes the lines, ends the thread.
+    /// Stops moving axes, waits a short time for them, closes the lines and ends the thread.
     void stop();
-    /// How its turns go. Any thread reads it.
+    /// Measurements of its turns. Any thread may read them.
     [[nodiscard]] const HotTurns& turns() const noexcept { return turns_; }
     [[nodiscard]] const Histogram& write_to_frame() const noexcept { return engine_.write_to_frame(); }
     [[nodiscard]] std::uint64_t lost_events() const noexcept { return events_.lost(); }
@@ -124,7 +124,7 @@ private:
     void announce();
     void publish_reports(Instant now);
 
-    /// Lines read the loop's time, so that a frame that wakes it begins a turn.
+    /// Lines read the loop's time, so that a frame that wakes the loop begins a turn.
     struct LineClock final : Clock {
         explicit LineClock(const Hot& of) : hot(of) {}
         [[nodiscard]] Instant now() const override { return hot.now(); }
@@ -147,11 +147,11 @@ private:
     Mailbox<Stored> stored_;
     std::vector<Command> submitted_;  // by doors of this thread, during the present turn
     std::vector<Result> results_;
-    std::vector<Command> turn_commands_;  // the two above while they are worked on; kept for their room
+    std::vector<Command> turn_commands_;  // the two above while they are processed; kept to reuse their memory
     std::vector<Result> turn_results_;
     std::vector<HotDoor*> doors_;  // by number - 1; nullptr: detached
     EventOutlet events_;
-    mutable std::mutex reports_mutex_;  ///< for as long as a pointer is copied; the hot thread never waits for it
+    mutable std::mutex reports_mutex_;  ///< held only while a pointer is copied; the hot thread never waits for it
     std::shared_ptr<const Reports> reports_ = std::make_shared<const Reports>();
     Instant next_reports_{};
     std::atomic<bool> stopping_{false};

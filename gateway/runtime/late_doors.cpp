@@ -1,5 +1,4 @@
-// Late doors: each second the host is asked anew, and whose address has come is opened.
-// In: names of addresses and interfaces. Out: open doors. Never asks a name server.
+// Addresses and interfaces are checked once a second. No name server is asked.
 #include "gateway/runtime/late_doors.hpp"
 
 #include <arpa/inet.h>
@@ -22,7 +21,7 @@ bool address_is_late(std::string_view bind) {
     std::string fault;
     const auto endpoint = http::parse_bind(bind, fault);
     if (!endpoint) return false;
-    // Port 0 is free always: what the bind says is of the address alone.
+    // Port 0 is always free, so the result of bind depends on the address only.
     const boost::asio::ip::tcp::endpoint any(endpoint->address(), 0);
     const int fd = ::socket(any.protocol().family(), SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (fd < 0) return false;
@@ -38,7 +37,7 @@ bool address_is_taken(std::string_view bind, int socket_type) {
     if (!endpoint || endpoint->port() == 0) return false;
     const int fd = ::socket(endpoint->protocol().family(), socket_type | SOCK_CLOEXEC, 0);
     if (fd < 0) return false;
-    const int on = 1;  // as the doors do it: a connection of before that is still ending takes nothing
+    const int on = 1;  // like the doors: an old connection that is still closing does not occupy the port
     if (socket_type == SOCK_STREAM) (void)::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
     const bool taken = ::bind(fd, endpoint->data(), static_cast<socklen_t>(endpoint->size())) != 0 && errno == EADDRINUSE;
     (void)::close(fd);

@@ -1,6 +1,5 @@
-// Late doors: doors whose address or network interface is not there yet, as after a boot, or whose port another program has, wait for it
-// and are opened when it has come.
-// In: how each is opened, time. Out: what waits, in words. A door that waits never keeps another one or the gateway from starting.
+// Doors whose address or network interface does not exist yet (for example after a boot), or whose port another program uses, wait here and
+// are opened when it becomes available. A waiting door delays neither the other doors nor the start of the gateway.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -13,32 +12,32 @@
 
 namespace axisgate {
 
-/// "ADDRESS:PORT" names an address that this host does not have at the moment. False for whatever else is wrong with it.
+/// "ADDRESS:PORT" names an address that this host does not have at present. False for every other fault.
 [[nodiscard]] bool address_is_late(std::string_view bind);
-/// Another program has this port of it. `socket_type`: SOCK_STREAM or SOCK_DGRAM.
+/// Another program uses this port. `socket_type`: SOCK_STREAM or SOCK_DGRAM.
 [[nodiscard]] bool address_is_taken(std::string_view bind, int socket_type);
-/// There is no such network interface at the moment, or it is down, or it has no address yet.
+/// The network interface does not exist at present, or is down, or has no address yet.
 [[nodiscard]] bool interface_is_late(const std::string& name);
 
 class LateDoors {
 public:
     static constexpr std::chrono::seconds again{1};
 
-    /// On the thread of `context`, as everything here.
+    /// All calls must be made on the thread of `context`.
     explicit LateDoors(boost::asio::io_context& context) : timer_(context) {}
 
     struct Door {
-        std::string name;               ///< as the log calls it
+        std::string name;               ///< name for the log
         std::string fault;              ///< why it could not be opened
-        std::function<bool()> is_late;  ///< asked each second; it is opened when this says no
-        /// Opens it, on whatever thread, and then calls back on this one; empty: it is open.
+        std::function<bool()> is_late;  ///< called each second; the door is opened when this returns false
+        /// Opens the door on any thread, and then calls back on this one; an empty text: it is open.
         std::function<void(std::function<void(std::string fault)>)> open;
         std::function<void()> opened{};  ///< called once, when it is open
     };
     void wait_for(Door door);
-    /// One sentence for each door that waits.
+    /// One sentence for each waiting door.
     [[nodiscard]] std::vector<std::string> waiting() const;
-    /// Nothing is opened any more.
+    /// No door is opened any more.
     void stop();
 
 private:
@@ -48,7 +47,7 @@ private:
         bool opening = false;
     };
     boost::asio::steady_timer timer_;
-    std::list<Waiting> doors_;  // an element stays where it is while it is being opened
+    std::list<Waiting> doors_;  // an element must not move while its door is being opened
     bool stopped_ = false;
 };
 

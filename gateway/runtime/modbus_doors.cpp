@@ -1,5 +1,4 @@
-// Modbus doors: the TCP one and the serial one, as the configuration has them. In: the configuration. Out: the doors, and a report of both.
-// Never fails for a serial port that is not there: adapters are plugged in later.
+// A serial port that does not exist is not a fault: adapters are plugged in later.
 #include "gateway/runtime/modbus_doors.hpp"
 
 #include <utility>

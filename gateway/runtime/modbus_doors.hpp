@@ -1,5 +1,5 @@
-// Modbus doors: Modbus/TCP and Modbus RTU as the configuration wants them, under one lock and in one report.
-// In: the configuration. Out: open doors on the hot thread; what they tell the service thread. Never reads a request.
+// ModbusDoors holds Modbus/TCP and Modbus RTU as configured, with one read-only lock and one report for both. They are opened on the hot
+// thread and report to the service thread.
 #pragma once
 
 #include <memory>
@@ -16,10 +16,10 @@ namespace axisgate {
 
 class ModbusDoors {
 public:
-    /// Both are called before the hot thread starts. `read_only` as it was switched last.
+    /// Called before the hot thread starts. `read_only` is the last state of the lock.
     ModbusDoors(Hot& hot, registers::RegisterImage& image, const Config& config, bool read_only);
-    /// Empty: Modbus/TCP listens, and the serial port is being opened; where that fails it is told and tried again. Else why Modbus/TCP
-    /// does not listen; it can be called again then. On the hot thread, or before it starts.
+    /// Empty: Modbus/TCP listens, and the serial port is being opened; a failure of the latter is reported and repeated. Otherwise the
+    /// reason why Modbus/TCP does not listen; the call can be repeated. On the hot thread, or before it starts.
     [[nodiscard]] std::string open();
     [[nodiscard]] bool any() const noexcept { return tcp_ || rtu_; }
 

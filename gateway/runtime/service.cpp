@@ -1,5 +1,5 @@
-// Service: `axisgate serve`: assembles store, hot, cold and warm threads and doors, says `ready`, and takes it all down again in order.
-// In: the configuration, a site. Out: the running gateway; an exit code. Never starts a door before what it shows is there.
+// The command `axisgate serve`: creates store, threads and doors, reports `ready`, and closes everything in reverse order. A door is opened
+// only after the parts that it uses exist.
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -45,10 +45,10 @@
 
 namespace axisgate {
 namespace {
-/// Longest wait for lines and drives before `ready` is said all the same; what is missing is then named in it.
+/// The longest wait for lines and drives before `ready` is reported; missing ones are named in the report.
 constexpr auto ready_limit = std::chrono::seconds(5);
 
-/// Everything that lives while the service runs; destroyed from the last to the first.
+/// All members live while the service runs, and are destroyed from the last to the first.
 struct Service {
     const ServeOptions& options;
     Families families;
@@ -58,7 +58,7 @@ struct Service {
     std::unique_ptr<Hot> hot;
     std::unique_ptr<Cold> cold;
     std::unique_ptr<WarmPorts> ports;
-    std::optional<Doorbell::Call> picture_changed;  // for the door that has asked to be told
+    std::optional<Doorbell::Call> picture_changed;  // for the door that has requested it
     std::unique_ptr<registers::RegisterImage> image;
     std::shared_ptr<AccessService> access;
     std::unique_ptr<Services> services;
@@ -69,8 +69,8 @@ struct Service {
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
     bool ready_reported = false;
-    std::string manager_status;  ///< as it was told last
-    std::string first_code;      ///< to be shown
+    std::string manager_status;  ///< as last reported
+    std::string first_code;      ///< to be printed
     int code = exit_good;
     bool door_hangs = false;  ///< a thread of a door's library does not end (DDS with an interface that is down)
 
@@ -156,7 +156,7 @@ int Service::open_store() {
     Cold::Answers answers;
     answers.stored = [this](std::vector<Stored> list) {
         for (auto& s : list) {
-            // The hot thread empties this ring in every turn; it has more places than orders can be on the way.
+            // The hot thread empties this ring in every turn; it has more places than orders can be outstanding.
             while (!hot->stored().push(std::move(s)))
                 std::this_thread::yield();
         }
@@ -215,7 +215,7 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
         complain(stored.error().text);
         return exit_failed;
     }
-    if (!*stored) return exit_good;  // an empty site: everything is set up over the page or the API
+    if (!*stored) return exit_good;  // an empty site: it is set up with the page or the API
     revision = (*stored)->revision;
     std::vector<SiteFault> faults;
     boost::system::error_code ec;
@@ -230,13 +230,13 @@ int Service::load_site(Site& site, std::uint64_t& revision) {
     site = std::move(*parsed);
     for (const auto& f : names_to_change(site, nullptr))
         spdlog::warn("site, {}: {}; {}", f.pointer, f.text, f.remedy);
-    // The same text is no new revision; but the store hears which family each axis has, which an older program did not tell it.
+    // The same text makes no new revision, but stores the family of each axis, which older versions of the program did not store.
     const auto named = store->save_site((*stored)->text, (*stored)->who, (*stored)->at_unix_ns, names_of(site));
     if (!named) spdlog::warn("store: {}", named.error().text);
     return exit_good;
 }
 
-/// Users, tokens and the first sign-in. The code goes to standard output and nowhere else.
+/// Users, tokens and the first sign-in. The code is printed on standard output only.
 int Service::open_access() {
     constexpr std::int64_t minute_ns = std::int64_t{60} * 1'000'000'000;
     AccessSettings as;
@@ -252,7 +252,8 @@ int Service::open_access() {
     return exit_good;
 }
 
-/// When every door could be opened, and before one answers: a start that fails shows no code, and who can use one can read it.
+/// Called when every door could be opened, and before one answers: a start that fails prints no code, and the code is printed before it can
+/// be used.
 void Service::show_code() {
     if (!access) return;
     if (!first_code.empty()) {
@@ -263,7 +264,7 @@ void Service::show_code() {
     std::fflush(stdout);
 }
 
-/// Alarms are raised and kept, and recipes can be run, whatever doors there are.
+/// Alarms are raised and stored, and recipes can run, independent of the doors.
 void Service::begin_services() {
     services = std::make_unique<Services>(ports->all(), monotonic_now, access);
     services->rearm = [this] { arm_services(); };
@@ -295,7 +296,7 @@ int Service::open_doors() {
 void Service::report_ready() {
     const auto reports = hot->reports();
     if ((!reports->settled || !doors->waiting().empty()) && monotonic_now() - started < ready_limit) return;
-    if (access && !access->code_is_kept()) return;  // on the disk first: after `ready` it is this one, also for the next start
+    if (access && !access->code_is_kept()) return;  // it must be on the disk: after `ready` it is valid, also for the next start
     ready_reported = true;
     std::string text = "ready";
     for (const auto& d : ports->status.doors())
@@ -311,7 +312,7 @@ void Service::report_ready() {
     spdlog::info("{}", text);
 }
 
-/// The warm thread's own clock: says `ready` when all is up, and feeds the watchdog as long as the hot loop turns.
+/// Periodic work of the warm thread: reports `ready` when all parts are running, and triggers the watchdog as long as the hot loop runs.
 void Service::watch() {
     if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
@@ -325,7 +326,7 @@ void Service::watch() {
     });
 }
 
-/// What `systemctl status` shows, and what an upgrade waits for.
+/// The text of `systemctl status`, and the conditions for which an upgrade waits.
 void Service::tell_manager() {
     std::size_t online = 0, moving = 0;
     const auto site = ports->site.site();
@@ -343,14 +344,14 @@ void Service::tell_manager() {
 void Service::take_down() {
     notify_manager("STOPPING=1");
     doors->stop_waiting();
-    hot->stop();  // brings moving axes to rest first
+    hot->stop();  // stops moving axes first
     doors->stop();
     door_hangs = doors->hang();
     if (access) access->stop();
     cold->stop();
     ports->events.tell_all();
 }
-/// As `context.run()`, with the rank that ServiceRank allows: what wakes the thread finds it before others, a flood of work does not.
+/// Like `context.run()`, with the priority that ServiceRank permits: a woken thread runs before others, but continuous work does not.
 void run_ranked(boost::asio::io_context& context) {
     ServiceRank rank;
     bool first = false;
@@ -373,13 +374,13 @@ void run_ranked(boost::asio::io_context& context) {
 /// `hangs` is set if a thread of a door's library is left that cannot be ended.
 static int serve(const ServeOptions& given, bool& hangs) {
     ServeOptions options = given;
-    // The same words and the same exit code as `axisgate check`.
+    // Same text and exit code as `axisgate check`.
     const auto wrong_here = check_host(options.config);
     for (const auto& f : wrong_here)
         complain(f);
     if (std::ranges::count(wrong_here, false, &ConfigFault::warning) > 0) return exit_usage;
     if (!open_log(options.config)) return exit_failed;
-    // Before anything is opened: a certificate that does not hold is a fault of the configuration, as in `axisgate check`.
+    // Before anything is opened: an invalid certificate is a fault of the configuration, as in `axisgate check`.
     if (const auto wrong = check_door_files(options.config, unix_now_ns() / 1'000'000'000); !wrong.empty()) {
         for (const auto& f : wrong)
             complain(fmt::format("{}: {}; {}", f.place, f.text, f.remedy));
@@ -387,7 +388,7 @@ static int serve(const ServeOptions& given, bool& hangs) {
     }
     fit_doors(options.config);
     (void)std::signal(SIGPIPE, SIG_IGN);
-    (void)std::signal(SIGXFSZ, SIG_IGN);  // a bound on the size of files is a full disk, not the end
+    (void)std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is treated like a full disk and must not end the program
     std::vector<std::string> faults;
     Service s(options);
     s.families = load_families(faults);
@@ -419,11 +420,11 @@ static int serve(const ServeOptions& given, bool& hangs) {
     s.cold->start();
     const int rank_of_hot = s.hot->start();
     s.watch();
-    // After the others have been started: a new thread begins with its maker's rank. Nobody need stand back for a hot thread that goes
-    // first.
+    // After the other threads have been started, because a new thread inherits the priority of its creator. If the hot thread has a higher
+    // priority, this one need not lower its own.
     enter_thread("axisgate-warm", rank_of_hot > 0 ? 0 : warm_stands_back);
     take_short_turns(warm_turn_ns);
-    // With one processor alone the database would have to wait for it, too.
+    // With a single processor the database would have to wait for it, too.
     if (rank_of_hot > warm_rank && !ranked_from_outside() && std::thread::hardware_concurrency() > 1)
         run_ranked(s.warm);
     else
@@ -439,7 +440,7 @@ int command_serve(const ServeOptions& options) {
     bool hangs = false;
     const int code = serve(options, hangs);
     if (!hangs) return code;
-    // All of this program's own is closed. What runs at a common end would wait for that thread.
+    // All parts of this program are closed. A normal exit would wait for that thread.
     spdlog::default_logger()->flush();
     std::fflush(nullptr);
     std::_Exit(code);

@@ -40,7 +40,7 @@ private:
     struct Running {
         CaptureOrder order;
         Capture capture;
-        bool ended = false;    ///< the line was told to end the fast polling
+        bool ended = false;    ///< the line was ordered to end the fast polling
         bool written = false;  ///< on its way to the disk
     };
     void on_picture(AxisId axis, const PictureRecord& picture, Instant at) override;

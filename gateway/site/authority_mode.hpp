@@ -1,5 +1,4 @@
-// AuthorityMode: what the site chooses for an axis: whether commanding it takes a lease.
-// In and out: a value. Never decides who may command.
+// The site's choice for an axis: whether a command needs a lease. Who may command is decided elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +8,8 @@ namespace axisgate {
 
 /// Whether a command needs a lease.
 enum class AuthorityMode : std::uint8_t {
-    free,  ///< no; but while somebody holds one, the others are refused
-    lease  ///< a command takes one by itself, and renews it
+    free,  ///< no; but while a client holds a lease, others are refused
+    lease  ///< a command takes a lease automatically, and renews it
 };
 [[nodiscard]] std::string_view name_of(AuthorityMode mode) noexcept;
 

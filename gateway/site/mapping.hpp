@@ -61,8 +61,8 @@ struct Mapping {
 inline constexpr std::size_t most_mappings = 4096;
 
 /// Reads all entries against the site's axes and their catalogues; conflicts are faults of the later entry and name the other one. Entries
-/// without an id get one ("m" and a number). Nothing is returned if there is a fault. `called`: how people call the entry with this index
-/// where it is the other one of a conflict, such as "row 3"; by its id where it is empty or gives nothing.
+/// without an id get one ("m" and a number). Nothing is returned if there is a fault. `called` returns the name of the entry with this
+/// index for messages about a conflict, such as "row 3"; if it is not set or returns nothing, the id is used.
 [[nodiscard]] std::optional<std::vector<Mapping>> parse_mappings(const boost::json::array& entries, const Site& site,
                                                                  const Families& families, std::vector<SiteFault>& faults,
                                                                  const std::function<std::string(std::size_t index)>& called = {});
@@ -77,9 +77,9 @@ inline constexpr std::size_t most_mappings = 4096;
                                                                   std::vector<CsvFault>& faults);
 
 /// The registers of a mapping (2 * size() bytes, big-endian) that show `value`; whole numbers without scale and offset are exact at every
-/// width. False: the value is not known, is no number where one is needed, or does not fit the type; then `out` holds what stands for that:
-/// with MapOverflow::clamp the end of the type that is nearest to it; else, and where no end is nearer, 0x8000... for signed numbers,
-/// 0xFFFF... for unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
+/// width. False: the value is unknown, is not a number where one is needed, or does not fit the type. `out` then has a substitute: with
+/// MapOverflow::clamp the nearest end of the type; otherwise, or if neither end is nearer, 0x8000... for signed numbers, 0xFFFF... for
+/// unsigned ones, a NaN for floating-point ones, 0 for bool and an empty text.
 bool encode(const Mapping& mapping, const Value& value, std::uint8_t* out) noexcept;
 /// The value in the registers of a mapping; whole numbers stay whole. Unknown for a floating-point register that is not a number.
 [[nodiscard]] Value decode(const Mapping& mapping, const std::uint8_t* in);

@@ -1,5 +1,5 @@
-// Names: "." and ".." are taken out of a path by every client before it is sent; what else does not begin with a letter or digit is an
-// option to a shell or a hidden file.
+// Clients remove "." and ".." from a path before they send it; a name that does not begin with a letter or digit is an option for a shell,
+// or a hidden file.
 #include "gateway/site/names.hpp"
 
 #include <fmt/core.h>

@@ -1,5 +1,4 @@
-// Options, as the catalogue's "options" describe them. In: catalogue, names, values. Out: faults in words.
-// Never keeps a table of its own, apart from what the gateway itself reads of every line.
+// The permitted options are those of the catalogue's "options"; in addition there are those that the gateway itself reads for every line.
 #include "gateway/site/options.hpp"
 
 #include <fmt/core.h>
@@ -97,9 +96,10 @@ std::vector<OptionFault> check_options(const Site& site, const Families& familie
         for (const auto& given : l.options) {
             const auto& name = given.first;
             const auto& value = given.second;
-            // The gateway's own, of any line with twins: a byte bus of a family that has CAN too, and separate wires for each direction.
+            // Options of the gateway itself, for every line with twins: a byte line for a family that also has CAN, and separate wires for
+            // each direction.
             if (name == "kind" || name == "full_duplex") continue;
-            // Each family that knows it must take it; where none does, the first one says what it has.
+            // Each family that has the option must accept its value; if none has it, the first one lists its options.
             const auto named = [&](const Catalogue& c) { return find(c, {OptionOf::line, OptionOf::twin}, name) != nullptr; };
             const bool known = std::ranges::any_of(catalogues, [&](const Catalogue* c) { return named(*c); });
             for (const Catalogue* c : catalogues) {

@@ -1,5 +1,5 @@
-// Options: what a family lets a site say of a line, of a drive and of its twin, as its catalogue lists them.
-// In: names and values as text. Out: empty, or what is wrong and what would be right. Never applies one: that is the family's own work.
+// Checks the options of lines, drives and twins in a site against the lists in the catalogues of their families. The families apply the
+// options.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@
 
 namespace axisgate {
 
-/// Where an option belongs. A twin's stand beside those of its drive, or of its line for all twins of that.
+/// The place of an option. The options of a twin are beside those of its drive, or of its line for all twins of that line.
 enum class OptionOf : std::uint8_t { line, drive, twin };
 
-/// Empty if one of `places` has this option with this value; else "modell is no option of uim342: crc, in_flight, ...", or
+/// Empty if one of `places` has this option and permits the value; otherwise "modell is no option of uim342: crc, in_flight, ...", or
 /// "home_input = 9: write 1 to 3".
 [[nodiscard]] std::string check_option(const Catalogue& catalogue, std::initializer_list<OptionOf> places, std::string_view name,
                                        std::string_view value);
 
-/// One entry of a site whose options nobody will read as they stand.
+/// An option of a site that will not be used.
 struct OptionFault {
-    std::string line, drive;  ///< which; a drive's has both
+    std::string line, drive;  ///< a drive's option has both
     std::string text;
-    bool adapter_says = false;  ///< its name is the adapter's own: that says so when it is configured
+    bool adapter_says = false;  ///< the name belongs to the adapter, which reports the fault when it is configured
 };
-/// All of a site. They do not make it unusable: an option that is not understood counts as not given.
+/// All such options of a site. They do not make it invalid: an option that is not understood counts as not given.
 [[nodiscard]] std::vector<OptionFault> check_options(const Site& site, const Families& families);
 
 }  // namespace axisgate

@@ -1,5 +1,4 @@
-// Profiles, reading and writing. A unit belongs to one map: that of its profile or that of its mappings.
-// In: JSON. Out: entries, faults. Never guesses an axis.
+// A unit belongs to one map: that of its profile, or that of its mappings.
 #include "gateway/site/profile.hpp"
 
 #include <array>

@@ -1,5 +1,3 @@
-// Rehearsal cell: the words of steps and situations.
-// In: values. Out: names. Never plays anything.
 #include "gateway/site/rehearsal_cell.hpp"
 
 #include <algorithm>

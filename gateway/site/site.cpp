@@ -1,5 +1,4 @@
-// Site: looking up, writing the document, telling two sites apart, and the hash of what is mapped. Reading is site_read.cpp.
-// In: sites. Out: JSON, differences in words, a hash. Never changes a site.
+// Look-ups, the document of a site, the differences between two sites, and the hash of the mappings. The document is read in site_read.cpp.
 #include "gateway/site/site.hpp"
 
 #include <fmt/core.h>
@@ -201,10 +200,10 @@ json::object to_json(const Site& site) {
 namespace {
 constexpr std::size_t most_mappings_published = 50;  // in one event
 
-/// A value for people: JSON's own writer has 2.5 as 2.5E0.
+/// A number for the user: JSON's own writer prints 2.5 as 2.5E0.
 std::string shown(const json::value& v) { return v.is_double() ? fmt::format("{}", v.get_double()) : json::serialize(v); }
 
-/// A mapping for people: "m7 (unit 2 holding_registers 4, feeder.position)".
+/// A mapping for the user: "m7 (unit 2 holding_registers 4, feeder.position)".
 std::string mapping_text(const json::object& m) {
     const auto text = [&](const char* key) {
         const auto* v = m.if_contains(key);
@@ -213,7 +212,7 @@ std::string mapping_text(const json::object& m) {
     return fmt::format("{} (unit {} {} {}, {}.{})", text("id"), text("unit"), text("table"), text("address"), text("axis"), text("point"));
 }
 
-/// What was changed in which mapping; entries are told apart by their ids, which all have once a site is checked.
+/// The changed members of each mapping; entries are identified by their ids, which all have after the check.
 void compare_mappings(const json::array& from, const json::array& to, std::vector<std::string>& out) {
     const auto by_id = [](const json::array& list) {
         std::map<std::string, const json::object*, std::less<>> all;
@@ -310,7 +309,7 @@ std::vector<std::string> differences(const Site& from, const Site& to) {
 }
 
 std::uint32_t mapping_revision(const Site& site) noexcept {
-    // FNV-1a over the axes' places, families' names and scales, and the mappings as they stand.
+    // FNV-1a over the axes' positions, family names and scales, and the mappings.
     std::uint32_t h = 2166136261u;
     const auto mix = [&h](std::string_view s) {
         for (const unsigned char c : s)
@@ -326,7 +325,7 @@ std::uint32_t mapping_revision(const Site& site) noexcept {
             if (const auto family = site.family_of(*d); site.line(d->line)) mix(family);
         }
     }
-    // The parameter channel names a parameter by its place in the catalogue.
+    // The parameter channel identifies a parameter by its position in the catalogue.
     for (const auto& [drive, catalogue] : site.own_catalogues) {
         mix(drive);
         for (const auto& p : catalogue->parameters())

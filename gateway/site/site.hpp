@@ -1,6 +1,5 @@
-// Site: what is connected and how it is mapped: lines, drives, axes, mappings, as one document.
-// In: JSON (schema/site.schema.json). Out: checked values, or all faults at once, each with its place and a way to mend it.
-// Never touches hardware and never reads a file: a site is a value.
+// Site is the document of the connected equipment and its mapping: lines, drives, axes, mappings (JSON, schema/site.schema.json). Reading
+// gives checked values, or all faults at once, each with place and remedy. A site is a value: no hardware and no file is accessed here.
 #pragma once
 
 #include <boost/json/object.hpp>
@@ -29,14 +28,14 @@ namespace axisgate {
 enum class PresenceRule : std::uint8_t {
     device,    ///< the real drive only; absent means offline
     twin,      ///< the embedded model only
-    automatic  ///< the real drive if it answers, else the twin takes over ("auto" in the document)
+    automatic  ///< the real drive if it answers, otherwise the twin ("auto" in the document)
 };
 [[nodiscard]] std::string_view name_of(PresenceRule rule) noexcept;
 
 struct LineSpec {
     std::string name;
-    std::string uri;            ///< CONTRACT's line URIs; "twin": a bus with embedded drives alone
-    std::string family;         ///< of its drives that name none; empty on a CAN line whose drives all name theirs
+    std::string uri;            ///< CONTRACT's line URIs; "twin": a bus with embedded drives only
+    std::string family;         ///< of drives that name no family; empty on a CAN line whose drives all name theirs
     std::uint32_t bitrate = 0;  ///< bit/s; 0: from the URI or the family's default
     std::map<std::string, std::string> options;
     LineTiming timing;  ///< "timing": {"reply_timeout_ms": ..., "poll_period_ms": ..., ...}
@@ -50,7 +49,7 @@ struct DriveSpec {
     std::string address;  ///< number or text in the document; text here
     PresenceRule presence = PresenceRule::automatic;
     std::map<std::string, std::string> options;
-    std::string description{};  ///< name of the maker's description (EDS, DCF) that is its catalogue; empty: none
+    std::string description{};  ///< name of the manufacturer's description (EDS, DCF) that is its catalogue; empty: none
     bool operator==(const DriveSpec&) const = default;
 };
 
@@ -59,26 +58,28 @@ struct AxisSpec {
     std::string drive;
     int channel = 1;                     ///< 1-based, within the drive
     int number = 0;                      ///< 1..1024: place in the register map
-    std::string group{};                 ///< the machine part that it belongs to, for people: "infeed"; at most 64 bytes; empty: none
-    std::string unit;                    ///< for people: "mm", "deg"; empty: increments
+    std::string group{};                 ///< the machine section that it belongs to, for the user: "infeed"; at most 64 bytes; empty: none
+    std::string unit;                    ///< for the user: "mm", "deg"; empty: increments
     double increments_per_unit = 1.0;    ///< > 0
     std::optional<double> position_min;  ///< software limits of the gateway, in `unit`
     std::optional<double> position_max;
     std::optional<double> velocity_max;  ///< unit/s, > 0
     std::optional<double> acceleration_max;
-    /// unit/s^2, > 0: the weakest ramp that its drive may brake with, for what is reckoned where the drive does not tell its own.
+    /// unit/s^2, > 0: the lowest deceleration that its drive may use, for calculations when the drive does not report its own.
     std::optional<double> deceleration_min{};
-    bool unread_statements = true;  ///< native statements and actions that may begin a motion that nobody can read beforehand are taken
-    AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command takes the axis for a while, and others are refused
-    StoredParameters stored_parameters = StoredParameters::ignore;  ///< what was written is compared when the drive answers, or written
-    FailSafe fail_safe;                                             ///< what happens when the client that commands it is lost
-    bool trend_on_disk = false;                                     ///< its trends outlive the gateway
+    bool unread_statements = true;  ///< native statements and actions that may begin a motion that cannot be determined beforehand are
+                                    ///< accepted
+    AuthorityMode authority_mode = AuthorityMode::free;  ///< "lease": a command reserves the axis for some time, and others are refused
+    StoredParameters stored_parameters = StoredParameters::ignore;  ///< whether written parameters are compared or written when the drive
+                                                                    ///< answers
+    FailSafe fail_safe;                                             ///< the action when the client that commands it is lost
+    bool trend_on_disk = false;                                     ///< its trends are kept over a restart of the gateway
     bool operator==(const AxisSpec&) const = default;
 };
 
-/// What reads of a unit 2..254 of the Modbus door show at addresses where nothing is mapped.
+/// The answer to reads of a unit 2..254 of the Modbus door at unmapped addresses.
 enum class MapGaps : std::uint8_t {
-    zero,   ///< 0, where the same request touches something that is mapped: clients that read in blocks need it
+    zero,   ///< 0, if the same request includes a mapped address: clients that read in blocks need this
     refuse  ///< exception 2 for the whole request
 };
 [[nodiscard]] std::string_view name_of(MapGaps gaps) noexcept;
@@ -92,27 +93,27 @@ struct Site {
     std::vector<AxisSpec> axes;
     std::shared_ptr<const std::vector<Mapping>> mappings;  ///< checked, in the order of the document; null: none
     [[nodiscard]] const std::vector<Mapping>& map() const noexcept;
-    std::vector<ProfileSpec> profiles;     ///< units that speak another device's language
-    std::vector<AssemblySpec> assemblies;  ///< EtherNet/IP instances of its own, beside those of axes and profiles
-    std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, where it is not as `[modbus] gaps` has it
+    std::vector<ProfileSpec> profiles;     ///< units with the registers of another device
+    std::vector<AssemblySpec> assemblies;  ///< EtherNet/IP instances of the site, in addition to those of axes and profiles
+    std::map<std::uint8_t, MapGaps> gaps;  ///< "modbus_units": by unit 2..254, if it differs from `[modbus] gaps`
 
-    /// By drive, where it is not its family's page: made by parse_site, a function of the document and the descriptions that it names.
+    /// By drive, if it differs from the family's catalogue: made by parse_site from the document and the descriptions that it names.
     std::map<std::string, std::shared_ptr<const Catalogue>, std::less<>> own_catalogues;
 
     [[nodiscard]] const LineSpec* line(std::string_view name) const noexcept;
     [[nodiscard]] const DriveSpec* drive(std::string_view name) const noexcept;
     [[nodiscard]] const AxisSpec* axis(std::string_view name) const noexcept;
-    /// A drive's own family, or its line's; empty if neither names one.
+    /// The family of the drive, or of its line; empty if neither names one.
     [[nodiscard]] std::string_view family_of(const DriveSpec& drive) const noexcept;
-    /// Families of a line without repeats: its own first, then its drives' in the order of the document.
+    /// The families of a line, each once: that of the line first, then those of its drives in the order of the document.
     [[nodiscard]] std::vector<std::string> families_on(const LineSpec& line) const;
 };
 
 struct SiteFault {
     std::string pointer;    ///< JSON pointer into the document: "/axes/2/number"
-    std::string text;       ///< what is wrong
-    std::string remedy;     ///< what to do
-    bool conflict = false;  ///< a place is taken: either of two entries must give way
+    std::string text;       ///< the fault
+    std::string remedy;     ///< the remedy
+    bool conflict = false;  ///< the place is in use: one of the two entries must change
 };
 
 struct FamilyEntry {
@@ -122,7 +123,7 @@ struct FamilyEntry {
 /// Looks a family up by name; an entry of nullptrs if there is none. Also lists the names for messages.
 struct Families {
     std::vector<FamilyEntry> entries;
-    std::shared_ptr<DescriptionShelf> descriptions{};  ///< that drives of a site may name; null: none
+    std::shared_ptr<DescriptionShelf> descriptions{};  ///< that drives of a site may name; nullptr: none
     [[nodiscard]] FamilyEntry find(std::string_view name) const noexcept;
     [[nodiscard]] std::string names() const;
 };
@@ -130,10 +131,10 @@ struct Families {
 /// Families that may share a CAN line.
 inline constexpr std::size_t most_families_on_a_line = 4;
 
-/// What crosses a line: by its URI, and where that is "twin", by its family and its option "kind". A line without a family is CAN there.
+/// The kind of a line: by its URI or, if that is "twin", by its family and its option "kind". A twin line without a family is CAN.
 [[nodiscard]] LineKind kind_of(const LineSpec& line, const Families& families);
 
-/// The catalogue of a drive of the site: its own, or its family's page, which outlives every site; null: there is no such family.
+/// The catalogue of a drive of the site: its own, or that of its family, which outlives every site; nullptr: the family does not exist.
 [[nodiscard]] std::shared_ptr<const Catalogue> catalogue_of(const Site& site, const DriveSpec& drive, const Families& families);
 
 /// Reads and checks a whole document. Unknown keys are faults. A site is returned only if there is no fault.

@@ -1,4 +1,3 @@
-// Site, checking: what lines, drives and axes say of each other.
 #include "gateway/site/site_check.hpp"
 
 #include <fmt/core.h>
@@ -22,7 +21,7 @@ std::string names_of(const std::vector<T>& list) {
     return s.empty() ? "none" : s;
 }
 
-/// A byte line carries one family, which it names; a CAN line several, if each says by which identifiers its frames are known.
+/// A byte line has one family, which it names; a CAN line may have several, if each states the identifiers of its frames.
 void check_families(const Site& site, const Families& families, std::vector<SiteFault>& faults) {
     for (std::size_t i = 0; i < site.lines.size(); ++i) {
         const auto& l = site.lines[i];
@@ -35,7 +34,7 @@ void check_families(const Site& site, const Families& families, std::vector<Site
     struct Known {
         const DriveSpec* drive;
         FamilyEntry entry;
-        std::vector<CanIdentifiers> identifiers;  // none: every frame
+        std::vector<CanIdentifiers> identifiers;  // empty: every frame
     };
     std::map<std::string, std::vector<Known>> on;
     for (std::size_t i = 0; i < site.drives.size(); ++i) {
@@ -96,7 +95,7 @@ void check_families(const Site& site, const Families& families, std::vector<Site
     }
 }
 
-/// Whether the family of a line speaks on a line of this kind.
+/// Whether the family of a line supports this kind of line.
 void check_kind(const LineSpec& l, std::size_t i, LineUri::Kind kind, const Family& family, std::vector<SiteFault>& faults) {
     if (kind == LineUri::Kind::twin) return;
     const bool is_can = kind == LineUri::Kind::can, is_dds = kind == LineUri::Kind::dds;

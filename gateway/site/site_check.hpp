@@ -1,5 +1,5 @@
-// Site, checking: what lines, drives and axes of a site say of each other. Each entry by itself was checked when it was read
-// (site_read.cpp), mappings, profiles and assemblies are checked where they are read.
+// Checks the relations between lines, drives and axes of a site. Single entries are checked when they are read (site_read.cpp); mappings,
+// profiles and assemblies where they are read.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace axisgate {
 
-/// Every fault with its place and what would be right, in the order of the document's lists.
+/// Every fault with its place and remedy, in the order of the document's lists.
 void check_relations(const Site& site, const Families& families, std::vector<SiteFault>& faults);
 
 }  // namespace axisgate

@@ -1,5 +1,5 @@
-// Site, reading: a document read whole and checked: each entry by itself, then what they say of each other.
-// In: JSON. Out: a site, or every fault with its place and what would be right. Never stops at the first fault.
+// Reads and checks a complete document: each entry by itself, then the relations between entries. All faults are collected, each with place
+// and remedy.
 #include "gateway/site/site.hpp"
 
 #include <fmt/core.h>
@@ -32,7 +32,7 @@ std::string read_name(DocumentFields& f, std::string_view example) {
     return name;
 }
 
-/// A heading for people: nothing but its length and its characters is judged.
+/// A heading for the user: only its length and its characters are checked.
 std::string read_group(DocumentFields& f) {
     std::string group = f.text("group", false, "infeed");
     const bool plain = std::ranges::none_of(group, [](unsigned char c) { return c < 0x20 || c == 0x7F; });
@@ -43,7 +43,7 @@ std::string read_group(DocumentFields& f) {
     return group;
 }
 
-/// Empty: left out. An empty text names no family.
+/// Empty: the member is missing. An empty text is not a family.
 std::string read_family(DocumentFields& f, std::string_view example) {
     std::string name = f.text("family", false, example);
     if (const auto* v = f.get("family"); v && v->is_string() && name.empty())
@@ -71,8 +71,8 @@ LineTiming read_timing(const json::value* v, const std::string& pointer, std::ve
     return m;
 }
 
-/// "manners" is the word of sites before "timing" was: it is read and never written; a member that both have is that of "manners", which
-/// only a client of then gives.
+/// Sites written before "timing" existed use "manners": it is read and never written. If a member is in both, that of "manners" counts,
+/// because only an old client writes it.
 LineTiming read_line_timing(DocumentFields& line, const std::string& pointer, std::vector<SiteFault>& faults) {
     const json::value* now = line.get("timing");
     const json::value* before = line.get("manners");
@@ -149,7 +149,7 @@ void read_units(const json::value* list, Site& site, std::vector<SiteFault>& fau
     }
 }
 
-/// The description that the drive names, if it is there; d.description is its name.
+/// The description that the drive names, if it exists; d.description is its name.
 std::shared_ptr<const Description> read_description(DocumentFields& f, DriveSpec& d, const Family* family, const Families& families) {
     if (!f.get("description")) return nullptr;
     d.description = f.text("description", false, "maker-model-1.eds");
@@ -198,7 +198,7 @@ PresenceRule read_presence(DocumentFields& f) {
     return PresenceRule::automatic;
 }
 
-/// The catalogue of a drive whose family makes one for each drive, from its description or its options.
+/// The catalogue of a drive whose family makes one per drive, from its description or its options.
 std::shared_ptr<const Catalogue> read_own_catalogue(DocumentFields& f, const DriveSpec& d, const FamilyEntry& family,
                                                     const std::shared_ptr<const Description>& description, const Families& families) {
     OwnCatalogue own;
@@ -218,7 +218,7 @@ DriveSpec read_drive(DocumentFields& f, Site& site, const Families& families) {
     d.line = f.text("line", true, "can0");
     const LineSpec* line = site.line(d.line);
     d.family = read_family(f, line && !line->family.empty() ? line->family : "uim342");
-    if (line && d.family == line->family) d.family.clear();  // the line's: it follows when the line's changes
+    if (line && d.family == line->family) d.family.clear();  // that of the line: it changes with the line
     const FamilyEntry family = families.find(site.family_of(d));
     d.address = read_address(f, family.family);
     d.presence = read_presence(f);
@@ -254,7 +254,7 @@ void check_limits(DocumentFields& f, const AxisSpec& a) {
     }
 }
 
-/// What an axis lets happen: statements that cannot be read, who may command it, and what becomes of stored parameters.
+/// The rules of an axis: statements that cannot be read, authority, and stored parameters.
 void read_rules(DocumentFields& f, AxisSpec& a) {
     if (const auto* word = f.get("unread_statements")) {
         const bool refuse = word->is_string() && word->get_string() == "refuse";
@@ -330,11 +330,11 @@ std::optional<Site> parse_site(const json::value& document, const Families& fami
     read_profiles(o.if_contains("profiles"), site, faults);
     read_assemblies(o.if_contains("assemblies"), site, faults);
     check_relations(site, families, faults);
-    // In their full form from here on: ids that were given, defaults that were chosen.
+    // In their full form from here on, with assigned ids and defaults.
     if (auto mappings = parse_mappings(*entries, site, families, faults))
         site.mappings = std::make_shared<const std::vector<Mapping>>(std::move(*mappings));
     check_profile_units(site, faults);
-    // Where the mappings have faults, what lies in a range is not known.
+    // If the mappings have faults, the content of a range is not known.
     if (faults.size() == before) check_assemblies(site, faults);
     if (faults.size() != before) return std::nullopt;
     return site;

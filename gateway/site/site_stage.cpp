@@ -1,5 +1,4 @@
-// Site stage: a step begins with begin_...() and counts when its storing is told; the difference is made entry by entry, by name.
-// In: sites, callers, times. Out: states, refusals, differences. Never reads a clock.
+// A step begins with begin_...() and is complete when its storage is reported. Differences are found entry by entry, by name.
 #include "gateway/site/site_stage.hpp"
 
 #include <fmt/core.h>

@@ -1,6 +1,5 @@
-// Site stage: a wanted site on its way: staged, applied on trial, then confirmed or taken back; and what it changes.
-// In: sites, who asks, times. Out: the state, refusals as text, when the trial ends. Pure: time is an argument.
-// Never puts a site in force and never stores anything: whoever holds it does, and tells it the outcome. Holds one site at most.
+// SiteStage is the state of a staged site: staged, applied on trial, then confirmed or rolled back; and the difference that it makes. The
+// time is an argument. It puts no site in force and stores nothing: its owner does, and reports the result. At most one site is staged.
 #pragma once
 
 #include <boost/json/array.hpp>
@@ -14,7 +13,7 @@
 
 namespace axisgate {
 
-/// Who, without the port that changes with each connection: "anna 192.0.2.7:5123" is "anna 192.0.2.7".
+/// The client without its port, which changes with each connection: "anna 192.0.2.7:5123" is "anna 192.0.2.7".
 [[nodiscard]] std::string identity_of(std::string_view who);
 
 class SiteStage {
@@ -26,29 +25,29 @@ public:
     [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
     [[nodiscard]] const Site& site() const noexcept { return site_; }
     [[nodiscard]] const std::string& by() const noexcept { return by_; }
-    /// Staged on this revision; the one that is taken back to while it is on trial.
+    /// The site was staged on this revision; during the trial, the revision for a roll back.
     [[nodiscard]] std::uint64_t base_revision() const noexcept { return base_revision_; }
     [[nodiscard]] std::int64_t confirm_by_unix_ns() const noexcept { return confirm_by_unix_ns_; }
-    /// The site may not be changed otherwise: one is on trial or on its way.
+    /// The site must not be changed in another way: a trial or a step of it is in progress.
     [[nodiscard]] bool busy() const noexcept { return state_ != State::none && state_ != State::staged; }
 
-    /// A staged site replaces the one staged before. Empty, or why not.
+    /// Replaces a site that was staged before. Returns an empty text, or why it is refused.
     [[nodiscard]] std::string stage(Site site, std::uint64_t base_revision, std::string_view who);
     [[nodiscard]] std::string discard();
-    /// Begins to apply. `revision`: in force now.
+    /// Begins to apply. `revision` is now in force.
     [[nodiscard]] std::string begin_apply(std::uint64_t revision, std::uint32_t confirm_within_s, std::int64_t now_unix_ns,
                                           std::string_view who);
-    /// The outcome: on trial, or for good (begun with 0 s); after a failure it is staged again.
+    /// The result: on trial, or permanent (begun with 0 s); after a failure the site is staged again.
     void applied(bool good);
     /// Whether this identity may confirm now.
     [[nodiscard]] std::string check_confirm(std::string_view who, std::int64_t now_unix_ns) const;
     void confirmed() { clear(); }
-    /// The trial is over unconfirmed: take it back now.
+    /// The trial has expired without a confirmation: it must be rolled back now.
     [[nodiscard]] bool expired(std::int64_t now_unix_ns) const noexcept {
         return state_ == State::applied && now_unix_ns >= confirm_by_unix_ns_;
     }
     [[nodiscard]] std::string begin_roll_back();
-    /// After a failure it is on trial still, and will be tried again from `again_unix_ns` on.
+    /// After a failure the trial continues, and the roll back is repeated from `again_unix_ns` on.
     void rolled_back(bool good, std::int64_t again_unix_ns);
 
 private:
@@ -63,7 +62,7 @@ private:
 };
 [[nodiscard]] std::string_view name_of(SiteStage::State state) noexcept;
 
-/// What of the site in force is the same in the next one and goes on undisturbed.
+/// The parts of the site in force that are equal in the next one and are not disturbed.
 struct KeptParts {
     const Site& old;
     const Site& next;
@@ -83,10 +82,10 @@ struct KeptParts {
     }
 };
 
-/// Entry by entry: {"kind": "added|removed|changed", "what": "lines/can0", "before": {}, "after": {}}; before or after null where there is
-/// none.
+/// Entry by entry: {"kind": "added|removed|changed", "what": "lines/can0", "before": {}, "after": {}}; before or after is null if it does
+/// not exist.
 [[nodiscard]] boost::json::array site_diff(const Site& from, const Site& to);
-/// Axes of `from` that lose their connection: their own place, their drive or their line changes or goes.
+/// The axes of `from` that lose their connection, because they, their drive or their line change or are removed.
 [[nodiscard]] std::vector<std::string> disturbed_axes(const Site& from, const Site& to);
 
 }  // namespace axisgate

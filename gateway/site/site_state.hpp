@@ -1,5 +1,5 @@
-// SiteState: a checked site that is in force, with the ids that its lines, drives and axes have in the running engine.
-// In: made by the engine when it puts a site in force. Out: shared with every reader. Never changed after that.
+// SiteState is a site in force, with the ids of its lines, drives and axes in the running engine. The engine makes it, and all readers
+// share it.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,17 @@
 
 namespace axisgate {
 
-/// A site in force: immutable, shared with every reader. Ids are those of the running engine.
+/// Never changed. Ids are those of the running engine.
 struct SiteState {
     Site site;
-    std::uint64_t revision = 0;      ///< counts up with each change; also the strong ETag of /site
+    std::uint64_t revision = 0;      ///< increased with each change; also the strong ETag of /site
     std::vector<AxisId> axis_ids;    ///< by index in site.axes
     std::vector<DriveId> drive_ids;  ///< by index in site.drives
     std::vector<LineId> line_ids;    ///< by index in site.lines
 };
 
-/// What `wanted` would be in place of `now`: who keeps its name keeps its id, as in the engine; who is new has one that nobody has yet.
+/// The state that `wanted` would have in place of `now`: an object with the same name keeps its id, as in the engine; a new object gets a
+/// new id.
 [[nodiscard]] SiteState as_if_in_force(const SiteState& now, Site wanted);
 
 }  // namespace axisgate

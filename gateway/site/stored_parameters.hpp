@@ -1,5 +1,4 @@
-// What becomes of parameters that were written through the gateway when their drive is found to have other values.
-// In: the word of a site. Out: the rule. Never a value.
+// The site's rule for parameters that were written through the gateway, if their drive is found to have other values.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +8,9 @@
 namespace axisgate {
 
 enum class StoredParameters : std::uint8_t {
-    ignore,   ///< the drive's own count, nobody looks
-    compare,  ///< they are read when the drive answers, and a difference is an event
-    write     ///< the same, and what differs is written, unless the axis moves
+    ignore,   ///< the drive's values count, without a comparison
+    compare,  ///< they are read when the drive answers, and a difference causes an event
+    write     ///< like compare, and values that differ are written, unless the axis moves
 };
 
 [[nodiscard]] constexpr std::string_view name_of(StoredParameters rule) noexcept {

@@ -1,6 +1,6 @@
-// Fuzz: the adapter of MACS controllers, through core/adapter.hpp: any commands, frames, times, losses and site changes, with twins behind
-// the wire. In: the fuzzer's bytes. Out: nothing; laws: tests/fuzz/adapter_laws.hpp, and that every frame sent is the SYNC, or a message to
-// a node of the line.
+// Fuzzes the adapter of MACS controllers through core/adapter.hpp, with any commands, frames, times, losses and site changes, and twins on
+// the line. The invariants are in tests/fuzz/adapter_laws.hpp; in addition, each frame sent must be SYNC or a message to a node of the
+// line.
 #include "adapters/cia402/fuzz/can_frames.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

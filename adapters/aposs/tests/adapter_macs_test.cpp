@@ -1,5 +1,5 @@
-// A MACS behind the adapter: two axes of one node, parameters by scope and axis, the guard of its EPROM, a node without CiA 402.
-// In: commands, a simulated controller on a simulated bus. Out: results, feedback, notices. Never sleeps.
+// A MACS behind the adapter, on a simulated bus: two axes of one node, parameters by scope and axis, the protection of its EPROM, a node
+// without CiA 402.
 #include "adapters/aposs/family.hpp"
 #include "adapters/aposs/tests/macs.hpp"
 #include "adapters/cia402/tests/line_bench.hpp"
@@ -93,7 +93,7 @@ TEST(ApossAdapter, AnErrorNumberOfTheManualIsToldAsThatNumber) {
     EXPECT_FALSE(b.of_axis[AxisId{1}].fault);
 }
 
-/// Answers for a node without a CiA 402 application: its profile's objects are not there.
+/// Answers for a node without a CiA 402 application: the profile's objects do not exist.
 struct Bare final : Twin {
     std::unique_ptr<Twin> inner = macs();
     void on_frame(const Frame& f, Instant now, Out& out) override {
@@ -133,7 +133,7 @@ TEST(ApossAdapter, AControllerWithoutCia402IsServedByItsParametersAlone) {
 }
 
 TEST(ApossAdapter, ASiteMaySayWhereTheParametersStand) {
-    Line b(macs(), {{"object_2200", "8960"}});  // whoever has his global parameters at 2300h
+    Line b(macs(), {{"object_2200", "8960"}});  // a drive with its global parameters at 2300h
     EXPECT_EQ(as_integer(b.read("I_PRGSTART").value), 1000) << "2300h:104 of this controller is VELKILIM";
     EXPECT_EQ(as_integer(b.read("CANBAUD").value), 0) << "and 2300h:102 JERKMIN3";
 }

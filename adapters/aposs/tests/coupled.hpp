@@ -1,5 +1,4 @@
-// A synchronisation by itself, for tests: a slave without lag, a master in whole quad counts, index pulses of both.
-// In: speeds, distances of markers, milliseconds. Out: where the slave is wanted. Never a controller around it.
+// A synchronisation without a controller, for tests: a slave without lag, a master in whole quad counts, index pulses of both.
 #pragma once
 
 #include <optional>
@@ -16,7 +15,7 @@ inline SyncParameters quick() {
     p.acceleration = p.deceleration = 1000;
     return p;
 }
-/// A slave without lag and a master at a constant speed; index pulses where they are asked for.
+/// A slave without lag and a master at a constant speed; index pulses if the test sets them.
 struct Coupled {
     SyncParameters p = quick();
     Synchronisation s;
@@ -35,7 +34,7 @@ struct Coupled {
         for (int i = 0; i < ms; ++i) {
             SyncInput in;
             in.slave = slave;
-            in.slave_marker = std::exchange(latched, std::nullopt);  // of the step before
+            in.slave_marker = std::exchange(latched, std::nullopt);  // of the previous step
             if (const auto m =
                     index_between(static_cast<double>(master), static_cast<double>(master + speed), static_cast<double>(marks_m)))
                 in.master_marker = static_cast<std::int64_t>(*m);

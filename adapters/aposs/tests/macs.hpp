@@ -1,5 +1,4 @@
-// What the tests of this family have in common: its catalogue, a simulated controller at node 5.
-// In: schema/families/aposs.json. Out: the catalogue, a twin. Never a second reading of either.
+// The family's catalogue (schema/families/aposs.json) and a simulated controller at node 5.
 #pragma once
 
 #include <cstdlib>

@@ -1,5 +1,4 @@
-// A simulated MACS at its wire, for the tests of its twin: parameters by number and axis, power, motion, the tester's hand, direct mode.
-// In: numbers. Out: what the controller says. Never sleeps.
+// A simulated MACS on the bus, for the tests of its twin: parameters by number and axis, power, motion, simulated hand, direct mode.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace axisgate::aposs::test {
 using namespace std::chrono_literals;
 using canopen::Abort;
 
-/// A MACS at its wire. Parameter n of axis k (from 0) is 2300h + k, sub n + 1.
+/// Parameter n of axis k (from 0) is 2300h + k, sub n + 1.
 struct Macs : cia402_drive::twin::test::Bench {
     Macs() : Bench(macs()) {}
     std::int64_t get(int n, int axis = 0) { return read(static_cast<std::uint16_t>(0x2300 + axis), static_cast<std::uint8_t>(n + 1)); }
@@ -43,7 +42,7 @@ struct Macs : cia402_drive::twin::test::Bench {
         (void)write(static_cast<std::uint16_t>(0x6040 + shift), 0, 0x3F, 2);
         (void)write(static_cast<std::uint16_t>(0x6040 + shift), 0, 0x0F, 2);
     }
-    /// EMCY of the node with this code since the last transfer.
+    /// The node has sent an EMCY with this code since the last transfer.
     bool reported(std::uint16_t code) const {
         return std::ranges::any_of(out.frames, [&](const auto& tx) {
             return tx.frame.id == 0x80u + node && tx.frame.size >= 2 && (tx.frame.storage[0] | tx.frame.storage[1] << 8) == code;
@@ -51,7 +50,7 @@ struct Macs : cia402_drive::twin::test::Bench {
     }
 };
 
-/// What the direct mode answers.
+/// The answer of the direct mode.
 inline std::string say(Macs& b, const std::string& line) {
     const std::string fault = b.twin->set_hand("direct", Value{line}, b.now, b.out);
     if (!fault.empty()) return fault;

@@ -1,5 +1,5 @@
-// An axis of the simulated MACS at its wire: direct mode, ramps, units, homing, limits, errors, current, masters and markers.
-// In: SDO, the tester's hand, time. Out: what the manual says. Never sleeps.
+// An axis of the simulated MACS on the bus: direct mode, ramps, units, homing, limits, errors, current, masters and markers. The expected
+// values are those of the manual.
 #include <tuple>
 
 #include "adapters/aposs/tests/macs_bench.hpp"
@@ -107,7 +107,7 @@ TEST(ApossTwin, ANegativeDirectionTurnsUserUnitsAndNoLimit) {
 TEST(ApossTwin, HomingTypesGoToTheirSwitchAndIndex) {
     struct Row {
         int type, velocity;
-        double zero;  // the input is low below 5000 and from 5600 on; an index each 2000
+        double zero;  // the input is low below 5000 and from 5600 on; an index pulse every 2000
     };
     for (const Row& row : {Row{1, 10, 5000}, Row{0, 10, 4000}, Row{3, 10, 5600}, Row{2, 10, 6000}}) {
         SCOPED_TRACE(row.type);
@@ -196,7 +196,7 @@ TEST(ApossTwin, AfterALimitErrorTheOtherDirectionIsFreeAndTheSameOneIsError98) {
     b.pass(3s);
     EXPECT_EQ(b.error(), 0);
     EXPECT_LT(b.position_of(0), 5000);
-    // Inside again: the next one is a limit error as the first was.
+    // Inside the limits again: the next error is a limit error, too.
     ASSERT_EQ(b.write(0x60FF, 0, 5000, 4), Abort::none);
     b.pass(6s);
     EXPECT_EQ(b.error(), 0x8612);
@@ -363,7 +363,7 @@ TEST(ApossTwin, MastersOfThreeKindsLeadTheSecondAxis) {
         EXPECT_EQ(say(b, line), line);
     b.pass(2s);
     EXPECT_NEAR(static_cast<double>(b.position_of(1) - first - 300), 1500, 20) << "the virtual master";
-    ASSERT_EQ(b.write(0x2200, 117, 100, 4), Abort::none);  // VMENCTYP: by axis 1, not before the next PULSVEL
+    ASSERT_EQ(b.write(0x2200, 117, 100, 4), Abort::none);  // VMENCTYP: from axis 1, in force from the next PULSVEL on
     b.pass(1s);
     EXPECT_NEAR(static_cast<double>(b.position_of(1) - first - 300), 2500, 20);
     EXPECT_EQ(say(b, "PULSVEL 0"), "PULSVEL 0");

@@ -1,5 +1,4 @@
-// The controller's own bus, as far as the manual has it: objects that coded parameters make, and control words of its drives.
-// In: statements of the direct mode, the tester's hand. Out: which objects there are, which word. Never a frame of that bus.
+// The controller's own bus, as far as the manual describes it: objects that coded parameters create, and control words of its drives.
 #include <gtest/gtest.h>
 
 #include "adapters/aposs/tests/macs_bench.hpp"
@@ -44,7 +43,7 @@ TEST(ApossBus, AutomaticObjectsStayUntilAnotherSetOrTheNextStart) {  // [L1552-1
     EXPECT_EQ(shown(b, "can_objects"), "DRIVETYPE x(2): PDO, SYNC") << "below 0: without guarding";
     ASSERT_EQ(say(b, "SET DRIVETYPE x(2) 0"), "SET DRIVETYPE x(2) 0");
     EXPECT_EQ(shown(b, "can_objects"), "none") << "another SET takes them away";
-    // What is stored is there after power-on.
+    // Stored values are in force after power-on.
     ASSERT_EQ(say(b, "SET ENCODERTYPE x(1) -101005"), "SET ENCODERTYPE x(1) -101005");
     ASSERT_EQ(b.saveprom(), Abort::none);
     b.off_and_on();
@@ -68,7 +67,7 @@ TEST(ApossBus, TheServostarHasItsWords) {  // [L1667-1682]
     EXPECT_EQ(seen(b, "drive_word"), 0x06) << "an error";
     b.hand("inject_error", Value{std::int64_t{0}});
     does("ERRCLR");
-    // With ERRCOND 4 it is a quick stop, and the way out of it is by ERRCOND 0.
+    // With ERRCOND 4 the stop is a quick stop, and it is left with ERRCOND 0.
     ASSERT_EQ(b.set(43, 4), Abort::none);
     does("MOTOR ON x(1)");
     EXPECT_EQ(seen(b, "drive_enabled"), 1);
@@ -110,7 +109,7 @@ TEST(ApossBus, TheControllerLeavesTheWordAloneWhereItIsTheApplications) {  // DR
         does("OUTDA x(1) 74711040");
         EXPECT_EQ(seen(b, "drive_word"), 0x0474) << "coast";
     }
-    // The other drives' words are not printed: none is made up.
+    // The control words of other drives are not printed, so none are sent.
     ASSERT_EQ(b.set(0, -2), Abort::none);
     does("MOTOR ON x(1)");
     EXPECT_EQ(seen(b, "drive_word"), -1);

@@ -1,5 +1,4 @@
-// Coded values of the simulated MACS: every digit and bit that the manual names, and the values that mean nothing.
-// In: numbers. Out: what they say. Never a range where a digit is meant.
+// Coded values of the simulated MACS: every digit and bit that the manual names, and values without a meaning.
 #include <gtest/gtest.h>
 
 #include "adapters/aposs/tests/macs.hpp"

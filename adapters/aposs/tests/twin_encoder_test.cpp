@@ -1,5 +1,4 @@
-// Encoders of the simulated MACS: sources that change, zeros, jumps of absolute ones, the two readings of a target window.
-// In: parameters, statements of the direct mode, the tester's hand, time. Out: positions and errors. Never sleeps.
+// Encoders of the simulated MACS: changes of the source, zeros, jumps of absolute encoders, the two readings of a target window.
 #include <gtest/gtest.h>
 
 #include "adapters/aposs/tests/macs_bench.hpp"
@@ -17,7 +16,7 @@ void does(Macs& b, std::initializer_list<const char*> lines) {
         ASSERT_EQ(say(b, line), line);
 }
 
-/// [L5834-5887]: axis 1's encoder is the master of axis 2, and an origin command is for the axis alone, or for the encoder.
+/// [L5834-5887]: the encoder of axis 1 is the master of axis 2, and an origin command changes the axis only, or the encoder.
 TEST(ApossEncoder, SoftZeroOfTheManual) {
     for (const bool soft : {true, false}) {
         SCOPED_TRACE(soft);
@@ -54,7 +53,7 @@ TEST(ApossEncoder, SoftZeroOfAMaster) {  // "If MENCCONTROL was set of x(2) to 2
         b.pass(5s);
         EXPECT_EQ(number_of(b, "MAPOS x(2)"), 100);
     }
-    // An own zero of a simulated master and of an own encoder, with a slave in gear that does not move for it.
+    // The zero of a simulated master and of an own encoder, with a coupled slave that must not move.
     Macs b;
     b.enable_axis(1);
     does(b, {"SET MENCODERTYPE x(2) 6", "SYNCP x(2)", "SYSVAR[4105] x(2) = 1"});
@@ -82,7 +81,7 @@ TEST(ApossEncoder, AnotherMasterIsAJumpUnlessItIsSoft) {  // MENCCONTROL bit 0 [
         EXPECT_EQ(number_of(b, "MAPOS x(2)"), soft ? 3'000 : 0) << "a linked command value never jumps [L4800]";
         does(b, {"SET MENCODERTYPE x(2) 0"});
         EXPECT_EQ(number_of(b, "MAPOS x(2)"), 3'000);
-        // In gear the slave goes after the jump.
+        // A coupled slave follows the jump.
         b.enable_axis(1);
         does(b, {"SYNCP x(2)", "SET MENCODERTYPE x(2) 6"});
         b.pass(5s);
@@ -135,7 +134,7 @@ TEST(ApossEncoder, JumpsOfALinearAbsoluteEncoderAreMadeGoodAHundredTimes) {  // 
 
 TEST(ApossEncoder, ATargetIsReachedByTwoReadings) {  // TESTWIN, TESTTIM, TESTVAL [L2044-2077, L2856-2900]
     constexpr int never = -1;
-    // ms until it is reached: a window of 50 qc around a shaft that swings by so many qc in 7 ms.
+    // ms until the target is reached: a window of 50 qc, and a shaft that oscillates by `swing` qc with a period of 7 ms.
     const auto after = [](int testwin, int testtim, int testval, int swing) {
         Macs b;
         EXPECT_EQ(b.set(8, testwin), Abort::none);
@@ -152,7 +151,7 @@ TEST(ApossEncoder, ATargetIsReachedByTwoReadings) {  // TESTWIN, TESTTIM, TESTVA
         EXPECT_EQ(b.error(), 0) << "to be stuck is no error [L2060]";
         return never;
     };
-    const int end = after(0, 7, 1, 40);  // no window: the command position alone
+    const int end = after(0, 7, 1, 40);  // no window: only the command position
     ASSERT_GT(end, 50);
     EXPECT_NEAR(after(50, 7, 1, 0), end + 7, 1) << "two readings of a shaft that stands";
     EXPECT_NEAR(after(50, 7, 1, 40), end + 7, 1) << "and one swing apart they are the same, too";
@@ -161,7 +160,7 @@ TEST(ApossEncoder, ATargetIsReachedByTwoReadings) {  // TESTWIN, TESTTIM, TESTVA
     EXPECT_NEAR(after(50, 3, 0, 40), end + 3, 1) << "TESTVAL 0: the time within the window alone, as CANopen has it";
     EXPECT_GE(after(30, 7, 1, 40), end + 7) << "read once it is in the window";
 
-    // A shaft that is held outside it is not reached either.
+    // A shaft that is held outside the window does not reach it either.
     Macs stuck;
     ASSERT_EQ(stuck.set(8, 10), Abort::none);
     ASSERT_EQ(stuck.set(24, 5), Abort::none);

@@ -1,5 +1,5 @@
-// Worked examples of the manual that other tests do not play: scale factors, homing formulas, choice of a program, gears, SYNC.
-// In: the numbers that are printed, errata applied. Out: what the controller makes of them. Never a formula of the twin's own.
+// Worked examples of the manual that other tests do not cover: scale factors, homing formulas, selection of a program, gears, SYNC. The
+// expected numbers are those that the manual prints, with errata applied.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -50,7 +50,7 @@ TEST(ApossExamples, GearsOfTheSyncFactors) {  // [L3936-3970]: the master twice 
         b.pass(15s);
         EXPECT_EQ(b.position_of(0), row.master);
         EXPECT_NEAR(static_cast<double>(b.position_of(1)), static_cast<double>(row.slave), 1);
-        // With a negative MENCODER its place is shown in those units [L3300].
+        // With a negative MENCODER the position is shown in those units [L3300].
         ASSERT_EQ(b.set(30, -500, 1), Abort::none);
         EXPECT_EQ(say(b, "MAPOS x(2)"), "MAPOS x(2): " + std::to_string(row.slave));
     }
@@ -69,7 +69,7 @@ TEST(ApossExamples,
     EXPECT_EQ(b.read(0x609A), 50'000) << "DFLTACC is 50";
 }
 
-TEST(ApossExamples, FeedForwardOfAnAmplifier) {  // FFVEL = 1000 * 1400 / 1600 [L3518-3527]: an eighth of the lag is left
+TEST(ApossExamples, FeedForwardOfAnAmplifier) {  // FFVEL = 1000 * 1400 / 1600 [L3518-3527]: one eighth of the lag remains
     const auto lag = [](std::int64_t ffvel) {
         Macs b;
         EXPECT_EQ(b.set(1, 1'400), Abort::none);
@@ -119,8 +119,8 @@ TEST(ApossExamples, PrgparDecidesWhichProgramFollows) {  // SET PRGPAR 5 in a pr
     EXPECT_EQ(seen(b, "program_number"), -1) << "an aborted one has no successor";
 }
 
-/// CURKPROP, CURKINT [L5304-5372]: beta 0.2, 125 us, 24 V, MACS4-DC3, 1 mH, 1 Ohm; ku is 2^-27 (E-24). They are computed by who tunes:
-/// what comes out is what the parameters take.
+/// CURKPROP, CURKINT [L5304-5372]: beta 0.2, 125 us, 24 V, MACS4-DC3, 1 mH, 1 Ohm; ku is 2^-27 (E-24). The user calculates them for tuning;
+/// the parameters must accept the results.
 TEST(ApossExamples, GainsOfTheCurrentLoop) {
     const double beta = 0.2, ts = 0.000125, u = 24, kc = 3'495, l = 0.001, r = 1, ku = std::ldexp(1, -27);
     const double w = beta * M_PI / (2 * ts);

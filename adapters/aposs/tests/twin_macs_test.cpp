@@ -1,5 +1,5 @@
-// The simulated MACS at its wire: parameters with their births and deaths, scopes, computed values, homing, limits, errors, gear.
-// In: SDO, the tester's hand, time. Out: what the manual says. Never sleeps.
+// The simulated MACS on the bus: the life cycle of parameters, scopes, computed values, homing, limits, errors, gear. The expected values
+// are those of the manual.
 #include "adapters/aposs/tests/macs_bench.hpp"
 
 namespace axisgate::aposs::test {
@@ -162,7 +162,7 @@ TEST(ApossTwin, InElectronicGearTheSecondAxisFollowsTheFirst) {
     EXPECT_NE(b.twin->set_hand("gear", Value{std::string("position")}, b.now, b.out), "") << "the second axis is off";
     ASSERT_EQ(b.set(49, 2, 1), Abort::none);    // SYNCFACTM
     ASSERT_EQ(b.set(50, 3, 1), Abort::none);    // SYNCFACTS
-    ASSERT_EQ(b.set(34, 100, 1), Abort::none);  // DFLTACC: as its master accelerates, three half times
+    ASSERT_EQ(b.set(34, 100, 1), Abort::none);  // DFLTACC: the acceleration of its master, times three halves
     b.enable_axis(0);
     b.enable_axis(1);
     b.pass(10ms);
@@ -195,7 +195,7 @@ TEST(ApossTwin, ANegativeFactorTurnsTheSlaveAndWhatVelocityGearLosesIsLost) {
     b.go(0, 1000);
     b.pass(2s);
     EXPECT_EQ(b.position_of(1), -1000);
-    ASSERT_EQ(b.set(1, 1, 1), Abort::none);  // one turn a minute: 2000 qc in 60 s
+    ASSERT_EQ(b.set(1, 1, 1), Abort::none);  // one turn per minute: 2000 qc in 60 s
     b.go(0, 3000);
     b.pass(2s);
     const auto behind = b.position_of(1);

@@ -1,5 +1,4 @@
-// How a synchronisation with markers begins and what it watches before: SYNCMSTART 7 and SYNCMFPAR 64 of the simulated MACS.
-// In: a master in whole quad counts, markers, milliseconds. Out: the way of the slave, flags. Never a controller around it.
+// The start of a synchronisation with markers: SYNCMSTART 7 and SYNCMFPAR 64 of the simulated MACS, without a controller.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 namespace axisgate::aposs::test {
 namespace {
 
-/// Its markers are known: the slave stands 150 qc behind one, the master's come at multiples of 500.
+/// Its markers are known: the slave stands 150 qc after one, the master's markers are at multiples of 500.
 struct Approaching : Coupled {
     Approaching() {
         p.start = 7;
@@ -30,7 +29,7 @@ struct Approaching : Coupled {
         in.slave_marker = first_s;
         s.begin(SyncMode::marker, p, in, slave, 0);
     }
-    /// Until the curve has ended: the most acceleration and jerk on the way, and how far the master went.
+    /// Until the end of the curve: the highest acceleration and jerk, and the way of the master.
     struct Way {
         double acceleration = 0, jerk = 0;
         int stood = 0, ms = 0;
@@ -41,7 +40,7 @@ struct Approaching : Coupled {
         for (; w.ms < most_ms && s.approaches(); ++w.ms) {
             const double next = pass(1), now_v = next - at, now_a = now_v - v;
             if (next == 0) ++w.stood;
-            if (w.stood < w.ms) {  // the last step goes on with the master
+            if (w.stood < w.ms) {  // the last step continues with the master
                 w.acceleration = std::max(w.acceleration, std::fabs(now_a));
                 w.jerk = std::max(w.jerk, std::fabs(now_a - a));
             }
@@ -62,7 +61,7 @@ TEST(ApossStart, APolynomialReachesTheMasterExactlyInAMarker) {  // SYNCMSTART 7
     EXPECT_NEAR(r.phase(), 0, 1e-6);
     EXPECT_LE(std::fmod(static_cast<double>(r.master), 500), 10) << "and with the master at a marker";
     EXPECT_LE(w.acceleration, 0.05 * 1.05) << "ACC";
-    // 10 qc/ms at 0.05 qc/ms^2 by a curve whose peak is half more than its mean: 300 ms, 6 markers of 50 ms and the rest of one.
+    // 10 qc/ms at 0.05 qc/ms^2 with a curve whose peak is 1.5 times its mean: 300 ms, 6 markers of 50 ms and a part of one.
     EXPECT_GE(w.ms - w.stood, 300);
     EXPECT_LE(w.ms - w.stood, 420);
     r.pass(2'000);
@@ -114,7 +113,7 @@ TEST(ApossStart, WithoutASteadyMasterItIsLeftToFive) {
         changes.pass(1);
     ASSERT_TRUE(changes.s.approaches()) << "under way";
     changes.pass(20);
-    changes.speed = 12;  // a fifth more
+    changes.speed = 12;  // 20 % more
     changes.pass(45);
     EXPECT_FALSE(changes.s.approaches()) << "more than a tenth since it began, by the filter of 50 ms";
     changes.pass(3'000);
@@ -123,7 +122,7 @@ TEST(ApossStart, WithoutASteadyMasterItIsLeftToFive) {
     little.begin();
     for (int i = 0; i < 500 && little.slave == 0; ++i)
         little.pass(1);
-    little.speed = 11;  // less than a tenth
+    little.speed = 11;  // less than 10 %
     little.master -= 1;
     EXPECT_LT(little.arrive().ms, 600);
     EXPECT_NEAR(little.phase(), 0, 12) << "it is by the master's way, not by time";
@@ -192,7 +191,7 @@ TEST(ApossStart, TheControllerRemembersItsMarkers) {
     b.pass(200ms);
     ASSERT_EQ(say(b, "SYNCM x(2)"), "SYNCM x(2)");
     b.pass(3s);
-    // Where the slave's shaft has an index, the master's has one.
+    // The index pulses of slave and master coincide.
     const auto phase = std::remainder(static_cast<double>(b.position_of(1) - b.position_of(0)), 2'000);
     EXPECT_NEAR(phase, 0, 60) << "what the loop lags";
     EXPECT_NE(say(b, "SYNCSTAT x(2)").find("ACCURACY"), std::string::npos);

@@ -1,5 +1,5 @@
-// Synchronisation of the simulated MACS by itself: gear, offsets, filters, markers, windows, their counts, as the manual's formulas have
-// it. In: a master in whole quad counts, markers, milliseconds. Out: where the slave is wanted. Never a controller around it.
+// Synchronisation of the simulated MACS without a controller: gear, offsets, filters, markers, windows and their counts. The expected
+// values follow from the manual's formulas.
 #include <gtest/gtest.h>
 
 #include "adapters/aposs/tests/coupled.hpp"
@@ -123,7 +123,7 @@ TEST(ApossSync, TheVelocityFilterHasItsTableAndItsSign) {  // [L4668-4730]
             EXPECT_EQ(velocity_filter_us(time, counts), us) << counts;
     EXPECT_EQ(velocity_filter_us(-100'000, 500), 100'000);
     EXPECT_EQ(velocity_filter_us(0, 4000), 2000) << "another resolution by the formula behind the table (E-36)";
-    // Positive: SYNCV alone. Cmdvel = Old + (Act - Old) * 1 ms / tau.
+    // Positive: only SYNCV. Cmdvel = Old + (Act - Old) * 1 ms / tau.
     Coupled v;
     v.p.velocity_time = 10'000;
     v.speed = 0;
@@ -171,7 +171,7 @@ TEST(ApossSync, MarkersBringTheSlaveOntoTheMaster) {
         int start;
         double low, high;  // of the first correction
     };
-    // The slave's markers come 200 qc of its way after the master's: leading goes forward, subsequent back.
+    // The slave's markers come 200 qc of its way after the master's: leading moves forward, subsequent back.
     for (const Row& row : {Row{0, 0, 500}, Row{1, -500, 0}, Row{3, 0, 500}, Row{4, -500, 0}, Row{5, -250, 250}, Row{6, -500, 500}}) {
         SCOPED_TRACE(row.start);
         Coupled r;
@@ -185,7 +185,7 @@ TEST(ApossSync, MarkersBringTheSlaveOntoTheMaster) {
         const double shift = r.slave - (static_cast<double>(r.master) - 13);
         EXPECT_GE(shift, row.low - 20);
         EXPECT_LE(shift, row.high + 20);
-        // In phase: the slave's markers at 200 + 500 k come when the master is at 500 j.
+        // In phase: the slave's marker at 200 + 500 k coincides with the master at 500 j.
         const double phase = std::remainder((r.slave - 200) - static_cast<double>(r.master), 500);
         EXPECT_NEAR(phase, 0, 20);
         EXPECT_TRUE(r.s.status().accuracy);
@@ -225,7 +225,7 @@ TEST(ApossSync, AMarkerOutsideItsWindowCountsNothing) {  // 30000 +/- 1000 [L503
         EXPECT_EQ(s.status().master_window, !accepted);
         s.clear_window_flags();
         EXPECT_FALSE(s.status().master_window);
-        p.window_m = 0;  // changes count at once
+        p.window_m = 0;  // changes are in force at once
         in.master = in.master_marker.emplace(90'000);
         (void)s.step(p, in);
         EXPECT_FALSE(s.status().master_window);
@@ -268,7 +268,7 @@ TEST(ApossSync, ReadyAndFaultCountEvaluations) {
         (void)s.step(p, in);
         return s.status();
     };
-    p.accuracy = 1'000'000;  // only the next SYNC command has it [L4176]
+    p.accuracy = 1'000'000;  // in force from the next SYNC command on [L4176]
     EXPECT_FALSE(evaluate(51).accuracy);
     EXPECT_TRUE(evaluate(51).fault) << "SYNCFAULT times inaccurate";
     EXPECT_TRUE(evaluate(50).accuracy);
@@ -293,7 +293,7 @@ TEST(ApossSync, TheMarkerFilterHasTheFormulasOfTheManual) {  // [L2490-2602]
     EXPECT_NEAR(a.distance(), 501, 1e-9) << "at least 100 markers";
     EXPECT_NEAR(a.gear_correction(500), (500.0 - 501) / 501, 1e-12);
     EXPECT_NEAR(a.deviation(), 100 - 100.0 / 13, 1e-9) << "the sum without its filtered part";
-    // A single marker that comes late moves the slave far less than without the filter.
+    // A single late marker moves the slave far less than without the filter.
     double moved[2] = {};
     for (const int filtered : {0, 1}) {
         Synchronisation s;

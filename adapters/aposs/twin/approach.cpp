@@ -1,14 +1,13 @@
-// Approach: when the curve can begin, and the curve.
-// In: places, velocities. Out: command positions. What the manual leaves open is decided in E-79.
+// The manual leaves details open; they are decided in E-79.
 #include "adapters/aposs/twin/approach.hpp"
 
 namespace axisgate::aposs {
 namespace {
-constexpr double near_zero = 0.02;  ///< qc/ms: one quad count in the time of the least filter
-constexpr double most_markers = 3;  ///< so long it waits; usually it begins within two
+constexpr double near_zero = 0.02;  ///< qc/ms: one quad count in the time of the smallest filter
+constexpr double most_markers = 3;  ///< longest wait; usually the curve begins within two
 }  // namespace
 
-/// Velocity by 3s^2 - 2s^3 from one speed to the other, whose way is the mean of both; what is left of a marker by 10s^3 - 15s^4 + 6s^5.
+/// The velocity changes by 3s^2 - 2s^3, over the way of the mean velocity; the remaining distance to the marker by 10s^3 - 15s^4 + 6s^5.
 double Approach::along(double s) const {
     const double s3 = s * s * s, s4 = s3 * s;
     return from_ + time_ * (from_velocity_ * s + gain_ * (s3 - s4 / 2)) + rest_ * (10 * s3 - 15 * s4 + 6 * s4 * s);
@@ -34,17 +33,17 @@ double Approach::step(const ApproachMaster& to, const ApproachLimits& limits, co
         return in.command + in.velocity;
     }
     if (share < 1) return along(std::max(0.0, share));
-    phase_ = Phase::arrived;  // the last step ends beyond the marker: there it goes on with the master
+    phase_ = Phase::arrived;  // the last step ends after the marker and continues with the master
     return along(1) + (share - 1) * master_way_ * to.gear;
 }
 
-/// It begins where the way that its speeds give it ends at a marker when the master is at one.
+/// Begins where the way of the present speeds ends at a marker when the master is at a marker.
 void Approach::start(const ApproachMaster& to, const ApproachLimits& limits, const ApproachInput& in) {
     const double goal = speed_ * to.gear, gain = goal - in.velocity, change = std::fabs(gain);
     double least = limits.acceleration > 0 ? 1.5 * change / limits.acceleration : 0;
     if (limits.jerk > 0) least = std::max(least, std::sqrt(6 * change / limits.jerk));
     least = std::max(least, 1.0);
-    // Way of the master to the marker ahead of it, and further ones.
+    // The way of the master to the next marker, and to further ones.
     const double side = std::copysign(1.0, speed_), past = std::fmod((in.master - *in.master_marker) * side, to.pulse);
     const double ahead = to.pulse - (past < 0 ? past + to.pulse : past);
     const double whole = std::max(0.0, std::ceil((least * std::fabs(speed_) - ahead) / to.pulse));

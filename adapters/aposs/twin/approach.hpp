@@ -1,6 +1,6 @@
-// Approach of SYNCMSTART 7: a polynomial of fifth order that brings the slave to its marker when the master is at one [L4425-4446].
-// In: markers that are known, both velocities, one step each ms. Out: command positions of the slave; whether it has arrived, or whether
-// SYNCMSTART 5 has to do it. Never faster than VEL nor harder than ACC and the jerk that are given. Units: qc, ms.
+// Approach of SYNCMSTART 7: a polynomial of fifth order that brings the slave to its marker when the master is at one [L4425-4446]. It uses
+// known markers and both velocities, one step per ms, and never exceeds the given VEL, ACC and jerk. If it is not possible, SYNCMSTART 5 is
+// used. Units: qc, ms.
 #pragma once
 
 #include <algorithm>
@@ -10,25 +10,25 @@
 
 namespace axisgate::aposs {
 
-/// The way to the nearest of places that are `cycle` apart; 0: there is one alone.
+/// The way to the nearest of equal places with the distance `cycle`; 0: there is only one place.
 [[nodiscard]] inline double nearest(double way, double cycle) { return cycle > 0 ? way - cycle * std::round(way / cycle) : way; }
-/// What is left of a way after whole cycles, with its sign.
+/// The remainder of a way after complete cycles, with its sign.
 [[nodiscard]] inline double within_cycle(double way, double cycle) { return cycle > 0 ? std::fmod(way, cycle) : way; }
 
 struct ApproachMaster {
     double gear = 1;        ///< SYNCFACTS / SYNCFACTM
     double pulse = 500;     ///< SYNCMPULSM, qc of the master
-    double cycle = 500;     ///< between two places of the slave that are as good: SYNCMPULSS times SYNCMARKS
+    double cycle = 500;     ///< distance of equivalent places of the slave: SYNCMPULSS times SYNCMARKS
     double filter_ms = 50;  ///< of the master's velocity: SYNCVFTIME, at least 50 ms
 };
 struct ApproachLimits {
     double velocity = 0, acceleration = 0;  ///< VEL, ACC
-    double jerk = 0;                        ///< 0: none is set
+    double jerk = 0;                        ///< 0: not set
 };
 struct ApproachInput {
-    double master = 0, way = 0;                         ///< place, and what it went in this ms
-    std::optional<double> master_marker, slave_marker;  ///< the last ones known; the slave's with SYNCPOSOFFS
-    double command = 0, velocity = 0;                   ///< of the slave before this ms
+    double master = 0, way = 0;                         ///< position, and its change in this ms
+    std::optional<double> master_marker, slave_marker;  ///< the last known markers; the slave's includes SYNCPOSOFFS
+    double command = 0, velocity = 0;                   ///< of the slave at the end of the previous ms
 };
 
 class Approach {
@@ -40,7 +40,7 @@ public:
     void shift_master(double by) { begun_at_ -= by; }
     [[nodiscard]] bool active() const noexcept { return phase_ == Phase::waits || phase_ == Phase::runs; }
     [[nodiscard]] bool arrived() const noexcept { return phase_ == Phase::arrived; }
-    /// One millisecond; it is for SYNCMSTART 5 if it is neither active nor arrived then.
+    /// One millisecond. If it is then neither active nor arrived, SYNCMSTART 5 applies.
     double step(const ApproachMaster& to, const ApproachLimits& limits, const ApproachInput& in);
 
 private:
@@ -51,7 +51,7 @@ private:
     Phase phase_ = Phase::none;
     double speed_ = 0, waited_ = 0;  ///< of the master, filtered; ms
     bool seen_ = false;
-    // the curve: by the master's way, so that a master that is a little slower or faster is met at its marker all the same
+    // the curve as a function of the master's way, so that the marker is met even if the master's speed changes slightly
     double begun_speed_ = 0, begun_at_ = 0, master_way_ = 0, from_ = 0, time_ = 0, from_velocity_ = 0, gain_ = 0, rest_ = 0;
 };
 

@@ -1,5 +1,4 @@
-// MacsAxis: parameters to objects, starts, limits, homing.
-// In: writes, milliseconds. Out: what the servo may do. PID and plant are one lag that KPROP makes smaller: plausible, not measured (E-17).
+// PID controller and mechanics are one lag that decreases with KPROP: plausible, not measured (E-17).
 #include "adapters/aposs/twin/axis.hpp"
 
 #include <algorithm>
@@ -12,7 +11,7 @@ namespace {
 using cia402_drive::twin::State;
 constexpr std::int64_t mlong = 1'073'741'823;
 constexpr std::int64_t corrected_readings = 100;  ///< of ENCODERTYPE 3 and 4, one each ms
-constexpr double lag_of_gain = 60;                ///< ms that the shaft is behind with KPROP 1
+constexpr double lag_of_gain = 60;                ///< ms of lag of the shaft with KPROP 1
 double real(std::int64_t v) { return static_cast<double>(v); }
 }  // namespace
 
@@ -24,7 +23,7 @@ MacsAxis::MacsAxis(const Objects& objects, canopen::Dictionary& dictionary, Term
       base_(static_cast<std::uint16_t>(per_axis * axis)),
       travel_(travel),
       servo_(dictionary, travel, static_cast<std::uint16_t>(per_axis * axis)) {
-    servo_.set_watch(std::chrono::milliseconds(20 * axes));  // each axis is looked at in turn, every 20 ms [L6010]
+    servo_.set_watch(std::chrono::milliseconds(20 * axes));  // the axes are checked in turn, every 20 ms [L6010]
 }
 
 std::int64_t MacsAxis::value(std::string_view id) const {
@@ -57,13 +56,13 @@ void MacsAxis::settle(bool defaults) {
     const double per_turn = real_of("ENCODER") * (encoder.absolute() ? 1 : 4);
     const double ramp = std::max(1.0, real_of("RAMPMIN")), res = std::max(1.0, real_of("VELRES"));
     const double velocity = std::max(1.0, real_of("VELMAX") * per_turn / 60), acceleration = std::max(1.0, velocity / ramp * 1000);
-    // Whole numbers, truncated (E-70).
+    // Integers, truncated (E-70).
     const auto qc = static_cast<std::int64_t>(real_of("VELMAX") * per_turn * 65536 / 60000);
     set("VELMAXQC", std::clamp<std::int64_t>(qc, 1, mlong));
     set("ACCMAXQC", std::clamp<std::int64_t>(qc / static_cast<std::int64_t>(ramp), 1, mlong));
 
-    // User units: qc = UU * FEEDREV * POSFACT_Z * POSENCQC / (FEEDDIST * POSFACT_N * POSENCREV) [L6037-6140]; a sign of POSDRCT turns
-    // them and nothing that is in qc.
+    // User units: qc = UU * FEEDREV * POSFACT_Z * POSENCQC / (FEEDDIST * POSFACT_N * POSENCREV) [L6037-6140]; a sign of POSDRCT inverts
+    // user units and nothing in qc.
     put(0x608F, 1, real_of("POSENCQC")), put(0x608F, 2, real_of("POSENCREV"));
     put(0x6091, 1, real_of("POSFACT_Z")), put(0x6091, 2, real_of("POSFACT_N"));
     put(0x6092, 1, real_of("FEEDDIST")), put(0x6092, 2, real_of("FEEDREV"));
@@ -80,8 +79,8 @@ void MacsAxis::settle(bool defaults) {
         put(0x6083, 0, std::max(1.0, acceleration * unit * real_of("DFLTACC") / res));
         put(0x6084, 0, std::max(1.0, acceleration * unit * real_of("DFLTACC") / res));
     }
-    // Form of the ramps; the jerks are the most acceleration in so many ms each, and 0 is that of JERKMIN [L5640-5690]. The plan under way
-    // is not made anew: the next motion command has them.
+    // Shape of the ramps. A jerk is the maximum acceleration divided by a number of ms; 0 means that of JERKMIN [L5640-5690]. The motion in
+    // progress does not change; the next motion command uses the new values.
     const auto type = value("RAMPTYPE");
     const double jerk = real_of("JERKMIN");
     put(0x6086, 0, type == 1 ? 1 : type == 2 && jerk > 0 ? 3 : 0);
@@ -94,17 +93,17 @@ void MacsAxis::settle(bool defaults) {
 
     const double home = std::max(1.0, velocity * unit * std::fabs(real_of("HOME_VEL")) / res);
     put(0x6099, 1, home);
-    put(0x6099, 2, std::max(1.0, home / 4));  // ours: the fraction is not printed (E-18)
+    put(0x6099, 2, std::max(1.0, home / 4));  // a choice: the fraction is not printed (E-18)
     put(0x609A, 0, std::max(1.0, acceleration * unit * std::min(real_of("HOME_RAMP"), real_of("DFLTACC")) / res));
     put(0x607C, 0, real_of("HOME_OFFSET") * unit);
     put(0x6065, 0, real_of("POSERR") * unit);
     put(0x6066, 0, real_of("POSERRTIME"));
-    // TESTWIN 0: reached is where the command position is [L2050].
+    // TESTWIN 0: the target is reached when the command position is there [L2050].
     const auto window = value("TESTWIN");
     (void)d_.set({static_cast<std::uint16_t>(0x6067 + base_), 0},
                  Value{window == 0 ? std::int64_t{0xFFFFFFFF} : static_cast<std::int64_t>(std::llround(real(window) * unit))});
     put(0x6068, 0, window == 0 ? 0 : real_of("TESTTIM"));
-    // With TESTVAL two readings, TESTTIM apart; without it, as CANopen has it, the time within the window [L2050-2077, L2856-2900].
+    // With TESTVAL two readings with the interval TESTTIM; without it the time within the window, as in CANopen [L2050-2077, L2856-2900].
     const bool reads = window > 0 && value("TESTTIM") > 0 && value("TESTVAL") > 0;
     servo_.reach_by_readings(reads ? std::optional(real_of("TESTVAL")) : std::nullopt);
     const auto condition = value("ERRCOND");
@@ -129,10 +128,10 @@ SyncParameters MacsAxis::sync_parameters() const {
     p.velocity_time = value("SYNCVFTIME"), p.velocity_limit = value("SYNCVFLIMIT"), p.velocity_relation = value("SYNCVELREL");
     p.feed_forward = value("SYNCFFVEL"), p.type = value("SYNCTYPE"), p.resolution = value("MENCODER");
     p.reverse = revers_of(value("REVERS")).value_or(ReversCode{}).mode;
-    const auto ramps = servo_.units().ramps();  // VEL, ACC, DEC; the form of the ramps is not for SYNCx [L3345]
+    const auto ramps = servo_.units().ramps();  // VEL, ACC, DEC; the shape of the ramps does not apply to SYNCx [L3345]
     p.velocity = ramps.velocity / 1000;
     p.acceleration = ramps.up / 1e6, p.deceleration = ramps.down / 1e6;
-    if (const auto ms = value("JERKMIN"); ms > 0)  // the most acceleration in so many ms [L5640]
+    if (const auto ms = value("JERKMIN"); ms > 0)  // the maximum acceleration divided by this number of ms [L5640]
         p.jerk = real(value("ACCMAXQC")) / 65536 / real(ms);
     return p;
 }
@@ -160,7 +159,7 @@ bool MacsAxis::written(canopen::Address a, Instant now) {
         const auto cw = static_cast<unsigned>(of(0x6040));
         const bool starts = (cw & 0x1Fu) == 0x1Fu && of(0x6060) == 1;
         ends = (cw & 0x10Fu) != 0x0Fu || starts;
-        if (servo_.state() == State::fault && (cw & 0x80u) && !may_clear_error())  // error 99 stays while its cause does (E-64)
+        if (servo_.state() == State::fault && (cw & 0x80u) && !may_clear_error())  // error 99 persists as long as its cause (E-64)
             (void)d_.set({static_cast<std::uint16_t>(0x6040 + base_), 0}, Value{static_cast<std::int64_t>(cw & ~0x80u)});
         if (starts) {
             start_positioning(cw, now);
@@ -175,7 +174,7 @@ bool MacsAxis::written(canopen::Address a, Instant now) {
     return ends;
 }
 
-/// The set-point is not taken: positioning outside the limits is not started [L2642], nor is any without homing [L1880].
+/// The set-point is ignored: a positioning outside the limits does not start [L2642], and none without homing [L1880].
 void MacsAxis::start_positioning(unsigned cw, Instant now) {
     const double here = servo_.shaft().demand(now).position;
     double target = servo_.units().place_of(0x607A);
@@ -184,7 +183,7 @@ void MacsAxis::start_positioning(unsigned cw, Instant now) {
     const bool further = (target > here && outside(true, target)) || (target < here && outside(false, target));
     const bool beyond = outside(true, target) || outside(false, target);
     if (refused == 0 && beyond && (violated_ == 0 || further)) refused = end_limit;
-    // Without reverse a way back ends where it begins (E-59).
+    // Without reversing, a way back ends where it begins (E-59).
     const int mode = revers_of(value("REVERS")).value_or(ReversCode{}).mode;
     const bool back = refused == 0 && mode != 0 && target < here - 0.5;
     if (refused != 0 || back) {
@@ -194,7 +193,7 @@ void MacsAxis::start_positioning(unsigned cw, Instant now) {
     servo_.written({static_cast<std::uint16_t>(0x6040 + base_), 0}, now);
     if (refused != 0) raise(refused, now);
 }
-/// A speed that must not be is none before the servo sees it.
+/// A speed that is not allowed is set to 0 before the servo receives it.
 std::uint16_t MacsAxis::speed_refused(Instant now) {
     const auto v = of(0x60FF);
     if (of(0x6060) != 3 || v == 0) return 0;
@@ -212,13 +211,13 @@ void MacsAxis::raise(std::uint16_t code, Instant now) {
         if (outside(false, place) || at_switch_[0]) violated_ = -1;
     }
     if (value("ERRCOND") == 5) {
-        reported_.push_back({now, {code, 0x81, {}}});  // control stays on, the program's error routine has it [L3707]
+        reported_.push_back({now, {code, 0x81, {}}});  // the control stays on, and the program's error routine decides [L3707]
         return;
     }
     servo_.fail(code, now);
     after(now);
 }
-/// Brake outputs: with ERRCOND 1 at once, with 3 when it stands; only OUT takes it back [L3855].
+/// Brake outputs: with ERRCOND 1 at once, with 3 at standstill; only OUT resets them [L3855].
 void MacsAxis::after(Instant now) {
     const auto condition = value("ERRCOND");
     const bool fault = servo_.state() == State::fault, reacts = fault || servo_.state() == State::fault_reaction;
@@ -231,7 +230,7 @@ void MacsAxis::after(Instant now) {
     if (servo_.homing().led() && !homing_.active()) {
         const auto encoder = encoder_of(value("ENCODERTYPE"), false).value_or(EncoderCode{});
         const bool possible = (value("I_REFSWITCH") != 0 || travel_ > 0 || servo_.home_switch) && !encoder.absolute();
-        if (!possible) return servo_.homing_ended(std::nullopt);  // without a switch there is nothing to search (E-76), [L2968]
+        if (!possible) return servo_.homing_ended(std::nullopt);  // without a switch there is no search (E-76), [L2968]
         HomingParameters p;
         p.type = value("HOME_TYPE");
         p.velocity = servo_.units().speed_of(0x6099, 1) * (value("HOME_VEL") < 0 ? -1 : 1);
@@ -296,7 +295,7 @@ void MacsAxis::tick(bool led, Instant at) {
     hot_ = hot;
     const double place = this->place(at), v = servo_.shaft().demand(at).velocity;
     if (violated_ != 0 && !outside(violated_ > 0, place) && !at_switch_[violated_ > 0 ? 1 : 0]) violated_ = 0;
-    // In speed and synchronisation the error comes when the limit has been passed [L2645].
+    // During speed control and synchronisation, the error comes when the limit has been exceeded [L2645].
     if (servo_.state() == State::enabled && (led || of(0x6060) == 3) &&
         ((v > 0 && outside(true, place)) || (v < 0 && outside(false, place))) && violated_ == 0)
         raise(end_limit, at);
@@ -309,8 +308,8 @@ void MacsAxis::misread(double by, Instant now) {
     servo_.shaft().misread(0);
     if (by != 0) read_encoder(now);
 }
-/// One reading while the encoder is wrong. A jump of more than half its resolution is told from a way, and then the last velocity says
-/// where it would be, for so many readings; after them, as with any other encoder, it is what it says.
+/// One reading while the encoder is wrong. A jump of more than half its resolution is recognised and replaced by the position that follows
+/// from the last velocity, for a limited number of readings; after that the reading is used, as with any other encoder.
 void MacsAxis::read_encoder(Instant at) {
     const auto code = encoder_of(value("ENCODERTYPE"), false).value_or(EncoderCode{});
     const bool reported = code.source == Encoder::linear_absolute && std::fabs(jump_.by) > real(value("ENCODER")) / 2;
@@ -324,7 +323,7 @@ void MacsAxis::define_origin(Instant now) {
     const double here = place(now), way = here - servo_.units().zero();
     servo_.units().set_zero(here);
     for (const char* id : {"NEGLIMIT", "POSLIMIT"})
-        set(id, std::clamp<std::int64_t>(value(id) - std::llround(way), -mlong, mlong));  // the range stays where it is [L1926]
+        set(id, std::clamp<std::int64_t>(value(id) - std::llround(way), -mlong, mlong));  // the range does not change [L1926]
 }
 bool MacsAxis::may_clear_error() const { return !current_.exceeds(value("I2TFTIME"), value("I2TLIMIT")); }
 void MacsAxis::clear_error(Instant now) {

@@ -1,5 +1,4 @@
-// Devices on the controller's own bus: objects and words.
-// In: values, orders. Out: texts, words. Nothing is kept of a device but what it was told last.
+// Only the last orders of a device are stored.
 #include "adapters/aposs/twin/bus_devices.hpp"
 
 namespace axisgate::aposs {

@@ -1,5 +1,4 @@
-// Coded values: the digits.
-// In: numbers. Out: what they say. Never accepts a digit that the manual does not name.
+// A digit that the manual does not name is not accepted.
 #include "adapters/aposs/twin/coded.hpp"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace axisgate::aposs {
 std::optional<EncoderCode> encoder_of(std::int64_t v, bool of_master) {
     const std::int64_t size = std::abs(v);
     EncoderCode e;
-    if (v < 0 && size <= 1000) {  // another axis' command value, which only a master can have (E-37)
+    if (v < 0 && size <= 1000) {  // command value of another axis, only possible for a master (E-37)
         if (!of_master || size > 9) return std::nullopt;
         e.source = Encoder::axis_command;
         e.number = static_cast<int>(size);
@@ -140,7 +139,7 @@ bool means_something(std::string_view id, std::int64_t v) {
     if (id == "SYNCMTYPS") return marker_of(v, false).has_value();
     if (id == "VMENCMTYP") {
         const auto m = marker_of(v, false);
-        return m && (m->external || !m->falling);  // E-16: 1 is not there
+        return m && (m->external || !m->falling);  // E-16: 1 does not exist
     }
     if (id == "DRIVETYPE") return drive_of(v).has_value();
     if (id == "PRGPAR") return program_of(v).has_value();

@@ -1,5 +1,3 @@
-// Coupling: sources, markers, steps.
-// In: places. Out: steps of the slaves. Never asks a clock.
 #include "adapters/aposs/twin/coupling.hpp"
 
 #include <cmath>
@@ -83,7 +81,7 @@ void Coupling::define_master_origin(int axis, Instant now) {
     if (!soft && m.from.source == Source::encoder) {
         if (m.from.number >= 1 && m.from.number <= axes) {
             MacsAxis& other = *axes_[place_of(m.from.number - 1)];
-            other.shift_origin(other.encoder(now));  // it stands on the same encoder
+            other.shift_origin(other.encoder(now));  // the other axis uses the same encoder
             other.reset_encoder(now);
         } else {
             m.zero = turned(axis, now);
@@ -111,7 +109,7 @@ double Coupling::slave_index(int axis) const {
     const MacsAxis& a = *axes_[place_of(axis)];
     return static_cast<double>(a.value("ENCODERTYPE") == 9 ? a.value("ENCODERFREQ") : 4 * a.value("ENCODER"));
 }
-/// Markers that have passed before SYNCM: those that were watched, and index pulses on the way since they were forgotten.
+/// Markers that have passed before SYNCM: those that were observed, and index pulses passed since they were forgotten.
 void Coupling::remember(int axis, SyncInput& here) const {
     const MacsAxis& slave = *axes_[place_of(axis)];
     const Known& known = known_[place_of(axis)];
@@ -176,7 +174,8 @@ SyncInput Coupling::input(int axis, Instant at) {
     in.slave = slave.place(at);
     const auto kind_m = marker_of(slave.value("SYNCMTYPM"), true).value_or(MarkerCode{});
     const auto kind_s = marker_of(slave.value("SYNCMTYPS"), false).value_or(MarkerCode{});
-    // The master of axis k is encoder k - 1 here, whose own latch input has that number; a virtual or simulated one has its axis' own.
+    // The master of axis k is encoder k - 1 here, whose own latch input has that number; a virtual or simulated master uses that of the
+    // axis.
     const int master_input = axis > 0 ? axis : 1;
     if (kind_m.external) {
         if (edge(kind_m, master_input)) in.master_marker = in.master;

@@ -1,5 +1,4 @@
-// Direct mode: words to what the controller does.
-// In: text. Out: writes as the bus would make them, orders to the coupling. Never goes round what a write over the bus would be refused.
+// A write that would be refused over the bus is refused here, too.
 #include "adapters/aposs/twin/direct.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace axisgate::aposs {
 namespace {
 constexpr std::size_t longest = 200;
 
-/// Words, numbers and signs: `x(2)` is one word.
+/// Words, numbers and signs; `x(2)` is one word.
 std::vector<std::string> words_of(std::string_view line) {
     std::vector<std::string> words(1);
     for (const char c : line.substr(0, line.find("//"))) {
@@ -58,7 +57,7 @@ private:
     void control(std::int64_t cw);
     [[nodiscard]] MacsAxis& axis() { return m_.axis(axis_ + 1); }
     [[nodiscard]] Address profile(std::uint16_t index) const { return {static_cast<std::uint16_t>(index + per_axis * axis_), 0}; }
-    /// In the scale of VELRES: of the most speed or acceleration.
+    /// In the scale of VELRES: a fraction of the maximum speed or acceleration.
     [[nodiscard]] std::int64_t scaled(std::int64_t v, std::uint16_t most) {
         return axis().of(most) * v / std::max<std::int64_t>(1, axis().value("VELRES"));
     }
@@ -105,7 +104,7 @@ DirectAnswer Line::set(const std::vector<std::string>& words) {
     }
     return {};
 }
-/// `SYSVAR[4315]`, `SYSVAR[4105] = 20`: those whose object is known.
+/// `SYSVAR[4315]`, `SYSVAR[4105] = 20`: variables whose object is known.
 DirectAnswer Line::system_variable(const std::vector<std::string>& words) {
     const std::string& word = words[0];
     const auto n = word.ends_with("]") ? whole(std::string_view(word).substr(7, word.size() - 8)) : std::nullopt;
@@ -172,7 +171,7 @@ DirectAnswer Line::ask(const std::string& word) {
     if (word == "CPOS") return {{}, std::to_string(axis().of(0x6062))};
     const Synchronisation& s = m_.coupling().of(axis_);
     if (word == "SYNCERR") return {{}, std::to_string(std::llround(axis().servo().units().way_in_units(s.error())))};
-    if (word == "MAPOS") {  // MU: qc * SYNCFACTS / SYNCFACTM when MENCODER is below 0 [L3300]
+    if (word == "MAPOS") {  // MU: qc * SYNCFACTS / SYNCFACTM if MENCODER is negative [L3300]
         const auto qc = m_.coupling().master(axis_, now_);
         const bool units = axis().value("MENCODER") < 0;
         return {{}, std::to_string(units ? qc * axis().value("SYNCFACTS") / axis().value("SYNCFACTM") : qc)};
@@ -188,7 +187,7 @@ DirectAnswer Line::ask(const std::string& word) {
     return {{}, flags.empty() ? "none" : flags};
 }
 
-/// `x(2)` says which axis is meant, and is no word of the statement.
+/// `x(2)` selects the axis and is removed from the statement.
 DirectAnswer Line::take_axis(std::vector<std::string>& words) {
     for (const std::string& w : words) {
         if (!w.starts_with("x(")) continue;

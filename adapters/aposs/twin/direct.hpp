@@ -1,5 +1,5 @@
-// Direct mode: statements of the language that the manual prints, one at a time, as they would be typed at the controller (E-02).
-// In: a line of text. Out: what it answers, or why it is none. Never a statement that it does not do: it says that it is not supported.
+// Direct mode: the statements of the language that the manual prints, one at a time, as if typed at the controller (E-02). Statements that
+// the twin does not carry out are refused as not supported.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace axisgate::aposs {
 
 struct DirectAnswer {
-    std::string fault;  ///< empty: done
-    std::string text;   ///< of APOS, GET and the like
+    std::string fault;  ///< empty: carried out
+    std::string text;   ///< result of APOS, GET and the like
 };
 /// `SET NAME [x(n)] value`, `SET NAME v1 / v2`, `GET NAME [x(n)]`, `SAVEPROM`, `ERRCLR`, `MOTOR ON|OFF|STOP [x(n)]`, `POSA`, `POSR`,
 /// `CVEL`, `VEL`, `ACC`, `DEC`, `OUTDA` with `[x(n)] value`, `CSTART`, `HOME`, `DEFORIGIN`, `DEFMORIGIN`, `SYNCV`, `SYNCP`, `SYNCM`,

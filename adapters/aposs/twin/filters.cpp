@@ -1,5 +1,3 @@
-// Filters: tables and sums.
-// In: samples. Out: filtered ones. Never divides by nothing.
 #include "adapters/aposs/twin/filters.hpp"
 
 #include <array>
@@ -23,13 +21,13 @@ double velocity_filter_us(std::int64_t time, std::int64_t resolution) {
                                                          {5000, 1400}}};
     for (const auto& [counts, us] : table)
         if (counts == std::abs(resolution)) return us;
-    // E-36: what the table is but for one row.
+    // E-36: agrees with the table except for one row.
     return std::max(0.0, std::round((1e7 / static_cast<double>(std::max<std::int64_t>(1, std::abs(resolution))) - 500) / 100) * 100);
 }
 
 double VelocityFilter::step(double v, double tau_us, double limit, bool gives_back) {
     const double full = tau_us / 1000;
-    if (!begun_) old_ = v;  // it begins where the master is
+    if (!begun_) old_ = v;  // begins at the position of the master
     begun_ = true;
     if (tau_ < 0 || limit <= 0) tau_ = full;
     if (limit > 0) {

@@ -1,5 +1,4 @@
-// Homing of a MACS: the phases.
-// In: places and switches. Out: orders. Never looks for an index longer than one turn.
+// The search for an index pulse is limited to one turn.
 #include "adapters/aposs/twin/homing.hpp"
 
 #include <cmath>
@@ -15,7 +14,7 @@ HomingRun::Order HomingRun::begin(const HomingParameters& p, const HomingInput& 
 }
 HomingRun::Order HomingRun::leave() {
     phase_ = Phase::leave;
-    was_on_ = !p_.reverses();  // who reverses may have overrun the switch: it counts when it has turned
+    was_on_ = !p_.reverses();  // with reversal, the axis may have overrun the switch: the switch counts after the reversal
     return {p_.leaving(), {}};
 }
 /// "After homing the drive is positioned to HOME_OFFSET. At this point the machine zero point or index is set" [L3655].

@@ -1,5 +1,4 @@
-// Macs: what parameters and time do.
-// In: writes. Out: limits of the axes, errors, the slaves' ways. Ticks of 1 ms only while something is to be looked at in each of them.
+// There are steps of 1 ms only while something must be checked in each of them.
 #include "adapters/aposs/twin/macs.hpp"
 
 #include <algorithm>
@@ -9,7 +8,7 @@ namespace axisgate::aposs {
 namespace {
 using cia402_drive::twin::State;
 constexpr auto one_tick = std::chrono::milliseconds(1);
-// Guarding: its times are not printed (E-66).
+// Node guarding: its times are not printed (E-66).
 constexpr auto guard_period = std::chrono::milliseconds(500);
 constexpr auto guard_life = 3 * guard_period;
 Coupling::Axes places(std::deque<MacsAxis>& axes_of) { return {&axes_of[0], &axes_of[1]}; }
@@ -18,7 +17,7 @@ std::deque<MacsAxis>& filled(std::deque<MacsAxis>& into, const Objects& objects,
         into.emplace_back(objects, d, t, a, travel);
     return into;
 }
-/// What is guarded stays so when a program ends, though its values die: until another SET or the next start [L1559-1565].
+/// A guarded device stays guarded when a program ends, although the value is lost: until another SET or the next start [L1559-1565].
 void define_bus(BusDevices& bus, const std::deque<MacsAxis>& of, int k) {
     const MacsAxis& a = of[static_cast<std::size_t>(k)];
     bus.set(k, BusDevices::By::drive, a.value("DRIVETYPE"));
@@ -64,7 +63,7 @@ bool Macs::powered() const {
 canopen::Abort Macs::may_write(Address a, std::int64_t v, Instant now) const {
     if (const Row* row = objects_.at(a)) {
         if (row->storage == "computed") return canopen::Abort::read_only;
-        if (row->id == "HOME_FORCE" && v > 1) return canopen::Abort::too_high;  // 255 is shown, never written (E-10)
+        if (row->id == "HOME_FORCE" && v > 1) return canopen::Abort::too_high;  // 255 can be read, never written (E-10)
         if (!means_something(row->id, v)) return canopen::Abort::value;
         if (!row->allowed.empty() && std::ranges::find(row->allowed, v) == row->allowed.end()) return canopen::Abort::value;
         return canopen::Abort::none;
@@ -94,7 +93,7 @@ void Macs::written(Address a, Instant now) {
 void Macs::changed(const Key& key, Instant now) {
     const Row* row = objects_.of(key);
     if (row == nullptr) return;
-    if (row->id == "SYSVAR_4105")  // a write is a speed, a read a position [L4815]
+    if (row->id == "SYSVAR_4105")  // written as a speed, read as a position [L4815]
         return coupling_.simulate(key.axis, d_.integer(row->address).value_or(0), now);
     if (key.scope != Scope::axis) return;
     axis(key.axis + 1).settle(row->id == "DFLTVEL" || row->id == "DFLTACC");
@@ -170,7 +169,7 @@ void Macs::refresh(Instant now) {
         a.set("REG_NORMTRACKERR", a.track_error(now));
         if (a.value("HOME_FORCE") != 0) a.set("HOME_FORCE", a.homing_due() ? 1 : 255);
     }
-    axis(1).set("SYSVAR_42", std::llround(axis(2).encoder(now)));  // encoder 2, whatever its axis' zero is
+    axis(1).set("SYSVAR_42", std::llround(axis(2).encoder(now)));  // encoder 2, independent of the zero of its axis
     axis(1).set("SYSVAR_16", axis(1).misreading().count + axis(2).misreading().count);
     axis(1).set("AMP_I2TVALUE", std::max(axis(1).current().value(), axis(2).current().value()));
 }
@@ -190,7 +189,7 @@ Instant Macs::next_event(Instant now) const {
     return next;
 }
 
-/// A position error takes the control off all axes [L2318].
+/// A position error switches off the control of all axes [L2318].
 void Macs::check_position_errors(Instant now) {
     for (int k = 0; k < axes; ++k) {
         const State s = axis(k + 1).servo().state();
@@ -229,9 +228,9 @@ void Macs::on_event(Instant at) {
 }
 
 bool Macs::keeps(Address address, const canopen::Entry& entry) const {
-    return address.index < 0x2000 && axes_.front().servo().keeps(address, entry);  // its own parameters are in its own memory
+    return address.index < 0x2000 && axes_.front().servo().keeps(address, entry);  // its own parameters are stored separately
 }
-/// SAVEPROM: what is valid now is what the EPROM holds [L73-75].
+/// SAVEPROM: stores the values in force in the EPROM [L73-75].
 void Macs::save_user() {
     ++eprom_writes_;
     for (const auto& [key, row] : objects_.rows()) {
@@ -283,12 +282,12 @@ void Macs::end_program(bool concluded) {
 void Macs::start_program(int number) {
     end_program();
     program_ = number;
-    bus_.forget();  // all of them are made anew, of what is valid now
+    bus_.forget();  // all of them are made again from the values in force
     for (int k = 0; k < axes; ++k)
         define_bus(bus_, axes_, k);
 }
-/// ESCCOND: 0 stop with the most deceleration, outputs as they are; 1 all outputs 0; 2 all 1; the brake always, the simulated master only
-/// with 0 [L5111-5150].
+/// ESCCOND: 0 stop with maximum deceleration, outputs unchanged; 1 all outputs 0; 2 all 1; the brake always, the simulated master only with
+/// 0 [L5111-5150].
 void Macs::escape(Instant now) {
     for (int k = 0; k < axes; ++k) {
         MacsAxis& a = axis(k + 1);

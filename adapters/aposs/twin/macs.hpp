@@ -1,7 +1,6 @@
-// Macs: the controller behind the node: parameters with their life cycle, two axes, and what couples them.
-// In: objects written, statements of the direct mode, time. Out: objects to be read, errors as EMCY. Never knows a frame.
-// A parameter has an init value in the firmware, a user value in the EPROM and a program value in RAM [L8-32]: the dictionary holds what
-// is valid now, `user_` what the EPROM holds. A write over the bus counts as SET (E-01): it is in RAM until a program ends or power goes.
+// Macs is the controller behind the node: parameters with their life cycle, two axes, and their coupling. It knows no frames. A parameter
+// has an init value in the firmware, a user value in the EPROM and a program value in RAM [L8-32]: the dictionary has the value in force,
+// `user_` the EPROM. A write over the bus counts as SET (E-01): it is in RAM until a program ends or the power is switched off.
 #pragma once
 
 #include <array>
@@ -47,21 +46,23 @@ public:
     void set_inputs(std::uint32_t mask, Instant now);
     [[nodiscard]] const Terminals& terminals() const noexcept { return terminals_; }
     [[nodiscard]] Terminals& terminals() noexcept { return terminals_; }
-    /// Outputs as they are now: those with a function (O_AXMOVE, O_ERROR) follow it.
+    /// The present outputs, including those with a function (O_AXMOVE, O_ERROR).
     [[nodiscard]] std::uint32_t outputs(Instant now) const;
-    /// Devices on the controller's own bus answer no guarding: error 88 as long as a coded type has one guarded [L1569-1581].
+    /// Devices on the controller's own bus do not answer guarding: error 88 as long as a coded type has a guarded device [L1569-1581].
     void set_bus_silent(bool silent, Instant now);
     [[nodiscard]] bool bus_silent() const noexcept { return bus_silent_; }
 
     // the programs' side
-    void start_program(int number);  ///< user values are in force again before it begins [L18]
-    /// Program values die [L71-75]. `concluded`: at its own end, and then the one of PRGPAR begins, which is read before it dies (E-06).
+    void start_program(int number);  ///< before it begins, the user values are in force again [L18]
+    /// Program values are lost [L71-75]. `concluded`: the program has ended by itself, and the one of PRGPAR begins, which is read before
+    /// it is lost (E-06).
     void end_program(bool concluded = false);
-    void escape(Instant now);                                                       ///< Esc, I_BREAK: it ends as ESCCOND says
+    void escape(Instant now);                                                       ///< Esc, I_BREAK: the program ends as defined by
+                                                                                    ///< ESCCOND
     void reset_parameters();                                                        ///< Controller > Reset: init values [L10]
-    [[nodiscard]] std::optional<int> program() const noexcept { return program_; }  ///< the number of what runs
+    [[nodiscard]] std::optional<int> program() const noexcept { return program_; }  ///< number of the program in progress
     [[nodiscard]] std::int64_t eprom_writes() const noexcept { return eprom_writes_; }
-    /// After anything that was done beside `written`: whether each millisecond is to be looked at from now on.
+    /// To be called after each change that did not use `written`: decides whether each millisecond must be calculated from now on.
     void begin_ticks(Instant now);
 
 private:
@@ -76,7 +77,7 @@ private:
     std::deque<MacsAxis> axes_;
     Coupling coupling_;
     BusDevices bus_;
-    std::map<Key, std::int64_t> user_;  ///< EPROM; what is not here is as the firmware has it
+    std::map<Key, std::int64_t> user_;  ///< EPROM; a missing value is that of the firmware
     std::int64_t eprom_writes_ = 0;
     std::optional<int> program_;
     bool bus_silent_ = false;

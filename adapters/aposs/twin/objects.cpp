@@ -1,5 +1,4 @@
-// Objects of a simulated MACS: the tables.
-// In: rows of the catalogue. Out: entries with type, access, bounds and init value. Never more than catalogue and profile say.
+// Entries with type, access, limits and init value, from the catalogue and the profile.
 #include "adapters/aposs/twin/objects.hpp"
 
 #include <cmath>
@@ -24,20 +23,20 @@ canopen::Entry entry_of(const Parameter& p) {
     e.name = p.id;
     if (p.min) e.low = static_cast<std::int64_t>(std::ceil(*p.min));
     if (p.max) e.high = static_cast<std::int64_t>(std::floor(*p.max));
-    if (p.id == "HOME_FORCE") e.high = 255;  // forced and done: shown, and refused when it is written
+    if (p.id == "HOME_FORCE") e.high = 255;  // forced and completed: it can be read, and is refused when written
     return e;
 }
 }  // namespace
 
 Objects::Objects(const Catalogue& catalogue, std::uint8_t node) : factory_(cia402_drive::twin::factory_dictionary(node)) {
-    // HOME of the manual, as HOME_TYPE says, is a method of the maker's own beside those of CiA 402 (E-76).
+    // HOME of the manual, configured by HOME_TYPE, is a manufacturer-specific method besides those of CiA 402 (E-76).
     const auto methods = factory_.integer({0x60E3, 0}).value_or(0);
     canopen::Entry own = *factory_.find({0x60E3, 1});
     own.name = "HOME by HOME_TYPE";
     factory_.add({0x60E3, static_cast<std::uint8_t>(methods + 1)}, own);
     (void)factory_.set({0x60E3, static_cast<std::uint8_t>(methods + 1)}, Value{std::int64_t{-1}});
     (void)factory_.set({0x60E3, 0}, Value{methods + 1});
-    // The second axis' objects of the profile, and the motions that this controller has: POSA and POSR, CVEL, HOME.
+    // The profile objects of the second axis, and the motions of this controller: POSA and POSR, CVEL, HOME.
     const auto first = factory_.entries();
     for (const auto& [address, entry] : first) {
         if (address.index < 0x6000 || address.index >= 0x6800 || address.index == 0x6007) continue;
@@ -52,14 +51,14 @@ Objects::Objects(const Catalogue& catalogue, std::uint8_t node) : factory_(cia40
 
     for (const Parameter& p : catalogue.parameters()) {
         const auto index = whole_in(p.wire, "index"), sub = whole_in(p.wire, "sub");
-        if (!index || !sub || *index >= 0x6000) continue;  // the profile's objects are there already
+        if (!index || !sub || *index >= 0x6000) continue;  // the profile's objects exist already
         const int step = whole_in(p.wire, "per_axis").value_or(0);
         const auto* scope = p.wire.if_contains("scope");
         const bool of_axis = scope && scope->is_string() && scope->as_string() == "axis" && step != 0;
         for (int a = 0; a < (of_axis ? axes : 1); ++a) {
             Row row;
             row.address = {static_cast<std::uint16_t>(*index + step * a), static_cast<std::uint8_t>(*sub)};
-            // A variable without a number of its own goes by where it stands.
+            // A variable without its own number is identified by its address.
             row.key = {of_axis ? Scope::axis : Scope::global, a, whole_in(p.wire, "number").value_or(*index * 256 + *sub)};
             row.id = p.id;
             row.storage = p.storage;

@@ -1,6 +1,5 @@
-// Objects of a simulated MACS: the dictionary of its node, made of the catalogue's rows and of a CiA 402 application for two axes.
-// In: the catalogue, the node number. Out: entries; which row of the catalogue an object is. Never does anything.
-// Where a parameter stands in the dictionary, the manual does not print (E-01): the rows say how sure each address is.
+// The object dictionary of a simulated MACS: the rows of the catalogue, and a CiA 402 application for two axes. The manual does not print
+// the addresses of parameters in the dictionary (E-01): the rows state how certain each address is.
 #pragma once
 
 #include <array>
@@ -22,10 +21,10 @@ inline constexpr int axes = 2;
 inline constexpr std::uint16_t per_axis = 0x800;
 
 enum class Scope : std::uint8_t { axis, global };
-/// One parameter of one axis, or of the controller.
+/// A parameter of one axis, or of the controller.
 struct Key {
     Scope scope = Scope::axis;
-    int axis = 0;  ///< from 0; of a global one 0
+    int axis = 0;  ///< from 0; 0 for a global parameter
     int number = 0;
     auto operator<=>(const Key&) const = default;
 };
@@ -35,7 +34,7 @@ struct Row {
     std::string id;
     std::string storage;  ///< "parameter", "computed", "state"
     std::int64_t initial = 0;
-    std::vector<std::int64_t> allowed;  ///< the only values; empty: the bounds decide
+    std::vector<std::int64_t> allowed;  ///< the only values; empty: the limits apply
 };
 
 class Objects {
@@ -46,13 +45,13 @@ public:
     [[nodiscard]] const canopen::Dictionary& factory() const noexcept { return factory_; }
     [[nodiscard]] const Row* at(Address address) const;
     [[nodiscard]] const Row* of(const Key& key) const;
-    /// By its name: VELMAX of axis 0, CANBAUD of the controller.
+    /// By name: VELMAX of axis 0, CANBAUD of the controller.
     [[nodiscard]] const Row* named(std::string_view id, int axis) const;
     [[nodiscard]] const std::map<Key, Row>& rows() const noexcept { return rows_; }
 
 private:
     canopen::Dictionary factory_;
-    std::map<Key, Row> rows_;  ///< their places stay: the two below point at them
+    std::map<Key, Row> rows_;  ///< their addresses must not change: the two below point to them
     std::map<Address, const Row*> places_;
     struct Hash {
         using is_transparent = void;

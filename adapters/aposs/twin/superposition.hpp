@@ -1,6 +1,6 @@
-// Superposition: a way that is laid over a motion, as SYNCOFFTIME has it: so fast that one marker distance takes that time, with a fifth of
-// the time to get there and a fifth to end (firmware 6.6.49 on) [L2352-2368]. Without a time it is done at once.
-// In: ways to add, one step each ms. Out: what is added in it. Never more than what is left.
+// Superposition adds a distance to a motion, as defined by SYNCOFFTIME: at a speed at which one marker distance takes that time, with one
+// fifth of the time to accelerate and one fifth to decelerate (firmware 6.6.49 on) [L2352-2368]. Without a time it is added at once. One
+// step per ms.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace axisgate::aposs {
 
-/// Step of each ms on the average: SYNCMPULSM / SYNCOFFTIME, integer part; at least 1, as nothing would ever arrive with 0 (E-78).
+/// Mean step per ms: SYNCMPULSM / SYNCOFFTIME, integer part; at least 1, because with 0 the distance would never be covered (E-78).
 [[nodiscard]] inline std::int64_t offset_step(std::int64_t syncmpulsm, std::int64_t syncofftime) {
     return syncofftime > 0 ? std::max<std::int64_t>(1, syncmpulsm / syncofftime) : 0;
 }

@@ -1,5 +1,4 @@
-// Synchronisation: the steps.
-// In: places and markers. Out: command positions. Never a correction that its window, SYNCMMAXCORR or SYNCMSTART does not allow.
+// Corrections stay within their window, SYNCMMAXCORR and SYNCMSTART.
 #include "adapters/aposs/twin/synchronisation.hpp"
 
 #include <cstdlib>
@@ -20,7 +19,7 @@ void Synchronisation::begin(SyncMode mode, const SyncParameters& p, const SyncIn
     master_.average.reset(as_real(p.pulse_m));
     slave_.average.reset(as_real(p.pulse_s));
     offset_allowed_ = mode == SyncMode::position;
-    if (p.always_watches()) {  // what the markers have said until now
+    if (p.always_watches()) {  // the marker data up to now
         master_ = before.master_;
         slave_ = before.slave_;
         master_.count = slave_.count = 0;
@@ -29,7 +28,7 @@ void Synchronisation::begin(SyncMode mode, const SyncParameters& p, const SyncIn
         status_.slave_window = before.status_.slave_window;
     }
     if (mode != SyncMode::marker || p.start % 1000 != 7) return;
-    // The one of the known ones that would have been the last: markers are watched from there on.
+    // The known marker that would have been the last one: markers are observed from there on.
     if (here.master_marker)
         master_.last = as_real(here.master) - within_cycle(as_real(here.master - *here.master_marker), as_real(p.pulse_m));
     if (here.slave_marker) slave_.last = here.slave - within_cycle(here.slave - *here.slave_marker, as_real(p.pulse_s));
@@ -51,7 +50,7 @@ void Synchronisation::watch(const SyncParameters& p, const SyncInput& in) {
     (void)check_markers(p, in);
 }
 
-/// SYNCMSTART 7: where the slave is on its way to the master; at its end it is synchronous, or as 5 has it.
+/// SYNCMSTART 7: the position of the slave during the approach. At its end the slave is synchronous, or SYNCMSTART 5 applies.
 double Synchronisation::approach(const SyncParameters& p, const SyncInput& in, std::int64_t way) {
     (void)check_markers(p, in);
     const double gear = as_real(p.fact_s) / as_real(p.fact_m);
@@ -70,13 +69,13 @@ double Synchronisation::approach(const SyncParameters& p, const SyncInput& in, s
     if (!approach_.arrived()) return command_;
     synchronous_ = paired_ = true;
     offset_allowed_ = true;
-    wanted_ = *now.slave_marker + (now.master - *master_.last) * gear;  // exactly; the curve has come to it but for its rounding
+    wanted_ = *now.slave_marker + (now.master - *master_.last) * gear;  // exactly; the curve has reached it except for rounding
     wanted_ = command_ + nearest(wanted_ - command_, to.cycle);
     evaluate(p, wanted_ - command_);
     return command_;
 }
 
-/// SYNCTYPE bit 2: what the master goes back is kept, and as much of what it then goes forth is not followed [L4036-4050].
+/// SYNCTYPE bit 2: distances that the master moves back are stored, and the slave does not follow the same distance forward [L4036-4050].
 std::int64_t Synchronisation::forward(std::int64_t way, const SyncParameters& p) {
     if ((p.type & 4) == 0) return way;
     const std::int64_t side = p.fact_m < 0 ? -1 : 1;
@@ -88,7 +87,7 @@ std::int64_t Synchronisation::forward(std::int64_t way, const SyncParameters& p)
     negative_ -= used;
     return way - side * used;
 }
-/// Whole quad counts of the slave; what is left of the division is kept for the next.
+/// Whole quad counts of the slave; the remainder of the division is kept for the next step.
 std::int64_t Synchronisation::geared(std::int64_t way, const SyncParameters& p) {
     rest_ += way * p.fact_s;
     const std::int64_t whole = rest_ / p.fact_m;
@@ -108,7 +107,7 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
     double ahead = act;
     if (filtered) ahead = filter_.step(act, tau, as_real(p.velocity_limit), mode_ != SyncMode::velocity);
     if (mode_ == SyncMode::marker && p.velocity_limit > 0 && as_real(++since_filter_reset_) * 1000 >= tau) {
-        since_filter_reset_ = 0;  // it only grows there [L5988-5990]
+        since_filter_reset_ = 0;  // it only increases there [L5988-5990]
         filter_.forget_error();
     }
     filtered_velocity_ = ahead;
@@ -118,7 +117,7 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
     } else {
         wanted_ += ahead;
         if (mode_ == SyncMode::marker) {
-            if (p.filter_time > 0 && (p.filter_par & 2) == 0)  // the gear is corrected by what the markers say of it
+            if (p.filter_time > 0 && (p.filter_par & 2) == 0)  // the gear is corrected by the marker distances
                 wanted_ += act * master_.average.gear_correction(as_real(p.pulse_m));
             take_markers(p, in);
             const double part = std::fabs(per_ms_left_) < std::fabs(per_ms_) ? per_ms_left_ : per_ms_;
@@ -131,7 +130,7 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
     const double before = command_;
     command_ = follow(p);
     velocity_ = command_ - before;
-    if (mode_ == SyncMode::velocity) wanted_ = command_;  // what is lost is lost
+    if (mode_ == SyncMode::velocity) wanted_ = command_;  // lost distance is not made up for
     error_ = wanted_ + filter_.error() - in.slave;
     if (mode_ == SyncMode::velocity) error_ = 0;
     if (mode_ == SyncMode::position) status_.accuracy = std::fabs(error_) <= as_real(std::abs(accuracy_));
@@ -139,11 +138,12 @@ double Synchronisation::step(const SyncParameters& p, const SyncInput& in) {
     return command_ + lead;
 }
 
-/// Towards what is wanted, within VEL, ACC, DEC and SYNCVELREL.
+/// Moves towards the wanted position within VEL, ACC, DEC and SYNCVELREL.
 double Synchronisation::follow(const SyncParameters& p) {
     const double master = filtered_velocity_;
-    const double left = wanted_ - command_ - master, size = std::fabs(left), rate_down = p.deceleration;  // beyond what the master goes now
-    // So fast that steps of DEC end on the place: v (v + d) / 2d = what is left.
+    const double left = wanted_ - command_ - master, size = std::fabs(left), rate_down = p.deceleration;  // in addition to the present way
+                                                                                                          // of the master
+    // The speed from which steps of DEC end at the position: v (v + d) / 2d = remaining distance.
     const double most = std::sqrt(rate_down * rate_down / 4 + 2 * rate_down * size) - rate_down / 2;
     const double catching = std::copysign(std::min(size, most), left);
     double v = master + catching;
@@ -160,10 +160,10 @@ double Synchronisation::follow(const SyncParameters& p) {
     return command_ + v;
 }
 
-/// Whether a marker counts. One that comes before its window is not there; behind it one is missing, and the next is measured from here.
+/// Whether a marker counts. A marker before its window is ignored; after the window one is missing, and the next one is measured from here.
 bool Synchronisation::accepts(Markers& m, double place, std::int64_t pulse, std::int64_t window, bool& flag, std::int64_t filter_time,
                               const SyncParameters& p) {
-    if (!m.last) {  // watched from the first one on [L5027]
+    if (!m.last) {  // observed from the first one on [L5027]
         m.last = place;
         return true;
     }
@@ -177,7 +177,7 @@ bool Synchronisation::accepts(Markers& m, double place, std::int64_t pulse, std:
     return true;
 }
 
-/// Of the markers that came with this step: whether they count, master's and slave's.
+/// Whether the markers of this step count: master, slave.
 std::pair<bool, bool> Synchronisation::check_markers(const SyncParameters& p, const SyncInput& in) {
     const bool master =
         in.master_marker && accepts(master_, as_real(*in.master_marker), p.pulse_m, p.window_m, status_.master_window, p.filter_time, p);
@@ -197,19 +197,19 @@ void Synchronisation::take_markers(const SyncParameters& p, const SyncInput& in)
             master_.count = 0;
             master_mark_ = wanted_ - back;
         }
-        if (!good && paired_) {  // the one on the other side is not made up for [L5022]
+        if (!good && paired_) {  // the missing marker of the other side is not replaced [L5022]
             master_.count = 0;
             slave_mark_.reset();
         }
     }
     if (in.slave_marker) {
         const bool good = good_s;
-        // Leading: the slave's marker that follows the first one of the master [L4466].
+        // Leading: the slave's marker after the first one of the master [L4466].
         const bool early = !paired_ && kind == 0 && !master_mark_;
         if (!waits && !early && good && (!paired_ ? !slave_mark_ : ++slave_.count >= p.mark_s)) {
             slave_.count = 0;
             slave_mark_ = *in.slave_marker;
-            if (!paired_ && kind == 1) master_mark_.reset();  // the master's marker that follows
+            if (!paired_ && kind == 1) master_mark_.reset();  // the master's next marker
         }
         if (!good && paired_) {
             slave_.count = 0;
@@ -222,7 +222,7 @@ void Synchronisation::take_markers(const SyncParameters& p, const SyncInput& in)
     slave_mark_.reset();
 }
 
-/// A marker of each side: how far the wanted place has to be shifted for them to come at once.
+/// A marker of each side: the distance by which the wanted position must be shifted so that they coincide.
 void Synchronisation::pair(const SyncParameters& p, double wanted, double place) {
     const double cycle = as_real(p.pulse_s) * as_real(std::max<std::int64_t>(1, p.mark_s));
     const bool first = !paired_;
@@ -241,7 +241,7 @@ void Synchronisation::pair(const SyncParameters& p, double wanted, double place)
         }
         correct(p, difference);
     }
-    // SYNCPOSOFFS: with the first evaluation; 1000 to 1007: not before the first correction is done [L4137, L4484].
+    // SYNCPOSOFFS: with the first evaluation; 1000 to 1007: after the first correction is complete [L4137, L4484].
     offset_allowed_ = offset_allowed_ || p.start < 1000 || !first;
 }
 
@@ -251,13 +251,13 @@ double Synchronisation::first_correction(const SyncParameters& p, double differe
     if (cycle <= 0) return difference;
     if (kind == 3) return near < 0 ? near + cycle : near;  // forward
     if (kind == 4) return near > 0 ? near - cycle : near;  // backward
-    if (kind == 5 || kind == 7) return near;               // 7 without its curve (E-79)
+    if (kind == 5 || kind == 7) return near;               // 7 if its curve is not possible (E-79)
     return difference;
 }
 
 void Synchronisation::correct(const SyncParameters& p, double difference) {
     if (p.filter_time <= 0) {
-        if (p.velocity_time < 0) {  // spread over -SYNCVFTIME/100 ms
+        if (p.velocity_time < 0) {  // distributed over -SYNCVFTIME/100 ms
             per_ms_left_ = difference;
             per_ms_ = difference / as_real(std::max<std::int64_t>(-p.velocity_time / 100, 1));
             return;

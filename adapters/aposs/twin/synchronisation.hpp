@@ -1,6 +1,6 @@
-// Synchronisation of an axis with its master: SYNCV, SYNCP and SYNCM as one step per millisecond [L3882-4783, L5011-5110, L5796-5998].
-// In: the master's place in whole qc, markers that passed, the parameters. Out: the slave's next command position; what SYNCERR and
-// SYNCSTAT say. Never exceeds VEL, ACC and DEC; never loses a quad count of its gear. Units: qc, ms.
+// Synchronisation of an axis with its master: SYNCV, SYNCP and SYNCM, one step per millisecond [L3882-4783, L5011-5110, L5796-5998]. From
+// the master's position in whole qc and passed markers follows the next command position of the slave. VEL, ACC and DEC are never exceeded,
+// and no quad count of the gear is lost. Units: qc, ms.
 #pragma once
 
 #include <cstdint>
@@ -22,40 +22,40 @@ struct SyncParameters {
     std::int64_t resolution = 500;                            ///< MENCODER
     int reverse = 0;                                          ///< REVERS, units: 1: only while the master reverses, 2: never
     double velocity = 0, acceleration = 0, deceleration = 0;  ///< VEL, ACC, DEC: qc/ms, qc/ms^2
-    double jerk = 0;                                          ///< of RAMPMIN and JERKMIN: qc/ms^3; 0: none is set
-    /// SYNCMFPAR & 64: markers are watched and averaged whatever the axis does.
+    double jerk = 0;                                          ///< from RAMPMIN and JERKMIN: qc/ms^3; 0: not set
+    /// SYNCMFPAR & 64: markers are observed and averaged even without a synchronisation.
     [[nodiscard]] bool always_watches() const { return (filter_par & 64) != 0; }
 };
 
 struct SyncInput {
     std::int64_t master = 0;
     double slave = 0;                           ///< actual position
-    std::optional<std::int64_t> master_marker;  ///< place of the master where one passed since the step before
+    std::optional<std::int64_t> master_marker;  ///< position of the master at a marker that was passed since the previous step
     std::optional<double> slave_marker;
 };
 
-/// SYNCSTAT: its bits are not printed (E-65), names only.
+/// SYNCSTAT: the manual prints no bit numbers (E-65), only names.
 struct SyncStatus {
     bool accuracy = false, ready = false, fault = false, master_window = false, slave_window = false;
 };
 
 class Synchronisation {
 public:
-    /// The slave is at its command position with this speed (qc/ms). The size of the accuracy window is taken now [L4176]. Markers of
-    /// `here` are known places, which may lie far back: SYNCMSTART 7 needs them.
+    /// The slave is at its command position with this speed (qc/ms). The size of the accuracy window is taken now [L4176]. The markers of
+    /// `here` are known places that may be far behind: SYNCMSTART 7 needs them.
     void begin(SyncMode mode, const SyncParameters& p, const SyncInput& here, double command, double velocity);
     void end() { mode_ = SyncMode::none; }
     [[nodiscard]] SyncMode mode() const noexcept { return mode_; }
-    /// One millisecond: the command position at its end.
+    /// One millisecond; returns the command position at its end.
     double step(const SyncParameters& p, const SyncInput& in);
-    /// One millisecond without SYNCM: markers alone, with SYNCMFPAR & 64 [L2424].
+    /// One millisecond without SYNCM: only markers, with SYNCMFPAR & 64 [L2424].
     void watch(const SyncParameters& p, const SyncInput& in);
-    /// The polynomial of SYNCMSTART 7, or the waiting for it.
+    /// The polynomial of SYNCMSTART 7, or the wait for it.
     [[nodiscard]] bool approaches() const noexcept { return approach_.active(); }
 
-    /// SYNCERR in qc: with a sign if SYNCACCURACY is below 0.
+    /// SYNCERR in qc; with a sign if SYNCACCURACY is negative.
     [[nodiscard]] double error() const { return accuracy_ < 0 ? error_ : std::fabs(error_); }
-    /// DEFMORIGIN under way: what was this place of the master is 0 now. The slave does not move for it.
+    /// DEFMORIGIN during synchronisation: this position of the master becomes 0. The slave does not move.
     void shift_master(std::int64_t by);
     [[nodiscard]] const SyncStatus& status() const noexcept { return status_; }
     void clear_window_flags() { status_.master_window = status_.slave_window = false; }
@@ -65,10 +65,10 @@ public:
     [[nodiscard]] double velocity() const noexcept { return velocity_; }                          ///< of the command, qc/ms
 
 private:
-    /// The markers of one side: which of them count.
+    /// The accepted markers of one side.
     struct Markers {
-        std::optional<double> last;  ///< the one that distances are measured from
-        std::int64_t count = 0;      ///< of those that were accepted since a pair
+        std::optional<double> last;  ///< distances are measured from this one
+        std::int64_t count = 0;      ///< accepted since the last pair
         MarkerAverage average;
     };
     [[nodiscard]] std::int64_t geared(std::int64_t master_way, const SyncParameters& p);
@@ -91,12 +91,12 @@ private:
     Approach approach_;
     double marker_velocity_ = 0;  ///< Oldmfiltvel
     Superposition offset_, correction_;
-    double per_ms_ = 0, per_ms_left_ = 0;  ///< KORRVAL: what is added each ms, and how much of the correction is left
+    double per_ms_ = 0, per_ms_left_ = 0;  ///< KORRVAL: the addition per ms, and the remaining correction
     double start_value_ = 0, start_rest_ = 0, smoothed_ = 0;
     Markers master_, slave_;
-    std::optional<double> master_mark_;  ///< where the slave was wanted when that marker passed
+    std::optional<double> master_mark_;  ///< the wanted position of the slave when that marker passed
     std::optional<double> slave_mark_;
-    bool synchronous_ = false;  ///< the master's velocity has been reached since it began
+    bool synchronous_ = false;  ///< the master's velocity was reached since the start
     bool paired_ = false, offset_allowed_ = false;
     std::int64_t accurate_ = 0, inaccurate_ = 0, since_filter_reset_ = 0;
     SyncStatus status_;

@@ -1,5 +1,3 @@
-// Twin of a MACS controller: setup, memory and hand.
-// In: what a tester sets. Out: the node and the controller told. Never sets what the wire alone may set.
 #include "adapters/aposs/twin/twin.hpp"
 
 #include <algorithm>
@@ -46,7 +44,7 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override {
         const MacsAxis& a = macs_.axis(std::clamp(channel, 1, axes));
         TwinMechanics m = a.servo().mechanics(now);
-        m.powered = m.powered || (node_.powered() && a.holds_in_error());  // under control, though in error
+        m.powered = m.powered || (node_.powered() && a.holds_in_error());  // controlled, although in error
         return m;
     }
 
@@ -56,7 +54,7 @@ private:
     }
 
     static const HandRow<MacsTwin> conditions[];
-    /// A condition that is on or off.
+    /// A condition with two states.
     template <class Then>
     static std::string flag(const HandWish& w, Then&& then) {
         const auto n = as_integer(w.value);

@@ -1,5 +1,5 @@
-// Twin of a MACS controller: a node on a CAN line with two axes, a store of parameters and an application that speaks CiA 402.
-// In: setup (node number), the catalogue for its rows. Out: the simulated controller. Shares no packing code with the adapter.
+// The twin of a MACS controller: a node on a CAN line with two axes, a store of parameters and an application that speaks CiA 402. It
+// shares no packing code with the adapter.
 #pragma once
 
 #include <memory>

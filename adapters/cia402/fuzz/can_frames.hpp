@@ -1,5 +1,5 @@
-// Fuzz of the families on CANopen: which frames a node may plausibly send, and which ones an adapter may.
-// In: the fuzzer's bytes, frames sent. Out: frames, what is wrong. Never a law of one family alone.
+// The frames that a CANopen node may plausibly send, and a check of the frames that an adapter may send, for the fuzz programs of all
+// CANopen families.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ inline Frame plausible(FuzzedDataProvider& in, LineKind, const std::vector<std::
     return canopen::data_frame(base + node, bytes);
 }
 
-/// `family`: whose adapter it is, with nodes 5, 6 and 127.
+/// `family` names the adapter; it has the nodes 5, 6 and 127.
 inline int run(const char* family, const std::uint8_t* data, std::size_t size) {
     if (size < 4 || size > 16 * 1024) return 0;
     FuzzedDataProvider in(data, size);

@@ -1,5 +1,5 @@
-// The adapter against a hostile or failing line: PDOs of a wrong length, EMCY storms, reboots, silence, two nodes of one number, refusals.
-// In: a node's twin, frames of the test's own. Out: what is counted, told and shown; every command ends once. Never sleeps.
+// The adapter on a faulty or hostile line: PDOs of a wrong length, EMCY storms, restarts, silence, two nodes with one number, refusals.
+// Each command must have exactly one result.
 #include <fmt/core.h>
 
 #include "adapters/cia402/tests/line_bench.hpp"
@@ -58,7 +58,7 @@ TEST(Cia402Adapter, ADriveStopsByItselfWhenNothingOfTheGatewayReachesItAndStands
     EXPECT_TRUE(armed(b, 1000ms, "quick_stop")) << "and it watches again";
     EXPECT_EQ(b.speed(), 0) << "nothing moves because the line is back";
     EXPECT_EQ(b.axis.statusword.value_or(0) & 0x6F, 0x07);
-    // A halt, as a lost line brings it, does not take it out of its quick stop.
+    // A halt, as it follows the loss of a line, does not end the quick stop.
     ASSERT_TRUE(good(b.ask(Halt{})));
     b.run(1s);
     EXPECT_EQ(b.speed(), 0);
@@ -119,7 +119,7 @@ TEST(Cia402Adapter, TheGatewaysNodeNumberIsOneThatNoDriveOfTheSiteHas) {
     EXPECT_GT(b.heartbeats, 10);
     ASSERT_TRUE(b.enable());
     ASSERT_TRUE(good(b.ask(run_at(10'000))));
-    // A drive with that number comes to the site while the other one moves: it watches the next free number from then on.
+    // The site gets a drive with that number while the other drive moves: the moving drive monitors the next free number from then on.
     DriveSetup second = b.setup.drives[0];
     second.id = DriveId{1};
     second.name = "second";
@@ -240,7 +240,8 @@ TEST(Cia402Adapter, HeartbeatsInTheGapsOfOthersAreASecondNode) {
     LineBench b;
     b.run(3s);
     EXPECT_EQ(b.reported("two_nodes"), 0);
-    for (int i = 0; i < 10; ++i) {  // another one's, at its own phase; its answers would be one with those of the first on a real bus
+    for (int i = 0; i < 10; ++i) {  // from another node, with its own phase; on a real bus its answers would coincide with those of the
+                                    // first
         b.run(500ms);
         b.inject(data(0x705, {0x05}));
     }
@@ -252,7 +253,7 @@ TEST(Cia402Adapter, AHeartbeatThatComesEarlyNowAndThenIsNoSecondNode) {
     DoubleBeat watch;
     Instant now = at_ns(0);
     watch.begin(500ms);
-    for (int i = 0; i < 1000; ++i) {  // each third one is held up on its way, and the next comes soon after it
+    for (int i = 0; i < 1000; ++i) {  // every third one is delayed, and the next follows shortly after it
         now += i % 3 == 0 ? 800ms : i % 3 == 1 ? 200ms : 500ms;
         EXPECT_FALSE(watch.beat(now)) << i;
     }
@@ -270,7 +271,7 @@ TEST(Cia402Adapter, OneNodeIsNeverTakenForTwo) {
     b.run(2s);
     ASSERT_TRUE(b.enable());
     for (int i = 0; i < 30; ++i) {
-        b.inject(canopen::sdo_frame(0x585, 0x60, {0x6040, 0}));  // now and then a late answer
+        b.inject(canopen::sdo_frame(0x585, 0x60, {0x6040, 0}));  // an occasional late answer
         (void)b.ask(LineBench::to(i));
         b.run(50ms);
     }
@@ -286,7 +287,7 @@ TEST(Cia402Adapter, ReachedIsNotSaidByTheStatusOfTheMotionBefore) {
     ASSERT_TRUE(b.axis.target_reached);
     ASSERT_TRUE(good(b.ask(LineBench::to(50'000))));
     b.feedback.clear();
-    // A picture of before: bit 10 still set, at the old place.
+    // Feedback from before the motion: bit 10 still set, at the old position.
     b.inject(data(0x185, {0x37, 0x16, 0xE8, 0x03, 0, 0, 1}));
     b.inject(data(0x285, {0, 0, 0, 0, 0xE8, 0x03, 0, 0}));
     ASSERT_FALSE(b.feedback.empty());
@@ -325,7 +326,7 @@ TEST(Cia402Adapter, TheFirstEmergencyIsTheCauseAndWhatWasLeftOutIsCounted) {
     ASSERT_TRUE(b.enable());
     ASSERT_EQ(b.bus->set_hand(DriveId{0}, "inject_error", Value{std::int64_t{0x2310}}, b.now), "");
     b.inject(data(0x085, {0x10, 0x23, 0x03, 0, 0, 0, 0, 0}));
-    b.inject(data(0x085, {0x10, 0x43, 0x09, 0, 0, 0, 0, 0}));  // the heat that follows from the current
+    b.inject(data(0x085, {0x10, 0x43, 0x09, 0, 0, 0, 0, 0}));  // the overtemperature that follows from the current
     b.run(200ms);
     ASSERT_TRUE(b.axis.fault);
     EXPECT_EQ(b.axis.error_code, 0x2310);
@@ -340,7 +341,7 @@ TEST(Cia402Adapter, TheFirstEmergencyIsTheCauseAndWhatWasLeftOutIsCounted) {
     EXPECT_NE(text.find("before it were left out"), std::string::npos) << text;
 }
 
-/// A drive whose 6502h has these modes, as its maker's file says.
+/// A drive whose 6502h has these modes, as in the manufacturer's file.
 std::unique_ptr<Twin> drive_with_modes(std::uint32_t modes) {
     std::ifstream in(AXISGATE_SOURCE_DIR "/adapters/cia402/tests/eds/plain.eds");
     std::stringstream text;

@@ -1,5 +1,5 @@
-// Decoder of CANopen captures: objects by name, PDOs by the mapping that crossed the line, and what is not CANopen said to be so.
-// In: frames as candump has them. Out: sentences. Never a control character.
+// The decoder of CANopen captures: objects by name, PDOs by the mapping in the capture, and frames that are not CANopen. Frames are written
+// as candump prints them.
 #include <gtest/gtest.h>
 
 #include <fstream>

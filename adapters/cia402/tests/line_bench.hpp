@@ -1,5 +1,5 @@
-// The adapter on a simulated CAN line with nodes behind it, in virtual time.
-// In: commands, frames of a test's own. Out: results, feedback, notices as they came. Never sleeps.
+// The adapter on a simulated CAN bus with simulated nodes, in virtual time. Tests give commands and add frames of their own, and read
+// results, feedback and notices.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,19 +41,19 @@ public:
     LineSetup setup;
     LineAdapter adapter;
     std::map<Ticket, std::vector<Result>> results;
-    AxisFeedback axis;  ///< the newest of any
+    AxisFeedback axis;  ///< newest feedback of any axis
     std::map<AxisId, AxisFeedback> of_axis;
     std::vector<AxisFeedback> feedback;
     std::vector<Notice> notices;
     std::vector<Out::StreamEnd> stream_ends;
     DriveLink link;
     std::map<DriveId, DriveLink> of_drive;
-    std::function<void(const Frame&)> crossed;  ///< each frame of the bus, when its last bit has crossed
-    bool deaf = false;                          ///< nothing that the gateway sends reaches the bus
+    std::function<void(const Frame&)> crossed;  ///< called with each frame of the bus when its last bit was transmitted
+    bool deaf = false;                          ///< frames of the gateway do not reach the bus
     unsigned gateway_node = 127;
-    int heartbeats = 0;  ///< that the gateway has sent under that number
+    int heartbeats = 0;  ///< sent by the gateway under that number
 
-    /// One node; `twins` of the same number stand on the bus.
+    /// One drive; `twins` simulated nodes with its number are on the bus.
     explicit LineBench(int twins = 1) : LineBench(page(), 1) {
         TwinSetup t;
         t.address = "5";
@@ -62,7 +62,7 @@ public:
             bus->add(DriveId{static_cast<std::uint16_t>(i)}, twin::make_twin(t), {}, now);
         open();
     }
-    /// A family that stands on this one: its node 5 with so many axes; its twin is put on the bus before `open`.
+    /// A family that is based on this one: its node 5 with `axes` axes. Its twin is added to the bus before `open`.
     LineBench(const Catalogue& catalogue, int axes, std::map<std::string, std::string> options = {}) : adapter(catalogue) {
         TwinBusOptions o;
         o.kind = LineKind::can;
@@ -103,13 +103,13 @@ public:
         }
         now = end;
     }
-    /// A frame that no node of the bench has sent.
+    /// A frame that no simulated node has sent.
     void inject(const Frame& f) {
         Out out;
         adapter.on_frame(f, now, out);
         take(out);
     }
-    /// The site is changed.
+    /// Applies the changed site.
     void configure() {
         Out out;
         adapter.configure(setup, now, out);

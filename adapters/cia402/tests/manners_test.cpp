@@ -1,6 +1,6 @@
-// The adapter and drives with manners of their own, as CiA 301 and CiA 402 leave them open: a mode that is shown late, a control word that
-// is looked at now and then, an acknowledge that comes late or never, mappings in pre-operational alone, slow SDO answers, an NMT stop by
-// others. In: twins with freedoms (twin/freedoms.hpp). Out: what moves, what is answered and told. Never sleeps.
+// The adapter with drives that use what CiA 301 and CiA 402 leave open: a mode that is shown late, a control word that is sampled slowly,
+// an acknowledgement that is late or missing, mappings in pre-operational only, slow SDO answers, NMT stop by another master. The twins are
+// configured by twin/freedoms.hpp.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 using Options = std::map<std::string, std::string>;
 
 struct Manners : LineBench {
-    std::vector<std::uint16_t> words;  ///< control words that the drive was sent
+    std::vector<std::uint16_t> words;  ///< control words that were sent to the drive
     int pre_operational = 0, started = 0;
 
     explicit Manners(Options of_twin = {}, Options of_drive = {}) : LineBench(page(), 1, std::move(of_drive)) {
@@ -32,7 +32,7 @@ struct Manners : LineBench {
         if (f.id == 0 && d.size() == 2 && d[1] == 5) ++(d[0] == 128 ? pre_operational : started);
     }
     void be(const char* freedom, std::int64_t value) { ASSERT_EQ(bus->set_hand(DriveId{0}, freedom, Value{value}, now), ""); }
-    /// Another gateway on the same bus: it knows nothing of what the first one did.
+    /// Another gateway on the same bus, without any knowledge of the first one.
     void restart_gateway() {
         adapter.~LineAdapter();
         new (&adapter) LineAdapter(page());
@@ -45,7 +45,7 @@ struct Manners : LineBench {
         for (const auto& f : out.frames)
             (void)bus->send(f.frame, f.priority, now);
     }
-    /// Somebody else on the bus.
+    /// Another master on the bus.
     void others(const Frame& f) { (void)bus->send(f, Priority::command, now); }
     [[nodiscard]] double place() { return bus->twin(DriveId{0})->mechanics(1, now).position; }
     Result line(std::string_view text) {
@@ -218,7 +218,7 @@ TEST(Cia402Handshake, AMotionThatDoesNotBeginIsFailedWithTheStatusWordInWords) {
     b.run(2s);
     ASSERT_TRUE(b.enable());
     ASSERT_TRUE(good(b.ask(WriteParameter{*page().find("6081h"), Value{std::int64_t{0}}})));
-    Move m;  // the drive has no speed: it takes the set-point and stands
+    Move m;  // the drive has no velocity: it accepts the set-point and stays at standstill
     m.target = 50'000;
     const Result r = b.ask(m);
     EXPECT_EQ(r.outcome, Outcome::failed) << r.text;
@@ -279,7 +279,7 @@ TEST(Cia402PdoSetup, ADriveThatMapsInPreOperationalAloneIsBroughtBackAfterAResta
         b.run(2s);
         ASSERT_TRUE(b.link.online) << b.link.text;
         b.others(canopen::nmt_frame(canopen::NmtCommand::start, 5));
-        ASSERT_TRUE(good(b.line("1A00:00=x00")) == (setup[0] == '0'));  // a tool was here; PDO 1 is in use
+        ASSERT_TRUE(good(b.line("1A00:00=x00")) == (setup[0] == '0'));  // another tool has changed the node; PDO 1 is enabled
         b.pre_operational = 0;
         b.restart_gateway();
         b.run(3s);
@@ -304,14 +304,14 @@ TEST(Cia402PdoSetup, ANodeThatMovesIsNotSentToPreOperational) {
     for (const char* setup : {"1", "2"}) {
         for (const bool same : {true, false}) {
             SCOPED_TRACE(fmt::format("{}, {}", setup, same ? "PDOs as this gateway sets them" : "PDOs of others"));
-            // Its own watchdog would stop it while nobody knows that it watches.
+            // The drive's own monitoring would stop it although nobody knows that it is active.
             Manners b({{"pdo_setup", setup}}, {{"watchdog_action", "none"}});
             b.run(2s);
             ASSERT_TRUE(b.enable());
             ASSERT_TRUE(good(b.ask(speed(8'000))));
             b.run(1s);
             b.pre_operational = 0;
-            if (!same) {  // by a master that stood here before
+            if (!same) {  // written by another master before
                 b.others(canopen::nmt_frame(canopen::NmtCommand::pre_operational, 5));
                 b.deaf = true;
                 b.run(1ms);
@@ -487,7 +487,7 @@ TEST(Cia402SlowAnswers, AStopDoesNotWaitForAnAnswerThatIsLost) {
     ASSERT_TRUE(b.enable());
     ASSERT_TRUE(good(b.ask(speed(8'000))));
     b.run(1s);
-    b.deaf = true;  // the question is lost
+    b.deaf = true;  // the request is lost
     Command c;
     c.ticket = 901;
     c.axis = AxisId{0};
@@ -499,7 +499,7 @@ TEST(Cia402SlowAnswers, AStopDoesNotWaitForAnAnswerThatIsLost) {
     const Instant asked = b.now;
     ASSERT_TRUE(good(b.ask(QuickStop{})));
     EXPECT_LT(b.now - asked, 100ms);
-    b.deaf = true;  // so is the stop itself
+    b.deaf = true;  // the stop itself is lost, too
     c.ticket = 902;
     c.body = Halt{};
     out.clear();

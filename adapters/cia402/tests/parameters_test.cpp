@@ -1,4 +1,5 @@
-// A drive that its maker has described: the catalogue that comes of the file, the twin that is built from it, and whether it is the drive.
+// A drive with a manufacturer's description: the catalogue that is made from the file, the twin that is built from it, and the check of the
+// drive's identity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

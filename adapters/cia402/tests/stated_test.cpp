@@ -1,5 +1,5 @@
-// What writes of objects, parameter writes and actions are read as before they are sent; and what an axis tells of its rates, its course
-// and its power. In: bodies of commands; a node's twin, frames of the test's own. Out: the motion, the rates, or that it cannot be read.
+// The effect of object writes, parameter writes and actions as it is determined before they are sent; and the rates, the course and the
+// power that an axis reports.
 #include "adapters/cia402/family.hpp"
 #include "adapters/cia402/tests/line_bench.hpp"
 
@@ -105,7 +105,7 @@ TEST(Cia402Rates, AVelocityMoveIsEndless) {
     EXPECT_EQ(b.axis.course, Course::endless);
 }
 
-/// The status word of TPDO 1 as if the drive had lost its voltage by itself.
+/// The status word of TPDO 1, as if the drive had lost its voltage.
 TEST(Cia402Power, ADriveThatFallsFromOperationByItselfHasItsEnableTakenBack) {
     LineBench b;
     b.run(2s);
@@ -150,7 +150,7 @@ TEST(Cia402Limits, TheSitesLimitsGoIntoTheDrive) {
     EXPECT_EQ(b.link.limits.state, DriveLimits::State::armed) << b.link.limits.text;
     EXPECT_EQ(as_integer(b.ask(ReadParameter{*page().find("607Dh:01")}).value), -20'000);
     EXPECT_EQ(as_integer(b.ask(ReadParameter{*page().find("607Dh:02")}).value), 30'000);
-    // Another site: the drive goes on, and is set up anew.
+    // The site changes: the drive stays in operation and is set up again.
     b.setup.drives[0].axes[0].position_max = 40'000;
     b.configure();
     b.run(2s);

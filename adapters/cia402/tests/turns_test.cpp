@@ -1,6 +1,6 @@
-// Turns of the SYNC: 32 axes at 2 ms on one bus of 1 Mbit/s, nodes that count otherwise, sites that change under a stream.
-// In: nodes' twins on the simulated bus, each frame as it crosses it. Out: when the SYNC comes, what a beat carries, how old a picture is,
-// how a led axis goes. Never sleeps.
+// SYNC cycles: 32 axes at 2 ms on one bus of 1 Mbit/s, nodes that count SYNCs differently, and sites that change during a stream. The tests
+// observe each frame on the simulated bus: the time of SYNC, the load of a cycle, the age of feedback, and the motion of axes that follow
+// set-points.
 #include <fmt/core.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace axisgate::cia402_drive::test {
 namespace {
 
-/// What crosses the bus between one SYNC and the next.
+/// The frames between one SYNC and the next.
 struct Beat {
     Instant sync{};
     std::uint64_t pdo_bits = 0, bits = 0;
@@ -57,7 +57,7 @@ public:
             ASSERT_TRUE(good(ask(m, 10s, n))) << n;
         }
     }
-    /// From the next whole beat on.
+    /// Records from the next complete cycle on.
     void watch(Duration d) {
         beats.clear();
         pictures.clear();
@@ -74,7 +74,7 @@ public:
             longest = std::max(longest, beats[i].sync - beats[i - 1].sync);
         return longest;
     }
-    /// SYNCs between two of the status PDOs of a node, the most there were; 0: it has sent at most one.
+    /// The largest number of SYNCs between two status PDOs of a node; 0: it has sent at most one.
     [[nodiscard]] std::size_t turns(std::uint32_t node) const {
         std::size_t last = 0, most = 0;
         bool seen = false;
@@ -109,8 +109,8 @@ SetPoint set_point(int axis, std::int64_t place, std::int64_t speed = 40'000) {
     p.acceleration = p.deceleration = 400'000;
     return p;
 }
-/// Leads axes along a straight way, a set-point each 2 ms; the slowest and the fastest that any of them was in the middle of it, and
-/// whether it came to a stand between two targets. `between`: called once, in the middle.
+/// Moves axes evenly with one set-point each 2 ms. Records the lowest and the highest velocity of any axis in the middle of the way, and
+/// whether an axis came to a standstill between two targets. `between` is called once, in the middle.
 struct Led {
     double slowest = 1e9, fastest = 0;
 };
@@ -198,11 +198,11 @@ TEST(Cia402Turns, WhoIsLedLaterComesRoundMoreSeldomAndKnowsIt) {
         ++times[b.ask(Native{{'6', '0', 'C', '2', ':', '0', '1', '?'}, true}, 10s, a).text];
     }
     EXPECT_EQ(times, (std::map<std::string, int>{{"2", 2}, {"16", 2}, {"32", 28}}));
-    b.beats.erase(b.beats.begin(), b.beats.begin() + 300);  // until all have begun
+    b.beats.erase(b.beats.begin(), b.beats.begin() + 300);  // until all have started
     EXPECT_LE(b.most(&Beat::pdo_bits), canopen::pdo_share(2ms, 1'000'000));
 }
 
-/// A node that misses SYNCs: the first ones after its start, or when a test says so.
+/// A node that misses SYNCs: the first ones after its start, or when the test requests it.
 class Hard : public Twin {
 public:
     Hard(std::unique_ptr<Twin> twin, std::uint8_t node, int late) : twin_(std::move(twin)), node_(node), late_(late) {}
@@ -228,7 +228,7 @@ private:
     std::uint8_t node_;
     int late_;
 };
-/// 16 nodes, two in each beat by the plan; `late`: SYNCs that a node misses after its start.
+/// 16 nodes, two in each cycle of the plan; `late` is the number of SYNCs that a node misses after its start.
 struct HardBench : TurnsBench {
     std::vector<Hard*> nodes;
     explicit HardBench(const std::function<int(int)>& late) : TurnsBench(0) {
@@ -269,7 +269,7 @@ TEST(Cia402Turns, MissedSyncsAreMadeUpFor) {
         b.nodes[i]->misses = 1 + static_cast<int>(i);
     b.run(2s);
     b.each_in_its_beats();
-    b.deaf = true;  // and all of them three
+    b.deaf = true;  // and all of them miss three
     b.run(6ms);
     b.deaf = false;
     b.run(2s);
@@ -286,7 +286,7 @@ TEST(Cia402Turns, DrivesThatComeToTheSiteChangeNothingForWhoIsLed) {
     EXPECT_EQ(b.of_drive[DriveId{0}].beats, (DriveBeats{2ms, 1}));
     const Led l = lead(b, {1}, 6s, [&] {
         b.add(30);
-        b.setup.timing.poll_period = 5ms;  // and another beat
+        b.setup.timing.poll_period = 5ms;  // and another cycle
         b.configure();
     })[0];
     EXPECT_TRUE(b.stream_ends.empty());

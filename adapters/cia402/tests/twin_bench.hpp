@@ -1,5 +1,5 @@
-// Twin bench: one simulated CiA 402 drive at its wire, as a master would have it: SDO by hand, PDOs, time.
-// In: objects and values. Out: what the node said. Never goes round the wire but for the hand and the mechanics.
+// One simulated CiA 402 drive without an adapter: the test sends SDO, PDO and NMT frames itself and lets time pass. It uses the bus only,
+// except for the simulated hand and the mechanics.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct Bench {
         twin = make_twin(setup, eds);
         twin->power_on(memory, now, out);
     }
-    /// Another family's twin at node 5 with the same manners on the wire.
+    /// The twin of another family at node 5 that behaves the same on the bus.
     explicit Bench(std::unique_ptr<Twin> other) : twin(std::move(other)) { twin->power_on({}, now, out); }
     void pass(Duration d) {
         now += d;
@@ -76,7 +76,7 @@ struct Bench {
             bytes.push_back(static_cast<std::uint8_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
         return canopen::data_frame(static_cast<std::uint32_t>(std::stoul(text.substr(0, 3), nullptr, 16)), bytes);
     }
-    /// Sends what a family's vectors say and compares what comes; how many answers there were.
+    /// Sends the requests of a family's vectors and compares the answers. Returns the number of answers.
     std::size_t answers_of_vectors(const std::string& family) {
         std::ifstream f(AXISGATE_SOURCE_DIR "/adapters/" + family + "/vectors.txt");
         std::string line, name;

@@ -1,5 +1,5 @@
-// Profiles of the simulated servo: three forms of ramps, from any speed and acceleration, to a speed or to a place.
-// In: ramps. Out: segments. Never a jump of the speed; with jerks none of the acceleration either.
+// Profiles of the simulated servo: three shapes of ramps, from any speed and acceleration, to a speed or to a position. The speed never
+// jumps; with limited jerk the acceleration does not either.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ double length(const Profile& p) {
         s += x.seconds;
     return s;
 }
-/// Goes along it in small steps; the most of speed, acceleration and jerk that was seen.
+/// Samples the profile in small steps: the highest speed, acceleration and jerk.
 struct Seen {
     double velocity = 0, up = 0, down = 0, jump = 0;
 };
@@ -40,7 +40,8 @@ Seen seen(Motion at, const Profile& p, bool jerks) {
     return most;
 }
 
-TEST(Cia402Profile, JerkminOfTheManual) {  // 100 qc/ms, 0.2 qc/ms^2, 0.001 qc/ms^3: 200 ms up, 300 ms level, 200 ms back
+TEST(Cia402Profile, JerkminOfTheManual) {  // 100 qc/ms, 0.2 qc/ms^2, 0.001 qc/ms^3: 200 ms acceleration, 300 ms constant speed, 200 ms
+                                           // deceleration
     Ramps r{100'000, 200'000, 200'000, Shape::jerk, {1e6, 1e6, 1e6, 1e6}};
     const Profile p = profile_to_speed({}, 100'000, r);
     ASSERT_EQ(p.segments.size(), 3u);
@@ -48,7 +49,7 @@ TEST(Cia402Profile, JerkminOfTheManual) {  // 100 qc/ms, 0.2 qc/ms^2, 0.001 qc/m
     EXPECT_NEAR(p.segments[1].seconds, 0.3, 1e-9);
     EXPECT_NEAR(p.segments[2].seconds, 0.2, 1e-9);
     EXPECT_NEAR(p.end.velocity, 100'000, 1e-9);
-    r.jerk = {2e6, 1e6, 4e6, 0.5e6};  // each ramp its own
+    r.jerk = {2e6, 1e6, 4e6, 0.5e6};  // a different jerk for each ramp
     const Profile q = profile_to_place({}, 1'000'000, r);
     ASSERT_EQ(q.segments.size(), 7u);
     EXPECT_NEAR(q.segments[0].seconds, 0.1, 1e-9);

@@ -1,4 +1,4 @@
-// The simulated CiA 402 drive as its wire shows it: golden frames, power states, modes, homing, faults, PDOs, memory, descriptions.
+// The simulated CiA 402 drive on the bus: recorded frames, power states, modes, homing, faults, PDOs, memory, descriptions.
 #include <sstream>
 
 #include "adapters/cia402/tests/twin_bench.hpp"
@@ -60,7 +60,7 @@ TEST(Cia402Twin, APositionIsReachedAndAcknowledgedAndHaltedWithoutBeingForgotten
     b.pass(3s);
     EXPECT_EQ(b.read(0x6064), 10'000);
     EXPECT_NE(b.status() & 0x400u, 0u);
-    // Buffered: the second one waits for the first.
+    // Buffered: the second set-point waits for the first.
     ASSERT_EQ(b.write(0x607A, 0, 20'000, 4), Abort::none);
     b.word(0x1F), b.word(0x0F);
     ASSERT_EQ(b.write(0x607A, 0, 5'000, 4), Abort::none);
@@ -112,8 +112,8 @@ TEST(Cia402Twin, HomingFindsItsPlaceOrSaysThatThereIsNone) {
     }
 }
 
-/// CiA 402-2: where each method finds its zero. Limit switches at -20'000 and 20'000, an index each 4096, the home switch with its edge at
-/// 0 or as a cam from -1024 to 1024.
+/// The zero position of each homing method (CiA 402-2). Limit switches at -20'000 and 20'000, an index pulse every 4096, the home switch
+/// with its edge at 0 or as a cam from -1024 to 1024.
 TEST(Cia402Twin, EachHomingMethodHasItsOwnPlace) {
     const std::map<int, double> places{{1, -16'384},  {2, 16'384},  {3, -4096}, {4, 4096},  {5, 4096},  {6, -4096},  {7, -4096},
                                        {8, 0},        {9, 0},       {10, 4096}, {11, 4096}, {12, 0},    {13, 0},     {14, -4096},
@@ -179,12 +179,12 @@ TEST(Cia402Twin, CyclicModesFollowTheirTargetsAtTheSync) {
     b.pass(10ms);
     EXPECT_EQ(b.read(0x6064), 1000);
     EXPECT_EQ(b.read(0x606C), 0);
-    // A short one is told by EMCY 8210h and nothing of it is taken.
+    // A PDO that is too short is reported by EMCY 8210h and ignored.
     b.out.clear();
     b.send(canopen::data_frame(0x205, std::array<std::uint8_t, 2>{1, 2}));
     ASSERT_EQ(b.count(0x85), 1u);
     EXPECT_EQ(canopen::low_first(b.out.frames[0].frame.data().first(2)), 0x8210u);
-    // Torque: 1/1000 of it makes 50 increments/s2.
+    // Torque: 1/1000 of the rated torque gives 50 increments/s2.
     ASSERT_EQ(b.write(0x6071, 0, 100, 2), Abort::none);
     ASSERT_EQ(b.write(0x6060, 0, 10, 1), Abort::none);
     b.pass(1s);
@@ -290,8 +290,8 @@ TEST(Cia402Twin, TwoTouchProbesKeepBothEdgesEachByItsByte) {
 
 TEST(Cia402Twin, UserUnitsAreWhatTheFactorsSay) {
     Bench b;
-    // 4096 increments to a revolution of the motor, gear 2:1, 10 units to a turn of the load: 819.2 increments to a unit; speeds in units
-    // per minute.
+    // 4096 increments per motor revolution, gear 2:1, 10 units per revolution of the load: 819.2 increments per unit; speeds in units per
+    // minute.
     const struct {
         std::uint16_t index;
         std::int64_t over, under;
@@ -321,11 +321,11 @@ TEST(Cia402Twin, EachOptionCodeHasItsRampAndItsState) {
         const char* what;
         std::uint16_t index;
         int option;
-        unsigned word;       // what stops it
+        unsigned word;       // the control word that stops it
         std::int64_t after;  // its speed after 50 ms, from 10'000
-        unsigned state;      // where it ends
+        unsigned state;      // its state at the end
     };
-    // 6084h 20'000/s2, 6085h 100'000/s2, 60C6h 160'000/s2: half a second, a tenth, a sixteenth.
+    // 6084h 20'000/s2, 6085h 100'000/s2, 60C6h 160'000/s2: stops in 1/2 s, 1/10 s and 1/16 s.
     constexpr Case cases[] = {
         {"disabled: coasts", 0x605A, 0, 0x0B, 0, 0x40},      {"slow down", 0x605A, 1, 0x0B, 9000, 0x40},
         {"quick stop ramp", 0x605A, 2, 0x0B, 5000, 0x40},    {"by current", 0x605A, 3, 0x0B, 2000, 0x40},
@@ -425,7 +425,7 @@ TEST(Cia402Twin, StopsByItselfWhenTheHeartbeatThatItWatchesStops) {
         }
         ASSERT_EQ(b.read(0x606C), 10'000);
         b.out.clear();
-        b.send(canopen::heartbeat_frame(126, canopen::NmtState::operational));  // another node's is nothing to it
+        b.send(canopen::heartbeat_frame(126, canopen::NmtState::operational));  // the heartbeat of another node has no effect
         b.pass(199ms);
         EXPECT_EQ(b.count(0x85), 0u) << "300 ms are not over";
         b.pass(1ms);
@@ -434,7 +434,7 @@ TEST(Cia402Twin, StopsByItselfWhenTheHeartbeatThatItWatchesStops) {
         EXPECT_EQ(b.count(0x85), 1u);
         EXPECT_EQ(b.read(0x606C) != 0, c.moves);
         EXPECT_EQ(b.status() & (c.state == 0x08 ? 0x4Fu : 0x6Fu), c.state);
-        // Out of the operational state, until it is started again: no PDO at a SYNC.
+        // Outside the operational state, until NMT start: no PDO after a SYNC.
         ASSERT_EQ(b.write(0x1800, 2, 1, 1), Abort::none);
         b.out.clear();
         b.send(canopen::data_frame(0x80, {}));

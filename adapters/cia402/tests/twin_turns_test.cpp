@@ -1,5 +1,4 @@
-// The simulated node at a SYNC: transmission types 1 to 240, SYNC start value, counter and its overflow (CiA 301, 7.5.2.17 and 7.5.2.37).
-// In: SYNCs. Out: at which of them a PDO comes. Never an adapter.
+// The simulated node and SYNC: transmission types 1 to 240, SYNC start value, counter and its overflow (CiA 301, 7.5.2.17 and 7.5.2.37).
 #include "adapters/cia402/tests/twin_bench.hpp"
 #include "gateway/protocols/canopen/emergency.hpp"
 
@@ -7,7 +6,7 @@ namespace axisgate::cia402_drive::twin::test {
 namespace {
 using canopen::Abort;
 
-/// TPDO 1 at each `every`th SYNC, and NMT start.
+/// TPDO 1 at every `every`th SYNC, then NMT start.
 void set_up(Bench& b, int every, int start = 0) {
     ASSERT_EQ(b.write(0x1800, 1, 0xC0000185, 4), Abort::none);
     ASSERT_EQ(b.write(0x1800, 2, every, 1), Abort::none);
@@ -15,7 +14,7 @@ void set_up(Bench& b, int every, int start = 0) {
     ASSERT_EQ(b.write(0x1800, 1, 0x40000185, 4), Abort::none);
     b.send(canopen::nmt_frame(canopen::NmtCommand::start, 5));
 }
-/// The SYNCs, counted from 1, at which it came. `counter`: of the first one; 0: they have none.
+/// The SYNCs, counted from 1, at which the PDO came. `counter` is that of the first SYNC; 0: SYNCs without a counter.
 std::vector<int> came(Bench& b, int syncs, int counter = 0, int overflow = 0) {
     std::vector<int> at;
     for (int i = 1; i <= syncs; ++i) {

@@ -1,6 +1,6 @@
-// Freedoms: what CiA 301 and CiA 402 leave open, and how this simulated drive closes it: when it looks at its control word, when it shows a
-// mode, whether and when it acknowledges a set-point, in which state it takes mappings, how long its SDO answers take.
-// In: options of the twin. Out: numbers within their ranges. The default of each is the drive that answers and acts at once.
+// Freedoms are the choices that CiA 301 and CiA 402 leave to a drive, as options of the twin: how often it samples its control word, when
+// it shows a mode, whether and when it acknowledges a set-point, in which state it accepts mappings, and how long its SDO answers take. By
+// default the drive answers and acts at once.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ inline constexpr std::array<Freedom, 6> freedoms{{
     {"sdo_answer_ms", &Freedoms::sdo_answer_ms, 0, 400, "an SDO request is taken, and answered, after this time, one after the other"},
 }};
 
-/// Empty, or what would be right. A name that is no freedom is nothing that is set.
+/// Empty, or what a valid value would be. Unknown names are ignored.
 [[nodiscard]] inline std::string set_freedom(Freedoms& of, const Freedom& freedom, std::int64_t value) {
     if (value < freedom.low || value > freedom.high)
         return std::string(freedom.name) + ": write " + std::to_string(freedom.low) + " to " + std::to_string(freedom.high);
@@ -56,7 +56,7 @@ inline constexpr std::array<Freedom, 6> freedoms{{
         if (f.name == name) return &f;
     return nullptr;
 }
-/// What is not given, or cannot be read, is the default.
+/// Values that are not given or cannot be read have their default.
 [[nodiscard]] inline Freedoms freedoms_of(const std::map<std::string, std::string>& options) {
     Freedoms out;
     for (const Freedom& f : freedoms) {

@@ -1,5 +1,3 @@
-// Homing: the methods.
-// In: method, place, travel. Out: ways. Never goes beyond a limit switch.
 #include "adapters/cia402/twin/homing.hpp"
 
 #include <array>
@@ -19,19 +17,20 @@ HomingWay homing_way(int method, double here, double travel) {
     if (method == 35 || method == 37) return {true, {}, here, false};
     if (method == 33) return {true, {}, index_below(here), true};
     if (method == 34) return {true, {}, index_above(here), true};
-    const bool to_edge = method >= 17 && method <= 30;  // as method - 16, and the zero is the edge itself
+    const bool to_edge = method >= 17 && method <= 30;  // like method - 16, but the zero is the edge itself
     const int m = to_edge ? method - 16 : method;
     if (m < 1 || m > 14 || travel <= 0) return {};
 
-    if (m <= 2) {  // a limit switch, and the first index on the way back from it
+    if (m <= 2) {  // a limit switch, and the first index pulse on the way back
         const double edge = m == 1 ? -travel : travel;
         return {true, {edge}, to_edge ? edge : m == 1 ? index_above(edge) : index_below(edge), true};
     }
-    // 3, 4: a home switch that is active from its edge to the positive end; 5, 6: to the negative end. The index of 3 and 6 is left of it.
+    // 3, 4: a home switch that is active from its edge to the positive end; 5, 6: to the negative end. The index pulse of 3 and 6 is to the
+    // left of it.
     if (m <= 6) return {true, {0}, to_edge ? 0 : m == 3 || m == 6 ? index_below(0) : index_above(0), true};
 
-    // 7 to 10 begin to the right and turn at the positive limit, 11 to 14 are their image: outside the near edge, inside it, inside the
-    // far edge, outside of that.
+    // 7 to 10 start to the right and reverse at the positive limit switch; 11 to 14 are mirrored. In order: outside the near edge, inside
+    // it, inside the far edge, outside the far edge.
     const double side = m <= 10 ? 1 : -1;
     const int kind = (m - 7) % 4;
     const double edge = side * (kind < 2 ? -cam : cam);

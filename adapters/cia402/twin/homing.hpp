@@ -1,5 +1,5 @@
-// Homing of the simulated servo: the way that each method of 6098h takes over its switches and index pulses (CiA 402-2).
-// In: a method, the place of the shaft, the travel. Out: the places it goes to, one after the other. Never moves anything.
+// The homing of the simulated servo: the positions that each method of 6098h passes with its switches and index pulses (CiA 402-2). It
+// calculates only; the servo moves.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace axisgate::cia402_drive::twin {
 
-/// An index pulse stands at each multiple of this, in increments of the motor.
+/// There is an index pulse at each multiple of this, in increments of the motor.
 inline constexpr double index_way = 4096;
-/// The home switch of methods 7 to 14 and 23 to 30 is a cam from -cam to +cam; that of 3 to 6 and 19 to 22 has its one edge at 0.
+/// The home switch of methods 7 to 14 and 23 to 30 is a cam from -cam to +cam; that of 3 to 6 and 19 to 22 has one edge, at 0.
 inline constexpr double cam = 1024;
 
 struct HomingWay {
-    bool possible = false;       ///< false: it looks for a switch that is not there
-    std::vector<double> search;  ///< at the speed of 6099h:01, to switches
-    double zero = 0;             ///< at the speed of 6099h:02
-    bool moves = true;           ///< false: the zero is where it stands
+    bool possible = false;       ///< false: the method needs a switch that does not exist
+    std::vector<double> search;  ///< approached with the speed of 6099h:01, to switches
+    double zero = 0;             ///< approached with the speed of 6099h:02
+    bool moves = true;           ///< false: the zero is the present position
 };
 
-/// How far a homing is: the places that are left, and how it ended.
+/// The progress of homing: the remaining positions, and its result.
 class HomingSearch {
 public:
     void forget() { phase_ = Phase::none; }
@@ -33,10 +33,10 @@ public:
         way_ = std::move(way);
         phase_ = way_.possible ? Phase::to_switch : Phase::error;
     }
-    /// Methods below 0 are led by who has them.
+    /// Methods below 0 are carried out by the family that defines them.
     void lead() { phase_ = Phase::led; }
     void end(bool attained) { phase_ = attained ? Phase::attained : Phase::error; }
-    /// The next switch; nothing: from there to the zero.
+    /// The next switch; empty: the zero comes next.
     [[nodiscard]] std::optional<double> next() {
         if (way_.search.empty()) {
             phase_ = Phase::to_zero;
@@ -59,9 +59,9 @@ private:
     HomingWay way_;
 };
 
-/// All that 60E3h offers, ascending.
+/// All methods that 60E3h offers, in ascending order.
 [[nodiscard]] std::span<const int> homing_methods() noexcept;
-/// `travel`: the limit switches stand at -travel and +travel; 0: there are neither limit switches nor a home switch.
+/// `travel`: the limit switches are at -travel and +travel; 0: there are neither limit switches nor a home switch.
 [[nodiscard]] HomingWay homing_way(int method, double here, double travel);
 
 }  // namespace axisgate::cia402_drive::twin

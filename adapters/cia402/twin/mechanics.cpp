@@ -1,5 +1,4 @@
-// Mechanics of the simulated servo: orders as profiles that begin at an instant.
-// In: orders. Out: pieces. Never keeps more than one plan: at most 17 pieces.
+// At most one plan is stored: 17 segments.
 #include "adapters/cia402/twin/mechanics.hpp"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ Motion Mechanics::demand(Instant now) const {
     const Piece* p = &pieces_.front();
     for (const Piece& x : pieces_)
         if (x.begin <= t) p = &x;
-    // Between two steps of a cyclic mode a shaft does not stand: the next one may come a little late.
+    // A shaft does not stand still between two steps of a cyclic mode: the next step may be slightly late.
     if (step_velocity_ != 0 && t >= end_ && t < 1.25 * end_) return {p->from.position, step_velocity_, 0};
     return along(p->from, p->how, std::max(0.0, t - p->begin));
 }
@@ -77,7 +76,7 @@ void Mechanics::push(double acceleration, double slope, double most, Instant now
     const double change = push_to_ - push_from_;
     const Segment slopes[] = {{slope > 0 ? std::fabs(change) / slope : 0, push_from_, std::copysign(slope, change)}, {1e9, acceleration}};
     for (Segment s : slopes) {
-        // The top speed ends it: where the speed crosses it within this segment, the rest of it does not happen.
+        // The top speed ends the segment: from the crossing on, the rest of it does not take place.
         const auto passes = [&](double t) { return std::fabs(along(at_, s, t).velocity) > most; };
         const bool away = std::fabs(at_.velocity) >= most && at_.velocity * (s.acceleration + s.jerk * s.seconds / 2) >= 0;
         if (away || (s.acceleration == 0 && s.jerk == 0)) continue;

@@ -1,6 +1,6 @@
-// Mechanics of the simulated servo: where its demand is at any instant, as pieces of a profile, and a shaft that lags behind it or is held.
-// In: orders with an instant (to a place, at a speed, with a torque, to a stop). Out: demand and shaft at any later instant, in closed
-// form. Never jumps: an order goes on from where the one before had come to. Increments of the motor, seconds.
+// Mechanics calculates the demand position of the simulated servo at any instant, as segments of a profile, and the position of a shaft
+// that lags behind it or is blocked. Each order (to a position, at a speed, with a torque, to a stop) continues from the state that the
+// previous one has reached, without a jump. Units: increments of the motor, seconds.
 #pragma once
 
 #include <vector>
@@ -15,18 +15,19 @@ public:
     void move(double target, const Ramps& ramps, Instant now);
     void run(double velocity, const Ramps& ramps, Instant now);
     void stop(const Ramps& ramps, Instant now) { run(0, ramps, now); }
-    /// One step of a cyclic mode: there in `seconds`, and then it waits for the next.
+    /// One step of a cyclic mode: reaches the target in `seconds` and then waits for the next step.
     void step_to(double target, double seconds, Instant now);
-    /// A torque: a shaft without friction, up to a speed. `slope`: how fast the acceleration may change, increments/s^3; 0: at once.
+    /// A torque on a shaft without friction, up to a speed. `slope` is the rate of change of the acceleration, increments/s^3; 0: at once.
     void push(double acceleration, double slope, double most_velocity, Instant now);
-    /// The demand is here and stands: power was taken away, or the shaft has slipped.
+    /// The demand position is set here, at standstill: power was removed, or the shaft has slipped.
     void rest_at(double position, Instant now);
     void hold(bool held, Instant now);
-    /// What a position controller leaves: the shaft is behind its demand by the way of so many seconds.
+    /// Lag of a position controller: the shaft follows its demand with this delay.
     void set_lag(double seconds) { lag_ = seconds; }
     [[nodiscard]] bool lags() const noexcept { return lag_ > 0; }
 
-    /// What the encoder says beside where the shaft is, from now on; a swing of so many increments to both sides in 7 ms.
+    /// Errors of the encoder from now on: `misread` is a constant offset, `swing` an oscillation by `size` increments to both sides with a
+    /// period of 7 ms.
     void misread(double by) { misread_ = by; }
     void swing(double size) { swing_ = size; }
     [[nodiscard]] double swings() const noexcept { return swing_; }
@@ -34,13 +35,13 @@ public:
 
     [[nodiscard]] Motion demand(Instant now) const;
     [[nodiscard]] Motion shaft(Instant now) const;
-    /// As the encoder has it.
+    /// As the encoder reports it.
     [[nodiscard]] double read(Instant now) const;
     [[nodiscard]] bool held() const noexcept { return held_; }
-    /// When the demand comes to rest, or to its last speed.
+    /// When the demand reaches standstill or its final speed.
     [[nodiscard]] Instant end() const;
     [[nodiscard]] bool moves(Instant now) const;
-    /// What is pushing now, as an acceleration; also where the top speed is reached.
+    /// The present torque as an acceleration, also when the top speed is reached.
     [[nodiscard]] double pushed(Instant now) const;
 
 private:

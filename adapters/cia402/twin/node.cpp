@@ -1,5 +1,4 @@
-// Node: what frames and time do.
-// In: frames. Out: answers. Never applies half a PDO; never sends more than a bounded number of frames for time that has passed.
+// A PDO is applied completely or not at all. For time that has passed, only a bounded number of frames is sent.
 #include "adapters/cia402/twin/node.hpp"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ using canopen::PdoDirection;
 
 namespace {
 constexpr std::int64_t save_word = 0x65766173, load_word = 0x64616F6C;  // "save", "load"
-constexpr int most_events = 100'000;                                    // of one call: what is more was hours ago, and nobody saw it
+constexpr int most_events = 100'000;                                    // in one call; older ones are dropped
 std::string key_of(Address a) {
     std::array<char, 16> text{};
     std::snprintf(text.data(), text.size(), "%04X:%02X", unsigned{a.index}, unsigned{a.sub});
@@ -122,7 +121,7 @@ void Node::read_sync() {
     sync_overflow_ = static_cast<int>(d_.integer({0x1019, 0}).value_or(0));
 }
 
-/// 1016h:01: the node in bits 16 to 22, its time in ms below; the watch begins with its first heartbeat (CiA 301).
+/// 1016h:01: the node in bits 16 to 22, its time in ms in the low word; monitoring begins with its first heartbeat (CiA 301).
 void Node::watch_as_written() {
     const auto entry = static_cast<std::uint32_t>(d_.integer({0x1016, 1}).value_or(0));
     const auto node = (entry >> 16) & 0xFFu;
@@ -132,17 +131,19 @@ void Node::watch_as_written() {
 }
 
 Acceptance Node::acceptance() const noexcept {
-    // The connection set has the node's number in the low seven bits. PDOs with other identifiers, or a SYNC elsewhere: it hears all.
+    // The connection set has the node's number in the low seven bits. If PDOs have other identifiers, or SYNC is elsewhere, the node
+    // receives all frames.
     const auto own = [this](const Pdo& p) { return !p.valid || (p.pdo.settings.id & 0x7Fu) == node_; };
     if (sync_id_ != canopen::sync_id || !std::ranges::all_of(receive_, own) || !std::ranges::all_of(transmit_, own)) return {};
     return {{{{0x7F, node_}, {0x7F, 0}, {0x7F, watched_}}}, 3};
 }
 
-/// Nobody asks, or the watched heartbeat has stopped. 1029h:01 = 0: out of the operational state (CiA 301, the default).
+/// No master is present, or the monitored heartbeat has stopped. 1029h:01 = 0: the node leaves the operational state (CiA 301, the
+/// default).
 void Node::connection_lost(Instant at, Out& out) {
     shown_.reset();
     if (d_.integer({0x6007, 0}).value_or(0) != 1)
-        send(canopen::emergency_frame(node_, {0x8130, 0x11, {}}), at, out);  // 1: a fault tells it
+        send(canopen::emergency_frame(node_, {0x8130, 0x11, {}}), at, out);  // 1: a fault has reported it
     device_->connection_lost(at);
     if (state_ == NmtState::operational && d_.integer({0x1029, 1}).value_or(0) == 0) state_ = NmtState::pre_operational;
 }
@@ -157,7 +158,7 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
     Abort fault = Abort::none;
     const auto read = canopen::pdo_of(d_, direction, n, fault);
     const bool valid = read && read->settings.valid;
-    if (valid && p.valid && p.pdo == *read) return;  // sub 6 is written while it is out of use
+    if (valid && p.valid && p.pdo == *read) return;  // sub 6 is written while the PDO is disabled
     p = {};
     p.valid = valid;
     if (read) p.pdo = *read;
@@ -192,7 +193,8 @@ Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
             all.push_back(canopen::mapped_entry(static_cast<std::uint32_t>(d_.integer({a.index, i}).value_or(0))));
         if (canopen::bits_of(all) > canopen::pdo_bits) return Abort::pdo_length;
     }
-    // CiA 301, 7.5.2.17: 1 is no overflow, and it stands while a period is produced; 7.5.2.37: sub 6 stands while the PDO is in use.
+    // CiA 301, 7.5.2.17: 1 is not a valid overflow, and it is constant while a period is produced; 7.5.2.37: sub 6 is constant while the
+    // PDO is enabled.
     if (a.index == 0x1019 && v == 1) return Abort::value;
     if (a.index == 0x1019 && d_.integer({0x1006, 0}).value_or(0) != 0) return Abort::device_state;
     if (a.index >= 0x1800 && a.index < 0x1800 + pdos && a.sub == 6) {
@@ -217,7 +219,7 @@ void Node::take_writes(Instant now, Out& out) {
         if (a.index == 0x100C || a.index == 0x100D)
             guard_.set(std::chrono::milliseconds(d_.integer({0x100C, 0}).value_or(0)),
                        static_cast<std::uint8_t>(d_.integer({0x100D, 0}).value_or(0)));
-        // 1400h and 1600h: what it receives, 1800h and 1A00h: what it sends; a number of its own in the low byte.
+        // 1400h and 1600h: received PDOs, 1800h and 1A00h: sent PDOs; the low byte is the number of the PDO.
         if (a.index >= 0x1400 && a.index < 0x1C00 && (a.index & 0xFFu) < pdos)
             read_pdo(a.index < 0x1800 ? PdoDirection::receive : PdoDirection::transmit, static_cast<std::uint16_t>((a.index & 0xFFu) + 1),
                      now);
@@ -312,8 +314,8 @@ void Node::receive(Pdo& p, std::span<const std::uint8_t> bytes, Instant now, Out
     take_writes(now, out);
 }
 
-/// Whether a PDO of a synchronous type goes with this SYNC: where it has a start value, the SYNC with that counter is the first that it has
-/// received; then each n-th one, counted from there (CiA 301, 7.5.2.37).
+/// Whether a synchronous PDO is sent at this SYNC: with a start value, the SYNC with that counter is the first one; then every n-th SYNC,
+/// counted from there (CiA 301, 7.5.2.37).
 bool Node::due(Pdo& p, int counter) const {
     if (p.start != 0 && sync_overflow_ != 0 && !p.begun) {
         if (counter != p.start) return false;
@@ -371,7 +373,7 @@ void Node::events(Instant at, Out& out) {
     if (state_ != NmtState::operational) return;
     for (Pdo& p : transmit_) {
         if (!p.valid || p.pdo.settings.transmission < 254) continue;
-        // By event is what states, inputs and modes do; what is measured goes with them.
+        // A PDO is event-driven if it contains states, inputs or modes; measured values are sent with them.
         const bool has_state =
             std::ranges::any_of(p.pdo.mapping, [](const auto& m) { return m.address.index == 0x6041 || m.address.index == 0x60FD; });
         if (has_state && packed(p, at) != p.sent) transmit(p, at, out);

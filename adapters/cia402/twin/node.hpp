@@ -1,5 +1,5 @@
-// Node: the CANopen side of the simulated device: SDO server, NMT, error control, PDOs as they are mapped, SYNC, EMCY, memory.
-// In: frames, time. Out: frames with the instant of their cause. Never answers while it is silent or without power.
+// Node is the CANopen part of the simulated device: SDO server, NMT, error control, mapped PDOs, SYNC, EMCY, memory. It does not answer
+// while it is silent or without power.
 #pragma once
 
 #include <array>
@@ -22,19 +22,19 @@ public:
     Node(std::uint8_t node, canopen::Dictionary dictionary);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
-    /// What stands behind it: before anything else is asked. Made over `dictionary()`.
+    /// The device behind the node, which was made with `dictionary()`. Must be called first.
     void attach(Device& device) noexcept { device_ = &device; }
 
     void power_on(const NonVolatile& memory, Instant now, Out& out);
     void power_off(Instant now);
     void on_frame(const Frame& frame, Instant now, Out& out);
-    /// Everything that happens by itself until then, in order, each with its own instant.
+    /// All events until `now`, in order, each with its own instant.
     void advance(Instant now, Out& out);
     [[nodiscard]] Instant deadline() const;
-    /// Of the pre-defined connection set: its own identifiers, NMT and SYNC, and those of the node whose heartbeat it watches.
+    /// The identifiers of the pre-defined connection set: its own ones, NMT, SYNC, and those of the node whose heartbeat it monitors.
     [[nodiscard]] Acceptance acceptance() const noexcept;
 
-    /// How it answers and what it lets be set up, from now on.
+    /// How it answers and which set-up it accepts, from now on.
     void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
 
     [[nodiscard]] NonVolatile stored() const { return stored_; }
@@ -46,17 +46,17 @@ public:
     [[nodiscard]] bool powered() const noexcept { return powered_; }
     void after_hand(Instant now, Out& out) {
         shown_.reset();
-        take_writes(now, out);  // also what a controller's own program has written
+        take_writes(now, out);  // also writes of a controller's own program
     }
 
 private:
     struct Pdo {
         canopen::Pdo pdo;
         bool valid = false;
-        int syncs = 0;                               ///< since it was sent, or began to count
+        int syncs = 0;                               ///< since the PDO was sent, or began to count
         int start = 0;                               ///< sub 6: the counter of the SYNC that is its first; 0: any
-        bool begun = false;                          ///< that one has come
-        std::vector<const canopen::Entry*> entries;  ///< of what is mapped, in d_; null: a filler, or not there
+        bool begun = false;                          ///< that SYNC has arrived
+        std::vector<const canopen::Entry*> entries;  ///< the mapped entries, in d_; nullptr: a dummy entry or a missing one
         std::vector<std::uint8_t> sent, waiting;
         Instant event = never;
     };
@@ -70,7 +70,7 @@ private:
     void read_sync();
     void read_pdos(Instant now);
     void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
-    void show(Instant now);  ///< what is measured stands in the dictionary
+    void show(Instant now);  ///< writes the measured values into the dictionary
     [[nodiscard]] bool may_set_up(canopen::Address address) const noexcept;
     void keep_request(const Frame& request, Instant now);
     void serve_request(const Frame& request, Instant at, Out& out);
@@ -82,9 +82,9 @@ private:
     [[nodiscard]] bool due(Pdo& p, int counter) const;
     void watch_as_written();
     void connection_lost(Instant at, Out& out);
-    void events(Instant at, Out& out);  ///< EMCY, and PDOs that are sent by event
+    void events(Instant at, Out& out);  ///< EMCY, and event-driven PDOs
 
-    static constexpr std::size_t most_requests = 8;  ///< that wait for their answer; what is more is lost
+    static constexpr std::size_t most_requests = 8;  ///< that wait for their answer; further ones are lost
     struct Request {
         Frame frame;
         Instant due;
@@ -97,16 +97,16 @@ private:
     canopen::SdoServer server_;
     canopen::NmtState state_ = canopen::NmtState::boot_up;
     std::uint32_t sync_id_ = 0x80;
-    int sync_overflow_ = 0;  ///< 1019h; 0: a SYNC carries no counter
-    bool sync_odd_ = false;  ///< the last one had another length
+    int sync_overflow_ = 0;  ///< 1019h; 0: SYNC has no counter
+    bool sync_odd_ = false;  ///< the last SYNC had a wrong length
     canopen::HeartbeatProducer heartbeat_;
     canopen::GuardSlave guard_;
-    canopen::HeartbeatWatch watch_{0};  ///< of the node that 1016h:01 names
+    canopen::HeartbeatWatch watch_{0};  ///< the node in 1016h:01
     std::uint8_t watched_ = 0;
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};
-    std::optional<Instant> shown_{};  ///< of what stands in the dictionary; nothing: something has happened since
+    std::optional<Instant> shown_{};  ///< of the measured values in the dictionary; empty: they are out of date
     NonVolatile stored_;
     std::uint64_t revision_ = 0;
     bool powered_ = false, silent_ = false, restore_ = false;

@@ -1,5 +1,3 @@
-// Objects of the simulated servo: the table.
-// In: the node number. Out: the dictionary. Never more than this page says.
 #include "adapters/cia402/twin/objects.hpp"
 
 #include <algorithm>
@@ -182,7 +180,7 @@ canopen::Dictionary factory_dictionary(std::uint8_t node) {
     constexpr std::uint32_t transmit_maps[] = {0x60410010, 0x60640020, 0x606C0020, 0x60770010};
     for (std::uint16_t n = 0; n < 4; ++n) {
         const std::uint16_t r = static_cast<std::uint16_t>(0x1400 + n), t = static_cast<std::uint16_t>(0x1800 + n);
-        const std::uint32_t off = n == 0 ? 0 : 0x80000000u;  // but for the first, PDOs are off as delivered
+        const std::uint32_t off = n == 0 ? 0 : 0x80000000u;  // all PDOs but the first are disabled by default
         add(r, 0, u8, con, 2, "RPDO communication");
         add(r, 1, u32, rw, off | (0x200u + n * 0x100u + node), "COB-ID of RPDO");
         add(r, 2, u8, rw, 255, "RPDO transmission type");

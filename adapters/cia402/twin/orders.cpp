@@ -1,5 +1,4 @@
-// Orders: the modes.
-// In: targets of the dictionary. Out: plans. Never beyond a limit of position (607Dh), a speed or a torque that the objects allow.
+// Targets stay within the position limits (607Dh), speeds and torques within those of the objects.
 #include "adapters/cia402/twin/orders.hpp"
 
 #include <algorithm>
@@ -47,7 +46,7 @@ void Orders::act(Instant now) {
             r.shape = Shape::linear;
         }
         r.velocity = std::fabs(v);
-        if (low < high && v != 0) {  // towards a limit of position it is a way to that limit
+        if (low < high && v != 0) {  // towards a position limit, the motion is a positioning to that limit
             const double end = v > 0 ? high : low;
             if ((end - m_.demand(now).position) * v <= 0) {
                 limited_ = true;
@@ -60,7 +59,7 @@ void Orders::act(Instant now) {
     }
     if (mode_ == 4 || mode_ == 10) {
         const auto most = std::min<std::int64_t>(o_.get(0x6072), 5000);
-        // Mode 4 has the torque rise and fall by its slope (6087h); mode 10 takes what comes.
+        // In mode 4 the torque follows its slope (6087h); in mode 10 it follows the target at once.
         m_.push(static_cast<double>(std::clamp<std::int64_t>(o_.get(0x6071), -most, most)) * per_mille,
                 mode_ == 4 ? o_.rate(0x6087) * per_mille : 0, std::min(u_.speed_of(0x6080), 100'000.0), now);
     }
@@ -73,7 +72,7 @@ void Orders::sync(unsigned cw, Instant now) {
     double to = mode_ == 8 ? u_.place_of(0x607A) : u_.place_of(0x60C1, 1);
     limited_ = low < high && (to < low || to > high);
     if (low < high) to = std::clamp(to, low, high);
-    // 60C2h is the time between two targets: SYNCs may come more often, and one without a new target goes on with the way of the last one.
+    // 60C2h is the time between two targets: SYNCs may come more often, and a SYNC without a new target continues the last step.
     const double time = static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2)));
     const bool on_its_way = step_ && step_->to == to && seconds(now - step_->at) < time - std::min(time / 4, 0.0005);
     if (on_its_way) return;
@@ -114,9 +113,9 @@ void Orders::halt(bool on, Instant now) {
 }
 
 std::optional<Instant> Orders::arrival() const {
-    // A halted positioning waits for its halt to be taken back, and for nothing of its own.
+    // A positioning that was halted waits for the end of the halt and has no event of its own.
     if (!target_ || reached_ || halted_) return std::nullopt;
-    if (readings_within && !buffered_) {  // one that is held outside the window needs no look
+    if (readings_within && !buffered_) {  // an axis that is blocked outside the window needs no check
         if (reading_) return reading_at_ + window_time();
         if (settles() || m_.misreads()) return std::max(m_.end(), reading_at_ + std::chrono::milliseconds(1));
     }
@@ -134,7 +133,7 @@ void Orders::arrive(unsigned cw, Instant at) {
         }
         reached_ = at >= m_.end() + window_time();
     } else if (target_ && !reached_ && !m_.held() && settles()) {
-        target_.reset();  // stopped before it: halted, or the speed is 0
+        target_.reset();  // it has stopped before the target: halt, or speed 0
     }
 }
 
@@ -150,7 +149,7 @@ bool Orders::in_window(Instant at) const {
     return window == 0xFFFFFFFF || std::fabs(m_.read(at) - m_.demand(at).position) <= u_.way_of(0x6067);
 }
 
-/// At the end of its way the shaft stands within the position window (6067h; FFFFFFFFh: there is none).
+/// At the end of the positioning the shaft is within the position window (6067h; FFFFFFFFh: no window).
 bool Orders::settles() const {
     if ((!m_.held() && !m_.lags()) || o_.get(0x6067) == 0xFFFFFFFF) return true;
     return std::fabs(m_.shaft(m_.end()).position - m_.demand(m_.end()).position) <= u_.way_of(0x6067);

@@ -1,6 +1,5 @@
-// Orders of a simulated servo: what each mode of operation does with its targets: 1, 3, 4, 7, 8, 9 and 10.
-// In: objects, a mode, halts. Out: orders to the mechanics, and the bits of the status word that are the modes'. Whoever calls it has seen
-// that the servo is enabled. Never changes a state.
+// Orders carries out the targets of the modes 1, 3, 4, 7, 8, 9 and 10 of a simulated servo, and sets the mode-specific bits of the status
+// word. The caller makes sure that the servo is enabled. The state of the servo is never changed here.
 #pragma once
 
 #include <optional>
@@ -13,47 +12,47 @@ namespace axisgate::cia402_drive::twin {
 class Orders {
 public:
     Orders(AxisObjects& objects, UserUnits& units, Mechanics& mechanics) : o_(objects), u_(units), m_(mechanics) {}
-    Orders(const Orders&) = delete;  // it stands on its neighbours in the servo
+    Orders(const Orders&) = delete;  // it refers to other members of the servo
     Orders& operator=(const Orders&) = delete;
 
     [[nodiscard]] int mode() const noexcept { return mode_; }
     void reset(int mode);
-    void forget();              ///< no target is under way
-    void enabled(unsigned cw);  ///< halt and acknowledge as the control word has them
-    void taken_off();           ///< without power nothing is halted either
-    /// True: the mode is another one.
+    void forget();              ///< no target is in progress
+    void enabled(unsigned cw);  ///< takes halt and acknowledgement from the control word
+    void taken_off();           ///< without power, nothing is halted either
+    /// True: the mode has changed.
     bool set_mode(int mode);
 
-    void act(Instant now);  ///< what the mode does with its targets now
+    void act(Instant now);  ///< carries out the targets in the present mode
     void set_point(bool relative, bool at_once, Instant now);
     void sync(unsigned cw, Instant now);
     void halt(bool on, Instant now);
-    /// Bit 4 of the control word is away: the next set-point may come.
+    /// Bit 4 of the control word is 0: the next set-point is accepted.
     void released() { acknowledged_ = buffered_.has_value(); }
     void limit_switch() {
         limited_ = true;
         target_.reset();
     }
 
-    /// At the end of its way a positioning is reached, or the buffered one begins.
+    /// The positioning has ended: the target is reached, or the buffered one begins.
     void arrive(unsigned cw, Instant at);
-    /// When it arrives; nothing: there is nothing to arrive.
+    /// When the positioning ends; empty: none is in progress.
     [[nodiscard]] std::optional<Instant> arrival() const;
 
     [[nodiscard]] bool halted() const noexcept { return halted_; }
     [[nodiscard]] bool acknowledged() const noexcept { return acknowledged_; }
     [[nodiscard]] bool limited() const noexcept { return limited_; }
     [[nodiscard]] bool reached() const { return reached_ && (!m_.held() || settles()); }
-    /// Reached is what two readings say that are the window's time (6068h) apart and differ by less than this, increments; nothing: what
-    /// has been within the window for that time, as CiA 402 has it.
+    /// If set, "target reached" is determined by two readings that are the window time (6068h) apart and differ by less than this,
+    /// increments; else, as in CiA 402, by a position within the window for that time.
     std::optional<double> readings_within;
     [[nodiscard]] bool reads() const noexcept { return reading_.has_value(); }
     void set_reached(bool reached) noexcept { reached_ = reached; }
-    /// 1/1000 of the rated torque that the drive pushes with.
+    /// The present torque in 1/1000 of the rated torque.
     [[nodiscard]] double torque(Instant now) const { return m_.pushed(now) / per_mille; }
 
 private:
-    static constexpr double per_mille = 50;  ///< increments/s^2 that 1/1000 of the rated torque gives this load
+    static constexpr double per_mille = 50;  ///< acceleration of this load by 1/1000 of the rated torque, increments/s^2
     void go(Instant now);
     [[nodiscard]] bool settles() const;
     [[nodiscard]] bool in_window(Instant at) const;
@@ -64,14 +63,14 @@ private:
     Mechanics& m_;
     int mode_ = 1;
     bool halted_ = false, reached_ = false, acknowledged_ = false, limited_ = false;
-    std::optional<double> target_;    ///< of the positioning under way, mechanical
+    std::optional<double> target_;    ///< of the positioning in progress, mechanical
     std::optional<double> buffered_;  ///< the next one, mechanical
     struct Step {
         double to;
         Instant at;
     };
-    std::optional<Step> step_;       ///< of a cyclic mode, the last one
-    std::optional<double> reading_;  ///< the first of two
+    std::optional<Step> step_;       ///< the last step of a cyclic mode
+    std::optional<double> reading_;  ///< the first of two readings
     Instant reading_at_{};
 };
 

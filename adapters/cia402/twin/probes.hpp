@@ -1,5 +1,4 @@
-// Touch probes of a simulated servo (60B8h to 60BDh): two inputs whose edges keep the place of the shaft.
-// In: 60B8h, levels, places. Out: 60B9h and the places that were kept. Never moves anything.
+// The touch probes of a simulated servo (60B8h to 60BDh): two inputs whose edges store the position of the shaft.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@ namespace axisgate::cia402_drive::twin {
 class TouchProbes {
 public:
     explicit TouchProbes(AxisObjects& objects) : o_(objects) {}
-    TouchProbes(const TouchProbes&) = delete;  // it stands on its neighbours in the servo
+    TouchProbes(const TouchProbes&) = delete;  // it refers to other members of the servo
     TouchProbes& operator=(const TouchProbes&) = delete;
     void reset() {
         status_ = 0;
@@ -22,7 +21,7 @@ public:
     }
     [[nodiscard]] std::uint16_t status() const noexcept { return status_; }
 
-    /// Each probe has a byte of 60B8h and of 60B9h: enabled, and whether each edge counts (again and again: bit 1).
+    /// Each probe has one byte of 60B8h and of 60B9h: enabled, and which edges count (bit 1: repeatedly).
     void level(unsigned k, bool high, double place_in_units) {
         if (std::exchange(level_.at(k), high) == high) return;
         const unsigned function = static_cast<unsigned>(o_.get(0x60B8)) >> 8 * k, stored = (high ? 2u : 4u) << 8 * k;
@@ -31,7 +30,7 @@ public:
         o_.put(static_cast<std::uint16_t>(0x60BA + 2 * k + (high ? 0 : 1)), std::llround(place_in_units));
         status_ = static_cast<std::uint16_t>(status_ | stored);
     }
-    /// The probe whose byte was changed waits for its edges anew; 60B8h written as it was begins nothing.
+    /// A probe whose byte has changed waits for its edges again; writing 60B8h without a change has no effect.
     void arm() {
         const auto function = static_cast<unsigned>(o_.get(0x60B8)), before = std::exchange(function_, function);
         for (unsigned k = 0; k < 2; ++k)

@@ -1,5 +1,4 @@
-// Profiles of motion: the plans.
-// In: ramps. Out: segments. Never more than a stop, a way back and its cruise: 16 segments.
+// A profile has at most a stop, a way back and its constant speed: 16 segments.
 #include "adapters/cia402/twin/profile.hpp"
 
 #include <algorithm>
@@ -9,14 +8,14 @@
 namespace axisgate::cia402_drive::twin {
 namespace {
 constexpr double pi = std::numbers::pi;
-constexpr int halvings = 100;  ///< of the top speed of a way that is too short for it
+constexpr int halvings = 100;  ///< to find the top speed of a short way
 
 class Planner {
 public:
     Planner(const Motion& from, const Ramps& ramps) : r_(ramps) { plan_.end = from; }
     void to_speed(double to) {
         if (r_.shape != Shape::jerk) {
-            at().acceleration = 0;  // these two begin where the speed is
+            at().acceleration = 0;  // these two begin at the present speed
         } else if (eases_first(to * at().velocity < 0 ? 0 : to)) {
             ease();
         }
@@ -34,14 +33,14 @@ private:
         plan_.end = along(plan_.end, s, s.seconds);
         plan_.segments.push_back(s);
     }
-    /// The jerks with which the speed changes in this direction: to build up, to take back; the most acceleration on the way.
+    /// The jerks of a change of speed in this direction: build-up and reduction of the acceleration, and its maximum.
     struct Rates {
         double most, build, take;
     };
     [[nodiscard]] Rates rates(bool faster) const {
         return faster ? Rates{r_.up, r_.jerk[0], r_.jerk[1]} : Rates{r_.down, r_.jerk[2], r_.jerk[3]};
     }
-    /// The acceleration that it has is of no use, or so much that the speed would be passed.
+    /// The present acceleration has the wrong direction, or is so high that the speed would be exceeded.
     [[nodiscard]] bool eases_first(double to) {
         const double a = at().acceleration, dv = to - at().velocity;
         if (a == 0) return false;
@@ -63,7 +62,7 @@ private:
         } else if (r_.shape == Shape::linear || r.build <= 0 || r.take <= 0) {
             add({size / r.most, side * r.most});
         } else {
-            const double a = std::fabs(at().acceleration), whole = size + a * a / (2 * r.build);  // as if it had begun without any
+            const double a = std::fabs(at().acceleration), whole = size + a * a / (2 * r.build);  // as if the acceleration had begun at 0
             const double peak = std::max(a, std::min(r.most, std::sqrt(2 * whole / (1 / r.build + 1 / r.take))));
             const double level = whole - peak * peak / 2 * (1 / r.build + 1 / r.take);
             if (peak > a) add({(peak - a) / r.build, side * a, side * r.build});
@@ -76,7 +75,7 @@ private:
     const Ramps& r_;
     Profile plan_;
 };
-/// How far it gets by going to this speed and then to rest.
+/// The way to this speed and then to standstill.
 double way_over(const Motion& from, double velocity, const Ramps& r) {
     Planner p(from, r);
     p.to_speed(velocity);
@@ -111,7 +110,7 @@ Profile profile_to_place(const Motion& from, double target, const Ramps& r) {
     const double way = target - p.at().position, side = std::copysign(1.0, way), length = std::fabs(way),
                  speed = std::fabs(p.at().velocity);
     double top = r.velocity;
-    if (r.shape != Shape::jerk) {  // half a cosine takes it as far as a line does
+    if (r.shape != Shape::jerk) {  // half a cosine covers the same way as a line
         top = std::min(top, std::sqrt((2 * r.up * r.down * length + r.down * speed * speed) / (r.up + r.down)));
     } else if (side * way_over(p.at(), side * top, r) > length) {
         double low = 0;

@@ -1,7 +1,7 @@
-// Profiles of motion: from a place, a speed and an acceleration to a speed or to a place, with ramps in one of three forms.
-// In: where it is, where to, ramps. Out: segments in closed form, one after the other. Never knows an instant; never jumps in speed.
-// Increments, seconds. Linear: constant acceleration. Sine (6086h = 1): the speed is half a cosine, in the time that the linear ramp takes.
-// Jerk (6086h = 3): acceleration and deceleration are built up and taken back each with a jerk of its own (60A4h:01 to 04).
+// Motion profiles from a state (position, speed, acceleration) to a speed or a position, as segments in closed form. The speed never jumps.
+// Units: increments, seconds.
+// Linear: constant acceleration. Sine (6086h = 1): the speed follows half a cosine in the time of the linear ramp. Jerk (6086h = 3):
+// acceleration and deceleration are built up and reduced, each with its own jerk (60A4h:01 to 04).
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Ramps {
 
 struct Segment {
     double seconds = 0, acceleration = 0, jerk = 0;
-    double swing = 0;  ///< change of speed along half a cosine in these seconds
+    double swing = 0;  ///< change of speed along half a cosine in this segment
 };
 [[nodiscard]] Motion along(const Motion& from, const Segment& segment, double seconds);
 
@@ -32,7 +32,7 @@ struct Profile {
     Motion end;
 };
 [[nodiscard]] Profile profile_to_speed(const Motion& from, double velocity, const Ramps& ramps);
-/// Ends at rest at the target, exactly; if it cannot stop in time it comes back. A top speed of 0 leads nowhere.
+/// Ends exactly at the target, at standstill; if it cannot stop in time, it returns. A top speed of 0 gives no motion.
 [[nodiscard]] Profile profile_to_place(const Motion& from, double target, const Ramps& ramps);
 
 }  // namespace axisgate::cia402_drive::twin

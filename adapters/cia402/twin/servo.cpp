@@ -1,5 +1,3 @@
-// Servo: states, stops, homing and what happens by itself.
-// In: control words and targets by the dictionary. Out: states, plans, EMCY. Never moves because it was switched on.
 #include "adapters/cia402/twin/servo.hpp"
 
 #include <algorithm>
@@ -9,8 +7,8 @@
 
 namespace axisgate::cia402_drive::twin {
 namespace {
-constexpr Ramps coasting{0, 100'000, 100'000};  ///< of a shaft without power
-/// Error register (1001h) of a code's class.
+constexpr Ramps coasting{0, 100'000, 100'000};  ///< deceleration of a shaft without power
+/// The bit of the error register (1001h) for the class of the code.
 std::uint8_t register_of(std::uint16_t code) {
     const unsigned c = code >> 12;
     return static_cast<std::uint8_t>(1u | (c == 2 ? 2u : c == 3 ? 4u : c == 4 ? 8u : c == 8 ? 0x10u : c == 0xF ? 0x80u : 0x20u));
@@ -62,7 +60,7 @@ canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v, Instant now)
     if (a.index == 0x6086 && v != 0 && v != 1 && v != 3) return canopen::Abort::value;
     if (a.index == 0x60A3 && v != 1 && v != 2 && v != 4) return canopen::Abort::value;
     if (a.index == 0x607E && (v & 0x3F) != 0) return canopen::Abort::value;
-    // Another measure of all places and speeds while it is led by them would be a jump.
+    // A change of the unit of positions and speeds during a motion would be a jump.
     const bool unit = a.index == 0x607E || a.index == 0x608F || a.index == 0x6091 || a.index == 0x6092 || a.index == 0x6096;
     if (unit && powered()) return canopen::Abort::device_state;
     if (a.index == 0x60C2 && m_.moves(now) && powered()) return canopen::Abort::device_state;
@@ -101,7 +99,7 @@ void Servo::on_sync(Instant now) {
     if (state_ == State::enabled && !after_stop_) orders_.sync(cw_, now);
 }
 
-/// What was written before, and is seen only now.
+/// A control word that was written before and is sampled now.
 void Servo::take_late(Instant at) {
     if (late_.sample <= at) late_.sample = never, control(at);
     if (late_.mode <= at) late_.mode = never, set_mode(at);
@@ -130,7 +128,7 @@ void Servo::control(Instant now) {
     }
     if (orders_.mode() == 6 && (rising & 0x10u)) begin_homing(now);
     if (orders_.mode() == 6 && (before & 0x10u) && !(cw & 0x10u) && homing_.active()) {
-        homing_.forget();  // the start bit taken back interrupts it
+        homing_.forget();  // resetting the start bit interrupts homing
         const double down = units_.rate_of(0x609A);
         m_.stop({0, down, down}, now);
     }
@@ -202,7 +200,7 @@ void Servo::set_mode(Instant now) {
     if (!orders_.set_mode(static_cast<int>(o_.get(0x6060)))) return;
     homing_.forget();
     if (state_ != State::enabled || after_stop_) return;
-    // What moved by another mode is ended by the new one.
+    // A motion of the previous mode ends with the new mode.
     const int mode = orders_.mode();
     if (mode != 3 && mode != 9 && mode != 4 && mode != 10 && m_.moves(now)) m_.stop(units_.braking(1), now);
     orders_.act(now);
@@ -237,7 +235,7 @@ void Servo::fail(std::uint16_t code, Instant now) {
     reported_.push_back({now, {code, register_of(code), {}}});
     if (state_ == State::fault) return;
     orders_.forget();
-    if (m_.held()) m_.rest_at(m_.shaft(now).position, now);  // held: there is nothing to brake
+    if (m_.held()) m_.rest_at(m_.shaft(now).position, now);  // blocked: there is nothing to decelerate
     if (!powered() || !m_.moves(now)) return enter(State::fault, now);
     const auto option = o_.get(0x605E);
     enter(State::fault_reaction, now);
@@ -251,8 +249,8 @@ void Servo::connection_lost(Instant now) {
     if (option == 3) command(0x0A, now);
 }
 
-/// Only what can be behind is looked at: a shaft that is held, or whose encoder does not say where it is, or one that lags so far at the
-/// speed that it has.
+/// Following errors are checked only if they are possible: the shaft is blocked, its encoder reports a wrong position, or it lags that far
+/// at its present speed.
 bool Servo::watches() const {
     if (!powered()) return false;
     if (m_.misreads()) return true;
@@ -269,7 +267,7 @@ Instant Servo::next_event(Instant now) const {
 
 void Servo::watch(Instant at) {
     checked_ = at;
-    if (orders_.reads()) return;  // between two readings of a target window it is not looked at
+    if (orders_.reads()) return;  // no check between two readings of a target window
     const double behind = std::fabs(m_.demand(at).position - m_.read(at));
     const auto window = o_.get(0x6065);
     behind_ = window == 0xFFFFFFFF || behind <= units_.way_of(0x6065) ? 0 : behind_ + 1;
@@ -297,7 +295,7 @@ void Servo::begin_homing(Instant now) {
     if (m_.held()) return homing_.end(false);
     next_search(now);
 }
-/// To the next switch; after the last one, slowly, to the zero.
+/// To the next switch; after the last one slowly to the zero.
 void Servo::next_search(Instant now) {
     const double a = units_.rate_of(0x609A);
     const auto place = homing_.next();
@@ -345,7 +343,7 @@ void Servo::refresh(Instant now) {
     o_.put(0x6077, torque);
     o_.put(0x60F4, std::llround(units_.way_in_units(demand.position - read)));
     o_.put(0x60B9, probes_.status());
-    // A switch is pressed by the hand, or by the shaft where the travel has switches.
+    // A switch is operated by the simulated hand, or by the shaft if the travel has switches.
     const bool low = limit_negative || (travel_ > 0 && shaft.position < -travel_),
                high = limit_positive || (travel_ > 0 && shaft.position > travel_);
     const bool home = home_switch || (travel_ > 0 && std::fabs(shaft.position) < cam);

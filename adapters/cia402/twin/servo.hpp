@@ -1,6 +1,5 @@
-// Servo: the power state machine, homing, faults and stops of a simulated CiA 402 drive, over its object dictionary.
-// In: objects written, the SYNC, the hand, time. Out: objects to be read, EMCY messages with the instant of their cause, the next instant
-// at which something changes by itself. Modes 1, 3, 4, 6, 7, 8, 9 and 10 (Orders). Never knows a frame.
+// Servo is the power state machine, homing, faults and stops of a simulated CiA 402 drive, on its object dictionary. Modes 1, 3, 4, 6, 7,
+// 8, 9 and 10 (Orders). It knows no frames.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +18,13 @@ namespace axisgate::cia402_drive::twin {
 
 enum class State : std::uint8_t { switch_on_disabled, ready, switched_on, enabled, quick_stop, fault_reaction, fault };
 
-/// Codes that a fault of this drive may have.
+/// The error codes that a fault of this drive may have.
 [[nodiscard]] const std::vector<std::uint16_t>& error_codes();
 
 class Servo : public Device {
 public:
-    /// `dictionary` outlives the servo. `travel`: half the way between the limit switches; 0: there are none. `shift`: by which its objects
-    /// stand above 6000h, 800h for each axis of a node before it.
+    /// `dictionary` must outlive the servo. `travel`: half the distance between the limit switches; 0: there are none. `shift`: offset of
+    /// its objects from 6000h, 800h for each axis of the node before it.
     Servo(canopen::Dictionary& dictionary, double travel, std::uint16_t shift = 0)
         : o_(dictionary, shift), units_(o_), orders_(o_, units_, m_), probes_(o_), travel_(travel) {}
 
@@ -43,15 +42,15 @@ public:
     [[nodiscard]] std::vector<Reported> take_reported() override { return std::exchange(reported_, {}); }
 
     void fail(std::uint16_t code, Instant now);
-    void set_cause(std::uint16_t code) { cause_ = code; }  ///< 0: a reset is taken again
-    /// Enabled, and nothing else decides where it goes.
+    void set_cause(std::uint16_t code) { cause_ = code; }  ///< 0: faults can be reset again
+    /// Enabled, and no other function controls the motion.
     [[nodiscard]] bool takes_orders() const { return state_ == State::enabled && !after_stop_ && !orders_.halted(); }
     [[nodiscard]] State state() const noexcept { return state_; }
 
     // the hand
     void hold(bool held, Instant now);
-    /// The input that lets the motor have power (STO), bit 4 of the status word: without it the shaft runs down, and no control word
-    /// switches it on.
+    /// The input that permits power to the motor (STO), bit 4 of the status word: without it the shaft coasts, and no control word switches
+    /// it on.
     bool safe_voltage = true;
     std::uint32_t inputs = 0;  ///< 60FDh, bits 16 and up
     bool limit_negative = false, limit_positive = false, home_switch = false;
@@ -59,19 +58,20 @@ public:
     [[nodiscard]] TwinMechanics mechanics(Instant now) const;
     [[nodiscard]] std::uint16_t statusword(Instant now) const;
 
-    /// When it looks at its control word, shows a mode and acknowledges, from now on.
+    /// When it samples its control word, shows a mode and acknowledges, from now on.
     void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
 
-    // a controller that leads it beside the bus
+    // for a controller that moves the servo in addition to the bus
     [[nodiscard]] Mechanics& shaft() noexcept { return m_; }
     [[nodiscard]] const Mechanics& shaft() const noexcept { return m_; }
-    /// Reached by two readings that differ by less than so many increments (Orders); nothing: by CiA 402.
+    /// "Target reached" by two readings that differ by less than this number of increments (Orders); empty: as in CiA 402.
     void reach_by_readings(std::optional<double> within) { orders_.readings_within = within; }
     [[nodiscard]] UserUnits& units() noexcept { return units_; }
     [[nodiscard]] const UserUnits& units() const noexcept { return units_; }
-    /// Following errors are looked for that often, and only so many that are found one after the other are one: 6066h by that time.
+    /// Following errors are checked with this period, and only consecutive ones count as a fault: 6066h divided by this period.
     void set_watch(Duration every) { watch_every_ = every; }
-    /// Homing methods below 0 are not the servo's: it says that one goes on until it is told where the zero is, or that it has failed.
+    /// Homing methods below 0 are carried out by the family: homing stays in progress until the family gives the zero position, or reports
+    /// that it failed.
     [[nodiscard]] const HomingSearch& homing() const noexcept { return homing_; }
     void homing_ended(std::optional<double> zero);
 
@@ -89,13 +89,13 @@ private:
 
     Freedoms free_;
     struct Late {
-        Instant sample = never;  ///< the control word that was written is looked at
-        Instant mode = never;    ///< the mode that was ordered is in force
-        Instant shown = never;   ///< the set-point that was taken is acknowledged by bit 12
+        Instant sample = never;  ///< when the written control word is sampled
+        Instant mode = never;    ///< when the ordered mode is in force
+        Instant shown = never;   ///< when bit 12 acknowledges the accepted set-point
         [[nodiscard]] Instant first() const noexcept { return std::min({sample, mode, shown}); }
     };
     Late late_;
-    bool shown_ = true;  ///< it is
+    bool shown_ = true;  ///< bit 12 has acknowledged it
     AxisObjects o_;
     Mechanics m_;
     UserUnits units_;
@@ -106,10 +106,10 @@ private:
     std::optional<State> after_stop_;
     unsigned cw_ = 0;
     HomingSearch homing_;
-    std::uint16_t cause_ = 0;  ///< a fault whose cause stands
+    std::uint16_t cause_ = 0;  ///< a fault whose cause persists
     Duration watch_every_ = std::chrono::milliseconds(1);
     Instant checked_{};
-    std::int64_t behind_ = 0;  ///< following errors that were found one after the other
+    std::int64_t behind_ = 0;  ///< number of consecutive following errors
     std::vector<Reported> reported_;
 };
 

@@ -1,5 +1,3 @@
-// Twin of any CiA 402 drive: setup, memory and hand.
-// In: what a tester sets. Out: the node told. Never sets what the wire alone may set.
 #include "adapters/cia402/twin/twin.hpp"
 
 #include <algorithm>
@@ -12,7 +10,7 @@
 namespace axisgate::cia402_drive::twin {
 namespace {
 
-/// The built-in dictionary with what a description says; how many of its entries the model does not know.
+/// The built-in dictionary with the values of a description; counts the entries that the model does not know.
 canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::int64_t& unmodelled) {
     canopen::Dictionary d = factory_dictionary(node);
     if (eds == nullptr) return d;
@@ -20,7 +18,7 @@ canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::i
     for (const auto& [address, entry] : own.entries()) {
         const canopen::Entry* known = d.find(address);
         if (known == nullptr) ++unmodelled;
-        // Another type than the standard's would be another object: the model keeps its own, with the description's value.
+        // An entry with another type than the standard's would be another object: the model keeps its own, with the description's value.
         if (known == nullptr || known->type == entry.type) d.add(address, entry);
     }
     return d;
@@ -68,7 +66,7 @@ public:
         if (node_.powered()) node_.advance(now, out);
         Servo& s = servo_;
         const bool on = *n != 0, flag = *n == 0 || *n == 1;
-        if (const Freedom* f = freedom_of(name)) {  // another manner from now on, as of a drive with another firmware
+        if (const Freedom* f = freedom_of(name)) {  // another behaviour from now on, as of a drive with another firmware
             std::string fault = set_freedom(free_, *f, *n);
             be(free_);
             return fault;
@@ -114,7 +112,7 @@ private:
         node_.set_freedoms(free_);
         servo_.set_freedoms(free_);
     }
-    /// 60FEh: what the mask lets through.
+    /// 60FEh, limited by its mask.
     [[nodiscard]] std::int64_t outputs() const {
         const auto of = [&](std::uint8_t sub) { return node_.dictionary().integer({0x60FE, sub}).value_or(0); };
         return of(1) & of(2);
@@ -122,7 +120,7 @@ private:
     static std::uint8_t number(const TwinSetup& setup) {
         return static_cast<std::uint8_t>(std::clamp(std::atoi(setup.address.c_str()), 1, 127));
     }
-    std::int64_t unmodelled_ = 0;  ///< counted while the node is made
+    std::int64_t unmodelled_ = 0;  ///< counted when the node is made
     Node node_;
     Servo servo_;
     Freedoms free_;

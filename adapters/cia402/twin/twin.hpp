@@ -1,5 +1,4 @@
-// Twin of any CiA 402 drive: a node on a CAN line with a servo behind it.
-// In: setup (node number, options), a description of the maker if there is one. Out: the simulated drive. Shares no code with the adapter.
+// The twin of a CiA 402 drive: a node on a CAN line with a servo. It shares no code with the adapter.
 #pragma once
 
 #include <memory>
@@ -9,8 +8,8 @@
 
 namespace axisgate::cia402_drive::twin {
 
-/// `description`: its entries stand in place of, and beside, those of the built-in dictionary; what the model does not know is stored and
-/// does nothing: the hand item "unmodelled" says how many such there are. nullptr: the built-in dictionary alone.
+/// `description`: its entries replace or extend those of the built-in dictionary. Entries that the model does not know are stored and have
+/// no effect; the hand item "unmodelled" has their number. nullptr: the built-in dictionary.
 [[nodiscard]] std::unique_ptr<Twin> make_twin(const TwinSetup& setup, const canopen::Eds* description = nullptr);
 
 }  // namespace axisgate::cia402_drive::twin

@@ -1,5 +1,4 @@
-// User units: factors, ramps.
-// In: objects. Out: increments. Never divides by nothing: a factor that is 0 counts as 1.
+// A factor of 0 counts as 1.
 #include "adapters/cia402/twin/units.hpp"
 
 namespace axisgate::cia402_drive::twin {
@@ -31,7 +30,7 @@ std::pair<double, double> UserUnits::limits() const {
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// 60A3h says how many jerks there are: 1 for all, 2 of acceleration and deceleration, 4 each its own.
+/// 60A3h is the number of jerks: 1 for all, 2 for acceleration and deceleration, 4 for each phase its own.
 void UserUnits::form(Ramps& r) const {
     const auto type = o_.get(0x6086), jerks = o_.get(0x60A3);
     r.shape = type == 1 ? Shape::sine : type == 3 ? Shape::jerk : Shape::linear;

@@ -1,5 +1,5 @@
-// User units of a simulated servo: what its objects say, in increments of the motor and seconds, and what it shows, in its user's units.
-// In: objects of CiA 402-2 (608Fh, 6091h, 6092h, 6096h, 607Eh, the profile). Out: places, speeds, ramps. Never moves anything.
+// UserUnits converts between the user units of a simulated servo's objects (CiA 402-2: 608Fh, 6091h, 6092h, 6096h, 607Eh) and increments of
+// the motor and seconds.
 #pragma once
 
 #include <utility>
@@ -12,9 +12,9 @@ namespace axisgate::cia402_drive::twin {
 class UserUnits {
 public:
     explicit UserUnits(const AxisObjects& objects) : o_(objects) {}
-    UserUnits(const UserUnits&) = delete;  // it stands on its neighbours in the servo
+    UserUnits(const UserUnits&) = delete;  // it refers to other members of the servo
     UserUnits& operator=(const UserUnits&) = delete;
-    /// Factors and polarity anew. What a dictionary has not is 1.
+    /// Reads factors and polarity again. A missing factor is 1.
     void read();
     [[nodiscard]] double zero() const noexcept { return zero_; }
     void set_zero(double place) noexcept { zero_ = place; }
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] double in_units(double place) const { return turn_ * (place - zero_) / per_unit_; }
     [[nodiscard]] double speed_in_units(double velocity) const { return turn_speed_ * velocity / per_speed_; }
     [[nodiscard]] double way_in_units(double way) const { return turn_ * way / per_unit_; }
-    /// Of an object in user units: a place of the shaft; a way without a sign.
+    /// The value of an object in user units as a position of the shaft, or as a distance without sign.
     [[nodiscard]] double place_of(std::uint16_t index, std::uint8_t sub = 0) const { return zero_ + turn_ * way_of(index, sub); }
     [[nodiscard]] double way_of(std::uint16_t index, std::uint8_t sub = 0) const {
         return per_unit_ * static_cast<double>(o_.get(index, sub));
@@ -30,13 +30,13 @@ public:
     [[nodiscard]] double velocity_of(std::uint16_t index) const { return turn_speed_ * per_speed_ * static_cast<double>(o_.get(index)); }
     [[nodiscard]] double speed_of(std::uint16_t index, std::uint8_t sub = 0) const { return per_speed_ * o_.rate(index, sub); }
     [[nodiscard]] double rate_of(std::uint16_t index) const { return per_unit_ * o_.rate(index); }
-    /// 607Dh as places of the shaft, the lower one first; equal: there are no limits.
+    /// 607Dh as positions of the shaft, the lower one first; equal: there are no limits.
     [[nodiscard]] std::pair<double, double> limits() const;
     [[nodiscard]] double fastest() const { return per_speed_ * std::min(o_.rate(0x607F), o_.rate(0x6080)); }
-    /// Of the profile: 6081h, 6083h, 6084h within their bounds, in the form of 6086h.
+    /// Of the profile: 6081h, 6083h, 6084h within their limits, with the shape of 6086h.
     [[nodiscard]] Ramps ramps() const;
-    /// By the option codes 605Ah, 605Dh and 605Eh: 1 and 5 the slow-down ramp, 2 and 6 that of the quick stop, beyond those what current
-    /// and voltage give: the most that the drive can.
+    /// By the option codes 605Ah, 605Dh and 605Eh: 1 and 5 use the slow-down ramp, 2 and 6 the quick stop ramp, the others the maximum that
+    /// current and voltage permit.
     [[nodiscard]] Ramps braking(std::int64_t option) const;
 
 private:

@@ -1,6 +1,5 @@
-// Fuzz: the example drive's adapter, through core/adapter.hpp: any commands, bytes, times, losses and site changes, with twins behind the
-// line. In: the fuzzer's bytes. Out: nothing; laws: tests/fuzz/adapter_laws.hpp, and that everything sent is one request to a drive of the
-// line.
+// Fuzzes the adapter of the example drive through core/adapter.hpp, with any commands, bytes, times, losses and site changes, and twins on
+// the line. The invariants are in tests/fuzz/adapter_laws.hpp; in addition, everything sent must be one request to a drive of the line.
 #include "adapters/example/wire.hpp"
 #include "tests/fuzz/adapter_laws.hpp"
 

@@ -1,4 +1,5 @@
-// The example drive's wire, decoder and adapter: the golden telegrams, what waits behind a late answer, a stop that overtakes.
+// The wire format, decoder and adapter of the example drive: recorded telegrams, requests that wait for a late answer, and a stop that
+// overtakes others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,7 +41,7 @@ TEST(ExampleWire, GoldenTelegramsAreReadAndWrittenAgain) {
         EXPECT_EQ(request, line[0] == '>');
         EXPECT_EQ(text_of(*t, request), line.substr(2) + "\r");
         ++seen;
-        for (std::size_t i = 2; i < line.size(); ++i) {  // every other character makes it another telegram, or none
+        for (std::size_t i = 2; i < line.size(); ++i) {  // every other character makes it another telegram, or an invalid one
             std::string bad = line.substr(2);
             bad[i - 2] = bad[i - 2] == 'Z' ? 'Y' : 'Z';
             EXPECT_FALSE(telegram_of(bad, request)) << bad;
@@ -59,7 +60,7 @@ TEST(ExampleWire, TheDecoderSaysWhatItIs) {
     EXPECT_TRUE(d.finish().empty());
 }
 
-// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+// A bounded recording has the last runs: it begins and ends anywhere in a telegram.
 TEST(ExampleWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
     const std::string half = text_of({5, 1, "R21", Telegram::Kind::value, "1500"}, true);
     const std::string all = half + text_of({5, 1, "R21", Telegram::Kind::refused, "14"}, false) + half;
@@ -79,7 +80,7 @@ TEST(ExampleWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
         }
 }
 
-/// A drive that answers what it is told to.
+/// A drive whose answers the test gives.
 struct Bench : testing::Test {
     LineAdapter adapter{catalogue()};
     Instant now = time_zero + 1h;

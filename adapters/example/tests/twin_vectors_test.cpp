@@ -1,4 +1,4 @@
-// The golden telegrams played against the simulated drive, and that its motion is where a ruler says.
+// The recorded telegrams with the simulated drive as receiver, and the accuracy of its motion.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -46,7 +46,7 @@ TEST(ExampleTwin, ATrapezoidEndsAtItsTarget) {
     EXPECT_NEAR(a.mechanics(t0 + 2100ms).position, 8000 - 100, 1e-6);
     EXPECT_EQ(a.state(t0 + 2200ms), "5,8000,0,8000,0");
     ASSERT_EQ(a.write(21, 0, t0 + 3s), 0);
-    ASSERT_EQ(a.write(21, 9000, t0 + 4s), 0);  // turned round in motion: brakes, and comes back
+    ASSERT_EQ(a.write(21, 9000, t0 + 4s), 0);  // reversed during the motion: it decelerates and returns
     EXPECT_EQ(a.state(t0 + 20s), "5,9000,0,9000,0");
     ASSERT_EQ(a.write(22, -1000, t0 + 20s), 0);
     EXPECT_NEAR(a.mechanics(t0 + 21s).velocity, -1000, 1e-6);

@@ -1,5 +1,4 @@
-// Axis of the simulated drive: the plan of a motion, and what registers do.
-// In: writes, instants. Out: positions, refusals. Never jumps: a new order goes on from where the old one had come to.
+// A new order continues from the state that the previous one has reached, without a jump.
 #include "adapters/example/twin/axis.hpp"
 
 #include <algorithm>
@@ -57,7 +56,7 @@ void Axis::run(double velocity, double deceleration, Instant now) {
 }
 bool Axis::moves(Instant now) const { return seconds(now - since_) < end_ || pieces_.back().velocity != 0; }
 
-/// The drive looks each millisecond whether the shaft is where it should be.
+/// The drive checks each millisecond whether the shaft follows its demand.
 void Axis::advance(Instant now) {
     while (held_ && fault_ == 0 && on_ && checked_ < now && moves(checked_)) {
         checked_ = std::min(now, checked_ + std::chrono::milliseconds(1));

@@ -1,5 +1,5 @@
-// Axis of the simulated drive: registers, power, motion as pieces of constant acceleration.
-// In: registers written, time. Out: registers read, the state. Any instant can be asked; nothing runs between the questions.
+// Axis is one axis of the simulated drive: registers, power, and motion as segments of constant acceleration. The state is calculated for
+// any instant.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@ public:
     static constexpr std::size_t settings = 13;  ///< R06..R18, in order
     static constexpr std::array<std::int64_t, settings> factory{4000, 20000, 20000, 40000, 100, 50, 1000, 5, 20, 0, 0, 0, 0};
 
-    /// The code of the refusal, 0: taken. 11 no such register, 12 out of range, 13 it moves, 14 off or in a fault.
+    /// Returns the code of the refusal, 0: accepted. 11 no such register, 12 out of range, 13 in motion, 14 off or in fault.
     [[nodiscard]] int write(int number, std::int64_t v, Instant now);
     [[nodiscard]] int read(int number, std::int64_t& v) const;
     [[nodiscard]] std::string state(Instant now);  ///< the answer to S00
-    void advance(Instant now);                     ///< finds out what has happened until then: a following error
-    void hold(bool held, Instant now);             ///< the shaft, by hand
+    void advance(Instant now);                     ///< detects events until then: a following error
+    void hold(bool held, Instant now);             ///< holds the shaft, by hand
     void fail(int code, Instant now);
-    void power_off(Instant now);  ///< of the whole drive: it has forgotten its zero
+    void power_off(Instant now);  ///< of the whole drive: it loses its zero position
     [[nodiscard]] TwinMechanics mechanics(Instant now);
 
     std::array<std::int64_t, settings> values = factory;

@@ -1,6 +1,5 @@
-// Twin of the example drive: the line, the memory, the hand.
-// In: frames of the whole line, of which it takes its own. Out: answers at once, at the instant of the question.
-// Never answers what has a wrong checksum, is for another drive, or comes while it is silent or off.
+// Requests are answered at once, at their own instant. Requests with a wrong checksum or for another drive are ignored, and all while the
+// twin is silent or off.
 #include "adapters/example/twin/twin.hpp"
 
 #include <cstdlib>
@@ -66,7 +65,7 @@ public:
                    : name + " is nothing that a hand can do here";
     }
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override {
-        Axis copy = axes_[static_cast<std::size_t>(channel) - 1];  // asking must not change what it does
+        Axis copy = axes_[static_cast<std::size_t>(channel) - 1];  // a query must not change the axis
         return copy.mechanics(now);
     }
 

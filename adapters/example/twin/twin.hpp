@@ -1,5 +1,4 @@
-// Twin of the example drive: its side of the line, a second reading of its one page.
-// In: setup, frames, time, the hand. Out: frames. Shares no code with the adapter.
+// The twin of the example drive. It shares no code with the adapter: it is a second reading of the description.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,5 @@
-// Fuzz: the LinMot adapter, through core/adapter.hpp: any commands, bytes, times, losses and site changes, with a twin behind the line.
-// In: the fuzzer's bytes. Out: nothing; laws: tests/fuzz/adapter_laws.hpp, and that everything sent is one whole telegram for an ID that
-// the setup names.
+// Fuzzes the LinMot adapter through core/adapter.hpp, with any commands, bytes, times, losses and site changes, and a twin on the line. The
+// invariants are in tests/fuzz/adapter_laws.hpp; in addition, everything sent must be one complete telegram for an ID of the setup.
 #include <algorithm>
 
 #include "adapters/linmot/wire.hpp"

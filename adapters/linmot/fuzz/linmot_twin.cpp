@@ -1,6 +1,5 @@
-// Fuzz: the LinMot twin: any memory, telegrams, times and hand.
-// In: the fuzzer's bytes. Out: nothing; laws: deadlines move on, the mechanics stay numbers, what it sends is one whole telegram of its ID,
-// its memory survives power-off, and its revision tells of every change of it.
+// Fuzzes the LinMot twin with any memory, telegrams, times and hand. Invariants: deadlines advance, the mechanics remain finite, each
+// answer is one complete telegram of its ID, the memory survives power-off, and its revision changes with each change of it.
 #include "gateway/core/family.hpp"
 #include "tests/fuzz/twin_laws.hpp"
 

@@ -1,5 +1,4 @@
-// Fuzz: the framer and the decoder of LinRS on any bytes, in any pieces.
-// In: bytes. Out: nothing; telegrams pack to what they were, and no byte is lost.
+// Fuzzes the framer and the decoder of LinRS with any bytes in any pieces. Telegrams must pack to the same bytes, and no byte may be lost.
 #include <cstdlib>
 
 #include "adapters/linmot/decoder.hpp"

@@ -1,5 +1,5 @@
-// The adapter: what commands become on the wire and what is told of them: counts, refusals, stops, parameters, actions, tables; speed.
-// In: commands, twins behind a simulated RS-485 line. Out: results with reasons; nothing that was merely taken is called done.
+// The adapter with twins on a simulated RS-485 line: the telegrams of each command, counts, refusals, stops, parameters, actions, tables,
+// speed. A command that was only accepted must not be answered as done.
 #include <fmt/core.h>
 
 #include "adapters/linmot/tests/line_bench.hpp"
@@ -40,7 +40,7 @@ TEST(LinmotAdapter, GoesOnFromTheDrivesOwnCountAfterARestart) {
     EXPECT_TRUE(good(b.act("VAI Go To Pos", to_10_mm)));
     b.run(1s);
     const auto count = b.drive().state_var() & 15;
-    // Another gateway, the same drive.
+    // A new gateway with the same drive.
     b.adapter = std::make_unique<LineAdapter>(page());
     Out out;
     b.adapter->configure(b.setup, b.now, out);
@@ -81,7 +81,7 @@ TEST(LinmotAdapter, MotionCommandsByName) {
 TEST(LinmotAdapter, WhatTheDriveRefusesIsToldWithItsCode) {
     LineBench b;
     b.run(1s);
-    (void)b.hand("control_mask", Value{std::int64_t{0x08}});  // a PC tool holds bit 3: state 6
+    (void)b.hand("control_mask", Value{std::int64_t{0x08}});  // a PC tool controls bit 3: state 6
     const Result off = b.ask(Enable{});
     EXPECT_EQ(off.outcome, Outcome::failed);
     EXPECT_NE(off.text.find("state 6"), std::string::npos) << off.text;
@@ -284,8 +284,8 @@ TEST(LinmotAdapter, ChecksumsWorkAndSayThatTheyAreNotProven) {
 }
 
 TEST(LinmotAdapter, StreamedSetPointsAreMovesAndNeverTheDrivesOwnStream) {
-    // 0: a line without a bit rate, as over TCP. However fast set-points come, nothing pretends the period of 2 to 5 ms that a stream
-    // needs.
+    // 0: a line without a bit rate, as over TCP. However frequent the set-points are, no stream is started whose period of 2 to 5 ms cannot
+    // be kept.
     for (const std::uint32_t bit_rate : {115'200u, 0u}) {
         SCOPED_TRACE(bit_rate);
         LineBench b(1, bit_rate);
@@ -303,7 +303,7 @@ TEST(LinmotAdapter, StreamedSetPointsAreMovesAndNeverTheDrivesOwnStream) {
         }
         EXPECT_GT(moves, 100u) << "it follows";
         EXPECT_EQ(b.drive().error_code(), 0);
-        b.run(250ms);  // a gap, which would be error 0083h of a stream
+        b.run(250ms);  // a gap, which would be error 0083h during a stream
         EXPECT_EQ(b.drive().error_code(), 0);
         b.run(1s);
         EXPECT_EQ(b.drive().actual(), 10'000) << "the newest one counts";
@@ -326,17 +326,17 @@ TEST(LinmotAdapter, TheDrivesOwnStreamCarriesSetPointsWhereTheLineHoldsIt) {
     }
     EXPECT_LT(worst, 314'000 * 0.030) << "a period of the client, and 1.5 of the drive, behind at 314,000 increments/s";
     EXPECT_TRUE(b.stream_ends.empty());
-    // Nobody renews: the last one is held, without an error of the drive.
+    // No new set-point arrives: the last one is held, without an error of the drive.
     b.stream(50'000, 1'000'000, 50'000'000);
     b.run(1s);
     EXPECT_EQ(b.drive().error_code(), 0);
     EXPECT_EQ(b.drive().actual(), 50'000);
-    // Other exchanges have no room, and say so.
+    // Other exchanges are refused, with this reason.
     const Ticket t = b.submit(ReadParameter{*page().find("14BEh")});
     b.run(50ms);
     ASSERT_EQ(b.results[t].size(), 1u);
     EXPECT_EQ(b.results[t].front().reason, Reason::busy);
-    // A halt leaves the stream; then everything is as before.
+    // A halt ends the stream; afterwards other exchanges are possible again.
     b.stream(500'000, 1'000'000, 50'000'000);
     b.run(100ms);
     EXPECT_TRUE(b.ask(Halt{}).outcome == Outcome::accepted);
@@ -358,7 +358,7 @@ TEST(LinmotAdapter, TheDrivesOwnStreamCarriesSetPointsWhereTheLineHoldsIt) {
 }
 
 TEST(LinmotAdapter, AStreamThatTheDriveEndsIsSaid) {
-    LineBench b(1, 115'200, {{"set_points", "auto"}});  // the line holds it
+    LineBench b(1, 115'200, {{"set_points", "auto"}});  // the line can keep the period
     b.run(1s);
     ASSERT_TRUE(b.enable());
     for (int i = 0; i < 20; ++i) {
@@ -370,7 +370,7 @@ TEST(LinmotAdapter, AStreamThatTheDriveEndsIsSaid) {
     ASSERT_EQ(b.hand("silent", Value{false}), "");
     b.run(100ms);
     EXPECT_TRUE(b.stream_ends.empty()) << "answers that are lost are no gap: the drive has heard all of it";
-    b.now += 30ms;  // the host is held up: a gap for the drive
+    b.now += 30ms;  // the host is delayed: a gap for the drive
     b.run(300ms);
     ASSERT_FALSE(b.stream_ends.empty());
     EXPECT_NE(b.stream_ends.front().text.find("0083h"), std::string::npos) << b.stream_ends.front().text;
@@ -432,7 +432,7 @@ TEST(LinmotAdapter, ReadingAllParametersTakesTheTimeOfTheWire) {
         if (p.id == "WarnWord") continue;
         for (std::uint16_t n = 0; n < std::max<std::uint16_t>(p.count, 1); ++n) {
             const auto element = static_cast<std::uint16_t>(p.count ? p.first + n : 0);
-            // Of what is there: its size, then 4 bytes at a time: 64 of an entry; 70 of a curve's description, 4 of each of its points.
+            // For existing items: the size, then 4 bytes at a time: 64 of an entry; 70 of a curve's description, 4 of each of its points.
             const double exchanges = p.count == 0 || element > 3 ? 1 : p.count == 255 ? 1 + 16 : element == 1 ? 1 + 18 + 6 : 1;
             bytes += p.count ? exchanges * (9 + 14) : p.wire.contains("item") ? 7 + 16 : rom ? 9 + 14 : 9 + 20;
             ++elements;

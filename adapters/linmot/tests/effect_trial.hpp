@@ -1,5 +1,5 @@
-// What shows the effect of one motion command: a bench that can leave it out, and the list of cases.
-// In: commands, rows of the command table, inputs. Out: the first thing that was not as it should be.
+// Trial shows the effect of one motion command: a bench that can omit the command, and the list of cases. The first unexpected result is
+// stored.
 #pragma once
 
 #include <fmt/core.h>
@@ -13,9 +13,9 @@
 namespace axisgate::linmot::test {
 using Numbers = std::vector<std::int64_t>;
 constexpr std::int64_t quick = 1'000'000, steep = 10'000'000;  // 1 m/s, 100 m/s2
-constexpr std::uint16_t mark = 0x14BE;                         ///< what a row of the table writes, to say that it was reached
+constexpr std::uint16_t mark = 0x14BE;                         ///< written by a row of the table, to show that the row was reached
 
-/// A bench that leaves one command out, and remembers the first thing that was not as it should be.
+/// A bench that omits one command and stores the first unexpected result.
 struct Trial : Bench {
     std::string left_out, fault;
     explicit Trial(std::map<std::string, std::string> with, std::string out = {}) : Bench(std::move(with)), left_out(std::move(out)) {}
@@ -35,7 +35,7 @@ struct Trial : Bench {
         if (!rising) (void)hand("trigger", Value{true});
         (void)hand("trigger", Value{rising});
     }
-    /// A curve of straight pieces.
+    /// A curve with straight segments.
     void draw(std::uint16_t id, std::initializer_list<int> points, int x_length) {
         auto& c = drive().curves[id];
         c.info.assign(70, 0);
@@ -44,7 +44,7 @@ struct Trial : Bench {
         for (const int p : points)
             put(c.data, p, 4);
     }
-    /// A row of the command table by the catalogue's layout. A command that is left out is no row to wait at, and leads nowhere.
+    /// A row of the command table by the catalogue's layout. A row whose command is omitted does not wait and has no next row.
     void row(std::uint16_t number, std::string_view id, const Numbers& values, std::uint16_t next) {
         const auto* c = page().command(id);
         const bool out = id == left_out;
@@ -60,7 +60,7 @@ struct Trial : Bench {
     void mark_row(std::uint16_t number, std::int64_t value, std::uint16_t next = 0xFFFF) { row(number, "002xh", {mark, value}, next); }
     [[nodiscard]] double marked() { return drive().ram(mark); }
 
-    /// A wait in front of a mark: held, then passed by what `release` does.
+    /// A wait before a mark: the mark must not be reached until `release` has been called.
     void wait(std::string_view id, const Numbers& values, Duration held, const std::function<void()>& release) {
         motion("002xh", {mark, 0});
         row(1, id, values, 2);
@@ -71,7 +71,7 @@ struct Trial : Bench {
         release();
         is(marked(), 7, "it lets the table go on");
     }
-    /// A branch with a level for "true" and one for "false".
+    /// A branch with one value for "true" and one for "false".
     void branch(std::string_view id, const Numbers& yes, const Numbers& no) {
         for (const bool holds : {true, false}) {
             motion("002xh", {mark, 0});
@@ -85,13 +85,13 @@ struct Trial : Bench {
             is(marked(), holds ? 21 : 22, holds ? "true" : "false");
         }
     }
-    /// Demand at 1 mm, held at 3 mm: -2 mm of difference, 2 mm without its sign.
+    /// Demand at 1 mm, slider held at 3 mm: the difference is -2 mm, 2 mm without its sign.
     void hold_apart() {
         to(30'000);
         (void)hand("stall", Value{true});
         to(10'000);
     }
-    /// The demand runs with 10 mm/s, the slider is held.
+    /// The demand moves with 10 mm/s, the slider is held.
     void hold_moving() {
         (void)hand("stall", Value{true});
         motion("0CExh", {10'000, quick});

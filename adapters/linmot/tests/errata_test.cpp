@@ -1,5 +1,4 @@
-// What the manual prints wrong, as the catalogue and the twin have it: each erratum that touches a name, a layout or a value.
-// In: the family's page of data, a twin. Out: judgements. Never repeats what another test shows already.
+// The errata of the manual that concern a name, a layout or a value: catalogue and twin must have the corrected form.
 #include "adapters/linmot/motion_commands.hpp"
 #include "adapters/linmot/tests/page.hpp"
 
@@ -13,7 +12,7 @@ struct Row {
     const char* erratum;
     const char* id;
     const char* name;
-    const char* layout;  ///< name:type, as they follow each other
+    const char* layout;  ///< name:type, in order
 };
 std::string layout_of(const CatalogueCommand& c) {
     std::string s;

@@ -1,5 +1,5 @@
-// What no known page of the maker shows: it has its mark in catalogue and code, and is not sent where the option says off.
-// In: the catalogue, enumerated. Out: judgements on telegrams. Never sleeps.
+// Inferred messages and commands: each must be marked in the catalogue and in the code, and must not be sent if the option is off. All of
+// the catalogue are enumerated.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 namespace axisgate::linmot::test {
 namespace {
 
-/// Everything that the catalogue marks as inferred, whatever it is: with the option off it is refused, says why, and not a byte of it is
-/// sent.
+/// With the option off, everything that the catalogue marks as inferred is refused with the reason, and no byte of it is sent.
 TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
     LineBench b(1, 115200, {{"inferred", "off"}});
     b.run(1s);
@@ -61,8 +60,8 @@ TEST(LinmotAdapter, WhatIsInferredCanBeSwitchedOffOneByOne) {
     EXPECT_EQ(parameters, 3u) << "warn word, table, curve";
 }
 
-/// The marks of the catalogue and the list of messages in the code say the same: each action that is no motion command sends an inferred
-/// message if it is marked, and else none. With the option off no such message is ever sent, whatever is asked.
+/// The marks of the catalogue must agree with the list of messages in the code: each action that is not a motion command sends an inferred
+/// message if and only if it is marked. With the option off no such message is ever sent.
 TEST(LinmotAdapter, MarksOfTheCatalogueAreThoseOfTheMessages) {
     const std::map<std::string, boost::json::object> given{
         {"table.write", {{"entry", 1}, {"command", "VAI Stop"}, {"arguments", "deceleration=1"}, {"next", 0}, {"label", "stop"}}},

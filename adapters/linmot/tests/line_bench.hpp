@@ -1,5 +1,4 @@
-// The adapter on a simulated line with twins behind it, in virtual time.
-// In: a setup, commands. Out: results, feedback, notices, links as they came. Never sleeps.
+// The adapter on a simulated line with twins, in virtual time. It collects results, feedback, notices and links.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@ public:
     std::map<DriveId, DriveLink> links;
     std::vector<Sample> samples;
     std::vector<Out::StreamEnd> stream_ends;
-    std::vector<Frame> sent;  ///< by the adapter, since the test cleared it
+    std::vector<Frame> sent;  ///< by the adapter, since the test has cleared it
     std::uint64_t answers = 0;
 
     explicit LineBench(std::size_t drives = 1, std::uint32_t bit_rate = 115200, std::map<std::string, std::string> options = {},
@@ -94,7 +93,7 @@ public:
         take(out);
         return t;
     }
-    /// A streamed set-point of position.
+    /// A streamed position set-point.
     void stream(std::int64_t place, std::optional<std::int64_t> velocity = {}, std::optional<std::int64_t> ramp = {}) {
         SetPoint p;
         p.axis = AxisId{0};
@@ -106,7 +105,7 @@ public:
         adapter->on_set_point(p, now, out);
         take(out);
     }
-    /// The one result, waited for.
+    /// Waits for the result of one command.
     Result ask(CommandBody body, std::size_t axis = 0, Duration limit = 15s) {
         const Ticket t = submit(std::move(body), axis);
         const Instant end = now + limit;

@@ -1,5 +1,4 @@
-// The family's catalogue, read once from the source tree.
-// In: schema/families/linmot.json. Out: the catalogue. A fault in it ends the test.
+// The family's catalogue (schema/families/linmot.json), read once. A fault in it ends the test.
 #pragma once
 
 #include <cstdio>

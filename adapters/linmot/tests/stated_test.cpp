@@ -1,5 +1,5 @@
-// What telegrams, motion commands by name and parameter writes are read as before they are sent; and what an axis tells of its rates, its
-// course, its inputs and its errors. In: bodies of commands; a drive's twin and its hand. Out: the motion, the rates, or unread.
+// The effect of telegrams, motion commands by name and parameter writes as it is determined before they are sent; and the rates, the
+// course, the inputs and the errors that an axis reports.
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -54,7 +54,7 @@ TEST(LinMotStated, MotionCommandsInIncrements) {
     EXPECT_FALSE(s.move.velocity);
     s = of("00 02 01 02 9C FF");
     EXPECT_EQ(s.kind, Kind::unread) << "bytes are missing";
-    s = of("01 11 0A 02 00 02 02 02 64 00 00 00 04");  // a whole telegram: length 10 does not fit what follows
+    s = of("01 11 0A 02 00 02 02 02 64 00 00 00 04");  // a complete telegram: length 10 does not fit the rest
     EXPECT_EQ(s.kind, Kind::unread);
     s = of("01 11 09 02 00 02 02 02 64 00 00 00 04");
     EXPECT_EQ(s.kind, Kind::motion) << "a whole telegram";
@@ -127,8 +127,8 @@ TEST(LinMotPower, AnInputThatTakesThePowerTakesTheEnableToo) {
     EXPECT_EQ(axis(b).power, AxisFeedback::Power::on);
 }
 
-/// Each way in which bit 0 or 1 of the control word goes while an error brakes the motor, with a drive that keeps the error and with one
-/// that loses it with its power.
+/// Each way in which bit 0 or 1 of the control word is reset while an error decelerates the motor, with a drive that keeps the error and
+/// with one that loses it with its power.
 TEST(LinMotPower, AnErrorWhoseBrakingIsCutShortStandsUntilItIsReset) {
     struct Cut {
         const char* what;
@@ -157,13 +157,13 @@ TEST(LinMotPower, AnErrorWhoseBrakingIsCutShortStandsUntilItIsReset) {
             m.acceleration = m.deceleration = 50'000'000;
             ASSERT_TRUE(good(b.ask(m)));
             b.run(500ms);
-            hand(b, "inject_error", Value{std::int64_t{0x0B}});  // position lag: the motor brakes first
+            hand(b, "inject_error", Value{std::int64_t{0x0B}});  // position lag: the motor decelerates first
             for (int i = 0; i < 50 && b.bus->twin(DriveId{0})->mechanics(1, b.now).velocity > 4'900'000; ++i)
                 b.run(1ms);
             b.run(15ms);
             ASSERT_TRUE(axis(b).quick_stopping);
             ASSERT_EQ(b.drive().state(), 14);
-            hand(b, "inject_error", Value{std::int64_t{0}});  // its cause is gone
+            hand(b, "inject_error", Value{std::int64_t{0}});  // its cause has ended
             cut.begin(b);
             b.run(500ms);
             EXPECT_EQ(b.drive().state() == 4, drive[0] == 'k') << "what the drive shows";
@@ -218,7 +218,7 @@ TEST(LinMotHoming, APositionThatGetsAnotherNameIsNoSpeed) {
     EXPECT_EQ(axis(b).position_demand, 500'000);
 }
 
-/// Slider, position and demand at each millisecond of two homings, and a move behind them.
+/// Slider, position and demand at each millisecond of two homings and a move after them.
 TEST(LinMotHoming, AHomePositionOtherThanZeroMovesNothing) {
     for (const std::int64_t home : {0, 500'000, -1'234'567}) {
         for (const double lag : {0.0, 20.0}) {
@@ -266,7 +266,7 @@ TEST(LinMotMotion, AMoveThatWasAnsweredAsFailedIsNotGoneOnWith) {
     LineBench b;
     b.run(2s);
     ASSERT_TRUE(b.enable());
-    hand(b, "silent", Value{true});  // it hears, and does not answer
+    hand(b, "silent", Value{true});  // it receives, and does not answer
     Move m;
     m.target = 3'000'000;
     m.velocity = 100'000;

@@ -1,5 +1,4 @@
-// Command table entries and curves: texts into bytes and back, over the wire, in faults, on a bad line.
-// In: texts, twins. Out: bytes, texts, results. Never sleeps.
+// Command table entries and curves: texts to bytes and back, faults in texts, and transfers, also over a faulty line.
 #include "adapters/linmot/parameters_tables.hpp"
 #include "adapters/linmot/tests/line_bench.hpp"
 
@@ -71,7 +70,7 @@ TEST(LinmotTables, TheSampleCurveOfThePages) {
     EXPECT_EQ(c.data[4] | c.data[5] << 8, 3078);
     EXPECT_EQ(curve_text(7, c.info, c.data), "name=sine; x=time; length=0.5; points=0 0.3078 1.2236 2.7248 4.7746");
     auto other = c.info;
-    other[42] = 9;  // a wizard's parameter
+    other[42] = 9;  // a parameter of a configuration tool
     const auto text = curve_text(7, other, c.data);
     EXPECT_NE(text.find("; info="), std::string::npos);
     EXPECT_EQ(curve_of(7, text).info, other);

@@ -1,5 +1,4 @@
-// A simulated drive on a table: telegrams in and out, virtual time, the way to operation enabled.
-// In: what a test sends. Out: what the drive answers. Never sleeps.
+// A simulated drive without an adapter: the test sends telegrams, in virtual time. It can bring the drive to operation enabled.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +42,7 @@ struct Bench {
         for (const auto& f : out.frames)
             late.insert(late.end(), f.frame.data().begin(), f.frame.data().end());
     }
-    std::vector<std::uint8_t> late;  ///< what came by itself while time passed
+    std::vector<std::uint8_t> late;  ///< sent by the drive while time passed
 
     std::vector<std::uint8_t> ask(const std::vector<std::uint8_t>& bytes) {
         Out out;

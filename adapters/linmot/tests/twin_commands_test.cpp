@@ -1,5 +1,4 @@
-// The twin: all 216 motion commands, the traps of the manual, closed-form profiles, the command table, curves, streams.
-// In: motion commands and virtual time. Out: what the drive does, as the manual has it.
+// The twin: all 216 motion commands, the special cases of the manual, profiles in closed form, the command table, curves, streams.
 #include <cmath>
 
 #include "adapters/linmot/tests/twin_bench.hpp"
@@ -9,7 +8,7 @@ namespace {
 constexpr std::int64_t v1 = 100'000, a1 = 1'000'000;  // 0.1 m/s, 10 m/s2
 
 // --- motion commands --------------------------------------------------------------------------------------------------------
-/// Values that each argument takes without harm.
+/// Valid values for each argument.
 std::vector<std::int64_t> harmless(const CatalogueCommand& c) {
     std::vector<std::int64_t> v;
     for (const auto& a : c.arguments) {
@@ -166,7 +165,7 @@ TEST(LinmotTwin, TriggerModesInhibitAndDelay) {
 }
 
 TEST(LinmotTwin, AsymmetricRampsOvershootAndReturn) {
-    // 1 m/s, acceleration 10, deceleration 2 m/s2: the way to stop is 250 mm.
+    // 1 m/s, acceleration 10, deceleration 2 m/s2: the stopping distance is 250 mm.
     Bench b;
     b.enable();
     b.motion("010xh", {5'000'000, 1'000'000, a1, 200'000});
@@ -322,7 +321,7 @@ TEST(LinmotTwin, AHeldMotorRaisesTheLagErrorAtItsInstant) {
     b.motion("010xh", {1'000'000, 10'000, a1, a1});  // 10 mm/s: 5 mm behind after half a second
     b.run(490ms);
     EXPECT_EQ(b.state(), 8);
-    b.run(2s);  // nobody asks meanwhile
+    b.run(2s);  // no request meanwhile
     EXPECT_EQ(b.drive().state_var(), 0x040B);
 }
 
@@ -354,7 +353,7 @@ TEST(LinmotTwin, ASmallerSeriesHasLess) {
     EXPECT_EQ(none.drive().state_var(), 0x0481) << "no force key";
 }
 
-/// An entry: header, parameters, the entry that follows.
+/// An entry: header, parameters, the next entry.
 void entry(Bench& b, std::uint16_t id, std::uint16_t header, const std::vector<std::pair<std::int64_t, int>>& values, std::uint16_t next) {
     std::vector<std::uint8_t> v;
     Bench::put(v, 0xA701, 2);

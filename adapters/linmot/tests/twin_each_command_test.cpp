@@ -1,6 +1,5 @@
-// The twin: each motion command of the catalogue by what it does, one case per command beside those of the interpolator.
-// In: the catalogue's commands; a case may leave its own command out. Out: whether the effect is there, and that without the command it is
-// not. Never passes a command that no case covers.
+// The twin: each motion command of the catalogue has a case that shows its effect, and that the effect is missing if the command is
+// omitted. The commands of the interpolator are tested in twin_effects_test.cpp. A command without a case is a failure.
 #include "adapters/linmot/tests/effect_trial.hpp"
 
 namespace axisgate::linmot::test {
@@ -78,14 +77,14 @@ void stream_cases(EffectCases& all) {
         all[id] = {[id](Trial& t) {
             t.motion("002xh", {0x14E6, 4});
             const bool own_period = id[2] == '2';
-            // Every 4 ms 0.4 mm; 032xh has its period from 14E6h, however the first ones come.
+            // 0.4 mm every 4 ms; 032xh takes its period from 14E6h, independent of the intervals of the first set-points.
             for (int i = 1; i <= 20; ++i) {
                 t.say(id, {i * 4000, id[2] == '1' ? 200'000 : 0});
                 t.run(own_period && i == 1 ? 6ms : 4ms);
             }
             t.is(t.state(), 8, "no error");
             t.is(t.position(), 80'000 - 2000, "1.5 periods behind", 2500);
-            // 031xh meets its set-points with their velocity (twice the way's here), the others go straight.
+            // 031xh passes its set-points with their velocity (here twice that of the way), the others move at constant speed.
             double least = 1e9, most = 0;
             for (int i = 0; i < 16; ++i) {
                 t.run(std::chrono::microseconds(250));
@@ -116,7 +115,7 @@ void curve_cases(EffectCases& all) {
         double middle, end;
         int edge;  ///< 1 rising, -1 falling, 0 none
     };
-    // The curve: 10 mm in 0.5 s, half of it in half the time; begun at 2 mm. Looked at after 0.25 s, and at the end.
+    // The curve: 10 mm in 0.5 s, half of it in half the time; started at 2 mm. Checked after 0.25 s and at the end.
     for (const Row& r :
          {Row{"040xh", {}, 50'000, 100'000, 0}, Row{"041xh", {}, 70'000, 120'000, 0}, Row{"042xh", {220'000}, 120'000, 220'000, 0},
           Row{"043xh", {220'000, 100'000}, 70'000, 220'000, 0}, Row{"044xh", {5000, 20'000, 500}, 5000 + 12'500, 55'000, 0},
@@ -377,7 +376,7 @@ const EffectCases& effect_cases() {
     return all;
 }
 
-/// What went wrong; empty: nothing.
+/// The first unexpected result; empty: none.
 std::string trial(const EffectCase& c, const std::string& left_out) {
     Trial t(c.options, left_out);
     t.enable();
@@ -392,10 +391,10 @@ TEST(LinmotEffects, EveryCommandOfTheCatalogueHasItsEffect) {
         SCOPED_TRACE(command.id + " " + command.name);
         const int master = std::stoi(command.id.substr(0, 2), nullptr, 16);
         if (master == 1 || master == 2 || (master >= 9 && master <= 12)) {
-            ++by_rule;  // EveryInterpolatorCommandByTheRuleOfItsSubId goes through these and counts them
+            ++by_rule;  // these are counted and tested by EveryInterpolatorCommandByTheRuleOfItsSubId
             continue;
         }
-        if (command.id == "000xh") {  // has no effect but its count
+        if (command.id == "000xh") {  // its only effect is its count
             Trial t({});
             t.enable();
             t.motion("000xh");

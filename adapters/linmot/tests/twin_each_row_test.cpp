@@ -1,5 +1,4 @@
-// The twin: each command of the command table by what it does: rows, waits, variables, branches.
-// In: rows, inputs, virtual time. Out: cases for the test that goes through the catalogue.
+// The cases of the command table for the test of each command: rows, waits, variables, branches.
 #include "adapters/linmot/tests/effect_trial.hpp"
 
 namespace axisgate::linmot::test {
@@ -67,7 +66,7 @@ void table_cases(EffectCases& all) {
     }
 }
 
-/// Waits and branches: "greater" and "less" than what is compared, as it stands in the situation.
+/// Waits and branches: "greater" and "less" than the compared value in the situation.
 void compare_cases(EffectCases& all) {
     struct Seen {
         char sub;  ///< of the wait "greater"; 0: there is none

@@ -1,5 +1,5 @@
-// The twin: what each interpolator command of the catalogue makes of the same situation: in motion, with the position behind the demand.
-// In: the catalogue's commands, one after the other. Out: where the motor comes to rest, by the rule of the command's sub ID.
+// The twin: each interpolator command of the catalogue in the same situation (in motion, with the position behind the demand). The final
+// position must follow the rule of the command's sub ID.
 #include <cmath>
 
 #include "adapters/linmot/tests/twin_bench.hpp"
@@ -8,7 +8,7 @@ namespace axisgate::linmot::test {
 namespace {
 constexpr std::int64_t former = 20'000, given = 3000;  // 0.1 um
 
-/// The command's own values: the place, and limits that every width holds.
+/// The command's own values: the position, and limits that fit every width.
 std::vector<std::int64_t> values_of(const CatalogueCommand& c) {
     std::vector<std::int64_t> v;
     for (const auto& a : c.arguments) {
@@ -19,7 +19,7 @@ std::vector<std::int64_t> values_of(const CatalogueCommand& c) {
     return v;
 }
 
-/// Moving to 2 mm at 0.1 m/s, the position 5 ms behind.
+/// In motion to 2 mm at 0.1 m/s, with the position 5 ms behind.
 void set_moving(Bench& b) {
     b.enable();
     (void)b.hand("lag_ms", Value{5.0});
@@ -51,7 +51,7 @@ TEST(LinmotEffects, EveryInterpolatorCommandByTheRuleOfItsSubId) {
         }
         if (sub == 7 && !press) {
             b.run(3s);
-            const double deceleration = master == 9 ? 6e6 : 1e8;  // the command's own, or the quick stop's
+            const double deceleration = master == 9 ? 6e6 : 1e8;  // that of the command, or of the quick stop
             EXPECT_NEAR(b.position(), demand + 1e12 / (2 * deceleration), 2);
             EXPECT_EQ(b.sub() & 0x20, 0);
             continue;

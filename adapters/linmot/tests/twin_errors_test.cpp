@@ -1,12 +1,11 @@
-// The twin: each error code of the catalogue by its own cause, or with the reason why the model has none.
-// In: the catalogue's errors, inputs and commands. Out: the StateVar of each. Never passes a code that is in neither list, or in both.
+// The twin: each error code of the catalogue either has a case with its cause, or a reason why the model has no cause for it.
 #include "adapters/linmot/tests/effect_trial.hpp"
 
 namespace axisgate::linmot::test {
 namespace {
 using Causes = std::map<std::uint16_t, EffectCase>;
 
-/// Codes that only the hand's inject_error brings, by what the model lacks.
+/// Codes that only the hand's inject_error causes, by the function that the model does not have.
 const std::map<std::uint16_t, const char*>& without_cause() {
     static const std::map<std::uint16_t, const char*> all = [] {
         std::map<std::uint16_t, const char*> m;
@@ -29,7 +28,7 @@ const std::map<std::uint16_t, const char*>& without_cause() {
     return all;
 }
 
-/// Streams set-points: so many, so far apart.
+/// Streams `n` set-points with this interval.
 void pour(Trial& t, int n, Duration apart) {
     for (int i = 1; i <= n; ++i) {
         t.motion("030xh", {i * 100});

@@ -1,5 +1,4 @@
-// The twin: what follows its master encoder (cams, triggered cams, winding), its warnings before its errors, its thermal models.
-// In: motion commands, an encoder that turns, virtual time. Out: places that belong to counts, errors at their instant.
+// The twin: functions that follow the master encoder (cams, triggered cams, winding), warnings before errors, and thermal models.
 #include <cmath>
 
 #include "adapters/linmot/tests/twin_bench.hpp"
@@ -8,7 +7,7 @@ namespace axisgate::linmot::test {
 namespace {
 constexpr std::int64_t speed = 1'000'000, rate = 10'000'000;  // 1 m/s, 100 m/s2
 
-/// A curve of straight pieces over so many counts.
+/// A curve with straight segments over a number of counts.
 void curve(Bench& b, std::uint16_t id, std::initializer_list<int> points, int x_length = 1000) {
     auto& c = b.drive().curves[id];
     c.info.assign(70, 0);
@@ -145,7 +144,7 @@ TEST(LinmotFollow, TheCounterIsSetAndAJumpIsALagError) {
     turn(b, 800);
     EXPECT_EQ(b.drive().master(), 350);
     b.motion("104xh", {1000});
-    b.motion("100xh");  // the curve's end is 10 mm away: more than the lag that is allowed
+    b.motion("100xh");  // the end of the curve is 10 mm away: more than the permitted lag
     b.run(1s);
     EXPECT_EQ(b.drive().state_var(), 0x040B);
     Bench none;
@@ -214,7 +213,7 @@ TEST(LinmotFollow, WindingGoesToAndFroByTheEncodersRevolutions) {
     EXPECT_LT(ends[0], 40'000);
     EXPECT_NEAR(ends[3], 10'000, 50);
     EXPECT_NEAR(ends[4], 30'000, 50);
-    // Held, the ends stay where they are.
+    // While the adaptation is held, the ends stay where they are.
     Bench h(Bench::Options{{"winding", "0,40000,20000,20000,1000,1000,4,0,0"}});
     h.enable();
     h.motion("002xh", {0x1291, 1000});
@@ -235,7 +234,7 @@ TEST(LinmotFollow, DisturbanceMovesTheEndsAndACurveShapesTheStroke) {
         Bench b(Bench::Options{{"winding", std::string("0,40000,0,40000,1000,1000,100,4,2000,") + (anti ? "antiparallel" : "parallel")}});
         b.enable();
         b.motion("300xh");
-        turn(b, 2000);  // two of four strokes: all of the disturbance
+        turn(b, 2000);  // two of four strokes: the full disturbance
         EXPECT_NEAR(b.position(), 2000, 1);
         turn(b, 2999);
         EXPECT_NEAR(b.position(), anti ? 39'000 : 41'000, 60);
@@ -301,7 +300,7 @@ TEST(LinmotFollow, AForcedBitBeatsX4AndX4TheInterface) {
     Bench b(Bench::Options{{"force", "8"}});
     b.enable();
     auto o = b.drive().outside();
-    o.x4_mask = 0x08;  // enable operation from an input that is low: forced to 1 all the same
+    o.x4_mask = 0x08;  // enable operation from an input that is low, but forced to 1
     b.drive().set_outside(o, b.now);
     EXPECT_EQ(b.state(), 8);
     Bench x;

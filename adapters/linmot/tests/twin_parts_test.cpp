@@ -1,5 +1,4 @@
-// Parts of the twin by themselves, where the whole drive hides what they do: stream, monitor, interpolator, the queue of one.
-// In: set-points, conditions, orders, instants. Out: places, errors, motions.
+// Parts of the twin whose behaviour the complete drive hides: stream, monitor, interpolator, the queued motion.
 #include "adapters/linmot/tests/twin_bench.hpp"
 
 namespace axisgate::linmot::test {

@@ -1,5 +1,4 @@
-// The twin: printed exchanges, every state, every edge of the control word.
-// In: telegrams and virtual time. Out: the drive's words, as the manual has them.
+// The twin: the printed exchanges, every state, and every edge of the control word.
 #include <cmath>
 
 #include "adapters/linmot/tests/twin_bench.hpp"
@@ -53,7 +52,7 @@ TEST(LinmotTwin, PrintedExchangesByTheirFields) {
 }
 
 // --- state machine ----------------------------------------------------------------------------------------------------------
-/// Brings a fresh drive into the state.
+/// Brings a new drive to the state.
 void bring(Bench& b, int state) {
     if (state == 0) return;
     b.control(0);
@@ -111,7 +110,7 @@ TEST(LinmotTwin, EveryControlWordEdgeFromEveryState) {
         std::uint16_t word;
         int to;
     };
-    // From the text [L105-379]; 14 is left when the motor stands.
+    // From the text [L105-379]; 14 ends when the motor stands still.
     std::vector<Row> rows{{0, 0x3F, 0},  {0, 0x3E, 2},    {0, 0x00, 1},    {1, 0x06, 2},    {1, 0x02, 1},  {1, 0x04, 1},   {2, 0x3F, 5},
                           {2, 0x39, 1},  {3, 0x3F, 4},    {3, 0x3E, 3},    {4, 0x3E, 4},    {4, 0xBE, 2},  {5, 0x3E, 2},   {5, 0x3D, 1},
                           {5, 0x3B, 1},  {6, 0x3F, 8},    {6, 0x36, 2},    {6, 0x35, 1},    {6, 0x33, 1},  {8, 0x37, 6},   {8, 0x2F, 12},
@@ -121,7 +120,7 @@ TEST(LinmotTwin, EveryControlWordEdgeFromEveryState) {
     for (const int s : {8, 9, 10, 11, 12, 13, 15, 16, 17, 19}) {
         rows.push_back({s, 0x3E, 2});  // OFF1
         rows.push_back({s, 0x3D, 1});  // OFF2
-        rows.push_back({s, 0x37, 6});  // enable operation taken away
+        rows.push_back({s, 0x37, 6});  // enable operation is reset
     }
     for (const auto& r : rows) {
         Bench b;
@@ -140,11 +139,11 @@ TEST(LinmotTwin, EveryControlWordEdgeFromEveryState) {
     }
 }
 
-/// Every bit, changed alone, in every state that can be entered (18 has no trigger in the manual). What is not named changes nothing.
+/// Every bit, changed alone, in every state that can be entered (18 has no trigger in the manual). Bits that are not listed change nothing.
 TEST(LinmotTwin, EverySingleBitInEveryState) {
     struct Row {
         int state;
-        std::uint16_t word;                   ///< in which it is entered and held
+        std::uint16_t word;                   ///< with which the state is entered and held
         std::vector<std::pair<int, int>> to;  ///< bit, state
     };
     const auto powered = [](std::vector<std::pair<int, int>> more) {
@@ -165,7 +164,7 @@ TEST(LinmotTwin, EverySingleBitInEveryState) {
         {11, 0x203F, powered({{13, 8}})},
         {12, 0x002F, powered({{4, 8}})},
         {13, 0x001F, powered({{5, 8}})},
-        {14, 0x003B, {{0, 1}, {1, 1}}},  // left when the motor stands; OFF1 leads to 2, which OFF3 does not let be
+        {14, 0x003B, {{0, 1}, {1, 1}}},  // the state ends when the motor stands still; OFF1 leads to 2, which OFF3 does not permit
         {15, 0x007F, powered({{6, 8}})},
         {16, 0x013F, powered({{8, 8}, {9, 8}})},
         {17, 0x023F, powered({{9, 8}, {8, 8}})},
@@ -229,7 +228,7 @@ TEST(LinMotTwinTable, AnEntryThatStartsItselfGoesOnForEverAndStopsAtAStop) {
     twin::TableEntry entry{};
     entry[2] = entry[3] = 0xFF;
     entry[5] = 0x20;
-    entry[6] = 2;  // each starts the other
+    entry[6] = 2;  // each entry starts the other
     b.drive().table[1] = entry;
     entry[6] = 1;
     b.drive().table[2] = entry;

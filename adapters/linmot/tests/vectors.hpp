@@ -1,5 +1,4 @@
-// Reads vectors.txt: cases of printed telegrams.
-// In: the file beside the family. Out: cases in order. A line that it does not understand is a fault of the test.
+// Reads vectors.txt, the printed telegrams of the family, as cases in order. A line with another form is a fault of the test.
 #pragma once
 
 #include <gtest/gtest.h>

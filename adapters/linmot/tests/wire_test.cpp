@@ -1,5 +1,5 @@
-// Wire: every printed telegram through the framer, its fields, and bytes that are none.
-// In: vectors.txt. Out: telegrams packed and unpacked to the same bytes.
+// The wire format of LinRS: every printed telegram of vectors.txt must be found, unpacked, and packed to the same bytes; bytes that belong
+// to no telegram must be reported.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -235,7 +235,7 @@ TEST(LinmotDecoder, NamesTheMotionCommandAndWhatTheDriveSays) {
     }
 }
 
-// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+// A bounded recording has the last runs: it begins and ends anywhere in a telegram.
 TEST(LinmotDecoder, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
     const auto one = test::bytes_of("01 11 15 02 00 02 03 01 F0 49 02 00 40 42 0F 04 40 42 0F 00 40 42 0F 00 04");  // 01 and 04 in it
     const auto two = test::bytes_of("01 11 05 02 00 01 3F 08 04"), three = test::bytes_of("01 11 05 02 00 05 A6 13 04");

@@ -1,5 +1,5 @@
-// What the states and the commands of a simulated drive act on: its parts, side by side.
-// In: setup, parameters, command table, curves. Out: the parts. It decides nothing: states.hpp and commands.hpp do.
+// Body holds the parts of a simulated drive on which the states and the commands act: setup, parameters, command table, curves and others.
+// It decides nothing; states.hpp and commands.hpp do.
 #pragma once
 
 #include "adapters/linmot/twin/follower.hpp"
@@ -16,7 +16,7 @@ struct CommandBuffer {
     std::uint8_t echo = 0;  ///< count of the last command
     std::uint16_t last_header = 0;
     void power_on() noexcept { echo = 0, last_header = 0; }
-    /// What stands in it is old (choice O-09).
+    /// The content counts as old (choice O-09).
     void forget() noexcept { echo = static_cast<std::uint8_t>(bytes[0] & 0x0F); }
 };
 
@@ -24,7 +24,7 @@ struct Body {
     Body(const DriveSetup& with, Memory& parameters, TableEntries& entries, Curves& all)
         : setup(with), memory(parameters), curves(all), table(entries, parameters) {}
 
-    /// A RAM value, with those that are not kept as parameters.
+    /// A RAM value, including those that are not stored as parameters.
     [[nodiscard]] std::uint32_t ram(std::uint16_t upid) const {
         if (upid == 0x1DB0) return buffer.last_header;
         if (upid == 0x1B93) return static_cast<std::uint32_t>(outside.current);

@@ -1,5 +1,4 @@
-// Bytes of LinRS as the drive reads and writes them, low byte first; and its communication states.
-// In: a telegram's data, which may be too short: what is missing reads as 0. Out: numbers, bytes.
+// Values in the data of LinRS telegrams, low byte first, and the communication states. The data may be too short: missing bytes read as 0.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ inline std::uint16_t at16(std::span<const std::uint8_t> d, std::size_t i) {
     return static_cast<std::uint16_t>(byte(i) | byte(i + 1) << 8);
 }
 inline std::uint32_t at32(std::span<const std::uint8_t> d, std::size_t i) { return at16(d, i) | std::uint32_t{at16(d, i + 2)} << 16; }
-/// The same with a sign, for reckoning.
+/// A signed value for calculations.
 inline double signed16(std::span<const std::uint8_t> d, std::size_t i) { return static_cast<std::int16_t>(at16(d, i)); }
 inline double signed32(std::span<const std::uint8_t> d, std::size_t i) { return static_cast<std::int32_t>(at32(d, i)); }
 inline void put(std::vector<std::uint8_t>& v, std::uint32_t value, int bytes) {

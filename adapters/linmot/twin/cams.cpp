@@ -1,5 +1,3 @@
-// Curves, cams and winding as functions of a count.
-// In: counts. Out: positions. Never keeps anything but what a command defined.
 #include "adapters/linmot/twin/cams.hpp"
 
 #include <algorithm>
@@ -80,7 +78,7 @@ double Winding::strokes(double turned, double counts_per_revolution) const noexc
     const double whole = std::max(1.0, revolutions * counts_per_revolution);
     const double r0 = std::max(1.0, start_ratio), r1 = std::max(1.0, end_ratio);
     const double until = std::min(turned, whole);
-    // The ratio goes over from one to the other by the revolutions: the strokes are the integral of its reciprocal.
+    // The ratio changes linearly over the revolutions: the number of strokes is the integral of its reciprocal.
     const double part = std::fabs(r1 - r0) < 1e-9 ? until / r0 : whole / (r1 - r0) * std::log1p((r1 - r0) / r0 * until / whole);
     return part + std::max(0.0, turned - whole) / r1;
 }

@@ -1,6 +1,5 @@
-// What follows the master encoder: cams on curves, winding. A position as a function of the encoder's count.
-// In: counts, curves, setups. Out: positions in 0.1 um and their change per count. Never knows time; a drive asks with the count of an
-// instant.
+// Curves, cams and winding: the position that belongs to a count of the master encoder, in 0.1 um, and its change per count. Time is not
+// known here; a drive asks for the count of an instant.
 #pragma once
 
 #include <array>
@@ -13,27 +12,27 @@
 
 namespace axisgate::linmot::twin {
 
-/// A place and how it changes per unit of what leads it.
+/// A position and its change per unit of the master.
 struct Followed {
     double position = 0;
     double slope = 0;
 };
 
-/// A curve: its info block as bytes, its points.
+/// A curve: the bytes of its info block, and its points.
 struct Curve {
     std::vector<std::uint8_t> info;
     std::vector<std::uint8_t> data;
     [[nodiscard]] std::size_t points() const noexcept { return data.size() / 4; }
     [[nodiscard]] double point(std::size_t i) const noexcept;
-    /// The x length as it stands in the info block: 10 us for time curves, counts for encoder curves.
+    /// The x length of the info block: 10 us for time curves, counts for encoder curves.
     [[nodiscard]] double x_length() const noexcept;
-    /// At a part 0..1 of its length, straight between its points; the slope is per whole length. Needs two points.
+    /// At the fraction 0..1 of its length, by linear interpolation; the slope is per whole length. Needs two points.
     [[nodiscard]] Followed at(double part) const noexcept;
     [[nodiscard]] double first() const noexcept { return point(0); }
     [[nodiscard]] double last() const noexcept { return point(points() - 1); }
 };
 
-/// A curve laid over a range of counts.
+/// A curve over a range of counts.
 struct Cam {
     bool defined = false;
     bool enabled = true;
@@ -48,22 +47,22 @@ struct Cam {
     [[nodiscard]] Followed at(double count, const Curve& of) const noexcept;
 };
 
-/// Cams beside each other. Before the first and behind the last the position rests at their ends; modulo, they come again.
+/// Consecutive cams. Before the first and after the last the position stays at their ends; in modulo operation they are repeated.
 struct CamRange {
     double first = 0;   ///< count
-    double length = 0;  ///< from the first start to the last end; 0: there is none
+    double length = 0;  ///< from the first start to the last end; 0: there is no cam
     bool modulo = false;
     [[nodiscard]] static CamRange of(std::span<const Cam> cams, bool modulo) noexcept;
     [[nodiscard]] double wrapped(double count) const noexcept;
-    /// Whether the way between two counts passes over a place of the range.
+    /// Whether the way between two counts passes a place of the range.
     [[nodiscard]] bool passes(double from, double to, double place) const noexcept;
-    /// The next count at which the place is met, going up or down; nothing: never.
+    /// The next count at which the place is reached in this direction; empty: never.
     [[nodiscard]] std::optional<double> meets(double from, double place, bool upwards) const noexcept;
 };
-/// The cam that governs a count: the one that started last before it, or the first.
+/// The cam that is in force at a count: the one that started last before it, or the first.
 [[nodiscard]] const Cam* cam_at(std::span<const Cam> cams, const CamRange& range, double count) noexcept;
 
-/// A bobbin. The manual names these values and gives neither numbers nor a formula: what is made of them is a choice.
+/// Winding on a bobbin. The manual names these values without numbers or a formula: the model is a choice.
 struct Winding {
     double left = 0, right = 500'000;             ///< 0.1 um, at the start
     double end_left = 0, end_right = 500'000;     ///< at the end
@@ -72,7 +71,7 @@ struct Winding {
     double disturbance_length = 0;                ///< strokes; 0: none
     double disturbance_stroke = 0;                ///< 0.1 um
     bool antiparallel = false;
-    /// `turned`: counts since the start; `adapted`: the same without the time in which adaptation stood still.
+    /// `turned`: counts since the start; `adapted`: the same without the time in which the adaptation was held.
     [[nodiscard]] double at(double turned, double adapted, double counts_per_revolution, const Curve* shape) const noexcept;
     [[nodiscard]] double strokes(double turned, double counts_per_revolution) const noexcept;
 };

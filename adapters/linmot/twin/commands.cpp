@@ -1,6 +1,5 @@
-// The interpreter of motion commands: which there are, what the VA interpolator and the general ones do.
-// In: the motion command buffer. Out: motions, armed events, changed parameters, errors 0063h, 0081h and 0086h.
-// Never moves for a header whose count did not change, and never carries out half a command.
+// The interpreter of motion commands, first part: general commands and those of the VA interpolator. Errors 0063h, 0081h and 0086h. A
+// header whose count did not change has no effect, and a command is carried out completely or not at all.
 #include "adapters/linmot/twin/commands.hpp"
 
 #include <algorithm>
@@ -15,7 +14,7 @@ double acceleration32(const Bytes& b, std::size_t at) { return at32(b, at) * Int
 double velocity16(const Bytes& b, std::size_t at) { return at16(b, at) * Interpolator::velocity_count; }
 double acceleration16(const Bytes& b, std::size_t at) { return at16(b, at) * Interpolator::acceleration_count; }
 
-/// Sub IDs of each master ID, a bit each [L548-901].
+/// Sub IDs of each master ID, one bit each [L548-901].
 constexpr std::uint16_t subs_of(std::uint8_t master) {
     switch (master) {
         case 0x00:
@@ -105,7 +104,7 @@ void Interpreter::write(std::span<const std::uint8_t> bytes, Instant now) {
     CommandBuffer& buffer = body_.buffer;
     std::copy_n(bytes.begin(), std::min(bytes.size(), buffer.bytes.size()), buffer.bytes.begin());
     const std::uint16_t header = at16(buffer.bytes, 0);
-    if ((header & 0x0F) == (buffer.echo & 0x0F)) return;  // the count alone decides, whatever the rest says [L545-547]
+    if ((header & 0x0F) == (buffer.echo & 0x0F)) return;  // only the count decides [L545-547]
     buffer.echo = static_cast<std::uint8_t>(header & 0x0F);
     buffer.last_header = header;
     execute(header, buffer.bytes, false, now);
@@ -117,7 +116,7 @@ void Interpreter::execute(std::uint16_t header, const Bytes& b, bool from_table,
 }
 
 namespace {
-/// Whether a command is a motion that begins with it: none that waits, branches, arms a trigger, defines something or queues.
+/// Whether a command starts a motion at once: commands that wait, branch, arm a trigger, define something or queue do not.
 bool moves_at_once(std::uint8_t master, std::uint8_t sub) {
     const bool waits_or_branches = master >= 0x20 && master <= 0x26;
     const bool arms = (master == 1 || master == 2 || master == 9 || master == 0x0A || master == 0x0B || master == 0x0C)
@@ -133,14 +132,14 @@ Fault Interpreter::carry_out(std::uint16_t header, const Bytes& b, bool from_tab
     const auto sub = static_cast<std::uint8_t>(header >> 4 & 0x0F);
     const bool anywhere = master == 0 && sub <= 8;
     if (states_.in_error()) {
-        if (!anywhere) return 0;  // dropped: the first code stays (choice O-01)
+        if (!anywhere) return 0;  // ignored: the first code stays (choice O-01)
     } else if (!has(header)) {
         return 0x81;
     } else if (!anywhere && states_.state() != operation_enabled) {
         return 0x86;
     }
     ++commands_done_;
-    // An immediate motion command empties the queue of one, and ends a running sequence unless it belongs to it (choices O-08, O-16).
+    // An immediate motion command clears the queue, and ends a sequence of the command table unless it belongs to it (choices O-08, O-16).
     if (moves_at_once(master, sub)) {
         body_.demand.vai().forget_queued();
         if (!from_table) body_.table.end();
@@ -188,7 +187,7 @@ void Interpreter::general(std::uint8_t sub, const Bytes& b, Instant now) {
                 demand.step_coupling(now);
                 const double here = demand.at(now).position;
                 body_.memory.set_ram(at16(b, 2), at32(b, 4));
-                // "Cam enabled" was cleared: it rests there.
+                // "Cam enabled" was cleared: the demand rests there.
                 if (demand.coupling().mode() != Coupling::Mode::none && !demand.coupling().active()) demand.vai().rest(here, now);
             }
             return;
@@ -217,7 +216,7 @@ void Interpreter::rename(const Bytes& b, Instant now) {
     body_.demand.vai().stand(here + follower.offset(), now);
 }
 
-/// Master 0Dh: a target that the drive knows itself: the captured position, a trigger's, or one of its parameters.
+/// Master 0Dh: a target that the drive knows: the captured position, that of a trigger, or a parameter.
 Order Interpreter::order_of_position(std::uint8_t sub, const Bytes& b) const {
     if (sub == 0) return {0, body_.follower.captured() + signed32(b, 2), {velocity32(b, 6), acceleration32(b, 10), acceleration32(b, 14)}};
     if (sub == 1) return {0, signed16(b, 2), {velocity16(b, 4), acceleration16(b, 6), acceleration16(b, 6)}};
@@ -292,7 +291,7 @@ Fault Interpreter::interpolator(std::uint16_t header, const Bytes& b, Instant no
             if (press) {
                 const std::uint16_t most = at16(b, 14);
                 if (most == 0) return 0x63;
-                body_.memory.set_ram(0x13A6, most);  // controller set A is the active one; the value stays [L2687-2750]
+                body_.memory.set_ram(0x13A6, most);  // controller set A is active; the value is kept [L2687-2750]
                 o.sub = sub == 5 ? 0 : sub == 6 ? 3 : 4;
             }
             break;
@@ -317,7 +316,7 @@ Fault Interpreter::interpolator(std::uint16_t header, const Bytes& b, Instant no
     return 0;
 }
 
-/// A motion of the interpolator at once, or behind the running one.
+/// A motion of the interpolator, at once or after the motion in progress.
 void Interpreter::begin(Order o, bool endless, Instant now) {
     Demand& demand = body_.demand;
     const bool behind = !endless && o.sub == 8;

@@ -1,6 +1,5 @@
-// The interpreter: what the 216 motion commands of the manual do in a simulated drive.
-// In: the motion command buffer, entries of the command table, events. Out: what the parts begin and end, errors.
-// Never moves for a header whose count did not change, and never carries out half a command.
+// Interpreter carries out the 216 motion commands of the manual in a simulated drive, from the motion command buffer, the command table and
+// armed events. A header whose count did not change has no effect, and a command is carried out completely or not at all.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +14,23 @@ public:
     Interpreter(Body& body, States& states) : body_(body), states_(states) {}
 
     void power_on() noexcept { x4_outputs_ = x6_outputs_ = 0; }
-    /// The bytes of a telegram go into the buffer; executed if its count is another than the last [L545-547].
+    /// Writes the bytes of a telegram into the buffer; the command is executed if its count differs from the last one [L545-547].
     void write(std::span<const std::uint8_t> bytes, Instant now);
-    /// An edge behind its filter.
+    /// An edge of the trigger input, after its filter.
     void edge(bool rising, Instant now);
-    /// The armed event has come.
+    /// The armed event has occurred.
     void fire(Instant now);
-    /// The motion that was queued begins.
+    /// The queued motion begins.
     void start_queued(Instant now);
-    /// The command table goes on, if its entry is over.
+    /// The command table continues if its present entry has ended.
     void step_table(Instant now);
 
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_done_; }
     [[nodiscard]] std::uint16_t outputs_x4() const noexcept { return x4_outputs_; }
     [[nodiscard]] std::uint16_t outputs_x6() const noexcept { return x6_outputs_; }
-    /// Whether this drive has the command; the header with count 0.
+    /// Whether this drive has the command; the count in the header is 0.
     [[nodiscard]] bool has(std::uint16_t header) const noexcept;
-    /// Whether the manual has it.
+    /// Whether the manual lists the command.
     [[nodiscard]] static bool listed(std::uint16_t header) noexcept;
 
 private:

@@ -1,6 +1,5 @@
-// The interpreter of motion commands: time curves, cams, winding, force.
-// In: motion commands of 04h to 06h, 10h to 12h, 30h, 31h and 38h. Out: leads that begin, armed events, errors 0062h, 0089h, 000Bh.
-// Never starts a curve that is not defined.
+// The interpreter, second part: time curves, cams, winding and force (motion commands of 04h to 06h, 10h to 12h, 30h, 31h and 38h). Errors
+// 0062h, 0089h, 000Bh.
 #include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/commands.hpp"
 
@@ -45,7 +44,7 @@ Fault Interpreter::cams(std::uint8_t sub, const Bytes& b, Instant now) {
             return couple(Coupling::Mode::cams, now);
         case 1:
             return demand.uncouple(now), Fault{0};
-        case 2: {  // to the place that belongs to the present count, with the predefined values
+        case 2: {  // to the position that belongs to the present count, with the predefined values
             demand.uncouple(now);
             const auto to = demand.coupling().place(body_.master.count(now));
             if (!to) return 0x62;

@@ -1,6 +1,5 @@
-// The interpreter of motion commands: the command table, its variables, waits and branches.
-// In: motion commands of 20h to 26h. Out: entries that start, changed variables, errors 0058h and 008Ah.
-// Never starts entries by one another without end at one instant.
+// The interpreter, third part: the command table, its variables, waits and branches (motion commands of 20h to 26h). Errors 0058h and
+// 008Ah. The number of entries that start each other at one instant is bounded.
 #include "adapters/linmot/twin/bytes.hpp"
 #include "adapters/linmot/twin/commands.hpp"
 
@@ -35,7 +34,7 @@ Fault Interpreter::table(std::uint16_t header, const Bytes& b, bool from_table, 
         if (from_table)
             body_.table.branch(to);
         else
-            start_entry(to, now);  // sent directly: the chosen entry starts (choice O-16)
+            start_entry(to, now);  // sent directly: the selected entry starts (choice O-16)
         return Fault{0};
     };
     switch (master) {
@@ -67,13 +66,13 @@ Fault Interpreter::table(std::uint16_t header, const Bytes& b, bool from_table, 
     }
 }
 
-/// 200 starts an entry, 201 and 202 on an edge, 208 and 209 change one.
+/// 200 starts an entry, 201 and 202 at an edge; 208 and 209 change one.
 Fault Interpreter::entry(std::uint8_t sub, const Bytes& b, Instant now) {
     const std::uint16_t id = at16(b, 2);
     if (sub == 0) {
         if (body_.table.may_start())
             start_entry(id, now);
-        else  // an entry may start itself: it does so for ever, a round per cycle
+        else  // an entry may start itself: it then runs for ever, once per cycle
             body_.table.branch(id);
         return 0;
     }

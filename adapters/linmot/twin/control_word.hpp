@@ -1,6 +1,5 @@
-// The control word that a drive obeys: where each bit comes from, which bits have just risen.
-// In: the interface's word, what is outside, whether the safe voltage enable is low. Out: the word, bit by bit, and its edges.
-// Never decides what a bit does.
+// ControlWord is the control word that is in force in the drive: the source of each bit, and the bits that have risen. The effect of a bit
+// is defined elsewhere.
 #pragma once
 
 #include "adapters/linmot/twin/setup.hpp"
@@ -14,11 +13,11 @@ public:
     [[nodiscard]] bool rises(int n) const noexcept { return bit(n) && (before_ >> n & 1) == 0; }
 
     void write(std::uint16_t word) noexcept { interface_ = word; }
-    /// State 0 is left when bit 0 is seen low: nothing starts with a complete word [L105-107].
+    /// State 0 is left when bit 0 is seen low: a complete control word at power-on starts nothing [L105-107].
     void power_on() noexcept { interface_ = 0x0001; }
     void start_software() noexcept { interface_ |= 1; }
 
-    /// Per bit, highest first: forced by parameter, control panel, X4 inputs, interface [L276-283]. Edges last until `seen`.
+    /// Per bit, in order of priority: forced by parameter, control panel, X4 inputs, interface [L276-283]. Edges remain until `seen`.
     void gather(const Outside& o, const DriveSetup& setup, bool unsafe) noexcept {
         auto word = static_cast<std::uint16_t>(interface_ & o.copy_mask);
         word = pick(o.x4_mask, o.x4_word, word);
@@ -29,7 +28,7 @@ public:
         value_ = word;
     }
     void seen() noexcept { before_ = value_; }
-    /// One edge does one thing.
+    /// An edge has one effect.
     void use_edge(int n) noexcept { before_ = static_cast<std::uint16_t>(before_ | 1u << n); }
 
 private:

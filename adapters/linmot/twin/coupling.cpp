@@ -1,5 +1,3 @@
-// Places that belong to the master encoder's count, and how cams and winding are defined.
-// In: motion commands, counts. Out: places, errors 0062h and 0089h. Never knows what else may lead the demand.
 #include "adapters/linmot/twin/coupling.hpp"
 
 #include <algorithm>
@@ -83,7 +81,7 @@ Coupling::Step Coupling::step(Instant now) {
             std::tie(c.scale, c.length) = *c.next;
             c.next.reset();
         }
-        // A cam starts where "cam start enable" allows it; where not, what was enabled ends here [L3986-3995].
+        // A cam starts only where "cam start enable" permits it; where it does not, an enabled cam ends here [L3986-3995].
         const bool may = memory_.ram(0x1528) != 0, was = memory_.ram(0x1BA9) != 0;
         if (may == was) continue;
         if (!may) {
@@ -96,7 +94,7 @@ Coupling::Step Coupling::step(Instant now) {
 }
 
 // --- definitions --------------------------------------------------------------------------------------------------------------
-/// Scale and offset so that the curve goes from one place to the other; beyond 2000 % it is 0089h.
+/// Scale and offset so that the curve leads from one position to the other; more than 2000 % is error 0089h.
 Fault Coupling::lay(Cam& cam, const Curve& of, double from, double to) noexcept {
     const double span = of.last() - of.first();
     const double scale = span == 0 ? 1e9 : (to - from) / span;
@@ -106,7 +104,7 @@ Fault Coupling::lay(Cam& cam, const Curve& of, double from, double to) noexcept 
     return 0;
 }
 
-/// [L2985-3126]. Without a length of its own a cam has the x length of its curve.
+/// [L2985-3126]. A cam without its own length has the x length of its curve.
 Fault Coupling::define(std::size_t index, std::uint8_t sub, const Bytes& b, double actual) {
     const auto counts = [](double n) { return std::max(1.0, std::fabs(n)); };
     Cam& cam = cams_[index];

@@ -1,5 +1,3 @@
-// Time curves of a simulated drive, and the commands that change curves in its RAM.
-// In: info and data blocks, offsets, scales. Out: a demand that runs through the points. Never plays a curve that is not defined.
 #include "adapters/linmot/twin/curves.hpp"
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 
 namespace axisgate::linmot::twin {
 namespace {
-constexpr std::size_t most_block = 64 * 1024;  ///< bytes of one curve's data block
+constexpr std::size_t most_block = 64 * 1024;  ///< bytes of a curve's data block
 }  // namespace
 
 const Curve* curve_of(const Curves& curves, std::uint16_t id) {
@@ -26,7 +24,8 @@ std::optional<Point> Play::at(const Curves& curves, Instant now) const {
     return Point{offset + scale * f.position, scale * f.slope / seconds};
 }
 
-/// 040 defaults, 041 from the set point, 042 to a position, 043 the same in a time, 044 scales, 045 time and amplitude [L1511-1614].
+/// 040 defaults, 041 from the set-point, 042 to a position, 043 to a position in a given time, 044 scales, 045 time and amplitude
+/// [L1511-1614].
 Fault lay(Play& play, const Curves& curves, std::uint8_t sub, const Bytes& b, double here, Instant now) {
     Play p;
     p.active = true;
@@ -81,7 +80,7 @@ Fault modify(Curves& curves, std::uint8_t sub, const Bytes& b) {
     if (it == curves.end()) return 0x62;
     auto& block = sub <= 2 ? it->second.info : it->second.data;
     const std::size_t at = at16(b, 4), n = sub == 1 ? 2 : sub == 2 || sub == 4 ? 4 : sub == 5 ? 8 : 12;
-    if (at + n > most_block) return 0;  // wrong offsets are not caught [L1777-1780]; the model's memory ends here
+    if (at + n > most_block) return 0;  // the drive does not detect wrong offsets [L1777-1780]; the memory of the model ends here
     if (block.size() < at + n) block.resize(at + n);
     std::copy_n(b.begin() + 6, n, block.begin() + static_cast<std::ptrdiff_t>(at));
     return 0;

@@ -1,5 +1,3 @@
-// How the lead of the demand passes from one to the other.
-// In: beginnings and ends. Out: a demand without a step, or error 000Bh. Never two leads that both move it.
 #include "adapters/linmot/twin/demand.hpp"
 
 #include <cmath>

@@ -1,6 +1,5 @@
-// The demand: which of the VA interpolator, a time curve, the encoder or a stream leads it, and how the lead passes over.
-// In: what the interpreter and the states begin and end, time. Out: position and velocity at an instant, what becomes due, errors.
-// Never jumps when a lead ends: it rests where it was.
+// Demand is the demand position: one of VA interpolator, time curve, master encoder and stream controls it. When control passes from one to
+// another, the demand does not jump; a jump is error 000Bh. When a motion ends, the demand stays where it is.
 #pragma once
 
 #include <optional>
@@ -17,44 +16,45 @@ public:
         : memory_(memory), master_(master), curves_(curves), vai_(memory), coupling_(memory, master, curves, winding), stream_(memory) {}
 
     [[nodiscard]] Point at(Instant now) const;
-    /// Something else than the VA interpolator leads.
+    /// Another source than the VA interpolator controls the demand.
     [[nodiscard]] bool led() const noexcept { return play_.active || stream_.active() || coupling_.active(); }
     [[nodiscard]] bool moves(Instant now) const noexcept { return led() || !vai_.profile().over(now); }
     [[nodiscard]] bool indexes() const noexcept { return index_.has_value(); }
     [[nodiscard]] const Profile& profile() const noexcept { return vai_.profile(); }
     [[nodiscard]] const Stream& stream() const noexcept { return stream_; }
-    /// When the time curve is over; `never`: none runs.
+    /// When the time curve ends; `never`: none is in progress.
     [[nodiscard]] Instant curve_end() const noexcept { return play_.active ? play_.end() : never; }
 
-    /// Their own matters, in which no lead passes over.
+    /// For calls that do not change the source of the demand.
     [[nodiscard]] Interpolator& vai() noexcept { return vai_; }
     [[nodiscard]] const Interpolator& vai() const noexcept { return vai_; }
     [[nodiscard]] Coupling& coupling() noexcept { return coupling_; }
     [[nodiscard]] const Coupling& coupling() const noexcept { return coupling_; }
 
     // --- all leads end ---
-    /// The power is off: it stands where the slider is.
+    /// The power is off: the demand is the position of the slider.
     void drop(double position, Instant now);
-    /// Brakes to rest by itself; Interpolator::thaw goes on.
+    /// Decelerates to standstill; Interpolator::thaw continues.
     void brake(Instant now);
-    /// The drive's own moves.
+    /// Motions of the drive itself.
     void go(double target, const Ramps& ramps, Instant now);
     void jog(double direction, const Ramps& ramps, Instant now);
-    /// A curve or the encoder leads no more.
+    /// A curve or the encoder no longer controls the demand.
     void leave(Instant now);
     void leave_all(Instant now) { leave(now), stream_.end(); }
 
     // --- a lead begins ---
     void start(const Order& order, Point actual, Instant now);
     void stop(double deceleration, Instant now);
-    /// Position indexing: the encoder's counts are added to the base, one unit per count (choice E-23); the limits are latched [L2043].
+    /// Position indexing: the counts of the encoder are added to the base, one unit per count (choice E-23); the limits are latched
+    /// [L2043].
     void index(double base, const Ramps& ramps, Instant now);
     void step_index(Instant now);
     void end_index() noexcept { index_.reset(); }
     [[nodiscard]] Fault play(std::uint8_t sub, const Bytes& b, Instant now);
-    /// A set-point of 03h, or its end.
+    /// A set-point of 03h, or the end of the stream.
     [[nodiscard]] Fault take(std::uint8_t sub, const Bytes& b, Instant now);
-    /// What would make it jump further than the lag limit is the error that the jump would be.
+    /// A jump that exceeds the lag limit is reported as the error that it would cause.
     [[nodiscard]] Fault couple(Coupling::Mode mode, Instant now);
     void uncouple(Instant now);
 
@@ -62,7 +62,7 @@ public:
     void step_coupling(Instant now);
     /// The next set-point of a stream is reached.
     bool pass(Instant now) { return stream_.pass(now); }
-    /// A stream has had no set-point for too long: 0083h, and it rests.
+    /// A stream has not received a set-point in time: error 0083h, and the demand rests.
     [[nodiscard]] Fault starve(Instant now);
 
 private:

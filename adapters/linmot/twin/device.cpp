@@ -1,6 +1,5 @@
-// The drive on its line: telegrams in and out, control words, motion commands, RAM reads; power and the tester's hand.
-// In: telegrams. Out: answers as the public pages print them; what stands on none of them is marked where it is done.
-// Never answers a telegram for another ID.
+// Telegrams, control words, motion commands, RAM reads, power and the simulated hand. Answers have the form of the public pages; answers
+// that no page shows are marked where they are made.
 #include "adapters/linmot/twin/device.hpp"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ std::uint16_t Device::sum(std::span<const std::uint8_t> bytes) const {
             s += b;
         return static_cast<std::uint16_t>(s);
     }
-    // Bit by bit, lowest bit first for the reflected form.
+    // Bit by bit, in the reflected form lowest bit first.
     const bool low_first = setup_.checksum == "crc_reflected";
     unsigned crc = setup_.checksum_start;
     for (const auto b : part) {
@@ -92,7 +91,7 @@ NonVolatile Device::non_volatile() const {
 // --- telegrams --------------------------------------------------------------------------------------------------------------
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     if (frame.kind != Frame::Kind::bytes || !powered_ || now < deaf_until_) return;
-    if (!held_.empty() && now - last_byte_ > std::chrono::milliseconds(50)) held_.clear();  // the rest of a telegram never came
+    if (!held_.empty() && now - last_byte_ > std::chrono::milliseconds(50)) held_.clear();  // the rest of a telegram has not arrived
     last_byte_ = now;
     held_.insert(held_.end(), frame.data().begin(), frame.data().end());
     look(now, out);
@@ -101,7 +100,7 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
 void Device::look(Instant now, Out& out) {
     const std::size_t tail = setup_.checksum == "none" ? 0 : 2;
     std::size_t at = 0;
-    while (at + 4 <= held_.size()) {  // a restart clears it
+    while (at + 4 <= held_.size()) {  // a restart clears held_
         const Data rest(held_.data() + at, held_.size() - at);
         const std::size_t n = rest[2];
         if (rest[0] != 1 || n < 2 || n > 63 || rest[3] != 2) {
@@ -116,7 +115,7 @@ void Device::look(Instant now, Out& out) {
             continue;
         }
         at += whole;
-        if (rest[1] != setup_.id) continue;  // most of what a full line carries
+        if (rest[1] != setup_.id) continue;  // most telegrams of a full line
         const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
         if (body.size() >= 2) received(body, now, out);
     }
@@ -163,7 +162,7 @@ void Device::received(Data body, Instant now, Out& out) {
     const Data data = body.subspan(2);
     switch (main) {
         case 0x00:
-            if (sub == 3) {  // warn word and two bytes of unknown meaning behind it: seen in programs alone
+            if (sub == 3) {  // warn word and two bytes of unknown meaning follow: seen in public programs only
                 std::vector<std::uint8_t> more;
                 put(more, drive_.warn_word(), 4);
                 default_response(out, more);

@@ -1,6 +1,5 @@
-// The drive on its line: LinRS telegrams in, answers out, the tester's hand, behind the Twin interface.
-// In: bytes, time, the hand. Out: bytes. It speaks only when asked, and stays silent where a telegram is not for it or not understood.
-// Never decides what a motion command does: that is drive.hpp's.
+// Device is the simulated drive on its line: LinRS telegrams, the simulated hand, and the interface Twin. It answers only telegrams that
+// are addressed to it and understood. The effect of motion commands is in drive.hpp.
 #pragma once
 
 #include <deque>
@@ -27,7 +26,7 @@ struct DeviceSetup {
 
 class Device final : public Twin {
 public:
-    static constexpr Duration start_time = std::chrono::seconds(3);  ///< of the software, and of a restart
+    static constexpr Duration start_time = std::chrono::seconds(3);  ///< start of the software, also after a restart
 
     explicit Device(DeviceSetup setup) : setup_(std::move(setup)), drive_(setup_.drive) {}
 
@@ -70,11 +69,11 @@ private:
     bool set_x4(std::uint16_t bit, const HandWish& wish);
 
     DeviceSetup setup_;
-    mutable Drive drive_;  ///< mechanics() advances it, which is not seen from outside
+    mutable Drive drive_;  ///< mechanics() advances it, without a visible change
     std::vector<std::uint8_t> held_;
     bool powered_ = false, silent_ = false;
     Instant deaf_until_{};
-    Instant reply_at_ = never;  ///< of an answer that takes its time
+    Instant reply_at_ = never;  ///< of an answer that takes some time
     std::vector<std::uint8_t> reply_;
     std::map<std::uint16_t, TableEntry> table_flash_;
     std::map<std::uint16_t, Curve> curves_flash_;
@@ -86,7 +85,7 @@ private:
     std::uint8_t block_sub_ = 0;
     std::size_t block_at_ = 0;
     std::map<std::uint16_t, std::pair<std::size_t, std::size_t>> block_sizes_;  ///< info and data of curves that are being written
-    Instant last_byte_{}, at_{};                                                ///< of the telegram that is answered
+    Instant last_byte_{}, at_{};                                                ///< of the telegram that is being answered
 };
 
 }  // namespace axisgate::linmot::twin

@@ -1,6 +1,4 @@
-// What comes to a simulated drive from outside, and what becomes due inside: ends of tests and motions, crossings, trigger edges, steps
-// of the command table, limits. In: words, commands, the hand, the passing of time. Out: everything at its own instant and in order.
-// Never runs ahead of what was asked.
+// Events that are due are carried out in order, each at its own instant.
 #include "adapters/linmot/twin/drive.hpp"
 
 #include <algorithm>
@@ -31,7 +29,7 @@ void Drive::start_software(Instant now) {
     states_.start_software(now);
 }
 
-// --- from the wire -------------------------------------------------------------------------------------------------------
+// --- from the line -------------------------------------------------------------------------------------------------------
 void Drive::write_control_word(std::uint16_t word, Instant now) {
     advance(now);
     if (states_.running()) states_.write(word, now);
@@ -86,7 +84,7 @@ void Drive::inject(std::uint16_t code, Instant now) {
 // --- time ----------------------------------------------------------------------------------------------------------------
 void Drive::advance(Instant now) {
     if (now < now_) return;
-    // Bounded: a table that loops without a wait takes a cycle per entry, and next_event() has it looked at often enough.
+    // Bounded: a table that loops without a wait needs one cycle per entry, and next_event() makes the calls frequent enough.
     for (int i = 0; i < 100'000; ++i) {
         const Instant at = due();
         if (at > now) break;
@@ -124,13 +122,14 @@ Instant Drive::due() const {
 }
 
 Instant Drive::next_event() const {
-    // What only moves on inside needs no wake-up but to keep the catching up short. Asked after every telegram of the line: cheap.
+    // Changes without an effect outside need no wake-up except to keep the catching up short. This is called after every telegram of the
+    // line, so it must be fast.
     if (!states_.running() || (!body_.table.runs() && !body_.demand.stream().active())) return never;
     const Instant at = due();
     return at == never ? never : std::max(at, now_ + std::chrono::milliseconds(50));
 }
 
-/// Of limits and crossings an instant is the first nanosecond behind them.
+/// For limits and crossings, the instant is the first nanosecond after them.
 Fault Drive::limit_passed(Instant now) const {
     if (states_.stops_by_error()) return 0;
     const Instant before = now - Duration{2};

@@ -1,7 +1,5 @@
-// A simulated drive without its wire: its parts put together, and what happens inside at its own instant.
-// In: control words, motion commands, inputs, time. Out: StateVar, status and warn word, position, parameters.
-// advance() carries out, in order, all that was due since the last call. States: states.hpp; motion commands: commands.hpp; the
-// demand and what leads it: demand.hpp; the slider: follower.hpp.
+// Drive is a simulated drive without its line: it connects its parts, and advance() carries out, in order, all events that were due since
+// the last call. States: states.hpp; motion commands: commands.hpp; demand and its sources: demand.hpp; slider: follower.hpp.
 #pragma once
 
 #include <cstdint>
@@ -27,15 +25,15 @@ public:
     void start_software(Instant now);
     [[nodiscard]] bool software_runs() const noexcept { return states_.running(); }
 
-    // --- from the wire --------------------------------------------------------------------------------------------------
+    // --- from the line --------------------------------------------------------------------------------------------------
     void write_control_word(std::uint16_t word, Instant now);
-    /// The bytes of a telegram go into the buffer; executed if its count is another than the last [L545-547].
+    /// Writes the bytes of a telegram into the buffer; the command is executed if its count differs from the last one [L545-547].
     void write_motion_command(std::span<const std::uint8_t> bytes, Instant now);
     void advance(Instant now);
-    /// The next instant at which something happens by itself; `never`.
+    /// The next instant at which the state changes without a request, or `never`.
     [[nodiscard]] Instant next_event() const;
 
-    // --- what it shows, at the instant of the last advance --------------------------------------------------------------
+    // --- state, at the instant of the last advance ----------------------------------------------------------------------
     [[nodiscard]] std::uint16_t status_word() const { return states_.status_word(now_); }
     [[nodiscard]] std::uint16_t state_var() const { return states_.state_var(now_); }
     [[nodiscard]] std::uint16_t warn_word() const { return states_.warn_word(now_); }
@@ -50,13 +48,13 @@ public:
     [[nodiscard]] std::uint16_t outputs_x4() const noexcept { return commands_.outputs_x4(); }
     [[nodiscard]] std::uint16_t outputs_x6() const noexcept { return commands_.outputs_x6(); }
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_.commands_done(); }
-    /// The master encoder's count as the drive has it [L4403-4470].
+    /// The count of the master encoder in the drive [L4403-4470].
     [[nodiscard]] double master() const { return body_.master.count(now_); }
-    /// The force that is held, 0.1 N; nothing: the position is controlled.
+    /// The controlled force, 0.1 N; empty: the position is controlled.
     [[nodiscard]] std::optional<double> held_force() const { return body_.force.held(); }
     [[nodiscard]] double encoder_edges() const { return body_.master.edges(now_); }
 
-    // --- the tester's hand ----------------------------------------------------------------------------------------------
+    // --- the simulated hand ---------------------------------------------------------------------------------------------
     [[nodiscard]] const Outside& outside() const noexcept { return body_.outside; }
     void set_outside(const Outside& outside, Instant now);
     void trigger(bool rising, Instant now);
@@ -68,7 +66,7 @@ public:
     TableEntries table;
     Curves curves;
 
-    /// Whether this drive has the command; the header with count 0.
+    /// Whether this drive has the command; the count in the header is 0.
     [[nodiscard]] bool has(std::uint16_t header) const noexcept { return commands_.has(header); }
     [[nodiscard]] static bool listed(std::uint16_t header) noexcept { return Interpreter::listed(header); }
 

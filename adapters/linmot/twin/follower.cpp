@@ -1,5 +1,4 @@
-// The slider's place, its lag, and when they pass their limits.
-// In: the demand. Out: places, instants. Never reads a limit that is 0 as one.
+// A limit of 0 means that there is no limit.
 #include "adapters/linmot/twin/follower.hpp"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ bool Follower::in_target(Instant now) const {
 }
 
 double Follower::home(double position, Instant now) {
-    offset_ = position - place(now).position;  // the demand still counts in the old numbers: the slider stays where it is
+    offset_ = position - place(now).position;  // the demand still uses the old numbers: the slider stays where it is
     homed_ = true;
     return position;
 }

@@ -1,6 +1,5 @@
-// The slider: where it is, what the drive calls that place, how far it is behind the demand.
-// In: the demand, the tester's hand. Out: position, lag, the instants at which lag or position pass their limits.
-// Never moves by itself: it follows the demand while it is powered, and a hand while it is not. position = place + offset.
+// Follower is the slider: its mechanical place, the position that the drive reports, and its lag behind the demand. It follows the demand
+// while it is powered, and a hand while it is not. position = place + offset.
 #pragma once
 
 #include "adapters/linmot/twin/demand.hpp"
@@ -8,14 +7,14 @@
 
 namespace axisgate::linmot::twin {
 
-/// Places in 0.1 um.
+/// All values in 0.1 um.
 class Follower {
 public:
     Follower(const Memory& memory, const Demand& demand, const Outside& outside) : memory_(memory), demand_(demand), outside_(outside) {}
 
-    /// The place of the mechanics.
+    /// The mechanical place.
     [[nodiscard]] Point place(Instant now) const;
-    /// The same as the drive calls it.
+    /// The position that the drive reports.
     [[nodiscard]] Point actual(Instant now) const;
     [[nodiscard]] double rest() const noexcept { return place_ + offset_; }  ///< position while nothing controls it
     [[nodiscard]] double offset() const noexcept { return offset_; }
@@ -26,23 +25,24 @@ public:
 
     void power_on() noexcept { homed_ = false, offset_ = 0; }
     void lose_home() noexcept { homed_ = false; }
-    /// The present place is called so; returns where the demand is then.
+    /// Defines the present position; returns the demand after the change.
     double home(double position, Instant now);
-    /// It is called `shift` more than before.
+    /// Adds `shift` to the present position.
     void rename(double shift) noexcept { offset_ += shift, homed_ = true; }
 
-    /// What stands here now is kept for the time without power.
+    /// Stores the place for the time without power.
     void keep(Instant now) { place_ = controlled_ ? place(now).position : place_; }
-    /// From here on the demand leads it, or nothing does.
+    /// From now on the demand controls the slider, or nothing does.
     void control(bool on) noexcept;
-    /// A hand takes hold of it where it is.
+    /// A hand holds the slider where it is.
     void hold(Instant now) { held_at_ = place(now).position; }
     void push(double place) noexcept { place_ = held_at_ = place; }
     void capture(Instant now) { captured_ = actual(now).position; }
 
-    /// While it is held the demand runs away until the lag is too big (1473h). `never`: it does not; `after`: where crossings count from.
+    /// While the slider is held, the demand moves away until the lag exceeds its limit (1473h). `never`: it does not; crossings count from
+    /// `after` on.
     [[nodiscard]] Instant lag_limit(Instant now, Instant after) const;
-    /// The position leaves the range of 146Eh and 146Fh.
+    /// When the position leaves the range of 146Eh and 146Fh.
     [[nodiscard]] Instant range_limit(Instant now, Instant after) const;
 
 private:

@@ -1,5 +1,4 @@
-// Force limits of 38h: a motion runs until the measured force passes one; then the force is held.
-// In: the command, the measured force. Out: that it has been reached. Never moves anything.
+// The force limits of 38h: a motion continues until the measured force exceeds a limit; from then on the force is controlled.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,14 @@ namespace axisgate::linmot::twin {
 /// Forces in 0.1 N.
 class ForceWatch {
 public:
-    /// The force that is held; nothing: the position is controlled.
+    /// The controlled force; empty: the position is controlled.
     [[nodiscard]] std::optional<double> held() const noexcept { return controls_ ? std::optional(target_) : std::nullopt; }
     void end() noexcept { watches_ = controls_ = false; }
     void end_watch() noexcept { watches_ = false; }
     void retarget(double force) noexcept {
         if (controls_) target_ = force;
     }
-    /// 380, 383 from below, 384, 385 from above; 383 and 385 hold another force than the limit.
+    /// 380, 383 from below, 384, 385 from above; 383 and 385 control another force than the limit.
     void watch(std::uint8_t sub, const Bytes& b) {
         higher_ = sub == 0 || sub == 3;
         limit_ = at16(b, 14);
@@ -28,7 +27,7 @@ public:
         watches_ = true;
         controls_ = false;
     }
-    /// Whether the limit is passed: from here on the force is held.
+    /// Whether the limit is exceeded; if so, the force is controlled from now on.
     bool reached(double force) noexcept {
         if (!watches_ || (higher_ ? force < limit_ : force > limit_)) return false;
         watches_ = false;

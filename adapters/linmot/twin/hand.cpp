@@ -1,4 +1,4 @@
-// The tester's hand: what stands around the drive, by the names that all families share. It never writes a parameter of the drive.
+// The simulated hand: conditions around the drive, with the names that all families use. Parameters of the drive are not written here.
 #include <cmath>
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace axisgate::linmot::twin {
 namespace {
-/// The value of a wish, which is a finite number: set_hand has looked.
+/// The value of a wish; set_hand has checked that it is a finite number.
 double number(const HandWish& w) { return *as_number(w.value); }
 bool is_in(const HandWish& w, double low, double high) { return number(w) >= low && number(w) <= high; }
 }  // namespace
@@ -161,7 +161,7 @@ std::string Device::set_outside(std::int64_t Outside::*member, double factor, co
     });
 }
 
-/// Sets an input of X4; returns what it was.
+/// Sets an input of X4; returns its previous level.
 bool Device::set_x4(std::uint16_t bit, const HandWish& w) {
     Outside o = drive_.outside();
     const bool was = (o.x4_inputs & bit) != 0;

@@ -1,5 +1,5 @@
-// MasterEncoder: the count that cams, winding and indexing follow [L4403-4470].
-// In: edges and their speed from outside, parameters 128Eh to 1290h and 172Ah. Out: the count at an instant. Never counts without a source.
+// MasterEncoder is the count that cams, winding and indexing follow [L4403-4470], from edges and their speed, and the parameters 128Eh to
+// 1290h and 172Ah.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@ class MasterEncoder {
 public:
     explicit MasterEncoder(const Memory& memory) noexcept : memory_(memory) {}
 
-    /// From here on; `edges` are four to a period, `speed` is edges/s.
+    /// From now on; `edges` are four per period, `speed` is edges/s.
     void set(double edges, double speed, Instant now) noexcept { edges_ = edges, speed_ = speed, since_ = now; }
     void power_on() noexcept { offset_ = 0; }
-    /// By 104xh: the present count is this one.
+    /// By 104xh: defines the present count.
     void name(double count, Instant now) noexcept { offset_ += count - this->count(now); }
 
     [[nodiscard]] double edges(Instant now) const noexcept { return edges_ + speed_ * std::max(0.0, seconds(now - since_)); }
@@ -25,7 +25,8 @@ public:
     [[nodiscard]] double speed() const noexcept { return speed_ * factor(); }  ///< counts/s
 
 private:
-    /// Counts per edge. Without a source or type nothing is counted; type 3 is none; 4x on step and direction acts as 2x [L4431-4437].
+    /// Counts per edge. Without a source or type nothing is counted; type 3 is none; 4x with step and direction has the effect of 2x
+    /// [L4431-4437].
     [[nodiscard]] double factor() const noexcept {
         const auto type = memory_.ram(0x128E);
         if (memory_.ram(0x172A) == 0 || type == 0 || type == 3 || type > 5) return 0;

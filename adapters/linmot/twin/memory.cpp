@@ -1,5 +1,3 @@
-// Parameters of a simulated drive: the table of its UPIDs and their values.
-// In: raw values. Out: raw values that fit. Never knows what a parameter does.
 #include "adapters/linmot/twin/memory.hpp"
 
 #include <fmt/core.h>
@@ -8,7 +6,7 @@
 
 namespace axisgate::linmot::twin {
 namespace {
-// Voltages in 10 mV, temperatures in 0.1 deg C, times in ms, positions in 0.1 um: choices, the manual gives no scales (O-22).
+// Voltages in 10 mV, temperatures in 0.1 deg C, times in ms, positions in 0.1 um: choices, because the manual gives no scales (O-22).
 constexpr std::uint16_t variable = 0x1001, set_variable = 0x1103;
 constexpr ParameterFacts table[] = {{0x100E, type_s32, 2000},
                                     {0x1010, type_s32, 2800},

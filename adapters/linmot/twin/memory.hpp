@@ -1,6 +1,6 @@
-// The parameters of a simulated drive: RAM and ROM values by UPID, with what the drive says of each: type, limits, default, usage.
-// In: UPIDs, 32-bit raw values. Out: the same, cut to the parameter's width. ROM is what a restart brings back.
-// Types and factory values are choices where the manual is silent (README).
+// Memory holds the parameters of a simulated drive: RAM and ROM values by UPID, with type, limits, default and usage. Values are raw 32-bit
+// values, limited to the width of the parameter. A restart copies ROM to RAM. Types and factory values are choices where the manual is
+// silent (README).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class Memory {
 public:
     Memory();
     [[nodiscard]] const ParameterFacts* facts(std::uint16_t upid) const noexcept;
-    /// The first parameter with a number from `upid` on.
+    /// The first parameter whose number is `upid` or higher.
     [[nodiscard]] const ParameterFacts* from(std::uint16_t upid) const noexcept;
     [[nodiscard]] static std::uint32_t fit(std::uint8_t type, std::uint32_t raw) noexcept;
     [[nodiscard]] static std::uint32_t lowest(std::uint8_t type) noexcept;
@@ -41,11 +41,11 @@ public:
     void set_ram(std::uint16_t upid, std::uint32_t raw) noexcept;
     void set_rom(std::uint16_t upid, std::uint32_t raw);
 
-    /// RAM becomes what ROM says; variables their factory value.
+    /// RAM is set to ROM; variables to their factory values.
     void restart();
     void load(const NonVolatile& memory);
     void save(NonVolatile& into) const;
-    std::uint64_t revision = 0;  ///< grows with each change of what is kept
+    std::uint64_t revision = 0;  ///< incremented with each change of stored values
 
 private:
     std::map<std::uint16_t, ParameterFacts> facts_;

@@ -1,6 +1,5 @@
-// The drive on its line: the message groups beside control words and motion commands: parameters, curves, programs, errors, command table.
-// In: telegrams' data. Out: answers as the public pages print them; what stands on none of them is marked where it is done.
-// Never touches the flash memory while the software runs.
+// The message groups besides control words and motion commands: parameters, curves, programs, errors, command table. Answers have the form
+// of the public pages; answers that no page shows are marked where they are made. The flash memory is not written while the software runs.
 #include <algorithm>
 
 #include "adapters/linmot/twin/bytes.hpp"
@@ -52,7 +51,7 @@ void Device::parameters(std::uint8_t sub, Data data, Out& out) {
     }
 }
 
-/// The layouts of all but 0Ah are inferred from the other buses of this family.
+/// The layouts of all except 0Ah are inferred from the other buses of this family.
 void Device::curves(std::uint8_t sub, Data data, Out& out) {
     if (setup_.drive.series == Series::b1100) return;
     const std::uint16_t id = at16(data, 0);
@@ -195,7 +194,7 @@ void Device::command_table(std::uint8_t sub, Data data, Out& out) {
             return reply(unfinished, value);
         }
         case 7: {
-            std::uint32_t bits = 0xFFFF'FFFFu;  // a bit of 0: the entry is there
+            std::uint32_t bits = 0xFFFF'FFFFu;  // a bit of 0: the entry exists
             for (const auto& [k, entry] : table) {
                 if (k / 32 == id) bits &= ~(1u << k % 32);
             }

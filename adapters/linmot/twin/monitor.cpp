@@ -1,5 +1,3 @@
-// Supplies, temperatures, sensors of a simulated drive, and the models of its resistor and its motor.
-// In: what is outside, time. Out: errors and warnings at their instant. Never heats without a current or a regeneration.
 #include "adapters/linmot/twin/monitor.hpp"
 
 #include <algorithm>
@@ -11,7 +9,7 @@ namespace {
 constexpr Duration ptc_warn = std::chrono::milliseconds(100), ptc_error = std::chrono::milliseconds(500);
 constexpr Duration hot_error = std::chrono::milliseconds(500);
 constexpr Duration sve_time = std::chrono::microseconds(500);   ///< [L4398]
-constexpr Duration warm_step = std::chrono::milliseconds(100);  ///< how often temperatures are looked at while something heats
+constexpr Duration warm_step = std::chrono::milliseconds(100);  ///< period of the temperature calculation while something is being heated
 constexpr double winding_ohm = 10, winding_error = 1200;        ///< 0.1 deg C
 double value(std::int64_t v) { return static_cast<double>(v); }
 bool lasts(Instant since, Duration time, Instant now) noexcept { return since != never && now >= since + time; }
@@ -24,7 +22,7 @@ void Monitor::power_on(Instant now) {
     show_temperatures();
 }
 
-/// The regeneration resistor between its switching voltages, the motor by its current. 0.1 deg C.
+/// The regeneration resistor is heated between its switching voltages, the motor by its current. 0.1 deg C.
 void Monitor::warm(Instant now) {
     const double past = seconds(now - warmed_), environment = memory_.number(0x102A) / 10;
     const double volt = value(outside_.motor_supply) / 100, ampere = value(outside_.current) / 1000;
@@ -81,9 +79,9 @@ Fault Monitor::fault(Instant now) const {
     if (value(outside_.logic_supply) > memory_.number(0x1010)) return 0x02;
     if (value(outside_.motor_supply) < memory_.number(0x101A)) return 0x03;
     if (value(outside_.motor_supply) > memory_.number(0x101B)) return 0x04;
-    if (memory_.number(0x1C0D) > memory_.number(0x1025)) return 0x15;  // by the number that the manual gives there (E-31)
+    if (memory_.number(0x1C0D) > memory_.number(0x1025)) return 0x15;  // by the number in the manual (E-31)
     if (motor_.temperature[0] * 10 > winding_error) return 0x23;
-    // The sensors in their order: Ph1+, Ph1-, Ph2+, Ph2-, DC link, resistor driver, X3, core; the smaller series has the last one alone.
+    // The sensors in their order: Ph1+, Ph1-, Ph2+, Ph2-, DC link, resistor driver, X3, core; the B1100 series has only the last one.
     for (std::uint16_t i = series_ == Series::b1100 ? 7 : 0; i < 8; ++i) {
         if (memory_.number(static_cast<std::uint16_t>(0x1BC6 + i)) > memory_.number(0x1041)) return static_cast<Fault>(0x10 + i);
     }
@@ -107,7 +105,7 @@ std::uint16_t Monitor::warnings(Instant now) const {
     return w;
 }
 
-/// They are above the supply at rest, and half a volt apart.
+/// The switching voltages must be above the supply at rest, and half a volt apart.
 Fault Monitor::misconfigured() const {
     if (memory_.ram(0x101D) == 0) return 0;
     const double on = memory_.number(0x101E), off = memory_.number(0x101F), idle = value(outside_.motor_supply);

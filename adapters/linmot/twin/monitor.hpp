@@ -1,5 +1,5 @@
-// What a simulated drive watches: supplies, temperatures and their models, sensors. Warnings come before their errors.
-// In: what is outside, time. Out: warnings, the error that is due, when one becomes due. Never clears an error.
+// Monitor supervises supplies, temperatures and sensors of a simulated drive, with thermal models of its resistor and its motor. A warning
+// comes before its error. It raises errors at their instants and never clears them.
 #pragma once
 
 #include "adapters/linmot/twin/memory.hpp"
@@ -14,26 +14,26 @@ public:
     Monitor(Memory& memory, const Outside& outside, Series series) : memory_(memory), outside_(outside), series_(series) {}
 
     void power_on(Instant now);
-    /// The two models up to now.
+    /// Updates the two thermal models to `now`.
     void warm(Instant now);
-    /// What the sensors say from now on, before it is so.
+    /// The sensors report these conditions from now on.
     void seen(const Outside& next, Instant now) noexcept;
-    /// The temperatures of the sensors, where they are read.
+    /// Writes the temperatures of the sensors into the parameters.
     void show_temperatures();
 
-    /// The next instant at which an error or a look at the temperatures is due.
+    /// The next instant at which an error or a temperature calculation is due.
     [[nodiscard]] Instant due(Instant now) const;
-    /// Whether something can have changed by time alone.
+    /// Whether the result can change with time alone.
     [[nodiscard]] bool watches() const noexcept;
-    /// The first error that there is cause for, after `warm`.
+    /// The first error that has a cause, after `warm`.
     [[nodiscard]] Fault fault(Instant now) const;
-    /// Its bits of the warn word.
+    /// The monitor's bits of the warn word.
     [[nodiscard]] std::uint16_t warnings(Instant now) const;
-    /// Why the configuration cannot work: the regeneration's voltages.
+    /// Why the configuration is not valid: the voltages of the regeneration.
     [[nodiscard]] Fault misconfigured() const;
-    /// The input for the safe voltage enable is low for so long that it takes the power [L4398-4401].
+    /// The input for the safe voltage enable has been low long enough to remove the power [L4398-4401].
     [[nodiscard]] bool unsafe(Instant now) const noexcept;
-    /// Whether the cause of an error is still there, so that it cannot be acknowledged.
+    /// Whether the cause of an error persists, so that it cannot be acknowledged.
     [[nodiscard]] bool persists(Fault fault) const noexcept;
     [[nodiscard]] std::uint32_t hottest() const noexcept;
 

@@ -1,5 +1,4 @@
-// The VA interpolator: pieces of constant acceleration.
-// In: orders. Out: states in closed form; asking costs nothing between the questions. Never approximates but by doubles.
+// Segments of constant acceleration.
 #include "adapters/linmot/twin/profile.hpp"
 
 #include <algorithm>
@@ -30,7 +29,7 @@ void Profile::to_velocity(double velocity, double rate) noexcept {
 }
 
 Instant Profile::instant(double seconds) const noexcept {
-    constexpr double most = 9e9;  // s: what an Instant can hold
+    constexpr double most = 9e9;  // s: the range of an Instant
     if (!(seconds < most)) return never;
     return since_ + Duration{static_cast<std::int64_t>(std::ceil(seconds * 1e9))};
 }
@@ -42,7 +41,7 @@ void Profile::rest(double position, Instant now) noexcept {
     end_ = now;
 }
 
-/// From now_ on, whatever its velocity, so that it ends at the target.
+/// From now_ on, with any velocity, so that the motion ends at the target.
 void Profile::approach(double target) noexcept {
     const double a = ramps_.acceleration, d = ramps_.deceleration, vm = ramps_.velocity;
     const double way = target - now_.position;
@@ -104,7 +103,7 @@ Point Profile::at(Instant now) const noexcept {
     for (std::size_t i = count_; i-- > 0;) {
         const Piece& p = pieces_[i];
         if (t < p.begin) continue;
-        if (t >= p.begin + p.length) break;  // behind the last piece: endless
+        if (t >= p.begin + p.length) break;  // after the last segment: endless
         const double s = t - p.begin;
         return {p.position + p.velocity * s + p.acceleration * s * s / 2, p.velocity + p.acceleration * s};
     }
@@ -115,7 +114,7 @@ Point Profile::at(Instant now) const noexcept {
 std::optional<Instant> Profile::crossing(double position, bool upwards, Instant after) const noexcept {
     const double from = std::max(0.0, seconds(after - since_));
     const auto in = [&](double begin, double length, double p, double v, double a) -> std::optional<double> {
-        // p + v s + a s^2/2 = position, with the velocity there in the named direction
+        // p + v s + a s^2/2 = position, with a velocity in the given direction
         double roots[2];
         int n = 0;
         if (std::fabs(a) < 1e-12) {

@@ -1,5 +1,3 @@
-// States of a simulated drive: power, the control word's sources, errors, transitions.
-// In: words, faults, time. Out: states. Nothing moves because it was enabled: the actual position becomes the demand.
 #include "adapters/linmot/twin/states.hpp"
 
 #include <algorithm>
@@ -7,7 +5,7 @@
 
 namespace axisgate::linmot::twin {
 namespace {
-constexpr Ramps slow{500'000, 10'000'000, 10'000'000};  // 50 mm/s, 1 m/s2: the drive's own moves have no UPID (choice O-14)
+constexpr Ramps slow{500'000, 10'000'000, 10'000'000};  // 50 mm/s, 1 m/s2: motions of the drive itself have no UPID (choice O-14)
 
 bool is_fatal(Fault code) noexcept {
     static constexpr std::array<Fault, 9> fatal{0x0A, 0x0D, 0x21, 0x22, 0x45, 0x64, 0x65, 0x67, 0x68};
@@ -51,7 +49,7 @@ void States::enter(std::uint8_t state, Instant now) {
     pass_to(state, now);
     if (was == powered()) return;
     body_.follower.control(powered());
-    if (!was) {  // the actual position becomes the demand: nothing moves because it was enabled
+    if (!was) {  // the demand is set to the actual position: enabling must not move the axis
         body_.demand.vai().stand(body_.follower.rest(), now);
         body_.buffer.forget();
     }
@@ -63,7 +61,7 @@ void States::pass_to(std::uint8_t state, Instant now, std::uint8_t sub) noexcept
     since_ = now;
 }
 
-// --- words ----------------------------------------------------------------------------------------------------------------
+// --- control word --------------------------------------------------------------------------------------------------------
 void States::write(std::uint16_t word, Instant now) {
     word_.write(word);
     decide(now);
@@ -81,7 +79,7 @@ void States::raise(Fault code, Instant now) {
     error_ = code;
     fatal_ = is_fatal(code);
     if (code == 0x50 || code == 0x51) return enter(setup_error, now);
-    // Fatal ones, short circuits, bridge and supply errors cut the power; the others stop the motor first (choice O-20).
+    // Fatal errors, short circuits, bridge and supply errors remove the power; the others stop the motor first (choice O-20).
     const bool cut = fatal_ || code <= 0x04 || (code >= 0x18 && code <= 0x1E) || (code >= 0x28 && code <= 0x3C);
     if (!powered() || cut) return enter(error, now);
     by_error_ = true;
@@ -94,12 +92,12 @@ void States::check(Instant now) {
     if (!running_) return;
     body_.monitor.warm(now);
     if (const Fault fault = body_.monitor.fault(now)) raise(fault, now);
-    // The force is held; the model moves no further.
+    // The force is controlled; the model moves no further.
     if (body_.force.reached(static_cast<double>(body_.outside.force))) body_.demand.vai().rest(body_.demand.at(now).position, now);
     limit_switch(now);
 }
 
-/// Limit switches count only while the drive is powered and homed; the switch takes the home away (E-45).
+/// Limit switches count only while the drive is powered and homed; a limit switch clears the home position (E-45).
 void States::limit_switch(Instant now) {
     const Outside& o = body_.outside;
     const auto reaction = body_.memory.ram(0x121B);
@@ -121,7 +119,7 @@ void States::evaluate(Instant now) {
     }
 }
 
-/// One transition; false: it stays.
+/// One transition; false: the state does not change.
 bool States::transit(Instant now) {
     switch (state_) {
         case not_ready:
@@ -139,7 +137,7 @@ bool States::transit(Instant now) {
             return false;
         case error:
             if (!word_.rises(7) || fatal_ || body_.monitor.persists(error_)) return false;
-            word_.use_edge(7);  // one edge, one acknowledgement
+            word_.use_edge(7);  // one edge acknowledges one error
             error_ = 0;
             enter(not_ready, now);
             check(now);
@@ -156,13 +154,13 @@ bool States::transit(Instant now) {
 }
 
 bool States::transit_powered(Instant now) {
-    if ((!cw(0) || !cw(1)) && stops_by_error() && body_.setup.keeps_braking_error) {  // the power goes, the error stays
+    if ((!cw(0) || !cw(1)) && stops_by_error() && body_.setup.keeps_braking_error) {  // the power is removed, the error stays
         by_error_ = false;
         return enter(error, now), true;
     }
     if (!cw(1)) return enter(switch_on_disabled, now), true;  // OFF2
     if (!cw(0)) return enter(ready_to_switch_on, now), true;  // OFF1
-    if (state_ == quick_stop) return false;                   // its end is an event
+    if (state_ == quick_stop) return false;                   // an event ends it
     if (!cw(2)) {
         by_error_ = false;
         return brake_to(quick_stop, now), true;  // OFF3
@@ -205,7 +203,7 @@ bool States::transit_powered(Instant now) {
     }
 }
 
-/// From "operation enabled", the first bit that asks for something else.
+/// From "operation enabled": the first bit that requests another state.
 bool States::transit_operating(Instant now) {
     if (!cw(4)) {
         brake_to(aborting, now);
@@ -218,13 +216,13 @@ bool States::transit_operating(Instant now) {
         body_.follower.lose_home();
         body_.table.end();
         body_.armed = {};
-        move_to(homing, body_.follower.offset(), now);  // the reference of these mechanics is their physical zero
+        move_to(homing, body_.follower.offset(), now);  // the home reference of these mechanics is their physical zero
         return true;
     }
     if (cw(12)) return move_to(clearance, body_.memory.number(0x13CA), now), true;
     if (word_.rises(13)) return move_to(to_initial, 0, now), word_.use_edge(13), true;
     if (cw(6)) return move_to(to_position, 0, now), true;
-    if (cw(8) != cw(9)) {  // both together: no motion (choice O-07)
+    if (cw(8) != cw(9)) {  // both at once: no motion (choice O-07)
         pass_to(cw(8) ? jog_plus : jog_minus, now, 1);
         body_.demand.jog(cw(8) ? 1 : -1, slow, now);
         return true;
@@ -246,7 +244,7 @@ void States::move_to(std::uint8_t state, double target, Instant now) {
     body_.demand.go(target, slow, now);
 }
 
-/// The end of /Abort: with the brake on it, the motor goes on when its release has had its time [L4157-4206].
+/// The end of /Abort: after the brake was applied, the motor continues when the release time of the brake is over [L4157-4206].
 bool States::released(Instant now) {
     if (cw(4) && brakes_on_abort()) {
         if (abort_over_ == never) abort_over_ = now + Duration{static_cast<std::int64_t>(body_.memory.number(0x171C) * 1e6)};
@@ -298,7 +296,7 @@ Instant States::motion_end() const {
 
 void States::finish_motion(Instant now) {
     if (state_ != quick_stop) {
-        // The mechanical reference is reached: from here on it has the home position's name.
+        // The mechanical reference is reached: from now on it has the home position.
         if (state_ == homing) body_.demand.vai().stand(body_.follower.home(body_.memory.number(0x13C7), now), now);
         sub_ = 0x0F;
         return;

@@ -1,5 +1,4 @@
-// The state machine of a simulated drive: transitions, errors, status word, StateVar, warn word.
-// In: control words, faults, time. Out: states, and what they make of the demand. Never jumps over a state.
+// States is the state machine of a simulated drive: transitions, errors, status word, StateVar, warn word.
 #pragma once
 
 #include <cstdint>
@@ -41,14 +40,14 @@ public:
     void stop_software(Instant now);
     [[nodiscard]] bool running() const noexcept { return running_; }
 
-    /// The interface's word; what the drive obeys is made of it and of the other sources.
+    /// The control word of the interface; the control word in force is made of it and of the other sources.
     void write(std::uint16_t word, Instant now);
     void decide(Instant now);
-    /// Transitions, until it stays where it is.
+    /// Carries out transitions until the state no longer changes.
     void evaluate(Instant now);
-    /// The first error stays.
+    /// The first error is kept.
     void raise(Fault code, Instant now);
-    /// What is outside: errors, the force that is reached, limit switches.
+    /// Checks the conditions outside: errors, the force limit, limit switches.
     void check(Instant now);
 
     [[nodiscard]] std::uint8_t state() const noexcept { return state_; }
@@ -64,17 +63,17 @@ public:
     [[nodiscard]] double demand(Instant now) const;
 
     // --- time ---
-    /// The end of a test, or a look at what is outside.
+    /// When a test ends, or the conditions outside must be checked.
     [[nodiscard]] Instant due(Instant now) const;
-    /// What time alone has changed outside.
+    /// Checks conditions that have changed with time alone.
     void look(Instant now);
-    /// A test that is over: true.
+    /// True: a test has ended.
     bool finish_test(Instant now);
-    /// Whether the state waits for the end of its motion; when that is, behind the brake.
+    /// Whether the state waits for the end of its motion, and when that is, including the brake.
     [[nodiscard]] bool awaits_end() const noexcept;
     [[nodiscard]] Instant motion_end() const;
     void finish_motion(Instant now);
-    /// The motion of the present state waits no more.
+    /// The motion of the present state has ended.
     [[nodiscard]] bool arrived() const noexcept { return sub_ == 0x0F; }
 
 private:
@@ -82,7 +81,7 @@ private:
     static constexpr Duration search_time = std::chrono::seconds(1);
 
     void enter(std::uint8_t state, Instant now);
-    /// Another state with power, from one with power.
+    /// From one state with power to another.
     void pass_to(std::uint8_t state, Instant now, std::uint8_t sub = 0) noexcept;
     void unpower(Instant now);
     bool transit(Instant now);
@@ -98,12 +97,12 @@ private:
     Body& body_;
     bool running_ = false;
     std::uint8_t state_ = not_ready, sub_ = 0;
-    Instant since_{};  ///< of the state
-    Fault error_ = 0;  ///< of states 3, 4, and of 14 on its way there
+    Instant since_{};  ///< start of the state
+    Fault error_ = 0;  ///< of states 3, 4, and of 14 on the way to them
     bool fatal_ = false;
-    bool by_error_ = false;  ///< the quick stop
+    bool by_error_ = false;  ///< an error caused the quick stop
     ControlWord word_;
-    Instant abort_over_ = never;  ///< after the brake's release
+    Instant abort_over_ = never;  ///< after the release of the brake
 };
 
 }  // namespace axisgate::linmot::twin

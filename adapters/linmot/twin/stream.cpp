@@ -1,5 +1,3 @@
-// Streamed set-points: the period of the master, the fine interpolation between two of them.
-// In: set-points, time. Out: places and velocities. Never keeps more than it can reach in its delay.
 #include "adapters/linmot/twin/stream.hpp"
 
 #include <algorithm>
@@ -15,7 +13,7 @@ Point Stream::at(Instant now) const {
     if (points_.size() < 2 || now <= at) return {p.position, 0};
     const auto& [next_at, q] = points_[1];
     const double period = std::max(1e-9, seconds(next_at - at)), part = std::clamp(seconds(now - at) / period, 0.0, 1.0);
-    // With velocities the fine interpolation leaves and meets each set-point with its own (cubic), else it is straight.
+    // With velocities, the fine interpolation passes each set-point with its velocity (cubic), otherwise it is linear.
     if (velocities_) {
         const double way = q.position - p.position, a = p.velocity * period, b = q.velocity * period;
         const double c2 = 3 * way - 2 * a - b, c3 = a + b - 2 * way;
@@ -35,7 +33,7 @@ bool Stream::pass(Instant now) {
     return true;
 }
 
-/// Set points are delayed by 1.5 periods; the period is measured over the first ones, or configured (032xh) [L3914-3944].
+/// Set-points are delayed by 1.5 periods; the period is measured from the first ones, or configured (032xh) [L3914-3944].
 Fault Stream::take(std::uint8_t sub, const Bytes& b, Point here, Instant now) {
     if (!active_) {
         active_ = true;

@@ -1,6 +1,5 @@
-// Set-points that a master streams: how far apart they come, and the way between them, one and a half periods late.
-// In: motion commands of 03h, time. Out: the demand; errors 0082h, 0084h, 0085h, and that no set-point came in time.
-// Never goes on past its last set-point.
+// Stream follows the set-points of a master (03h): it measures their period and interpolates between them, delayed by one and a half
+// periods. Errors 0082h, 0084h, 0085h, and a missing set-point. The demand never passes the last set-point.
 #pragma once
 
 #include <deque>
@@ -19,12 +18,12 @@ public:
     [[nodiscard]] bool active() const noexcept { return active_; }
     /// While it is active.
     [[nodiscard]] Point at(Instant now) const;
-    /// When the next set-point is reached or, behind the last, when one is missed. While it is active.
+    /// When the next set-point is reached or, after the last, when one is missing. While it is active.
     [[nodiscard]] Instant due() const;
 
-    /// A set-point of sub ID 0 to 2; `here`: the demand. With an error the stream has ended.
+    /// A set-point of sub ID 0 to 2; `here`: the demand. After an error the stream has ended.
     [[nodiscard]] Fault take(std::uint8_t sub, const Bytes& b, Point here, Instant now);
-    /// The next set-point is reached: true, and it is behind now.
+    /// True: the next set-point has been reached.
     bool pass(Instant now);
     [[nodiscard]] bool starved(Instant now) const { return active_ && points_.size() <= 1 && now >= due(); }
     void end() noexcept { active_ = false; }
@@ -36,11 +35,11 @@ private:
     }
     const Memory& memory_;
     bool active_ = false;
-    Instant last_{};     ///< set-point that came
-    Duration period_{};  ///< 0: it is being measured
+    Instant last_{};     ///< the last set-point
+    Duration period_{};  ///< 0: not measured yet
     int count_ = 0;
-    bool velocities_ = false;                       ///< its set-points have velocities (031xh)
-    std::deque<std::pair<Instant, Point>> points_;  ///< the first one is where the way comes from; bounded by 7
+    bool velocities_ = false;                       ///< the set-points have velocities (031xh)
+    std::deque<std::pair<Instant, Point>> points_;  ///< the first one is the start of the present way; at most 7
 };
 
 }  // namespace axisgate::linmot::twin

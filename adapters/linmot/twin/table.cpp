@@ -1,5 +1,3 @@
-// The command table of a simulated drive: linked entries, waits, what they look at.
-// In: entries, conditions. Out: whether an entry is over, and the next. Never goes on behind a link that leads nowhere.
 #include "adapters/linmot/twin/table.hpp"
 
 #include <algorithm>
@@ -9,7 +7,7 @@
 
 namespace axisgate::linmot::twin {
 
-/// By the pair of sub IDs; the waits 22xh and the branches 258h..25Fh have the same.
+/// By the pair of sub IDs; the waits 22xh and the branches 258h..25Fh use the same.
 std::optional<double> Watched::value(std::uint8_t sub) const {
     switch (sub / 2) {
         case 0:

@@ -1,6 +1,6 @@
-// Heat in a chain of bodies: power goes into the first, each gives it to the next through a resistance, the last to the environment.
-// In: power, capacities in J/K, resistances in K/W, time. Out: temperatures in degrees. Never measures: it is the drive's own reckoning
-// of its resistor and its motor [L4583-4617, L4731-4772].
+// A thermal model of a chain of bodies: power heats the first, each heats the next through a resistance, and the last the environment.
+// Power in W, capacities in J/K, resistances in K/W, temperatures in degrees. The drive calculates its resistor and its motor in this way
+// [L4583-4617, L4731-4772].
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@ template <std::size_t bodies>
 struct HeatChain {
     struct Body {
         double capacity = 1;
-        double resistance = 1;  ///< towards the next one, or the environment
+        double resistance = 1;  ///< to the next body, or to the environment
     };
     std::array<double, bodies> temperature{};
     void settle(double environment) noexcept { temperature.fill(environment); }
-    /// Steps of at most 50 ms, or a thousandth of a long time: each takes the neighbours as they were and its own end for its loss, which
-    /// is stable for every length.
+    /// Steps of at most 50 ms, or one thousandth of a long time. Each body uses the old temperatures of its neighbours and its own new one,
+    /// which is stable for every step length.
     void run(double seconds, double power, const std::array<Body, bodies>& body, double environment) noexcept {
         if (!(seconds > 0)) return;
         const double step = std::max(0.05, seconds / 1000);

@@ -1,5 +1,5 @@
-// The input X4.6 with its modes [L4251-4363]: an accepted edge blocks others for a time, or is passed on later, or both.
-// In: levels, parameters 170Ch to 1710h. Out: edges at their instant. Never more than 16 that are on their way.
+// Trigger is the input X4.6 with its modes [L4251-4363]: an accepted edge blocks others for some time, or is delayed, or both. Parameters
+// 170Ch to 1710h. At most 16 edges are delayed at once.
 #pragma once
 
 #include <deque>
@@ -15,7 +15,7 @@ class Trigger {
 public:
     explicit Trigger(const Memory& memory) : memory_(memory) {}
 
-    /// Whether the edge acts at once. `listens`: the software runs.
+    /// Whether the edge has its effect at once. `listens`: the software runs.
     [[nodiscard]] bool edge(bool rising, bool listens, Instant now) {
         if (rising == level_) return false;
         level_ = rising;
@@ -30,7 +30,7 @@ public:
         return false;
     }
     [[nodiscard]] Instant due() const { return delayed_.empty() ? never : delayed_.front().first; }
-    /// An edge that has come through: whether it rises.
+    /// A delayed edge that is due: whether it rises.
     [[nodiscard]] std::optional<bool> take(Instant now) {
         if (due() > now) return std::nullopt;
         const bool rising = delayed_.front().second;

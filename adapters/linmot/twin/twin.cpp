@@ -1,6 +1,4 @@
-// Maker of the LinMot twin: reads its setup.
-// In: address, options, the texts of the error codes. Out: a drive without power.
-// Never fails: what it cannot read becomes the factory's value.
+// Options that cannot be read have their factory values.
 #include "adapters/linmot/twin/twin.hpp"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// The embedded model of a LinMot E1100 or B1100 drive on a LinRS line.
-// In: the line's bytes, time, the tester's hand. Out: bytes; its non-volatile memory.
-// Never includes the adapter or its framing code: it is the second, independent reading of the manuals.
+// The twin of a LinMot E1100 or B1100 drive on a LinRS line. It shares no code with the adapter: it is a second, independent reading of the
+// manuals.
 #pragma once
 
 #include <memory>

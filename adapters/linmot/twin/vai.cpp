@@ -1,5 +1,3 @@
-// Start rules, stops and the frozen motion of the VA interpolator.
-// In: orders. Out: profiles. Never starts what has been forgotten.
 #include "adapters/linmot/twin/vai.hpp"
 
 #include <algorithm>
@@ -16,7 +14,7 @@ void Interpolator::move(Point from, double target, const Ramps& ramps, Instant n
     target_ = target;
 }
 
-/// Start rules by sub ID: what the target is, and from where the profile begins.
+/// Start rules by sub ID: the target, and the start of the profile.
 void Interpolator::start(const Order& o, Point from, Point actual, Instant now) noexcept {
     double target = o.value;
     switch (o.sub) {

@@ -1,5 +1,4 @@
-// The VA interpolator with its memory: the former target, the last limits, the motion that waits behind the running one, a frozen one.
-// In: orders, where the demand and the slider are. Out: a profile. Never knows what else may lead the demand.
+// Interpolator is the VA interpolator with its memory: the previous target, the last limits, a queued motion and a frozen motion.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +17,32 @@ public:
     explicit Interpolator(const Memory& memory) : memory_(memory) {}
 
     [[nodiscard]] const Profile& profile() const noexcept { return profile_; }
-    /// The limits of commands that carry none: 14BEh to 14C0h.
+    /// The limits of commands without limits: 14BEh to 14C0h.
     [[nodiscard]] Ramps predefined() const;
     void power_on() noexcept { used_ = false; }
 
-    /// Stands there; the former target stays.
+    /// Standstill here; the previous target is kept.
     void rest(double position, Instant now) noexcept { profile_.rest(position, now); }
-    /// Stands there, and that is the former target of what comes.
+    /// Standstill here, which is the previous target of the next motion.
     void stand(double position, Instant now) noexcept { profile_.rest(position, now), target_ = position; }
     void set_target(double target) noexcept { target_ = target; }
     void target_end() noexcept { target_ = profile_.target(); }
 
-    /// The drive's own moves: to a place, or endless.
+    /// Motions of the drive itself: to a position, or endless.
     void move(Point from, double target, const Ramps& ramps, Instant now) noexcept;
     void run(Point from, double direction, const Ramps& ramps, Instant now) noexcept { profile_.run(now, from, direction, ramps); }
-    /// Those of commands: their limits are kept.
+    /// Motions of commands, whose limits are stored.
     void start(const Order& order, Point from, Point actual, Instant now) noexcept;
     void endless(Point from, double direction, const Ramps& ramps, Instant now) noexcept;
-    /// Other limits for what runs.
+    /// Other limits for the motion in progress.
     void change(Point from, const Ramps& ramps, Instant now) noexcept;
     void stop(Point from, double deceleration, Instant now) noexcept;
 
-    /// Brakes, and keeps what ran for `thaw`; `led`: by a curve or the encoder, `moved`: it was in motion.
+    /// Decelerates, and stores the motion for `thaw`. `led`: a curve or the encoder controlled the demand; `moved`: it was in motion.
     void freeze(Point from, bool led, bool moved, Instant now) noexcept;
     void thaw(Point from, Instant now) noexcept;
 
-    // --- the motion behind the running one -----------------------------------------------------------------------------------
+    // --- the queued motion -------------------------------------------------------------------------------------------------
     void queue(const Order& order) noexcept { after_ = order; }
     void forget_queued() noexcept { after_.reset(); }
     [[nodiscard]] const std::optional<Order>& queued() const noexcept { return after_; }
@@ -55,7 +54,7 @@ private:
     };
     const Memory& memory_;
     Profile profile_;
-    double target_ = 0;  ///< the former target of 2xh and Bxh commands
+    double target_ = 0;  ///< the previous target for 2xh and Bxh commands
     bool used_ = false;
     Ramps last_ramps_{};
     std::optional<Order> after_;

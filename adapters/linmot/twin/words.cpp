@@ -1,5 +1,4 @@
-// Status word, StateVar and warn word of a simulated drive.
-// In: its state and its parts. Out: words. Without software they are 0.
+// Status word, StateVar and warn word are 0 while the software does not run.
 #include <cmath>
 
 #include "adapters/linmot/twin/states.hpp"

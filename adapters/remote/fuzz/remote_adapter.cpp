@@ -1,5 +1,5 @@
-// Fuzz: the remote family's adapter, through core/adapter.hpp: any commands, bytes, times, losses and site changes, with twins behind the
-// line. In: the fuzzer's bytes. Out: nothing; laws: tests/fuzz/adapter_laws.hpp, and that everything sent is requests to axes of the line.
+// Fuzzes the adapter of the remote family through core/adapter.hpp, with any commands, bytes, times, losses and site changes, and twins on
+// the line. The invariants are in tests/fuzz/adapter_laws.hpp; in addition, everything sent must be requests to axes of the line.
 #include "gateway/protocols/mirror/telegram.hpp"
 #include "tests/fuzz/adapter_laws.hpp"
 

@@ -1,4 +1,5 @@
-// The remote family's wire, decoder and adapter: golden telegrams, what a gone gateway means, stops beside a command, what is renewed.
+// The wire format, decoder and adapter of the remote family: recorded telegrams, the loss of a gateway, stops during a command, and
+// renewal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST(RemoteWire, GoldenTelegramsAreReadAndWrittenAgain) {
         if (t->kind == Telegram::Kind::answer) EXPECT_EQ(body_of(mirror::answer_of(t->body).value()), t->body);
         if (t->kind == Telegram::Kind::state) EXPECT_EQ(body_of(mirror::state_of(t->body).value()), t->body);
         ++seen;
-        for (std::size_t i = 0; i < text.size(); ++i) {  // any other character makes it none
+        for (std::size_t i = 0; i < text.size(); ++i) {  // any other character makes it invalid
             std::string bad = text;
             bad[i] = bad[i] == 'Z' ? 'Y' : 'Z';
             EXPECT_FALSE(mirror::telegram_of(bad)) << bad;
@@ -92,7 +93,7 @@ TEST(RemoteWire, TheDecoderSaysWhatItIs) {
     EXPECT_THAT(d.on_frame(frame("nonsense\n"), true), ElementsAre("unknown, no telegram: nonsense"));
 }
 
-// A bounded recording gives the last runs: it begins, and ends, anywhere in a telegram.
+// A bounded recording has the last runs: it begins and ends anywhere in a telegram.
 TEST(RemoteWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
     const std::string all = "\n" + mirror::text_of({Telegram::Kind::request, 7, "hall-2/feeder", "halt"}) +
                             mirror::text_of({Telegram::Kind::answer, 7, "hall-2/feeder", "accepted"});
@@ -108,7 +109,7 @@ TEST(RemoteWire, ARecordingCutAtAnyByteIsReadAndNothingOfItIsStrange) {
     }
 }
 
-/// The other end of the line, which answers what it is told to.
+/// The other end of the line, whose answers the test gives.
 struct Bench : testing::Test {
     LineAdapter adapter{catalogue()};
     Instant now = time_zero + 1h;
@@ -201,10 +202,10 @@ TEST_F(Bench, WhoIsToldToBeGoneIsOfflineAtOnceAndHisCommandsHaveFailed) {
     ASSERT_EQ(results.size(), 1u);
     EXPECT_EQ(results[0].ticket, move);
     EXPECT_EQ(results[0].reason, Reason::no_answer);
-    // An answer that comes later is nobody's.
+    // A later answer belongs to no request.
     say(Telegram::Kind::answer, orders().at(0).number, "accepted none 0 ");
     EXPECT_EQ(results.size(), 1u);
-    // It is back: asked at once, and nothing is sent but the question.
+    // The gateway is back: its state is requested at once, and nothing else is sent.
     sent.clear();
     say(Telegram::Kind::state, 0, body_of(standing()));
     ASSERT_EQ(sent.size(), 1u);
@@ -236,7 +237,7 @@ TEST_F(Bench, ACommandIsSentOnceAndAStopAgain) {
     EXPECT_EQ(orders().size(), 1u);
     ask(Halt{});
     sent.clear();
-    // The state is told meanwhile, so that the line is not taken for dead.
+    // States arrive meanwhile, so that the line does not count as lost.
     for (int i = 0; i < 40; ++i) {
         pass(50ms);
         for (const auto& t : std::exchange(sent, {})) {
@@ -274,7 +275,7 @@ TEST_F(Bench, AVelocityMoveIsHeldAndRenewedUntilItHasEnded) {
     EXPECT_TRUE(orders().empty()) << "it has ended there: nothing is renewed";
 }
 
-/// Another motion that the other gateway refuses ends nothing there, so that the one under way is renewed like before.
+/// A motion that the other gateway refuses ends nothing there, so the motion in progress is still renewed.
 TEST_F(Bench, ARefusedMotionDoesNotEndTheRenewalOfTheOneUnderWay) {
     come_up();
     ask(move_of(Move::Kind::velocity, -300));

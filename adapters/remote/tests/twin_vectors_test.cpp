@@ -1,4 +1,4 @@
-// The golden telegrams played against the simulated gateway; a held move that nobody renews ends at its instant.
+// The recorded telegrams with the simulated gateway as receiver; and the end of a velocity move that is not renewed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -47,7 +47,7 @@ TEST(RemoteTwin, AHeldMoveEndsAtItsInstantWheneverItIsAsked) {
         ASSERT_EQ(a.order({.verb = "move_velocity", .hold_ms = 2000, .renew = true}, now + 1s).outcome, Outcome::accepted);
         for (const Instant end = now + 10s; now < end; a.advance(now += step))
             ;
-        // Up in 0.1 s, until 3 s after the begin, down in 0.1 s.
+        // 0.1 s acceleration, constant speed until 3 s after the start, 0.1 s deceleration.
         EXPECT_NEAR(a.mechanics(now).position, 3000 - 50 + 50, 1e-6);
         EXPECT_EQ(a.mechanics(now).velocity, 0);
     }

@@ -1,5 +1,4 @@
-// Axis of the simulated gateway: orders and what they lead to.
-// In: orders, instants. Out: answers in a gateway's words. Never jumps: a new order goes on from where the old one had come to.
+// A new order continues from the state that the previous one has reached, without a jump.
 #include "adapters/remote/twin/axis.hpp"
 
 #include <cmath>
@@ -42,7 +41,7 @@ void Axis::power_off(Instant now) {
 }
 
 TwinMechanics Axis::mechanics(Instant now) const {
-    Axis copy = *this;  // asking must not change what it does
+    Axis copy = *this;  // a query must not change the axis
     copy.advance(now);
     const auto s = copy.shaft_.shaft(now);
     return {s.position, s.velocity, on_};

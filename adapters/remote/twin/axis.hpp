@@ -1,5 +1,5 @@
-// Axis of the simulated gateway: CiA 402's states as a gateway shows them, homing at its place, a shaft that can be held.
-// In: orders, time. Out: its state, or why an order is refused. Any instant can be asked; nothing runs between the questions.
+// Axis is the axis of the simulated gateway: the CiA 402 states as a gateway shows them, homing at the present position, and a shaft that
+// can be held. The state is calculated for any instant.
 #pragma once
 
 #include "adapters/cia402/twin/mechanics.hpp"
@@ -10,11 +10,11 @@ namespace axisgate::remote::twin {
 
 class Axis {
 public:
-    static constexpr std::uint16_t fault_code = 65535;  ///< the one that a hand can raise
+    static constexpr std::uint16_t fault_code = 65535;  ///< the fault that the hand can cause
 
     [[nodiscard]] mirror::Answer order(const mirror::Order& order, Instant now);
     [[nodiscard]] mirror::State state(Instant now) const;
-    /// What has happened until then: a velocity move that nobody has renewed.
+    /// Carries out events until then: the end of a velocity move that was not renewed.
     void advance(Instant now);
     void hold(bool held, Instant now);
     void fail(bool failed, Instant now);

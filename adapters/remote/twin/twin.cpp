@@ -1,6 +1,5 @@
-// Twin of the remote family: the line, the parameters, the hand.
-// In: frames of the whole line, of which it takes its own. Out: answers at once, at the instant of the question.
-// Never answers what has a wrong check, is for another axis, or comes while it is silent or off.
+// Requests are answered at once, at their own instant. Requests with a wrong checksum or for another axis are ignored, and all while the
+// twin is silent or off.
 #include "adapters/remote/twin/twin.hpp"
 
 #include <map>

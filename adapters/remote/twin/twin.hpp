@@ -1,5 +1,5 @@
-// Twin of the remote family: another gateway with one axis, as a mirror line shows them: a second reading of what telegrams mean.
-// In: setup, frames, time, the hand. Out: frames. Shares the words of the line with the adapter, and no rule.
+// The twin of the remote family: another gateway with one axis on a mirror line. It shares the wire format with the adapter, and no rules:
+// it is a second reading of the meaning of telegrams.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// Door: a turn each 20 ms tells what has changed; what has come is read when the bus says so, some of each topic at a time.
-// In: samples, pictures, events. Out: samples, commands. A stranger's flood costs its turn's share: the readers' caches are bounded.
+// Every 20 ms, changed states are written. Samples are read when the bus reports them, a bounded number of each topic at a time, so that
+// many samples of other participants cannot block the service thread.
 #include "gateway/doors/dds/door.hpp"
 
 #include <fmt/core.h>
@@ -16,7 +16,7 @@
 
 namespace axisgate::dds {
 namespace {
-constexpr std::size_t at_a_time = 64;  ///< samples of a topic, before others have their turn
+constexpr std::size_t at_a_time = 64;  ///< samples of a topic, before other work is done
 
 template <class T>
 WishedNumber wished(const T* value) {
@@ -47,7 +47,7 @@ SetPointWish wish_of(const axisgate_SetPoint& s) {
     return wish;
 }
 
-/// Not a number and infinity are refused in words of their own.
+/// NaN and infinity are refused with a separate text.
 bool is_finite(const axisgate_AxisCommand& s) {
     return std::ranges::all_of(std::array{s.position, s.velocity, s.acceleration, s.deceleration},
                                [](const double* d) { return !d || std::isfinite(*d); });
@@ -57,9 +57,10 @@ bool is_finite(const axisgate_AxisCommand& s) {
 struct DdsDoor::Asked {
     std::string axis, source, id;
     std::uint64_t instance = 0;
-    bool renews = false;  ///< a held move that goes on: twice is as good as once, and nothing begins by it; it is not remembered
-    bool stops = false;   ///< whatever is wrong with its names: a stop is carried out, twice if need be, and never refused for want of room
-    Bus::Writer writer{};  ///< by which it came
+    bool renews = false;   ///< the renewal of a held move: repeating it is harmless and begins no motion, so it is not remembered
+    bool stops = false;    ///< a stop is carried out even if its names are wrong, repeatedly if necessary, and never refused because of a
+                           ///< limit
+    Bus::Writer writer{};  ///< the writer that has sent it
 };
 
 DdsDoor::DdsDoor(boost::asio::io_context& context, const Needs& ports, std::function<Instant()> clock, DoorSettings settings)
@@ -122,14 +123,14 @@ void DdsDoor::stop(std::function<void()> done) {
     boost::asio::post(context_, std::move(done));
 }
 
-/// With its interface down the library waits, without a bound, for a thread of its own that only a packet to that interface wakes.
+/// If its interface is down, the library waits without a limit for a thread of its own, which only a packet on that interface wakes.
 void DdsDoor::close_bus(std::function<void()> done) {
     {
         const std::scoped_lock lock(wake_->mutex);
         wake_->door = nullptr;
     }
     std::thread([bus = bus_, closed = closed_] {
-        bus->close();  // its states are disposed with their writers
+        bus->close();  // its states are disposed together with their writers
         closed->store(true);
     }).detach();
     closing_ = true;
@@ -162,7 +163,7 @@ std::string DdsDoor::metrics() const {
     return s;
 }
 
-// --- telling ----------------------------------------------------------------------------------------------------------
+// --- sending ----------------------------------------------------------------------------------------------------------
 
 void DdsDoor::on_turn() {
     if (!open_) return;
@@ -187,7 +188,7 @@ void DdsDoor::on_turn() {
 void DdsDoor::on_change() {
     if (!open_) return;
     tell_axes(clock_());
-    // Not after each frame of a busy line: what changes meanwhile is found then, or by the turn.
+    // Not after each frame of a busy line: changes within this time are found afterwards, or by the periodic turn.
     look_timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(look_again));
     look_timer_.async_wait([this](const boost::system::error_code& ec) {
         if (!ec && open_) settings_.want_change();
@@ -238,7 +239,7 @@ void DdsDoor::tell_axes(Instant now) {
         fleet_.on_axis(s, true, true);
         if (!bus_->write(s)) {
             ++counters_.unsent;
-            continue;  // the next turn tries again
+            continue;  // repeated in the next turn
         }
         t.ever = true;
         t.revision = revision;
@@ -282,7 +283,7 @@ void DdsDoor::on_event(const Event& e) {
 // --- reading ----------------------------------------------------------------------------------------------------------
 
 void DdsDoor::read() {
-    // An exchange, not a store: what was announced before is seen below.
+    // An exchange, not a store: samples that were announced before are read below.
     (void)woken_.exchange(false, std::memory_order_acq_rel);
     if (!open_) return;
     bool more = false;
@@ -309,12 +310,12 @@ void DdsDoor::read() {
         if (mine(s)) on_set_point(s, seen);
     });
     look_for_gone();
-    // What is left has its turn after everything else that waits.
+    // The remaining samples are read after all other waiting work.
     if (more && !woken_.exchange(true, std::memory_order_acq_rel)) boost::asio::post(context_, [this] { read(); });
 }
 
 void DdsDoor::on_gateway(const axisgate_GatewayState& s, const Bus::Seen& seen) {
-    if (s.instance == settings_.instance) return;  // nobody else tells of this one
+    if (s.instance == settings_.instance) return;  // only this process reports its own state
     if (auto published = fleet_.on_gateway(s, seen.valid && seen.alive, ports_.get<ClockPort>().now_unix_ns(), clock_()))
         ports_.get<EventPort>().note(std::move(*published));
     if (settings_.name != s.gateway) return;
@@ -343,7 +344,7 @@ std::string DdsDoor::whereabouts(const Bus::Writer& writer) {
     auto known = whereabouts_.find(writer.handle);
     if (known != whereabouts_.end()) return known->second;
     std::string where = one_line(bus_->whereabouts(writer));
-    if (where.empty()) return where;  // it may be known in a moment
+    if (where.empty()) return where;  // it may become known shortly
     if (whereabouts_.size() >= whereabouts_most) whereabouts_.clear();
     return whereabouts_.emplace(writer.handle, std::move(where)).first->second;
 }
@@ -361,7 +362,7 @@ AuthorityClient DdsDoor::client_of(const std::string& source) {
 
 bool DdsDoor::to_be_done(const Asked& a) {
     if (a.source.empty() || a.id.empty()) {
-        if (a.stops) return true;  // to stop twice is no harm
+        if (a.stops) return true;  // repeating a stop is harmless
         refuse(a, Reason::out_of_range, "a command over DDS has a source and an id, so that it is never carried out twice; name both");
         return false;
     }
@@ -374,7 +375,7 @@ bool DdsDoor::to_be_done(const Asked& a) {
     switch (seen.stage) {
         case CommandsSeen::Stage::under_way:
             ++counters_.repeated;
-            return false;  // its result is still to come
+            return false;  // its result is outstanding
         case CommandsSeen::Stage::answered:
             ++counters_.repeated;
             tell_again(a.axis);
@@ -478,7 +479,7 @@ void DdsDoor::carry_out(const Asked& asked, const AxisPlace& place, CommandBody 
     });
 }
 
-/// In the next turn, changed or not: who waits for a state that is newer than an answer has it soon.
+/// Written in the next turn even without a change, for readers that wait for a state that is newer than an answer.
 void DdsDoor::tell_again(const std::string& axis) {
     const auto it = std::ranges::find(axes_, axis, &Published::name);
     if (it != axes_.end()) it->ever = false;
@@ -492,7 +493,7 @@ void DdsDoor::tell_mirrors(std::string_view gateway, std::string_view axis) {
 void DdsDoor::take_mirror(int fd) {
     mirrors_.emplace_back(
         context_, fd, fleet_, [this] { return ports_.get<ClockPort>().now_unix_ns(); }, clock_);
-    if (!open_) mirrors_.pop_back();  // its line finds its other end closed
+    if (!open_) mirrors_.pop_back();  // the line detects that its other end is closed
 }
 
 void DdsDoor::refuse(const Asked& asked, Reason reason, std::string text) {
@@ -501,7 +502,7 @@ void DdsDoor::refuse(const Asked& asked, Reason reason, std::string text) {
     r.outcome = Outcome::refused;
     r.reason = reason;
     r.text = std::move(text);
-    // What was turned away for want of room is not known as a command, and may come again.
+    // A command that was refused for lack of space is not recorded and may be repeated.
     seen_.end(asked.source, asked.id, r, clock_());
     answer(asked, r, false);
 }
@@ -531,7 +532,7 @@ void DdsDoor::answer(const Asked& asked, const Result& r, bool repeated) {
     put_text(s.text, r.text);
     s.repeated = repeated;
     s.count = sequence_;
-    if (!bus_->write(s)) ++counters_.unsent;  // whoever misses it sends the command again
+    if (!bus_->write(s)) ++counters_.unsent;  // a sender that misses it repeats the command
 }
 
 void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then) {
@@ -542,12 +543,12 @@ void DdsDoor::command(FleetOrder order, std::function<void(const Result&)> then)
         const FleetGateway* g = fleet_.target(order, fault);
         return g && g->here ? command_here(std::move(order), std::move(then)) : fleet_.command(order, std::move(then), clock_());
     }
-    // Here at once, and at everybody else who has this name: one result of both.
+    // Carried out here and at all other gateways with this name: both give one result.
     if (!fleet_.has_other(order.gateway)) return command_here(std::move(order), std::move(then));
     const auto both = [answers = std::make_shared<std::vector<Result>>(), then = std::move(then), name = settings_.name](const Result& r) {
         answers->push_back(r);
         if (answers->size() < 2) return;
-        // One that is gone may have been the ghost of a restart.
+        // A gateway that does not exist any more may be a previous start of a running one.
         const auto silent = std::ranges::find(*answers, Reason::no_answer, &Result::reason);
         const auto stopped = std::ranges::find_if(*answers, [](const Result& one) { return good(one); });
         if (silent == answers->end() || stopped == answers->end()) return then(Fleet::together(*answers, name));
@@ -579,7 +580,7 @@ void DdsDoor::command_here(FleetOrder order, std::function<void(const Result&)> 
 
 void DdsDoor::on_set_point(const axisgate_SetPoint& s, const Bus::Seen& seen) {
     if (!seen.alive) {
-        // Nobody writes it any more, or its writer's machine is gone: what it streamed is stopped as the axis' fail-safe entry says.
+        // It has no writer any more, or the host of its writer is gone: the streamed motion ends by the fail-safe rule of the axis.
         if (const auto it = set_points_.find(s.axis); it != set_points_.end()) {
             ports_.get<AxisPort>().client_lost(client_of(it->second), LossCause::set_points_silent);
             set_points_.erase(it);

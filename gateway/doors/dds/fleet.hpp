@@ -33,7 +33,7 @@ public:
     Fleet(std::string name, std::uint64_t instance, std::function<void(const axisgate_AxisCommand&)> send)
         : name_(std::move(name)), instance_(instance), send_(std::move(send)) {}
 
-    /// A state, or its end. Returns an event if a gateway has come, or is lost.
+    /// A state, or its end. Returns an event if a gateway was discovered or lost.
     [[nodiscard]] std::optional<Event> on_gateway(const axisgate_GatewayState& s, bool alive, std::int64_t now_unix_ns, Instant now);
     void on_axis(const axisgate_AxisState& s, bool valid, bool alive);
     void on_result(const axisgate_CommandResult& s);

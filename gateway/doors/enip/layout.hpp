@@ -31,7 +31,7 @@ struct LayoutAxis {
 struct LayoutWindow {
     AssemblySpec spec;
     std::vector<AxisId> axes;
-    std::string name;           ///< for people
+    std::string name;           ///< for messages
     std::uint16_t partner = 0;  ///< of an output
     std::string content;        ///< the content of its bytes, as text for comparison: mappings of the range, or the profile
 };
@@ -112,7 +112,7 @@ public:
     [[nodiscard]] std::uint32_t mapping_revision() const noexcept { return mapping_revision_; }
     /// True if this assembly has the same bytes there: size, meaning and axis of each.
     [[nodiscard]] bool same_bytes(std::uint32_t instance, const Layout& there) const;
-    /// For people: "axis feeder to the originator".
+    /// For messages: "axis feeder to the originator".
     [[nodiscard]] std::string name_of(std::uint32_t instance) const;
 
 private:

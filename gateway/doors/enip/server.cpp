@@ -1,5 +1,5 @@
-// Server: what a socket brings goes to the adapter; what the adapter says goes out at once; one timer rings at its next deadline.
-// In: sockets, results, sites, time. Out: bytes. Never lets the adapter be called from inside one of its own calls.
+// Received bytes go to the adapter, and its output is sent at once; one timer has its next deadline. The adapter is never called from
+// within one of its own calls.
 #include "gateway/doors/enip/server.hpp"
 
 #include <fmt/core.h>
@@ -42,7 +42,7 @@ using Acceptor = asio::basic_socket_acceptor<tcp, asio::io_context::executor_typ
 using UdpSocket = asio::basic_datagram_socket<udp, asio::io_context::executor_type>;
 
 constexpr Duration sweep_period = std::chrono::seconds(1);
-constexpr std::uint64_t first_session = std::uint64_t{1} << 32;  ///< numbers of sessions begin behind the ids of connections
+constexpr std::uint64_t first_session = std::uint64_t{1} << 32;  ///< numbers of sessions begin after the ids of connections
 
 struct BindAddress {
     std::uint32_t address = 0;
@@ -141,29 +141,29 @@ private:
     }
     static void send(UdpSocket& socket, cip::Endpoint to, cip::View bytes) {
         const sockaddr_in a = sockaddr_of(to);
-        // A full queue drops it: the next one is newer.
+        // If the queue is full, the datagram is dropped: the next one is newer.
         (void)::sendto(socket.native_handle(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                        reinterpret_cast<const sockaddr*>(&a), sizeof a);
     }
     std::string bind_udp(UdpSocket& socket, std::uint16_t& port);
-    /// TCP and UDP of one number.
+    /// TCP and UDP with the same port number.
     std::string bind_explicit(std::uint16_t port, const std::string& text);
     void on_ready(std::span<const epoll_event> events);
     void accept();
-    /// False: no descriptor is left, and somebody waits in the listen queue.
+    /// False: no descriptor is free, and a client waits in the listen queue.
     [[nodiscard]] bool admit();
     void listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::Endpoint, bool));
     void take_explicit(cip::View bytes, cip::Endpoint from, bool broadcast) { adapter_.on_datagram(bytes, from, broadcast, port_.now()); }
     void take_implicit(cip::View bytes, cip::Endpoint from, bool) { adapter_.on_implicit(bytes, from, port_.now()); }
     void arm();
     [[nodiscard]] Layout layout_of(const SiteState& site, std::uint32_t revision) const;
-    /// Its bytes are the same there.
+    /// Its bytes are the same in the new layout.
     [[nodiscard]] bool lives_on(const cip::Connection& c, const Layout& there) const;
     void on_timer();
 
     DoorPort& port_;
     ServerSettings settings_;
-    EventRows writes_{[this](Event e, AxisId axis) { port_.note(std::move(e), axis); }, "writes"};  // of the device's own objects
+    EventRows writes_{[this](Event e, AxisId axis) { port_.note(std::move(e), axis); }, "writes"};  // for the device's own objects
     AxisValues values_;
     cip::Adapter adapter_;
     Poller poller_;
@@ -172,13 +172,13 @@ private:
     asio::steady_timer timer_;
     Instant armed_ = never, next_sweep_{};
     std::unordered_map<cip::SessionKey, std::unique_ptr<TcpSession>> sessions_;
-    std::vector<std::unique_ptr<TcpSession>> ended_;  // until the turn that ended them is over
+    std::vector<std::unique_ptr<TcpSession>> ended_;  // until the end of the turn in which they ended
     cip::SessionKey newest_ = 0;
     HostFacts facts_;
     std::uint32_t bound_ = 0;
     std::uint8_t dscp_ = 0, explicit_dscp_ = 0;
     bool open_ = false;
-    bool paused_ = false;  // out of descriptors: tried again at the next sweep
+    bool paused_ = false;  // no descriptor is free: repeated with the next sweep
     Counter accepts_postponed_;
     SpareDescriptor spare_;
     std::array<std::uint8_t, 65536> buffer_;
@@ -219,7 +219,7 @@ std::string Server::Impl::open(const std::string& text) {
     facts_ = host_facts(b.address);
     boost::system::error_code ec;
     std::string fault;
-    // A free port that the system chooses is free for TCP; another program may have it for UDP.
+    // A port that the system chooses is free for TCP, but may be in use for UDP.
     for (int tries = b.port == 0 ? 16 : 1; tries > 0; --tries) {
         if (fault = bind_explicit(b.port, text); fault.empty()) break;
         (void)acceptor_.close(ec);
@@ -336,7 +336,7 @@ void Server::Impl::accept() {
     acceptor_.async_wait(Acceptor::wait_read, [weak = weak_from_this()](boost::system::error_code ec) {
         const auto self = weak.lock();
         if (!self || ec || !self->open_) return;
-        // The socket stays readable while somebody waits: to ask again at once would only burn the processor of the hot thread.
+        // The socket stays readable while a client waits: immediate repetition would only occupy the processor of the hot thread.
         self->paused_ = !self->admit();
         self->arm();
         if (!self->paused_) self->accept();
@@ -349,11 +349,11 @@ bool Server::Impl::admit() {
     int fd = ::accept4(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd < 0) {
         if (!SpareDescriptor::none_left(errno)) return true;
-        // Told even if nobody waits.
+        // The system may report this without a waiting client.
         pollfd queue{acceptor_.native_handle(), POLLIN, 0};
         if (::poll(&queue, 1, 0) <= 0) return true;
-        // This client has the spare one's place; if that is in use, one that does nothing gives way, and it is tried again when that has
-        // ended, or with the next sweep.
+        // This client uses the reserved descriptor. If that is in use, an inactive connection is closed, and accepting is repeated when it
+        // has ended, or with the next sweep.
         fd = spare_.accept(acceptor_.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length);
         if (fd < 0) {
             (void)adapter_.give_way(port_.now());
@@ -383,17 +383,17 @@ bool Server::Impl::admit() {
     return true;
 }
 
-/// Sessions never call by themselves: they live as long as this does, and one that ends until the turn is over.
+/// Sessions make no calls by themselves. They live as long as this object; one that ends is kept until the end of the turn.
 void Server::Impl::on_ready(std::span<const epoll_event> events) {
-    // With few sessions each answer goes at once, and who asks works while this does. With many, the first answer would wake somebody who
-    // is then woken again for each of the others: they go together.
+    // With few sessions each answer is sent at once, so that its receiver can continue in parallel. With many sessions the first answer
+    // would wake a receiver that is then woken again for each further one, so they are sent together.
     const bool together = events.size() >= Server::answers_together;
     std::array<TcpSession*, Poller::events_per_turn> answered;
     std::size_t count = 0;
     for (const epoll_event& e : events) {
         const auto it = sessions_.find(std::uint64_t{e.data.u64});
         if (it == sessions_.end()) continue;
-        TcpSession& session = *it->second;  // lives on if this ends it
+        TcpSession& session = *it->second;  // it is kept even if this call ends it
         session.on_ready(e.events);
         if (together)
             answered[count++] = &session;
@@ -443,7 +443,7 @@ void Server::Impl::listen(UdpSocket& socket, void (Impl::*take)(cip::View, cip::
 void Server::Impl::arm() {
     if (!open_) return;
     const Instant due = std::min(adapter_.deadline(), next_sweep_);
-    if (armed_ <= due) return;  // it rings too early at most, and is set anew then: cheaper than a system call for each request
+    if (armed_ <= due) return;  // the timer may expire too early and is then set again, which costs less than a system call per request
     armed_ = due;
     timer_.expires_at(
         std::chrono::steady_clock::time_point(std::chrono::duration_cast<std::chrono::steady_clock::duration>(due.time_since_epoch())));
@@ -461,7 +461,7 @@ void Server::Impl::on_timer() {
         values_.sweep(now);
         writes_.flush(now);
         next_sweep_ = now + sweep_period;
-        if (!paused_) (void)spare_.refill();  // who waits comes first
+        if (!paused_) (void)spare_.refill();  // waiting clients come first
         if (std::exchange(paused_, false)) accept();
     }
     arm();

@@ -1,7 +1,7 @@
-// Server: the EtherNet/IP door: its sockets on the hot thread's io_context around the adapter, and the adapter's values.
-// In: a bind address, a DoorPort, the register image. Out: served originators; counters for /metrics; events of connections.
-// Never blocks, never waits for a client. Bounds: sessions and connections are the adapter's (gateway/protocols/cip/adapter.hpp); what a
-// client does not read is kept up to `most_unsent` bytes, then it is closed; of each UDP socket `datagrams_per_turn` are taken in a turn.
+// Server is the EtherNet/IP door: its sockets on the hot thread's io_context, the CIP adapter, and its values. It never blocks or waits for
+// a client. The numbers of sessions and connections are limited by the adapter (gateway/protocols/cip/adapter.hpp). Unread output of a
+// client is stored up to `most_unsent` bytes, then the client is closed; at most `datagrams_per_turn` are read from each UDP socket per
+// turn.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -17,28 +17,28 @@ namespace axisgate::enip {
 
 struct ServerSettings {
     std::uint16_t io_port = cip::default_io_port;  ///< UDP, implicit data; 0: any
-    /// Nobody chose it: where another program has it, any other is taken, which each Forward_Open is told.
+    /// The port was not configured: if another program uses it, any other one is used, which each Forward_Open reports.
     bool another_io_port = false;
-    std::int64_t lease_s = 30;      ///< with which a held axis is held on
-    std::uint16_t incarnation = 1;  ///< another one at each start
+    std::int64_t lease_s = 30;      ///< duration of the lease by which an axis is held
+    std::uint16_t incarnation = 1;  ///< differs at each start
 };
 
 class Server {
 public:
     static constexpr std::size_t most_unsent = 64 * 1024;
     static constexpr int datagrams_per_turn = 32;
-    static constexpr std::size_t answers_together = 16;  ///< so many sessions that are ready at once are answered together
+    static constexpr std::size_t answers_together = 16;  ///< from this number of ready sessions on, their answers are sent together
 
-    /// Puts itself into the port's list of doors. `io`, `port` and `image` outlive it. Everything on the thread that runs `io`.
+    /// Adds itself to the port's list of doors. `io`, `port` and `image` must outlive it. All calls on the thread that runs `io`.
     Server(boost::asio::io_context& io, DoorPort& port, registers::RegisterImage& image, ServerSettings settings);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Listens on "ADDRESS:PORT" (IPv4), TCP and UDP, and on the port for implicit data. Empty: good; else why not, and what to do.
+    /// Listens on "ADDRESS:PORT" (IPv4), TCP and UDP, and on the port for implicit data. Empty: open; otherwise the fault and the remedy.
     [[nodiscard]] std::string open(const std::string& bind);
     [[nodiscard]] std::vector<std::string> addresses() const;
-    /// Of this host and the open ports; does not change while it is open. Any thread.
+    /// Facts of this host, and the open ports; constant while the door is open. Any thread.
     [[nodiscard]] const HostFacts& facts() const noexcept;
     void close();
     [[nodiscard]] const cip::Adapter& adapter() const noexcept;

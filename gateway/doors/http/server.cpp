@@ -1,5 +1,5 @@
-// Server: puts hub, router and listeners together, and makes room when all connections are taken.
-// In: connections, timers. Out: sessions. A client that is turned away gets one small 503 that nobody waits for. Never blocks.
+// Connects hub, router and listeners, and makes room when all connections are in use. A client that is refused gets one small answer 503,
+// whose transmission is not awaited.
 #include "gateway/doors/http/server.hpp"
 
 #include <fmt/core.h>
@@ -35,8 +35,8 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     Router own_router;
     tcp::acceptor acceptor;
     asio::steady_timer hub_timer, pause_timer, stop_timer, audit_timer;
-    StreamHub own_hub;     // after the timers: it may ask for them at once
-    bool telling = false;  // a piece of the live feed's work waits for its turn
+    StreamHub own_hub;     // after the timers, because it may request them at once
+    bool telling = false;  // a part of the live feed's work is scheduled
     std::unordered_map<const Session*, std::shared_ptr<Session>> sessions;
     std::function<void()> done;
     SpareDescriptor spare;
@@ -75,7 +75,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
     void remove(const Session* session) override {
         const auto it = sessions.find(session);
         if (it == sessions.end()) return;
-        const auto kept = std::move(it->second);  // lives until this call's caller is done with it
+        const auto kept = std::move(it->second);  // keeps it until the caller of this function has returned
         sessions.erase(it);
         own_counters.connections = sessions.size();
         asio::post(context, [self = weak_from_this()] {  // its descriptor is closed by then
@@ -90,12 +90,13 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             const auto me = self.lock();
             if (!me || me->stopping) return;
             if (ec == asio::error::operation_aborted) return;
-            if (ec) return me->accept_without(ec);  // no descriptors left, or the client is gone already
+            if (ec) return me->accept_without(ec);  // no descriptor is free, or the client has closed already
             me->take(std::move(socket));
             me->accept();
         });
     }
-    /// No descriptor is left: the client has the spare one; if that is in use, one that does nothing gives way, and it is tried again.
+    /// No descriptor is free: the client gets the reserved one. If that is in use, an inactive connection is closed, and accepting is
+    /// repeated.
     void accept_without(const ErrorCode& why) {
         if (!SpareDescriptor::none_left(why.value())) return accept_later();
         const int fd = spare.accept(acceptor.native_handle(), nullptr, nullptr);
@@ -119,7 +120,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             if (!ec && me && !me->stopping) me->accept();
         });
     }
-    /// In use until a descriptor has become free: looked for when a session ends, and while the door waits to accept.
+    /// Reserves a descriptor again as soon as one is free: tried when a session ends, and while the door waits to accept.
     void refill_spare() { (void)spare.refill(); }
     void take(tcp::socket socket) {
         ErrorCode ec;
@@ -137,16 +138,16 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         add(connection);
         connection->start();
     }
-    /// `full`: of descriptors, not of places; true then means that one was closed.
+    /// `full`: descriptors are used up, not places; true then means that a connection was closed.
     bool make_place(PlaceHolder newcomer, bool full = false) {
-        if (!full && sessions.size() < own_settings.max_connections) return true;  // no need to look who is there
+        if (!full && sessions.size() < own_settings.max_connections) return true;  // a place is free
         std::vector<Session*> all;
         std::vector<Guest> guests;
         for (const auto& [key, session] : sessions) {
             all.push_back(session.get());
             guests.push_back(session->guest());
         }
-        // Nobody has said who he is before his first request: he comes as a stranger, and counts as known from its answer on.
+        // A client is identified by its first request only: until then it counts as unknown.
         const auto verdict = find_place(guests, newcomer, false, {own_settings.max_connections, own_settings.max_connections / 8}, full);
         if (verdict.closes) {
             ++own_counters.connections_gave_way;
@@ -155,12 +156,12 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         return verdict.let_in;
     }
     void refuse(tcp::socket socket) {
-        // One small write into an empty socket buffer; whether it arrives is the client's matter.
+        // One small write into an empty socket buffer; its arrival is not verified.
         Response r = problem(503, "busy", fmt::format("{} connections are open already", own_settings.max_connections));
         const auto now_s = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
         const std::string all = response_head(r, false, now_s) + r.body;
         ErrorCode ignored;
-        if (tls) return;  // closed without a word: it could not read a plain answer
+        if (tls) return;  // closed without an answer, because the client could not read plain text
         socket.non_blocking(true, ignored);
         socket.write_some(asio::buffer(all), ignored);
         socket.shutdown(tcp::socket::shutdown_send, ignored);
@@ -180,7 +181,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
             if (const auto me = self.lock(); !ec && me) me->tell_later();
         });
     }
-    /// A piece of it, in turn with all else that moves nothing.
+    /// One part of it, in turn with other work that moves no axis.
     void tell_later() {
         if (std::exchange(telling, true)) return;
         later->put([self = weak_from_this()] {
@@ -193,7 +194,7 @@ struct Server::Parts : SessionHost, std::enable_shared_from_this<Server::Parts> 
         });
     }
 
-    /// Refusals that are only counted are told when their row has lasted, though nobody asks any more.
+    /// Counted refusals are reported when their period is over, even without further requests.
     void tell_refusals_later() {
         audit_timer.expires_after(std::chrono::seconds(10));
         audit_timer.async_wait([self = weak_from_this()](ErrorCode ec) {
@@ -272,7 +273,7 @@ Server::~Server() {
     parts_->audit_timer.cancel();
     parts_->services.unlisten(parts_->own_hub);
     parts_->abort_all();
-    parts_->own_hub.detach();  // handlers that still wait in the io_context may keep the parts longer than the ports live
+    parts_->own_hub.detach();  // handlers in the io_context may keep the parts longer than the ports exist
 }
 
 void Server::use_tls(std::shared_ptr<TlsIdentity> identity) { parts_->tls = std::move(identity); }

@@ -1,6 +1,5 @@
-// Server: the HTTP door as a whole: listens, keeps its connections within their number, feeds the live feed its time, stops in order.
-// In: the ports, Settings, the embedded files. Out: an open door at an address.
-// Runs on one io_context with one thread (the warm one), which also runs the ports' callbacks.
+// Server is the HTTP door: it listens, limits the number of connections, drives the live feed and stops in order. It runs on one io_context
+// with one thread (the warm one), which also runs the callbacks of the ports.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -23,7 +22,8 @@ struct TlsIdentity;
 
 class Server final : public ServiceDoor {
 public:
-    /// The owners of the ports, and the services, outlive the server. Without users among the services this machine alone is let in.
+    /// The owners of the ports, and the services, must outlive the server. Without users among the services, only this computer is
+    /// admitted.
     Server(boost::asio::io_context& context, const Ports& ports, Services& services, Settings settings, AssetLookup asset);
     ~Server() override;
     [[nodiscard]] std::span<const WayIn> ways_in() const override { return ways_of_clients; }
@@ -31,15 +31,15 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Before start(): every connection is TLS with this identity.
+    /// Before start(): all connections use TLS with this identity.
     void use_tls(std::shared_ptr<TlsIdentity> identity);
     [[nodiscard]] bool secure() const noexcept;
-    /// Opens the door. Empty: it is open; else what is wrong and what to do.
+    /// Opens the door. Empty: it is open; otherwise the fault and the remedy.
     [[nodiscard]] std::string start() override;
-    /// "127.0.0.1:8080", with the port that was really taken; empty while it is closed.
+    /// "127.0.0.1:8080", with the actual port; empty while it is closed.
     [[nodiscard]] std::string address() const override;
-    /// Takes no more connections, ends idle ones, lets requests in progress end (for at most Settings::stop_limit), closes live-feed
-    /// clients with 1001; then calls `done`, from the io_context.
+    /// Accepts no more connections, closes idle ones, completes requests in progress (within Settings::stop_limit), closes clients of the
+    /// live feed with 1001; then calls `done` from the io_context.
     void stop(std::function<void()> done) override;
 
     [[nodiscard]] const Counters& counters() const noexcept;
@@ -49,7 +49,7 @@ private:
     std::shared_ptr<Parts> parts_;
 };
 
-/// "ADDRESS:PORT" into an endpoint: IP addresses, `localhost`, `*` or nothing for every address. On nothing: `fault`.
+/// "ADDRESS:PORT" as an endpoint: IP addresses, `localhost`, `*` or nothing for every address. Empty with `fault` if it is invalid.
 [[nodiscard]] std::optional<boost::asio::ip::tcp::endpoint> parse_bind(std::string_view bind, std::string& fault);
 
 }  // namespace axisgate::http

@@ -1,5 +1,4 @@
-// RTU door: Modbus on a serial line, as a slave. In: runs of bytes, results, the silence timer. Out: answers through the line; events of
-// the port. One timer waits for silence; it is not moved for every run of bytes: when it rings too early it is set anew.
+// There is one timer for the silence after a frame. It is not moved for every run of bytes: if it expires too early, it is set again.
 #include "gateway/doors/modbus/rtu_door.hpp"
 
 #include <fmt/core.h>
@@ -104,7 +103,7 @@ public:
         if (!up && was) up_.remove();
         since_ = port_.now();
         tell(up, why);
-        // The master cannot stop any more what it has set in motion.
+        // The master can no longer stop the motion that it has ordered.
         if (!up && session_.has_commanded()) {
             session_.forget_commands();
             port_.client_lost(client_, loss_closed);
@@ -118,7 +117,7 @@ public:
         (void)line_->send(Frame::run(adu), Priority::command, now);
     }
     void answered() override {
-        // All results of a turn arrive before the posted function runs, and what they have changed is in the image.
+        // All results of a turn arrive before the posted function runs, and the image has their effects.
         boost::asio::post(io_, [weak = weak_from_this()] {
             if (const auto self = weak.lock()) self->session_.finish(self->port_.now());
         });
@@ -197,7 +196,7 @@ private:
     boost::asio::steady_timer silence_, sweep_;
     bool waiting_ = false;
     bool sweeping_ = false;
-    Counter up_;  // 0 or 1; read by any thread
+    Counter up_;  // 0 or 1; any thread
     Instant since_{};
 };
 

@@ -1,6 +1,6 @@
-// RTU door: Modbus RTU slave on one serial line, on the hot thread's io_context.
-// In: a line, which opens its port again by itself; a DoorPort. Out: a served master; events when the port comes and goes; counters.
-// Never blocks, never opens a port itself. One request at a time is all that a serial line has; frames are bounded by 256 bytes.
+// RtuDoor is a Modbus RTU slave on one serial line, on the hot thread's io_context. The line opens its port again after a failure; events
+// report when the port is lost and available again. One request is in progress at a time, and a frame has at most 256 bytes. It never
+// blocks.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -16,22 +16,22 @@
 namespace axisgate::modbus {
 
 struct RtuSettings {
-    Responder::Settings responder;  ///< its allow list does not apply: who is on the wire is on the wire
+    Responder::Settings responder;  ///< its allow list does not apply, because a serial line has no addresses of clients
     RtuTiming timing;
     std::uint8_t address = 1;  ///< 1..247
-    std::string port;          ///< as people know it: "/dev/ttyUSB0"; the master's name in events and authority
-    std::string text;          ///< the line's URI, with bit rate and format: what /about shows
+    std::string port;          ///< name for the user: "/dev/ttyUSB0"; also the master's name in events and authority
+    std::string text;          ///< the URI of the line with bit rate and format, as in /about
 };
 
 class RtuDoor {
 public:
-    /// Puts itself into the port's list of doors. `io`, `port` and `image` outlive it. Everything on the thread that runs `io`.
+    /// Adds itself to the port's list of doors. `io`, `port` and `image` must outlive it. All calls on the thread that runs `io`.
     RtuDoor(boost::asio::io_context& io, DoorPort& port, registers::RegisterImage& image, RtuSettings settings, std::unique_ptr<Line> line);
     ~RtuDoor();
     RtuDoor(const RtuDoor&) = delete;
     RtuDoor& operator=(const RtuDoor&) = delete;
 
-    /// Begins to open the port. That it cannot be opened is told by an event, and it is tried again.
+    /// Begins to open the port. A failure is reported by an event, and opening is repeated.
     void open();
     void close();
 
@@ -39,11 +39,11 @@ public:
         bool up = false;
         std::string peer;
         std::uint64_t requests = 0, writes = 0, exceptions = 0;
-        Instant since{};  ///< when the port was opened, or opened again
+        Instant since{};  ///< when the port was opened last
     };
     [[nodiscard]] Report report() const;
     [[nodiscard]] Responder& responder() noexcept;
-    /// May be read on any thread while the door lives.
+    /// Any thread, while the door exists.
     [[nodiscard]] const RtuReceiverCounters& line_counters() const noexcept;
     [[nodiscard]] const RtuCounters& counters() const noexcept;
 

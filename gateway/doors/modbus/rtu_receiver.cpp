@@ -1,6 +1,5 @@
-// RTU receiver: a frame ends where the line is silent. In: bytes and time. Out: frames.
-// Echo and frame are told apart byte by byte; what turns out to be no echo goes into the frame as if it had just come. Never guesses where
-// a frame begins within a run: only silence says that.
+// A frame ends with a silence of the line. An echo is compared byte by byte; bytes that turn out not to be an echo are added to the frame
+// as if they had just arrived. The beginning of a frame is never searched for within a run of bytes.
 #include "gateway/doors/modbus/rtu_receiver.hpp"
 
 #include <algorithm>
@@ -21,11 +20,12 @@ constexpr std::array<std::uint16_t, 256> crc_table = [] {
     }
     return table;
 }();
-constexpr std::uint32_t fastest_counted_baud = 19200;  // above it the pauses are fixed
-/// Nobody but this gateway sends its answers: late ones are echoes too, of an adapter that collects.
+constexpr std::uint32_t fastest_counted_baud = 19200;  // above it the pauses have fixed lengths
+/// Only this gateway sends its answers, so a late copy is an echo, too, from an adapter that collects bytes.
 constexpr Duration echo_limit = std::chrono::seconds(1);
-/// An answer that repeats its request, on a port of which nothing is known: what comes so soon is no new request. (USB adapters collect for
-/// up to 16 ms.) To take an echo for a request would be to answer it, and that answer again, for ever.
+/// An answer that repeats its request, on a port of which it is not known whether it echoes: bytes that arrive within this time are not a
+/// new request. (USB adapters collect bytes for up to 16 ms.) If an echo were taken for a request, it would be answered, and the echo of
+/// that answer again, without end.
 constexpr Duration unknown_echo_limit = std::chrono::milliseconds(50);
 }  // namespace
 
@@ -62,7 +62,7 @@ std::optional<RtuFrame> RtuReceiver::take() noexcept {
         frame->size = static_cast<std::uint8_t>(size_ - 3);
         std::copy_n(buffer_.begin() + 1, frame->size, frame->bytes.begin());
         counters_.frames.add();
-        if (unechoed_ && echo_ == Echo::unknown) echo_ = Echo::absent;  // somebody else's frame came first, and in good order
+        if (unechoed_ && echo_ == Echo::unknown) echo_ = Echo::absent;  // a correct frame of another sender came first
     } else if (overlong_) {
         counters_.overlong.add();
     } else if (size_ > 0) {
@@ -82,7 +82,7 @@ void RtuReceiver::put(std::uint8_t byte) noexcept {
     }
 }
 
-/// What has come since the answer is not it: the bytes that looked like it are the beginning of something else.
+/// The bytes since the answer are not its echo: they are the beginning of another frame.
 void RtuReceiver::no_echo() noexcept {
     const std::size_t n = std::exchange(matched_, 0);
     echo_size_ = 0;

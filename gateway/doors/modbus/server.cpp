@@ -1,5 +1,5 @@
-// Server: places are found by number; the instants of all places lie together, so that a sweep is a walk over one array.
-// In: sockets, results, time. Out: connections; the word that a host's last connection has ended. Never ends one inside its own call.
+// Connections are found by number; the deadlines of all of them are in one array, so that a sweep reads little memory. A connection is
+// never destroyed within one of its own calls.
 #include "gateway/doors/modbus/server.hpp"
 
 #include <netinet/in.h>
@@ -31,11 +31,12 @@ using tcp = asio::ip::tcp;
 constexpr auto sweep_period = std::chrono::milliseconds(250);
 constexpr int accepts_per_turn = 64;
 constexpr int backlog = 1024;
-constexpr int socket_buffer = 64 * 1024;  // bytes each way: what a client that does not read can hold in the kernel is bounded too
+constexpr int socket_buffer = 64 * 1024;  // bytes in each direction, so that a client that does not read occupies a bounded amount of
+                                          // kernel memory
 
 void set_option(int fd, int level, int name, int value) { (void)::setsockopt(fd, level, name, &value, sizeof value); }
 
-constexpr std::size_t most_commanders = 64;  // addresses that are remembered for having commanded
+constexpr std::size_t most_commanders = 64;  // addresses that are remembered because they have commanded
 constexpr PlaceHolder nobody = 0;
 
 PlaceHolder holder_of(const asio::ip::address& a) {
@@ -48,7 +49,7 @@ bool someone_waits(int listening) {
     return ::poll(&p, 1, 0) > 0;
 }
 
-/// No delay: an answer is a whole segment already. Keep-alive finds a peer without power within about a minute.
+/// No delay, because an answer is a complete segment. Keep-alive detects a peer without power within about a minute.
 void prepare(int fd) {
     set_option(fd, IPPROTO_TCP, TCP_NODELAY, 1);
     set_option(fd, SOL_SOCKET, SO_KEEPALIVE, 1);
@@ -152,7 +153,7 @@ public:
             }
         }
         bury();
-        if (std::ranges::none_of(listeners_, [](const auto& l) { return l->paused; })) (void)spare_.refill();  // who waits comes first
+        if (std::ranges::none_of(listeners_, [](const auto& l) { return l->paused; })) (void)spare_.refill();  // waiting clients come first
         for (const auto& l : listeners_) {
             if (std::exchange(l->paused, false)) accept_on(l);
         }
@@ -173,7 +174,7 @@ public:
     Instant now() const override { return port_.now(); }
     ConnectionTimes& times(ConnectionToken token) override { return times_[place_of(token)]; }
     void ready(ConnectionToken token) override {
-        // All results of a turn arrive before the posted function runs: their answers leave in one send per connection.
+        // All results of a turn arrive before the posted function runs, so each connection sends its answers together.
         if (ready_.empty()) {
             asio::post(io_, [weak = weak_from_this()] {
                 if (const auto self = weak.lock()) self->resume_ready();
@@ -185,7 +186,7 @@ public:
         const std::size_t i = place_of(token);
         if (places_[i].connection->has_commanded()) note_commander(places_[i].holder);
         const std::string host = std::move(places_[i].host);
-        buried_.push_back(std::move(places_[i].connection));  // it is still at work: destroyed by bury()
+        buried_.push_back(std::move(places_[i].connection));  // it is still in one of its calls: bury() destroys it
         times_[i] = {};
         free_.push_back(i);
         counters().connections_open.remove();
@@ -196,17 +197,17 @@ private:
     struct Listener {
         explicit Listener(asio::io_context& io) : acceptor(io.get_executor()) {}
         asio::basic_socket_acceptor<tcp, asio::io_context::executor_type> acceptor;
-        bool paused = false;  // out of descriptors: tried again at the next sweep
+        bool paused = false;  // no descriptor is free: repeated with the next sweep
     };
     struct Place {
         std::unique_ptr<Connection> connection;
         std::uint32_t users = 0;
-        std::string host;  // the client's stable name: its address without the port
+        std::string host;  // the client's permanent name: its address without the port
         Instant since{};
         PlaceHolder holder = 0;
     };
     [[nodiscard]] static std::size_t place_of(ConnectionToken token) noexcept { return static_cast<std::uint32_t>(token); }
-    /// nullptr: that connection is closed, whoever has its place now.
+    /// nullptr: that connection is closed, even if another one has its place now.
     [[nodiscard]] Connection* find(ConnectionToken token) const noexcept {
         Connection* const c = places_[place_of(token)].connection.get();
         return c && c->token() == token ? c : nullptr;
@@ -238,7 +239,7 @@ private:
         (void)l->acceptor.open(bind.endpoint.protocol(), ec);
         if (!ec) (void)l->acceptor.set_option(tcp::acceptor::reuse_address(true), ec);
         if (!ec && bind.endpoint.address().is_v6()) (void)l->acceptor.set_option(asio::ip::v6_only(true), ec);
-        if (!ec) (void)l->acceptor.set_option(tcp::acceptor::send_buffer_size(socket_buffer), ec);  // clients inherit both
+        if (!ec) (void)l->acceptor.set_option(tcp::acceptor::send_buffer_size(socket_buffer), ec);  // accepted sockets inherit both
         if (!ec) (void)l->acceptor.set_option(tcp::acceptor::receive_buffer_size(socket_buffer), ec);
         if (!ec) (void)l->acceptor.bind(bind.endpoint, ec);
         if (!ec) (void)l->acceptor.listen(backlog, ec);
@@ -276,8 +277,8 @@ private:
             if (fd >= 0) {
                 admit(fd, peer, length);
             } else if (SpareDescriptor::none_left(errno)) {
-                // Told even if nobody is waiting: then nobody is closed for it. Else the waiting client stays in the listen queue; asking
-                // again at once would only burn the processor.
+                // The system may report this without a waiting client; then no connection is closed. If one waits, it stays in the listen
+                // queue: an immediate repetition would only occupy the processor.
                 if (!someone_waits(l.acceptor.native_handle())) return;
                 if (make_place(nobody, true)) continue;
                 fd = spare_.accept(l.acceptor.native_handle(), reinterpret_cast<sockaddr*>(&peer), &length);
@@ -338,9 +339,9 @@ private:
         return newest;
     }
 
-    /// Closes a connection to make room for one of `newcomer`; false: there is no room. `full`: of descriptors, not of places.
+    /// Closes a connection to make room for one of `newcomer`; false: there is no room. `full`: descriptors are used up, not places.
     bool make_place(PlaceHolder newcomer, bool full) {
-        if (!full && open_count() < settings_.max_connections) return true;  // no need to look who is there
+        if (!full && open_count() < settings_.max_connections) return true;  // a place is free
         const Instant at = port_.now();
         std::vector<std::size_t> indices;
         std::vector<Guest> guests;
@@ -363,7 +364,8 @@ private:
     [[nodiscard]] std::size_t open_count() const noexcept { return places_.size() - free_.size(); }
     [[nodiscard]] std::size_t kept_places() const noexcept { return settings_.max_connections / 8; }
 
-    // A Modbus client is its address, and comes back from another port: who has commanded finds a place again.
+    // A Modbus client is identified by its address, since it connects again from another port: a client that has commanded gets a place
+    // again.
     void note_commander(PlaceHolder holder) {
         std::erase(commanders_, holder);
         commanders_.push_back(holder);
@@ -381,7 +383,7 @@ private:
             if (!self) return;
             self->timing_ = false;
             if (!ec) self->sweep();
-            // After close() the wait ends early, and clients of a new open() may be there already.
+            // After close() the wait ends early, and clients of a new open() may already wait.
             const bool paused = std::any_of(self->listeners_.begin(), self->listeners_.end(), [](const auto& l) { return l->paused; });
             if (paused || self->free_.size() < self->places_.size() || self->responder_.writer().waits()) self->watch_time();
         });
@@ -394,14 +396,14 @@ private:
     Poller poller_;
     asio::steady_timer timer_;
     bool timing_ = false;
-    bool closing_ = false;  // the gateway's own end, or a change of its addresses: no client has gone
+    bool closing_ = false;  // the gateway ends, or its addresses change: no client is lost
     std::vector<std::shared_ptr<Listener>> listeners_;
     std::vector<Place> places_;
     std::vector<ConnectionTimes> times_;
     std::vector<std::size_t> free_;
     std::vector<std::unique_ptr<Connection>> buried_;
     std::vector<ConnectionToken> ready_, resuming_;
-    std::vector<PlaceHolder> commanders_;  // the newest last
+    std::vector<PlaceHolder> commanders_;  // the newest is the last
     SpareDescriptor spare_;
 };
 

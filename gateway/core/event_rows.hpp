@@ -27,8 +27,8 @@ public:
 
     using Tell = std::function<void(Event event, AxisId axis)>;
     /// `what` is the word for the events in the counts.
-    explicit EventRows(Tell tell, std::string_view what = "refusals", Duration row_period = EventRows::row_period)
-        : tell_(std::move(tell)), what_(what), row_lasts_(row_period) {}
+    explicit EventRows(Tell tell, std::string_view what = "refusals", Duration row_lasts = row_period)
+        : tell_(std::move(tell)), what_(what), row_lasts_(row_lasts) {}
 
     /// `host` is the client's address, by which clients are distinguished. `row` is the key by which two events are identical; empty: their
     /// texts.

@@ -79,13 +79,13 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
         os.environ.update(NOTIFY_SOCKET=manager.path, WATCHDOG_USEC="1000000")
         try:
             with harness.Folder() as data, Gateway(data) as g:
-                until(lambda: manager.last("READY=1"), 5, "READY")
-                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 0 moving", 5, "status")
+                until(lambda: manager.last("READY=1"), 15, "READY")
+                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 0 moving", 15, "status")
                 g.command("feeder", {"command": "enable"})
                 g.command("feeder", {"command": "move_absolute", "position": 30, "velocity": 5}, wait=0)
-                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 1 moving", 5, "it moves")
+                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 1 moving", 15, "it moves")
                 g.command("feeder", {"command": "quick_stop"})
-                until(lambda: manager.last("STATUS=").endswith(" 0 moving"), 5, "it stands")
+                until(lambda: manager.last("STATUS=").endswith(" 0 moving"), 15, "it stands")
                 fed = [t for t, text in manager.read() if text == "WATCHDOG=1"]
                 assert len(fed) > 2 and max(b - a for a, b in zip(fed, fed[1:])) < 1.0, "within half of its time"
                 os.kill(g.process.pid, 19)
@@ -97,7 +97,7 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
                 assert g.stop() == 0
         finally:
             del os.environ["NOTIFY_SOCKET"], os.environ["WATCHDOG_USEC"]
-        until(lambda: manager.last("STOPPING=1"), 5, "STOPPING")
+        until(lambda: manager.last("STOPPING=1"), 15, "STOPPING")
 
 
 def test_an_upgrade_waits_until_no_axis_moves():

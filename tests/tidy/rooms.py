@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+import alone
 import classes
 import functions
 
@@ -145,6 +146,7 @@ RULES = {
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
     "format": "sources look as clang-format writes them",
+    "alone": "the sources that a newcomer copies compile one by one",
 }
 
 
@@ -239,6 +241,9 @@ def main():
         probe.flush()
         if not misformatted([pathlib.Path(probe.name)]):
             faults.append(("format", "the rule no longer finds what it is for"))
+    faults += [("alone", what) for what in alone.faults_of(TOP, alone.sources_of(TOP))]
+    if not alone.holds(TOP) or len(alone.sources_of(TOP)) < 20:
+        faults.append(("alone", "the rule no longer finds what it is for"))
     if len(sources) < 100 or not families:
         faults.append(("rooms", f"only {len(sources)} sources and {len(families)} families were found"))
     for rule, name, text in PROBES:

@@ -3,6 +3,7 @@
 #include "adapters/example/twin/twin.hpp"
 
 #include <cstdlib>
+#include <utility>
 
 #include "adapters/example/twin/axis.hpp"
 

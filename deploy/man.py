@@ -37,7 +37,8 @@ def options(program, command):
 def program_page(program, version):
     lines = [f'.TH AXISGATE 1 "" "axisgate {roff(version)}" "User Commands"', ".SH NAME", "axisgate \\- fieldbus gateway for motor drives", ".SH SYNOPSIS", ".B axisgate",
              ".I SUBCOMMAND", "[\\fIOPTION\\fR...]", ".SH DESCRIPTION", roff(said(program, "--help").splitlines()[0]) + ".",
-             "The configuration of a host is in", ".BR axisgate.toml (5);", "the handbook is in", ".IR /usr/share/doc/axisgate/handbook ,", "and the gateway serves it at", ".IR /help .", ".SH SUBCOMMANDS"]
+             "The configuration of a host is in", ".BR axisgate.toml (5);", "the handbook is in", ".IR /usr/share/doc/axisgate/handbook ,",
+             "and the gateway serves it at", ".IR /help .", ".SH SUBCOMMANDS"]
     for name, text in subcommands(program):
         lines += [".SS " + roff(name), roff(text[:1].upper() + text[1:]) + "."]
         if name not in ("help", "version"):
@@ -68,9 +69,12 @@ def completion(program):
     for name in names:
         flags = sorted(set(re.findall(r"(?<![\w-])--[a-z][\w-]*", said(program, name, "--help")))) if name not in ("help", "version") else []
         cases.append(f"        {name}) words='{' '.join(flags)}' ;;")
-    return "\n".join(["# Completion of axisgate for bash: subcommands, their options, files behind options that take one.", "_axisgate() {", "    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words", "    COMPREPLY=()",
-                      "    case $before in", "        --config | --site | --data) compopt -o default; return ;;", "    esac", "    case ${COMP_WORDS[1]} in", *cases, f"        *) words='{' '.join(names)} --help --version' ;;", "    esac",
-                      "    [ \"$COMP_CWORD\" -gt 1 ] || words='" + " ".join(names) + " --help --version'", "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")", "}", "complete -F _axisgate axisgate"]) + "\n"
+    return "\n".join(["# Completion of axisgate for bash: subcommands, their options, files behind options that take one.", "_axisgate() {",
+                      "    local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words", "    COMPREPLY=()",
+                      "    case $before in", "        --config | --site | --data) compopt -o default; return ;;", "    esac",
+                      "    case ${COMP_WORDS[1]} in", *cases, f"        *) words='{' '.join(names)} --help --version' ;;", "    esac",
+                      "    [ \"$COMP_CWORD\" -gt 1 ] || words='" + " ".join(names) + " --help --version'",
+                      "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")", "}", "complete -F _axisgate axisgate"]) + "\n"
 
 
 def main(program, configuration, folder):

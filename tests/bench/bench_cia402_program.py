@@ -111,7 +111,7 @@ def jitter(program, axes, beat_ms, seconds, spin_us):
         raise SystemExit(f"bench_cia402: {missed} frames were overwritten before they were read")
     off = sorted(abs(g - beat_ms * 1000) for g in gaps)
     turns = turns_seen(seen, axes)
-    print(f"    spin_us = {spin_us}, {axes} axes: {len(gaps)} SYNCs, one each {(at[-1] - at[0]) / len(gaps) / 1000:.3f} ms, longest gap {gaps[-1] / 1000:.2f} ms, bus load {100 * load:.0f} %", flush=True)
+    print(f"    spin_us = {spin_us}, {axes} axes: {len(gaps)} SYNCs, one each {(at[-1] - at[0]) / len(gaps) / 1000:.3f} ms, longest gap {gaps[-1] / 1000:.2f} ms, bus load {100 * load:.0f} %", flush=True)  # noqa: E501
     for cycle in sorted({s["cycle_ms"] for s in told}):
         print(f"    own cycle {cycle} ms: {sum(s['cycle_ms'] == cycle for s in told)} axes; SYNCs between two of their pictures, at most: "
               + " ".join(str(turns.get(i + 1, 0)) for i, s in enumerate(told) if s["cycle_ms"] == cycle), flush=True)

@@ -124,7 +124,8 @@ class Message:
 
 def dissect(path, *arguments):
     """One list of messages for each packet; any fault of a script, and anything malformed, is an error."""
-    p = subprocess.run(["tshark", *scripts(), *arguments, "-r", str(path), "-T", "pdml"], capture_output=True, text=True, timeout=120, env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": str(pathlib.Path(path).parent), "LC_ALL": "C.UTF-8"})
+    p = subprocess.run(["tshark", *scripts(), *arguments, "-r", str(path), "-T", "pdml"], capture_output=True, text=True, timeout=120,
+                       env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": str(pathlib.Path(path).parent), "LC_ALL": "C.UTF-8"})
     assert p.returncode == 0 and "lua" not in p.stderr.lower(), p.stderr
     assert "_ws.malformed" not in p.stdout and "Lua Error" not in p.stdout, re.findall(r".*(?:_ws.malformed|Lua Error).*", p.stdout)[:3]
     packets = []
@@ -200,6 +201,7 @@ def judge(path, port, io_port, traffic):
 
 if __name__ == "__main__":  # FILE PORT IO_PORT: judged by itself, with nothing wrong on purpose
     capture = pathlib.Path(sys.argv[1])
-    counted = subprocess.run(["tshark", "-r", str(capture), "-Y", f"tcp.port == {sys.argv[2]} || udp.port == {sys.argv[3]}"], capture_output=True, text=True, timeout=300, check=True).stdout.count("\n")
+    counted = subprocess.run(["tshark", "-r", str(capture), "-Y", f"tcp.port == {sys.argv[2]} || udp.port == {sys.argv[3]}"],
+                             capture_output=True, text=True, timeout=300, check=True).stdout.count("\n")
     assert counted > 100, f"only {counted} frames in {capture}"
     judge(capture, int(sys.argv[2]), int(sys.argv[3]), Traffic())

@@ -154,7 +154,8 @@ class Gateway(Process):
         return Modbus(self.modbus_port)
 
     def mbpoll(self, *arguments, values=()):
-        p = subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.modbus_port), "-a", "1", "-B", "-0", "-1", "-q", *arguments, "127.0.0.1", *map(str, values)], capture_output=True, text=True, timeout=20)
+        p = subprocess.run(["mbpoll", "-m", "tcp", "-p", str(self.modbus_port), "-a", "1", "-B", "-0", "-1", "-q", *arguments, "127.0.0.1",
+                            *map(str, values)], capture_output=True, text=True, timeout=20)
         return p.returncode, p.stdout + p.stderr
 
 
@@ -216,6 +217,7 @@ class Modbus:
 
     def write32(self, address, value):
         self.write(address, [(value >> 16) & 0xFFFF, value & 0xFFFF])
+
 
 class Port:
     """A pseudo-terminal as a terminal program opens it: raw, 9600 bit/s."""

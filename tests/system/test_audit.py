@@ -198,7 +198,8 @@ def test_each_of_them_leaves_an_event_with_who_did_it(folder):
                 client.more = {"Cookie": answer[1]["Set-Cookie"].split(";")[0], "X-CSRF-Token": json.loads(answer[2])["csrf"]}
             wanted = body["name"] if words == "action" else words
             try:
-                until(lambda: [e for e in events(g, since, None) if e["kind"] == kind and e["who"].startswith("anna ") and "127.0.0.1" in e["who"] and words_in(e, wanted)], 40 if kind == "rehearsal" else 8)
+                until(lambda: [e for e in events(g, since, None) if e["kind"] == kind and e["who"].startswith("anna ")
+                               and "127.0.0.1" in e["who"] and words_in(e, wanted)], 40 if kind == "rehearsal" else 8)
             except AssertionError:
                 without.append((name, kind, wanted, [(e["kind"], e["who"], e["text"]) for e in events(g, since, None)]))
         assert not without, "\n".join(map(str, without))

@@ -85,7 +85,7 @@ def test_health_is_asked_as_the_container_asks_it(folder):
         port = s.getsockname()[1]
     toml = folder / "axisgate.toml"
     for tls in ("off", "self_signed"):
-        toml.write_text(f'[data]\ndir = "{folder}/data"\n[http]\nbind = "0.0.0.0:{port}"\ntls = "{tls}"\nallowed_hosts = ["box"]\n[modbus]\nbind = "off"\n[enip]\nbind = "off"\n[users]\nlocal_role = "none"\n')
+        toml.write_text(f'[data]\ndir = "{folder}/data"\n[http]\nbind = "0.0.0.0:{port}"\ntls = "{tls}"\nallowed_hosts = ["box"]\n[modbus]\nbind = "off"\n[enip]\nbind = "off"\n[users]\nlocal_role = "none"\n')  # noqa: E501
         code, _, err = run("health", "--config", str(toml))
         assert code == 1 and "not well" in err and str(port) in err, err
         with Process("serve", "--config", str(toml)) as g:

@@ -15,7 +15,6 @@ import subprocess
 import threading
 import time
 
-import harness
 from harness import DEMO, Gateway, run, until
 
 LIBC = ctypes.CDLL(None, use_errno=True)

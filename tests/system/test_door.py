@@ -298,7 +298,8 @@ def test_a_full_disk_is_507_everywhere(folder):
         for method, path, body, headers in (
                 ("PUT", "/site", staged, admin), ("POST", "/lines", {"name": "x", "uri": "twin", "family": "uim342"}, admin), ("PATCH", "/axes/feeder", {"unit": "cm"}, admin),
                 ("DELETE", "/mappings/m1", None, admin), ("POST", "/mappings", entry, admin), ("PUT", "/mappings.csv", "id,unit,table,address,axis,point,type\n", csv),
-                ("POST", "/users", {"name": "ben", "password": FIRST, "role": "viewer"}, admin), ("POST", "/tokens", {"name": "t", "role": "viewer"}, admin), ("PATCH", "/users/anna", {"password": FIRST + "0"}, admin),
+                ("POST", "/users", {"name": "ben", "password": FIRST, "role": "viewer"}, admin),
+                ("POST", "/tokens", {"name": "t", "role": "viewer"}, admin), ("PATCH", "/users/anna", {"password": FIRST + "0"}, admin),
                 ("PUT", "/recipes/new", {"steps": [{"wait_s": 1}]}, admin), ("DELETE", "/recipes/there", None, admin), ("POST", "/axes/feeder/snapshots", {"name": "n", "from": "stored"}, admin),
                 ("DELETE", "/axes/feeder/snapshots/1", None, admin), ("PUT", "/axes/feeder/parameters/AC", {"value": 20000}, admin), ("PATCH", "/modbus", {"read_only": True}, admin),
                 ("PUT", "/backup", backup, octets), ("GET", "/backup", None, admin)):
@@ -375,11 +376,12 @@ def test_sigterm_under_requests_ends_within_a_second(folder):
         port = int(g.http[1])
         g.send("PATCH", "/drives/slide/hand", {"silent": True})  # whoever asks it something waits
         clients = []
-        for method, path, body in (("POST", "/axes/slide/commands?wait=60", json.dumps({"command": "home"})), ("GET", "/axes/slide/parameters/AC", ""), ("POST", "/axes/slide/snapshots", json.dumps({"name": "n"}))):
+        for method, path, body in (("POST", "/axes/slide/commands?wait=60", json.dumps({"command": "home"})),
+                                   ("GET", "/axes/slide/parameters/AC", ""), ("POST", "/axes/slide/snapshots", json.dumps({"name": "n"}))):
             c = socket.create_connection(("127.0.0.1", port), timeout=10)
             c.sendall((f"{method} /api/v1{path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n{body}").encode())
             clients.append(c)
-        for half in (b"GET /", b"POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{", b"GET /api/v1/openapi.yaml HTTP/1.1\r\nHost: localhost\r\n\r\n" * 50):
+        for half in (b"GET /", b"POST /api/v1/moves/start HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{", b"GET /api/v1/openapi.yaml HTTP/1.1\r\nHost: localhost\r\n\r\n" * 50):  # noqa: E501
             c = socket.create_connection(("127.0.0.1", port), timeout=10)
             c.sendall(half)
             clients.append(c)

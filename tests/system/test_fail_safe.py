@@ -14,7 +14,8 @@ SITE = {
              for i, n in enumerate(("lift", "press", "table", "arm"))],
     "mappings": [],
 }
-CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost", "gateway_ends", "dds_deadline", "enip_session_closed", "enip_silent", "motion_unowned"]
+CAUSES = ["modbus_closed", "modbus_silent", "set_points_silent", "lease_ended", "enip_closed", "enip_timed_out", "enip_idle", "line_lost",
+          "gateway_ends", "dds_deadline", "enip_session_closed", "enip_silent", "motion_unowned"]
 
 
 def test_the_matrix_is_read_and_changed_axis_by_axis(folder):

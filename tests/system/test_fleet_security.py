@@ -2,7 +2,6 @@
 
 In: the program, `openssl` as an independent reader. Out: folders of certificates, fleets. Never another network than this machine's own.
 """
-import pathlib
 import random
 import subprocess
 import time

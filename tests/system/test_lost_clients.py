@@ -1,7 +1,6 @@
 # Lost clients: what becomes of an axis when the Modbus client that moves it closes its connection, or stays connected and asks nothing; and
 # when the site itself lets go of it. In: the program with some sites, raw Modbus. Out: axis states, register 22, events, metrics.
 import re
-import socket
 import time
 
 from harness import Gateway, ModbusException, Process, until

@@ -9,7 +9,6 @@ import pathlib
 import select
 import struct
 import subprocess
-import termios
 import time
 import tty
 

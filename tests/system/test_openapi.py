@@ -15,14 +15,16 @@ import struct
 import time
 import urllib.parse
 
-import harness
 from harness import DEMO, until
 from openapi import Description, sample, strict_json
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 TEXT = (TOP / "schema/openapi.yaml").read_text()
 API = Description(TEXT)
-NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"], "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"], "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"], "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "connection": ["enip-0"], "instance": ["300"]}
+NAMES = {"family": ["uim342"], "line": ["can0"], "drive": ["feeder", "slide"], "axis": ["feeder", "slide"],
+         "parameter": ["AC", "PP[5]", "node_id"], "mapping": ["m1"], "recipe": ["warm-up"], "run": ["1"], "snapshot": ["1"],
+         "revision": ["1"], "user": ["anna"], "token": ["none"], "alarm": ["1"], "unit": ["2", "40"], "description": ["plain.eds"],
+         "gateway": ["hall-1"], "recording": ["crash"], "capture": ["tuned"], "connection": ["enip-0"], "instance": ["300"]}
 EDS = (TOP / "adapters/cia402/tests/eds/plain.eds").read_text()
 RECIPE = {"description": "on and off", "parameters": {"pause": {"type": "number", "default": 0.05}}, "steps": [{"enable": {"axis": "slide"}}, {"wait_s": "${pause}"}, {"disable": {"axis": "slide"}}]}
 
@@ -248,10 +250,11 @@ def test_every_write_answers_as_described(gateway):
         ("handOverAuthority", {"axis": "slide"}, {"to": "anna"}, 200), ("handOverAuthority", {"axis": "feeder"}, {"to": "x"}, 409), ("releaseAuthority", {"axis": "slide"}, None, 204),
         ("listConnections", {}, None, 200), ("closeConnection", {"connection": "enip-0"}, None, 404), ("changeModbus", {}, {"read_only": False}, 200), ("changeModbus", {}, {}, 422),
         ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "disable"}, 200), ("putAxisFailSafe", {"axis": "slide"}, {}, 200), ("putAxisFailSafe", {"axis": "slide"}, {"line_lost": "fly"}, 422),
-        ("putAxisFailSafe", {"axis": "nobody"}, {}, 404), ("rehearseFailSafe", {}, {"axes": ["slide"]}, 202), ("rehearseFailSafe", {}, {"axes": ["nobody"]}, 409), ("rehearseFailSafe", {}, {"axes": 1}, 422),
+        ("putAxisFailSafe", {"axis": "nobody"}, {}, 404), ("rehearseFailSafe", {}, {"axes": ["slide"]}, 202),
+        ("rehearseFailSafe", {}, {"axes": ["nobody"]}, 409), ("rehearseFailSafe", {}, {"axes": 1}, 422),
         ("addLine", {}, line, 201), ("addLine", {}, line, 409), ("addLine", {}, {"name": "x"}, 422), ("addDrive", {}, drive, 201), ("addDrive", {}, drive, 409),
         ("addDrive", {}, {**drive, "name": "other", "address": 4}, 422), ("addAxis", {}, axis, 201), ("addAxis", {}, axis, 409), ("addAxis", {}, {**axis, "name": "other"}, 422),
-        ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200), 
+        ("replaceLine", {"line": "spare"}, line, 200), ("changeLine", {"line": "spare"}, {"bitrate": 250000}, 200),
         ("changeLine", {"line": "spare"}, {"timing": {"reply_timeout_ms": 9, "poll_period_ms": 9, "pause_ms": 1, "stale_after_ms": 900, "retries": 1, "silent_limit": 4,
                                                        "retry_pause_min_ms": 100, "retry_pause_max_ms": 900}, "options": {"crc": "12"}}, 200), ("changeLine", {"line": "nobody"}, {"bitrate": 1}, 404),
         ("replaceDrive", {"drive": "spare"}, drive, 200), ("changeDrive", {"drive": "spare"}, {"options": {"model": "342S"}}, 200), ("replaceAxis", {"axis": "spare"}, axis, 200),
@@ -263,8 +266,10 @@ def test_every_write_answers_as_described(gateway):
         ("commandAxis", {"axis": "slide"}, {"command": "enable"}, 200), ("commandAxis", {"axis": "slide"}, {"command": "move_absolute", "position": 51}, 422),
         ("commandAxis", {"axis": "feeder"}, {"command": "move_relative", "position": 1, "velocity": 20, "acceleration": 50, "deceleration": 50}, 200),
         ("commandAxis", {"axis": "feeder"}, {"command": "move_absolute", "position": 2, "prepare": True}, 200),
-        ("commandAxis", {"axis": "slide"}, {"command": "move_absolute", "position": 2, "velocity": 50, "acceleration": 500, "deceleration": 500, "prepare": True}, 200), ("startMoves", {}, {"axes": ["feeder", "slide"]}, 200),
-        ("startMoves", {}, {"axes": ["nobody"]}, (404, 409, 422)), ("commandAxis", {"axis": "feeder"}, {"command": "quick_stop"}, 200), ("commandAxis", {"axis": "feeder"}, {"command": "disable"}, 200),
+        ("commandAxis", {"axis": "slide"}, {"command": "move_absolute", "position": 2, "velocity": 50, "acceleration": 500,
+                                            "deceleration": 500, "prepare": True}, 200), ("startMoves", {}, {"axes": ["feeder", "slide"]}, 200),
+        ("startMoves", {}, {"axes": ["nobody"]}, (404, 409, 422)), ("commandAxis", {"axis": "feeder"}, {"command": "quick_stop"}, 200),
+        ("commandAxis", {"axis": "feeder"}, {"command": "disable"}, 200),
         ("writeParameter", {"axis": "feeder", "parameter": "AC"}, {"value": 20000}, 200), ("writeParameter", {"axis": "feeder", "parameter": "AC"}, {"value": -1}, 422),
         ("writeParameter", {"axis": "feeder", "parameter": "nothing"}, {"value": 1}, 404), ("replaceSite", {}, site | {"zzz": 1}, 422),
         ("addMapping", {}, {"id": "new", "unit": 2, "address": 20, "axis": "feeder", "point": "AC", "type": "u32"}, 201),
@@ -272,11 +277,19 @@ def test_every_write_answers_as_described(gateway):
         ("replaceMapping", {"mapping": "new"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC", "type": "f64", "scale": 0.5}, 200),
         ("replaceMapping", {"mapping": "nobody"}, {"unit": 2, "address": 30, "axis": "feeder", "point": "AC"}, 404), ("removeMapping", {"mapping": "new"}, None, 204),
         ("changeMappingUnit", {"unit": "2"}, {"gaps": "refuse"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "zero"}, 200), ("changeMappingUnit", {"unit": "2"}, {"gaps": "perhaps"}, 422),
-        ("putProfile", {"unit": "40"}, {"language": "lexium", "axes": [{"axis": "feeder"}]}, 200), ("putProfile", {"unit": "40"}, {"language": "klingon", "axes": []}, 422), ("putAssembly", {"instance": "300"}, {"direction": "input", "unit": 40, "registers": 20}, 200), ("putAssembly", {"instance": "101"}, {"direction": "input", "unit": 40, "registers": 20}, 409), ("putAssembly", {"instance": "300"}, {"direction": "sideways"}, 422), ("addAssemblies", {}, "instance,direction,unit,registers\n301,input,40,20\n", 200), ("addAssemblies", {}, "instance,direction,unit,registers\n302,input,40,many\n", 422),
-        ("replaceAssemblies", {}, "instance;direction;unit;registers\r\n300;input;40;20\r\n", 200), ("replaceAssemblies", {}, "instance\tsize\n300\t1\n", 422), ("removeAssembly", {"instance": "300"}, None, 204), ("removeAssembly", {"instance": "300"}, None, 404), ("removeProfile", {"unit": "40"}, None, 204), ("removeProfile", {"unit": "40"}, None, 404),
+        ("putProfile", {"unit": "40"}, {"language": "lexium", "axes": [{"axis": "feeder"}]}, 200),
+        ("putProfile", {"unit": "40"}, {"language": "klingon", "axes": []}, 422),
+        ("putAssembly", {"instance": "300"}, {"direction": "input", "unit": 40, "registers": 20}, 200),
+        ("putAssembly", {"instance": "101"}, {"direction": "input", "unit": 40, "registers": 20}, 409),
+        ("putAssembly", {"instance": "300"}, {"direction": "sideways"}, 422),
+        ("addAssemblies", {}, "instance,direction,unit,registers\n301,input,40,20\n", 200), ("addAssemblies", {}, "instance,direction,unit,registers\n302,input,40,many\n", 422),
+        ("replaceAssemblies", {}, "instance;direction;unit;registers\r\n300;input;40;20\r\n", 200),
+        ("replaceAssemblies", {}, "instance\tsize\n300\t1\n", 422), ("removeAssembly", {"instance": "300"}, None, 204),
+        ("removeAssembly", {"instance": "300"}, None, 404), ("removeProfile", {"unit": "40"}, None, 204), ("removeProfile", {"unit": "40"}, None, 404),
         ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n3,2,slide,position\n", 200), ("addMappings", {}, "unit,address,axis,point\n3,0,feeder,position\n", 422),
         ("replaceMappings", {}, "unit;address;axis;point\r\n3;0;feeder;velocity\r\n", 200),
-        ("startScan", {"line": "can0"}, {"from": 5, "to": 9, "limit_s": 30}, 202), ("startScan", {"line": "can0"}, {"from": 1}, 409), ("startScan", {"line": "can0"}, {"x": 1}, 422), ("startScan", {"line": "nobody"}, {}, 404),
+        ("startScan", {"line": "can0"}, {"from": 5, "to": 9, "limit_s": 30}, 202), ("startScan", {"line": "can0"}, {"from": 1}, 409),
+        ("startScan", {"line": "can0"}, {"x": 1}, 422), ("startScan", {"line": "nobody"}, {}, 404),
         ("cancelScan", {"line": "can0"}, None, 200),
         ("putRecipe", {"recipe": "warm-up"}, RECIPE, 201), ("putRecipe", {"recipe": "warm-up"}, RECIPE, 200), ("putRecipe", {"recipe": "warm-up"}, {"steps": [{"fly": 1}]}, 422),
         ("putRecipe", {"recipe": "a b"}, RECIPE, 422), ("runRecipe", {"recipe": "warm-up"}, {"dry_run": True}, 200), ("runRecipe", {"recipe": "warm-up"}, {"arguments": {"pause": 30}}, 202),
@@ -294,16 +307,21 @@ def test_every_write_answers_as_described(gateway):
         ("removeDrive", {"drive": "spare"}, None, 409), ("removeAxis", {"axis": "spare"}, None, 204), ("removeAxis", {"axis": "spare"}, None, 404), ("removeDrive", {"drive": "spare"}, None, 204),
         ("removeLine", {"line": "spare"}, None, 204), ("replaceSite", {}, site, 200),
         ("addUser", {}, {"name": "ben", "password": "a-long-sentence-1", "role": "viewer"}, 201), ("addUser", {}, {"name": "ben", "password": "a-long-sentence-1", "role": "viewer"}, 409),
-        ("addUser", {}, {"name": "Ben X", "password": "short", "role": "king"}, 422), ("changeUser", {"user": "ben"}, {"role": "operator"}, 200), ("changeUser", {"user": "anna"}, {"enabled": False}, 409),
+        ("addUser", {}, {"name": "Ben X", "password": "short", "role": "king"}, 422),
+        ("changeUser", {"user": "ben"}, {"role": "operator"}, 200), ("changeUser", {"user": "anna"}, {"enabled": False}, 409),
         ("removeUser", {"user": "ben"}, None, 204), ("removeUser", {"user": "ben"}, None, 404), ("addToken", {}, {"name": "line3", "role": "viewer", "expires_in_s": 60}, 201),
         ("firstSignIn", {}, {"code": gateway.code, "user": "x", "password": "a-long-sentence-1"}, 409), ("signIn", {}, {"user": "anna", "password": "wrong"}, 401),
         ("changePassword", {"user": "anna"}, {"old": "wrong", "new": "a-long-sentence-2"}, 403),
-        ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200), ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
-        ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415), ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404),
-        ("armCapture", {}, {"name": "wave", "axes": ["feeder"], "trigger": {"kind": "state", "state": "warning"}}, 201), ("armCapture", {}, {"name": "wave", "axes": ["feeder"]}, 409), ("armCapture", {}, {"name": "x"}, 422),
+        ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 201), ("addDescription", {}, {"name": "plain.eds", "text": EDS}, 200),
+        ("addDescription", {}, {"name": "plain.eds", "text": EDS + "\n"}, 409),
+        ("addDescription", {}, {"name": "b.eds", "text": "x"}, 422), ("addDescription", {}, EDS, 415),
+        ("removeDescription", {"description": "plain.eds"}, None, 204), ("removeDescription", {"description": "plain.eds"}, None, 404),
+        ("armCapture", {}, {"name": "wave", "axes": ["feeder"], "trigger": {"kind": "state", "state": "warning"}}, 201),
+        ("armCapture", {}, {"name": "wave", "axes": ["feeder"]}, 409), ("armCapture", {}, {"name": "x"}, 422),
         ("armCapture", {}, {"name": "two", "axes": ["feeder"]}, 503), ("renameCapture", {"capture": "wave"}, {"name": "other"}, 200), ("renameCapture", {"capture": "wave"}, {"name": "x"}, 404),
         ("removeCapture", {"capture": "other"}, None, 204), ("removeCapture", {"capture": "other"}, None, 404),
-        ("makeRecording", {}, {"name": "crash", "why": "test"}, 201), ("makeRecording", {}, {"name": "crash"}, 409), ("makeRecording", {}, {"name": "../x"}, 422), ("renameRecording", {"recording": "crash"}, {"name": "other"}, 200),
+        ("makeRecording", {}, {"name": "crash", "why": "test"}, 201), ("makeRecording", {}, {"name": "crash"}, 409),
+        ("makeRecording", {}, {"name": "../x"}, 422), ("renameRecording", {"recording": "crash"}, {"name": "other"}, 200),
         ("renameRecording", {"recording": "crash"}, {"name": "other"}, 404), ("removeRecording", {"recording": "other"}, None, 204), ("removeRecording", {"recording": "other"}, None, 404)]
     actions = [c["id"] for c in gateway.get("/families/uim342/commands")]
     seen = alarm_answers(gateway, client)
@@ -344,7 +362,8 @@ def test_every_write_answers_as_described(gateway):
         m.read(0, 1)
         mine = [c["id"] for c in gateway.get("/connections") if c["id"].startswith("modbus-")]
         seen.add(("closeConnection", check(operation("closeConnection"), client.request("DELETE", f"/api/v1/connections/{mine[0]}"), "my own connection")))
-    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("commandFleetAxis", 200), ("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
+    missing = {(o.id, s) for o in API.operations if o.method != "GET" for s in o.good()} - seen - {("commandFleetAxis", 200),
+                                                                                                   ("actOnAxis", 200), ("takeSnapshot", 202), ("restoreSnapshot", 202), ("importParameters", 202)}
     assert not missing, f"described but never seen: {missing}"
     assert gateway.get("/site") == site
 
@@ -496,12 +515,15 @@ HEADERS = [{"If-Match": "*"}, {"If-Match": '"1"'}, {"If-Match": "x" * 500}, {"If
            {"Host": "example.org"}, {"Host": ""}, {"Cookie": "a=" + "b" * 3000}, {"X-" + "y" * 200: "z"}, {"Expect": "100-continue"}, {"Expect": "nonsense"}, {"Connection": "close"},
            {"Range": "bytes=0-"}, {"Authorization": "Basic Og=="}, {"Content-Encoding": "gzip"}, {"Upgrade": "h2c", "Connection": "Upgrade"}]
 RAW = [b"\r\n\r\n", b"GET\r\n\r\n", b"GET /\r\n\r\n", b"GET / HTTP/9.9\r\nHost: a\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nHost: 127.0.0.1\r\n\r\n",
-       b"GET /\x00 HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", b"GET http://[ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", b"G\xffT / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
+       b"GET /\x00 HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", b"GET http://[ HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n",
+       b"G\xffT / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03",
        b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n" + b"A: b\r\n" * 3000 + b"\r\n", b"GET /" + b"a" * 20000 + b" HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n",
        b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: -1\r\n\r\n", b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
        b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n{}", b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 2000000\r\n\r\n",
-       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n", b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n",
-       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: gzip\r\n\r\n", b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\nContent-Length: 3\r\n\r\n0\r\n\r\n",
+       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n",
+       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n",
+       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: gzip\r\n\r\n",
+       b"POST /api/v1/axes HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\nContent-Length: 3\r\n\r\n0\r\n\r\n",
        b"GET /api/v1/stream HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: x\r\nSec-WebSocket-Version: 13\r\n\r\n",
        b"GET /api/v1/stream HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 8\r\n\r\n"]
 

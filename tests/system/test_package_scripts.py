@@ -64,7 +64,8 @@ class Host:
 
     def dpkg(self, *arguments, **more):
         env = {**os.environ, "PATH": f"{self.bin}:{os.environ['PATH']}", "AXISGATE_WAIT_S": "1", **more}
-        return subprocess.run(["dpkg", f"--root={self.root}", "--force-script-chrootless", "--force-bad-path", "--log=/dev/null", *map(str, arguments)], capture_output=True, text=True, timeout=120, env=env)
+        return subprocess.run(["dpkg", f"--root={self.root}", "--force-script-chrootless", "--force-bad-path", "--log=/dev/null",
+                               *map(str, arguments)], capture_output=True, text=True, timeout=120, env=env)
 
     def version(self):
         return subprocess.run(["dpkg-query", f"--admindir={self.root}/var/lib/dpkg", "-W", "-f=${Version} ${db:Status-Abbrev}", "axisgate"], capture_output=True, text=True).stdout.strip()

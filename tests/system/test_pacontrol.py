@@ -2,7 +2,6 @@
 import http.client
 import json
 import pathlib
-import struct
 import termios
 import time
 

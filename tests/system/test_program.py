@@ -103,7 +103,10 @@ def test_check_names_every_fault_with_file_line_and_remedy(folder):
 
 def test_check_finds_what_serve_would_refuse_or_lose(folder):
     toml = folder / "axisgate.toml"
-    for text, wanted in (("[modbus_rtu]\nport = \"can:can0\"\n", ["axisgate.toml:2", "carries bytes"]), ("[modbus_rtu]\nformat = \"7E1\"\nunit = 248\nbaud = 1\n", ["axisgate.toml:2", "8 data bits", "axisgate.toml:3", "247", "axisgate.toml:4"]), ("[dds]\nenabled = true\npartition = \"*\"\nname = \"\"\n", ["axisgate.toml:3", "axisgate.toml:4", "63 letters"]),
+    for text, wanted in (("[modbus_rtu]\nport = \"can:can0\"\n", ["axisgate.toml:2", "carries bytes"]),
+                         ("[modbus_rtu]\nformat = \"7E1\"\nunit = 248\nbaud = 1\n",
+                          ["axisgate.toml:2", "8 data bits", "axisgate.toml:3", "247", "axisgate.toml:4"]),
+                          ("[dds]\nenabled = true\npartition = \"*\"\nname = \"\"\n", ["axisgate.toml:3", "axisgate.toml:4", "63 letters"]),
                          ("[log]\nfile = \"/proc/none/x.log\"\n", ["log.file", "cannot open the log file"]), (f"[log]\nfile = \"{folder}\"\n", ["folder"]),
                          ("[data]\ndir = 7\n[log]\nfile = 3\n[modbus_rtu]\nport = 5\n", ["axisgate.toml:2", "axisgate.toml:4", "axisgate.toml:6"])):
         toml.write_text(text)

@@ -14,7 +14,8 @@ BODIES = {"commandAxis": {"command": "halt"}, "actOnAxis": {"name": "nothing"}, 
 # Texts with a grammar of their own.
 TEXTS = {"points": ["speed", "position,x"], "since": ["yesterday", "-1", "2020-13-45T00:00:00Z", ""], "with": ["moon", "", "snapshot", "Default"]}
 # Texts that may be anything: what is not there is found nowhere, and that is no fault of the request.
-FREE = {("listEvents", "axis"), ("listEvents", "kind"), ("listMappings", "axis"), ("removeMappings", "axis"), ("removeMappings", "ids"), ("listParameters", "group"), ("listParameters", "array"), ("addDescription", "name"), ("getTrends", "axes"), ("getRecordedSteps", "axes")}
+FREE = {("listEvents", "axis"), ("listEvents", "kind"), ("listMappings", "axis"), ("removeMappings", "axis"), ("removeMappings", "ids"),
+        ("listParameters", "group"), ("listParameters", "array"), ("addDescription", "name"), ("getTrends", "axes"), ("getRecordedSteps", "axes")}
 
 
 def wrong_values(o, p):

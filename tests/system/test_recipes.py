@@ -18,7 +18,8 @@ THERE_AND_BACK = {
     "steps": [
         {"set_parameter": {"axis": "${who}", "parameter": "AC", "value": 1000000}},
         {"enable": {"axis": "${who}"}},
-        {"if": {"condition": {"axis": "${who}", "point": "fault", "is": True}, "then": [{"command": {"axis": "${who}", "command": "reset_fault"}}], "else": [{"message": "moving ${who} by ${distance}"}]}},
+        {"if": {"condition": {"axis": "${who}", "point": "fault", "is": True},
+                "then": [{"command": {"axis": "${who}", "command": "reset_fault"}}], "else": [{"message": "moving ${who} by ${distance}"}]}},
         {"repeat": {"times": 2, "steps": [
             {"command": {"axis": "${who}", "command": "move_relative", "position": "${distance}", "velocity": 40, "acceleration": 400, "deceleration": 400, "wait_s": 20}}]}},
         {"wait_for": {"axis": "${who}", "point": "moving", "is": False, "timeout_s": 5}},
@@ -60,6 +61,7 @@ def test_a_recipe_moves_an_axis_and_reports_each_step(folder):
         assert step(r, "/steps/6")["value"] == 400 * 3200, step(r, "/steps/6")
         assert step(r, "/steps/5")["comment"] == "the end"
         assert abs(g.axis()["position"] - 10) < 0.02 and g.axis()["state"] != "operation_enabled"
+
         def recipe_texts():
             return [e["text"] for e in g.get("/events?limit=200") if e["kind"] == "recipe"]
         until(lambda: "recipe there-and-back run 1 done" in recipe_texts(), 5, "the event of the end")
@@ -236,8 +238,10 @@ def test_the_program_takes_what_the_schema_takes(gateway):
     validator = jsonschema.Draft202012Validator(schema)
     jsonschema.Draft202012Validator.check_schema(schema)
     whole = {"description": "x", "timeout_s": 10, "on_failure": "halt", "parameters": {"d": {"type": "number", "default": 1, "min": 0, "max": 2, "unit": "mm", "description": "y"}}, "steps": [
-        {"set_parameter": {"axis": "a", "parameter": "AC", "value": 1}, "comment": "c"}, {"read_parameter": {"axis": "a", "parameter": "AC"}}, {"enable": {"axis": "a", "wait_s": 1}}, {"disable": {"axis": "a"}},
-        {"home": {"axis": "a", "method": 1, "wait_s": 5}}, {"command": {"axis": "a", "command": "move_absolute", "position": "${d}", "velocity": 1, "acceleration": 1, "deceleration": 1, "prepare": False, "wait_s": 1}},
+        {"set_parameter": {"axis": "a", "parameter": "AC", "value": 1}, "comment": "c"},
+        {"read_parameter": {"axis": "a", "parameter": "AC"}}, {"enable": {"axis": "a", "wait_s": 1}}, {"disable": {"axis": "a"}},
+        {"home": {"axis": "a", "method": 1, "wait_s": 5}}, {"command": {"axis": "a", "command": "move_absolute", "position": "${d}",
+                                                                        "velocity": 1, "acceleration": 1, "deceleration": 1, "prepare": False, "wait_s": 1}},
         {"action": {"axis": "a", "name": "n", "argument": "x", "wait_s": 1}}, {"write_register": {"unit": 2, "address": 3, "type": "u16", "value": 4}},
         {"wait_for": {"axis": "a", "point": "state", "is": "fault", "timeout_s": 3}}, {"check": {"axis": "a", "parameter": "AC", "at_least": 2, "text": "t"}}, {"wait_s": 0.5},
         {"if": {"condition": {"axis": "a", "point": "position", "is": 1, "tolerance": 0.5}, "then": [{"wait_s": 1}], "else": [{"message": "m"}]}},

@@ -22,7 +22,8 @@ def move_a_little(gateway):
 
 def test_trends_show_what_moved(gateway):
     move_a_little(gateway)
-    axis = until(lambda: next((a for a in gateway.get("/recorder/trends?axes=slide&points=position,velocity,state&columns=5000")["axes"] if len(a["at"]) > 5 and a["rate_hz"] > 0), None), 10, "rows, and their rate")
+    axis = until(lambda: next((a for a in gateway.get("/recorder/trends?axes=slide&points=position,velocity,state&columns=5000")["axes"]
+                               if len(a["at"]) > 5 and a["rate_hz"] > 0), None), 10, "rows, and their rate")
     position = axis["points"]["position"]
     low, high = position.get("values") or position["low"], position.get("values") or position["high"]
     assert max(v for v in high if v is not None) - min(v for v in low if v is not None) > 4
@@ -110,7 +111,8 @@ def test_recordings_outlive_the_gateway_and_say_when_they_cannot_be_replayed(fol
 
 
 def wait_for_capture(gateway, name, state="done"):
-    return until(lambda: next((c for c in gateway.get("/recorder/captures")["captures"] if c["name"] == name and c["state"] == state and (state != "done" or c["bytes"] > 0)), None), 20, f"{name} {state}")
+    return until(lambda: next((c for c in gateway.get("/recorder/captures")["captures"] if c["name"] == name and c["state"] == state
+                               and (state != "done" or c["bytes"] > 0)), None), 20, f"{name} {state}")
 
 
 def test_a_capture_triggers_by_a_level_at_a_kilohertz_and_is_kept(gateway, folder):

@@ -5,7 +5,7 @@ import signal
 import struct
 import time
 
-from harness import DEMO, Gateway, Modbus, ModbusException, until
+from harness import DEMO, Gateway, ModbusException, until
 
 
 def test_mbpoll_sees_the_position_change_while_http_moves_the_axis(gateway):
@@ -195,7 +195,6 @@ def test_site_changes_without_restart(gateway):
 
 
 def test_a_real_line_is_served_by_the_twin_until_the_drive_is_there(folder):
-    import subprocess
     import harness
     site = json.loads(json.dumps(DEMO))
     with harness.Process("twin", "uim342", "--line", "tcp-listen:127.0.0.1:0", "--address", "5") as drive:

@@ -147,6 +147,7 @@ RULES = {
     "errata": "a family lists the errata that it speaks of",
     "format": "sources look as clang-format writes them",
     "alone": "the sources that a newcomer copies compile one by one",
+    "python": "flake8 finds nothing in a Python file",
 }
 
 
@@ -203,6 +204,15 @@ def misformatted(sources, tool=shutil.which("clang-format-14") or "clang-format"
     return [f"{place.removeprefix(str(TOP) + '/')}: run {tool} -i" for place in first.values()]
 
 
+def said_by_flake8(paths):
+    """What flake8 (Debian's: pycodestyle and pyflakes, with the file .flake8 in the root) finds in Python files, one line each."""
+    if not shutil.which("flake8"):
+        return ["flake8 is wanted: deploy/packages/test.txt names its package"]
+    said = subprocess.run(["flake8", *map(str, paths)], cwd=TOP, capture_output=True, text=True)
+    found = said.stdout.splitlines()
+    return found if said.returncode == 0 or found else [f"flake8 failed: {said.stderr[:200]}"]
+
+
 def main():
     files = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=TOP, capture_output=True, text=True, check=True).stdout.split("\n")
     sources = [TOP / f for f in files if f.endswith((".cpp", ".hpp")) and (TOP / f).is_file()]
@@ -244,6 +254,12 @@ def main():
     faults += [("alone", what) for what in alone.faults_of(TOP, alone.sources_of(TOP))]
     if not alone.holds(TOP) or len(alone.sources_of(TOP)) < 20:
         faults.append(("alone", "the rule no longer finds what it is for"))
+    faults += [("python", what) for what in said_by_flake8([f for f in files if f.endswith(".py") and (TOP / f).is_file()])]
+    with tempfile.NamedTemporaryFile("w", suffix=".py", dir=TOP / "tests/tidy") as probe:
+        probe.write("import os\nx = unknown \n")
+        probe.flush()
+        if [line.split()[1] for line in said_by_flake8([probe.name])] != ["F401", "F821", "W291"]:
+            faults.append(("python", "the rule no longer finds what it is for"))
     if len(sources) < 100 or not families:
         faults.append(("rooms", f"only {len(sources)} sources and {len(families)} families were found"))
     for rule, name, text in PROBES:

@@ -1,3 +1,5 @@
+// The feedback of a node and of its axes from PDOs, EMCY and heartbeats. Values of one picture belong to one SYNC: feedback is published
+// when both PDOs of that SYNC have arrived.
 #include <fmt/core.h>
 
 #include <cstdlib>

@@ -1,3 +1,5 @@
+// Plans the steps of power, motion, homing and stop commands from the known state of the axis, or states why there are none. Nothing is
+// sent here.
 #include <fmt/core.h>
 
 #include "adapters/cia402/drive_node.hpp"

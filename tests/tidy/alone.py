@@ -11,7 +11,7 @@ import tempfile
 
 COPIED = ("adapters/example", "gateway/drive", "tests/unit/runtime/third_door_test.cpp")
 FLAGS = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-DAXISGATE_VERSION=\"\"", "-DAXISGATE_SOURCE_DIR=\"\""]
-LIMIT_S = 120
+LIMIT_S = 600
 
 
 def sources_of(top, copied=COPIED):

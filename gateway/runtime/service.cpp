@@ -68,9 +68,11 @@ struct Service {
     boost::asio::signal_set signals{warm};
     boost::asio::steady_timer tick{warm};
     Instant started = monotonic_now();
-    bool ready_reported = false;
-    std::string manager_status;  ///< as last reported
-    std::string first_code;      ///< to be printed
+    bool ready_reported = false;  ///< on standard output
+    bool manager_ready = false;   ///< the manager has READY=1
+    Instant watchdog_at{};        ///< of the next WATCHDOG=1
+    std::string manager_status;   ///< as last reported
+    std::string first_code;       ///< to be printed
     int code = exit_good;
     bool door_hangs = false;  ///< a thread of a door's library does not end (DDS with an interface that is down)
 
@@ -85,7 +87,7 @@ struct Service {
     void arm_services();
     int open_doors();
     void watch();
-    void tell_manager();
+    [[nodiscard]] bool tell_manager();
     void report_ready();
     void take_down();
 };
@@ -308,7 +310,6 @@ void Service::report_ready() {
         text += "; " + c;
     fmt::print("{}\n", text);
     std::fflush(stdout);
-    notify_manager("READY=1");
     spdlog::info("{}", text);
 }
 
@@ -316,9 +317,16 @@ void Service::report_ready() {
 void Service::watch() {
     if (!ready_reported) report_ready();
     const auto interval = watchdog_interval();
-    if (ready_reported) tell_manager();
-    if (interval && monotonic_now() - hot->turns().last() < std::chrono::seconds(1)) notify_manager("WATCHDOG=1");
-    auto next = ready_reported ? std::chrono::milliseconds(500) : std::chrono::milliseconds(2);
+    if (ready_reported && !manager_ready) manager_ready = notify_manager("READY=1");
+    bool delivered = manager_ready && tell_manager();
+    const Instant now = monotonic_now();
+    if (interval && now >= watchdog_at && now - hot->turns().last() < std::chrono::seconds(1)) {
+        if (notify_manager("WATCHDOG=1"))
+            watchdog_at = now + *interval - std::chrono::milliseconds(1);
+        else
+            delivered = false;
+    }
+    auto next = std::chrono::milliseconds(!ready_reported ? 2 : delivered ? 500 : 20);
     if (interval) next = std::min(next, std::chrono::duration_cast<std::chrono::milliseconds>(*interval));
     tick.expires_after(next);
     tick.async_wait([this](const boost::system::error_code& ec) {
@@ -327,7 +335,7 @@ void Service::watch() {
 }
 
 /// The text of `systemctl status`, and the conditions for which an upgrade waits.
-void Service::tell_manager() {
+bool Service::tell_manager() {
     std::size_t online = 0, moving = 0;
     const auto site = ports->site.site();
     for (const AxisId id : site->axis_ids) {
@@ -336,13 +344,14 @@ void Service::tell_manager() {
         moving += (p.flags & flag_moving) != 0;
     }
     std::string status = fmt::format("STATUS={} axes, {} online, {} moving", site->axis_ids.size(), online, moving);
-    if (status == manager_status) return;
+    if (status == manager_status) return true;
+    if (!notify_manager(status)) return false;
     manager_status = std::move(status);
-    notify_manager(manager_status);
+    return true;
 }
 
 void Service::take_down() {
-    notify_manager("STOPPING=1");
+    (void)notify_manager("STOPPING=1");
     doors->stop_waiting();
     hot->stop();  // stops moving axes first
     doors->stop();

@@ -55,11 +55,15 @@ def test_the_unit_is_sound_and_hardened():
 class Manager:
     """The socket of a service manager, read all the time as one does: the kernel keeps no more than ten words for it."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, reads=True):
         self.path = str(folder / "notify")
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
         self.socket.bind(self.path)
         self.told = []
+        if reads:
+            self.begin_to_read()
+
+    def begin_to_read(self):
         threading.Thread(target=self.listen, daemon=True).start()
 
     def listen(self):
@@ -79,13 +83,13 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
         os.environ.update(NOTIFY_SOCKET=manager.path, WATCHDOG_USEC="1000000")
         try:
             with harness.Folder() as data, Gateway(data) as g:
-                until(lambda: manager.last("READY=1"), 15, "READY")
-                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 0 moving", 15, "status")
+                until(lambda: manager.last("READY=1"), 5, "READY")
+                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 0 moving", 5, "status")
                 g.command("feeder", {"command": "enable"})
                 g.command("feeder", {"command": "move_absolute", "position": 30, "velocity": 5}, wait=0)
-                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 1 moving", 15, "it moves")
+                until(lambda: manager.last("STATUS=") == "STATUS=2 axes, 2 online, 1 moving", 5, "it moves")
                 g.command("feeder", {"command": "quick_stop"})
-                until(lambda: manager.last("STATUS=").endswith(" 0 moving"), 15, "it stands")
+                until(lambda: manager.last("STATUS=").endswith(" 0 moving"), 5, "it stands")
                 fed = [t for t, text in manager.read() if text == "WATCHDOG=1"]
                 assert len(fed) > 2 and max(b - a for a, b in zip(fed, fed[1:])) < 1.0, "within half of its time"
                 os.kill(g.process.pid, 19)
@@ -97,7 +101,31 @@ def test_the_manager_is_told_when_it_is_ready_what_moves_and_that_it_lives():
                 assert g.stop() == 0
         finally:
             del os.environ["NOTIFY_SOCKET"], os.environ["WATCHDOG_USEC"]
-        until(lambda: manager.last("STOPPING=1"), 15, "STOPPING")
+        until(lambda: manager.last("STOPPING=1"), 5, "STOPPING")
+
+
+def test_a_manager_that_is_busy_while_the_gateway_starts_is_told_that_it_is_ready():
+    with tempfile.TemporaryDirectory() as name:
+        manager = Manager(pathlib.Path(name), reads=False)
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as others:  # other services fill its queue
+            others.setblocking(False)
+            for _ in range(100):
+                try:
+                    others.sendto(b"STATUS=of another", manager.path)
+                except BlockingIOError:
+                    break
+            else:
+                raise AssertionError("its queue has no end")
+        os.environ.update(NOTIFY_SOCKET=manager.path, WATCHDOG_USEC="1000000")
+        try:
+            with harness.Folder() as data, Gateway(data) as g:
+                assert not manager.read(), "it reads nothing yet"
+                manager.begin_to_read()
+                until(lambda: manager.last("READY=1"), 5, "READY")
+                until(lambda: manager.last("STATUS=2") == "STATUS=2 axes, 2 online, 0 moving", 5, "status")
+                assert g.stop() == 0
+        finally:
+            del os.environ["NOTIFY_SOCKET"], os.environ["WATCHDOG_USEC"]
 
 
 def test_an_upgrade_waits_until_no_axis_moves():

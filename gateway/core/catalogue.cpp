@@ -213,6 +213,7 @@ std::optional<Catalogue> Catalogue::parse(std::string_view text, std::vector<std
             if (auto error = o ? error_of(*o, i, faults) : std::nullopt) c.errors_.push_back(std::move(*error));
         }
     }
+    c.freedoms_ = read_freedoms(c.document_, faults);
     if (const auto* list = c.document_.if_contains("modes")) c.modes_ = modes_of(*list, faults);
     check_forms(c, faults);
     if (faults.size() != before) return std::nullopt;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "gateway/core/freedom.hpp"
 #include "gateway/core/ids.hpp"
 #include "gateway/core/value.hpp"
 
@@ -103,6 +104,8 @@ public:
     [[nodiscard]] std::span<const Parameter> parameters() const noexcept { return parameters_; }
     [[nodiscard]] std::span<const CatalogueCommand> commands() const noexcept { return commands_; }
     [[nodiscard]] std::span<const ErrorCode> errors() const noexcept { return errors_; }
+    /// In the page's order ("freedoms"); empty if it is absent.
+    [[nodiscard]] std::span<const Freedom> freedoms() const noexcept { return freedoms_; }
     /// How many axes one drive can have: the page's "channels"; 1 if it is absent.
     [[nodiscard]] int most_channels() const noexcept;
     /// CiA 402 modes of operation that its drives offer, in the page's order ("modes"; 1, 3 and 6 if it is absent).
@@ -141,9 +144,13 @@ private:
     std::vector<Parameter> parameters_;
     std::vector<CatalogueCommand> commands_;
     std::vector<ErrorCode> errors_;
+    std::vector<Freedom> freedoms_;
     std::vector<std::int16_t> modes_{1, 3, 6};
     std::unordered_map<std::string, std::uint16_t> by_id_;
     boost::json::object document_;
 };
+
+/// "freedoms" of a page; each fault is appended with its place.
+[[nodiscard]] std::vector<Freedom> read_freedoms(const boost::json::object& page, std::vector<std::string>& faults);
 
 }  // namespace axisgate

@@ -10,6 +10,7 @@
 
 #include "gateway/core/adapter.hpp"
 #include "gateway/core/frame.hpp"
+#include "gateway/core/freedom.hpp"
 #include "gateway/core/setup.hpp"
 #include "gateway/core/value.hpp"
 
@@ -42,6 +43,8 @@ struct TwinSetup {
     LineKind kind = LineKind::bytes;
     std::uint32_t bit_rate = 0;
     std::map<std::string, std::string> options;
+    FreedomValues freedoms{};  ///< the specimen that the twin is; an absent freedom has the page's default
+    std::uint64_t seed = 0;    ///< for behaviour that changes from message to message (specimen_draw)
 };
 
 /// The true state of the simulated mechanics of one channel, for tests and the page; adapters must not use it.

@@ -8,6 +8,7 @@
 
 #include "gateway/core/line_uri.hpp"
 #include "gateway/engine/door.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 #include "gateway/wire/twin_bus_end.hpp"
 
 namespace axisgate {
@@ -116,7 +117,7 @@ void RehearsalModels::plug_in(const LineSetup& setup) {
             t.options.emplace(k, v);
         const auto kept = memory_.twins.find(d.name);
         bus_->add(DriveId{static_cast<std::uint16_t>(i)},
-                  families_.find(site_.family_of(d)).family->make_twin(*catalogue_of(site_, d, families_), t),
+                  make_specimen(*families_.find(site_.family_of(d)).family, *catalogue_of(site_, d, families_), t),
                   kept == memory_.twins.end() ? NonVolatile{} : kept->second, now_);
     }
 }

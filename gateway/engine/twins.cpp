@@ -6,6 +6,7 @@
 
 #include "gateway/engine/publisher.hpp"
 #include "gateway/engine/twins.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::engine {
 
@@ -22,7 +23,7 @@ void Twins::plug_in(Drive& d, Instant now) {
     for (const auto& [k, v] : unit.spec.options)
         t.options.emplace(k, v);
     unit.twins->touched();
-    unit.twins->bus->add(d.id, d.family.family->make_twin(*d.catalogue, t), d.memory, now);
+    unit.twins->bus->add(d.id, make_specimen(*d.family.family, *d.catalogue, t), d.memory, now);
     d.memory_revision = unit.twins->bus->twin(d.id)->non_volatile_revision();
     d.twin_axes = t.axes;
 }

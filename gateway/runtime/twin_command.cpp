@@ -21,6 +21,7 @@
 #include "gateway/runtime/files.hpp"
 #include "gateway/runtime/memory_file.hpp"
 #include "gateway/site/options.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate {
 namespace {
@@ -244,7 +245,7 @@ void connect_drives(TwinHost& host, boost::asio::io_context& io, const TwinOptio
         t.bit_rate = rated ? plan.uri.serial.baud : 0;
         t.options = plan.options;
         t.axes = 16;  // as many channels as the family has
-        host.drives.push_back({a, family.make_twin(*entry.catalogue, t), 0});
+        host.drives.push_back({a, make_specimen(family, *entry.catalogue, t), 0});
     }
     LineSetup setup;
     setup.name = o.line_uri;

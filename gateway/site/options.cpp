@@ -1,4 +1,5 @@
-// The permitted options are those of the catalogue's "options"; in addition there are those that the gateway itself reads for every line.
+// The permitted options are those of the catalogue's "options", for a twin also `specimen` and the page's freedoms, and those that the
+// gateway itself reads for every line.
 #include "gateway/site/options.hpp"
 
 #include <fmt/core.h>
@@ -6,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+
+#include "gateway/core/specimen.hpp"
 
 namespace axisgate {
 namespace {
@@ -80,6 +83,11 @@ std::string check_value(const json::object& o, std::string_view name, std::strin
 std::string check_option(const Catalogue& catalogue, std::initializer_list<OptionOf> places, std::string_view name,
                          std::string_view value) {
     if (const json::object* o = find(catalogue, places, name)) return check_value(*o, name, value);
+    if (std::ranges::find(places, OptionOf::twin) != places.end()) {
+        if (name == "specimen") return check_specimen(value);
+        if (std::ranges::find(catalogue.freedoms(), name, &Freedom::name) != catalogue.freedoms().end())
+            return check_freedom(catalogue, name, value);
+    }
     std::string known;
     for (const json::object* o : of(catalogue, places))
         known += (known.empty() ? "" : ", ") + std::string(text_of(*o, "name"));

@@ -1,0 +1,219 @@
+// On a byte line everything that the drive sends keeps its order, because it is one stream; on CAN a frame that the drive sends by itself
+// is not held back by an answer that is still prepared.
+#include "gateway/wire/specimen_twin.hpp"
+
+#include <algorithm>
+#include <deque>
+
+#include "gateway/core/specimen.hpp"
+
+namespace axisgate {
+namespace {
+
+struct Manners {
+    explicit Manners(const TwinSetup& setup)
+        : seed(setup.seed), reply(ms(setup, common_freedom::reply_ms)), spread(ms(setup, common_freedom::reply_spread_ms)),
+          late(ms(setup, common_freedom::late_ms)), chunk_pause(ms(setup, common_freedom::chunk_pause_ms)),
+          boot(ms(setup, common_freedom::boot_ms)), flash(ms(setup, common_freedom::flash_silence_ms)),
+          late_share(freedom(setup.freedoms, common_freedom::late_per_mille)),
+          doubled_share(freedom(setup.freedoms, common_freedom::doubled_per_mille)),
+          lost_share(freedom(setup.freedoms, common_freedom::lost_per_mille)),
+          noise_share(freedom(setup.freedoms, common_freedom::noise_per_mille)),
+          chunk(static_cast<std::size_t>(freedom(setup.freedoms, common_freedom::chunk_bytes))) {}
+
+    [[nodiscard]] bool none() const noexcept {
+        constexpr auto zero = Duration::zero();
+        return reply == zero && spread == zero && boot == zero && flash == zero && (late == zero || late_share == 0) &&
+               doubled_share == 0 && lost_share == 0 && noise_share == 0 && chunk == 0;
+    }
+
+    std::uint64_t seed;
+    Duration reply, spread, late, chunk_pause, boot, flash;
+    std::int64_t late_share, doubled_share, lost_share, noise_share;
+    std::size_t chunk;
+
+private:
+    static Duration ms(const TwinSetup& setup, std::string_view name) { return std::chrono::milliseconds(freedom(setup.freedoms, name)); }
+};
+
+class SpecimenTwin final : public Twin {
+public:
+    SpecimenTwin(std::unique_ptr<Twin> twin, const TwinSetup& setup) : twin_(std::move(twin)), manners_(setup) {}
+
+    void on_frame(const Frame& frame, Instant now, Out& out) override {
+        run(now, out);
+        if (boots() || now < deaf_until_) return;
+        Out own;
+        twin_->on_frame(frame, now, own);
+        answer(own, now);
+        after(now, out);
+    }
+    [[nodiscard]] Acceptance acceptance() const noexcept override { return twin_->acceptance(); }
+    void on_deadline(Instant now, Out& out) override { run(now, out); }
+    [[nodiscard]] Instant deadline() const override {
+        if (boots()) return boot_end_;
+        return std::min(twin_->deadline(), waiting_.empty() ? never : waiting_.front().at);
+    }
+
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override {
+        waiting_.clear();
+        boot_end_ = now + manners_.boot;
+        memory_ = memory;
+        run(now, out);
+    }
+    [[nodiscard]] NonVolatile non_volatile() const override { return boots() ? *memory_ : twin_->non_volatile(); }
+    [[nodiscard]] bool fit_axes(int axes, Instant now) override { return twin_->fit_axes(axes, now); }
+    [[nodiscard]] std::uint64_t non_volatile_revision() const override { return twin_->non_volatile_revision(); }
+    [[nodiscard]] std::vector<HandItem> hand() const override { return twin_->hand(); }
+    [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
+        run(now, out);
+        Out own;
+        if (boots()) finish_boot(now, own);  // the hand needs the drive's switches, which are there before its program runs
+        if (name == "power") {
+            if (as_integer(value).value_or(0) == 0) waiting_.clear();
+            else if (!powered()) deaf_until_ = silent_until_ = now + manners_.boot;
+        }
+        std::string fault = twin_->set_hand(name, value, now, own);
+        keep(own, now);
+        after(now, out);
+        return fault;
+    }
+    [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override { return twin_->mechanics(channel, now); }
+
+private:
+    /// Limit of frames that wait to be sent; further ones are lost, as in a drive whose buffer is full.
+    static constexpr std::size_t most_waiting = 1024;
+    struct Waiting {
+        Instant at;
+        Out::Tx tx;
+    };
+
+    [[nodiscard]] bool boots() const noexcept { return memory_.has_value(); }
+
+    [[nodiscard]] bool powered() const {
+        for (const HandItem& item : twin_->hand()) {
+            if (item.name == "power") return as_integer(item.value).value_or(1) != 0;
+        }
+        return true;
+    }
+
+    void finish_boot(Instant now, Out& own) {
+        const NonVolatile memory = std::move(*memory_);
+        memory_.reset();
+        twin_->power_on(memory, now, own);
+        revision_ = twin_->non_volatile_revision();
+    }
+
+    /// Everything of the drive's own that is due by `now`, each at its instant.
+    void run(Instant now, Out& out) {
+        if (boots() && boot_end_ <= now) {
+            Out own;
+            finish_boot(boot_end_, own);
+            keep(own, now);
+        }
+        if (!boots()) {
+            Out own;
+            if (twin_->deadline() <= now) twin_->on_deadline(now, own);
+            keep(own, now);
+        }
+        after(now, out);
+    }
+
+    [[nodiscard]] bool happens(std::string_view what, std::int64_t share) const {
+        return share > 0 && static_cast<std::int64_t>(specimen_draw(manners_.seed, what, messages_) % 1000) < share;
+    }
+    [[nodiscard]] Duration spread() const {
+        if (manners_.spread == Duration::zero()) return {};
+        return Duration(static_cast<std::int64_t>(specimen_draw(manners_.seed, "spread", messages_) %
+                                                  static_cast<std::uint64_t>(manners_.spread.count() + 1)));
+    }
+
+    /// Frames that the twin sent as an answer.
+    void answer(const Out& own, Instant now) {
+        for (const auto& tx : own.frames) {
+            ++messages_;
+            if (happens("lost", manners_.lost_share)) continue;
+            Instant at = std::max(now, tx.frame.at) + manners_.reply + spread();
+            if (happens("late", manners_.late_share)) at += manners_.late;
+            put(tx, at);
+            if (happens("doubled", manners_.doubled_share)) put(tx, at);
+        }
+    }
+    /// Frames that it sends by itself.
+    void keep(const Out& own, Instant now) {
+        for (const auto& tx : own.frames) {
+            ++messages_;
+            put(tx, std::max(now, tx.frame.at));
+        }
+    }
+
+    void put(const Out::Tx& tx, Instant at) {
+        at = std::max(at, silent_until_);
+        const bool bytes = tx.frame.kind == Frame::Kind::bytes;
+        if (!bytes) return insert(tx, at);
+        at = std::max(at, stream_free_);
+        if (happens("noise", manners_.noise_share)) {
+            Out::Tx wrong = tx;
+            const std::uint8_t byte = static_cast<std::uint8_t>(specimen_draw(manners_.seed, "wrong byte", messages_));
+            wrong.frame.assign({&byte, 1});
+            insert(wrong, at);
+        }
+        const std::size_t run = manners_.chunk == 0 ? Frame::capacity : manners_.chunk;
+        for (auto rest = tx.frame.data(); !rest.empty(); rest = rest.subspan(std::min(run, rest.size()))) {
+            Out::Tx part = tx;
+            part.frame.assign(rest.first(std::min(run, rest.size())));
+            insert(part, at);
+            if (rest.size() > run) at += manners_.chunk_pause;
+        }
+        stream_free_ = at;
+    }
+    void insert(const Out::Tx& tx, Instant at) {
+        if (waiting_.size() >= most_waiting) return;
+        const auto place = std::ranges::upper_bound(waiting_, at, {}, &Waiting::at);
+        waiting_.insert(place, {at, tx});
+    }
+
+    /// Sends frames that are due, after the memory was looked at.
+    void after(Instant now, Out& out) {
+        if (!boots() && twin_->non_volatile_revision() != revision_) {
+            revision_ = twin_->non_volatile_revision();
+            if (manners_.flash != Duration::zero()) {
+                silent_until_ = now + manners_.flash;
+                for (Waiting& w : waiting_)
+                    w.at = std::max(w.at, silent_until_);
+                stream_free_ = std::max(stream_free_, silent_until_);
+            }
+        }
+        while (!waiting_.empty() && waiting_.front().at <= now) {
+            Out::Tx& tx = waiting_.front().tx;
+            tx.frame.at = waiting_.front().at;
+            out.frames.push_back(tx);
+            waiting_.pop_front();
+        }
+    }
+
+    std::unique_ptr<Twin> twin_;
+    Manners manners_;
+    std::deque<Waiting> waiting_;  ///< in order of time
+    std::optional<NonVolatile> memory_;  ///< while it boots: the memory with which it will be switched on
+    Instant boot_end_{}, deaf_until_{}, silent_until_{}, stream_free_{};
+    std::uint64_t revision_ = 0, messages_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Twin> with_common_freedoms(std::unique_ptr<Twin> twin, const TwinSetup& setup) {
+    if (Manners(setup).none()) return twin;
+    return std::make_unique<SpecimenTwin>(std::move(twin), setup);
+}
+
+std::unique_ptr<Twin> make_specimen(const Family& family, const Catalogue& page, TwinSetup setup) {
+    setup.freedoms = freedoms_of(page, setup.options);
+    const auto specimen = setup.options.find("specimen");
+    setup.seed = specimen_draw(0, specimen == setup.options.end() ? "0" : specimen->second);
+    for (const char c : setup.address)
+        setup.seed = specimen_draw(setup.seed, std::string_view(&c, 1));  // drives of one line are not late at the same instants
+    return with_common_freedoms(family.make_twin(page, setup), setup);
+}
+
+}  // namespace axisgate

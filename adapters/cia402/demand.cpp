@@ -35,6 +35,12 @@ Duration SetPointStream::cycle() const noexcept { return place_ ? drive_.node.li
 
 std::optional<Job> SetPointStream::begin(Turn& t) {
     Line& line = drive_.node.line;
+    if (!drive_.known.targets[static_cast<std::size_t>(newest_->mode)]) {
+        t.out.stream_ends.push_back(
+            {drive_.id(), Reason::not_supported, "the drive accepts no PDO with such a target: it follows no streamed set-points"});
+        end();
+        return std::nullopt;
+    }
     const int nodes = static_cast<int>(line.plan.slots.size());
     int longest = canopen::longest_turns(nodes, line.plan.places);
     while (longest > 1 && longest * line.plan.beat > longest_cycle)

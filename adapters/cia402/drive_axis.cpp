@@ -46,11 +46,13 @@ Want Axis::wants(Instant now) const noexcept {
     if (node.stopped) return (job_ ? now >= job_->wait_until : !queue_.empty()) ? Want::command : Want::nothing;
     if (feedback.needs_error_code() || turns.wants(now) || rates.wants()) return Want::quick_poll;
     if (job_ ? now >= job_->wait_until : !queue_.empty() || stream.waits()) return Want::command;
+    if (known.polled && now >= polled.due()) return Want::poll;
     return !job_ && now >= feedback.check_at() ? Want::poll : Want::nothing;
 }
 Instant Axis::wish() const noexcept {
     if (const Stop* stop = stops_.first()) return stop->job ? stop->job->wait_until : never;
     if (!node.presence.is(Phase::ready)) return never;
+    if (known.polled && !node.stopped) return std::min(polled.due(), job_ ? job_->wait_until : never);
     return job_ ? job_->wait_until : node.stopped ? never : feedback.check_at();
 }
 
@@ -74,6 +76,7 @@ std::optional<Ask> Axis::next(Turn& t) {
         const bool once = std::holds_alternative<Native>(job_->command.body) && s.kind == Step::Kind::write;
         return Ask{Ask::Why::step, here(*job_), job_->command.ticket, once || job_->stream ? 0 : retries};
     }
+    if (known.polled && t.now >= polled.due() && !node.stopped) return Ask{Ask::Why::poll, polled.next(), no_ticket, 0};
     if (t.now >= feedback.check_at() && !node.stopped)
         return Ask{Ask::Why::check, {Step::Kind::read, object::error_register, {}}, no_ticket, 0};
     return std::nullopt;
@@ -115,6 +118,9 @@ Axis::News Axis::answered(const Ask& ask, const canopen::SdoEnd& end, Turn& t) {
         case Ask::Why::error:
             feedback.error_code_read(end, t);
             return News::none;
+        case Ask::Why::poll:
+            (void)polled.answered(end, t);
+            return News::none;
         case Ask::Why::turns:
             turns.answered(end.done(), t);
             return News::none;
@@ -140,6 +146,7 @@ void Axis::unanswered(const Ask& ask, Turn& t) {
     if (ask.step.kind == Step::Kind::write) rates.written(of_first_axis(ask.step.address), 0, false, t);  // the drive may have accepted it
     if (Stop* stop = stops_.first(); ask.why == Ask::Why::stop && stop) stops_.remove(stop);
     if (ask.why == Ask::Why::turns) turns.forget();
+    if (ask.why == Ask::Why::poll) polled.begin_anew();
     if (ask.why == Ask::Why::step && job_) {
         if (job_->stream) stream.end();
         job_.reset();
@@ -204,6 +211,7 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     if (sent(object::cycle)) known.interpolation.value = canopen::low_first(s.bytes);
     if (sent(object::cycle_index)) known.interpolation.index = signed_of(s.bytes);
     if (sent(object::mode)) known.ordered_mode = static_cast<int>(signed_of(s.bytes));
+    if (!known.has_mode) known.mode = known.ordered_mode;
     if (end.done() && s.kind == Step::Kind::write)
         rates.written(of_first_axis(s.address), static_cast<std::int64_t>(canopen::low_first(s.bytes)),
                       std::holds_alternative<Move>(job.command.body), t);
@@ -268,15 +276,17 @@ void Axis::saw_status(unsigned sw) noexcept {
 }
 
 /// The drive has acknowledged the order of a motion.
-void Axis::moves_now(const CommandBody& body, Turn& t) {
+void Axis::moves_now(const CommandBody& body, std::int64_t here, Turn& t) {
     if (const auto* m = std::get_if<Move>(&body)) {
         const Order order = m->kind == Move::Kind::velocity ? Order::velocity : Order::position;
         if (m->velocity && order == Order::position) known.rates[0] = *m->velocity;
         if (m->acceleration) known.rates[1] = *m->acceleration;
         if (m->deceleration) known.rates[2] = *m->deceleration;
-        feedback.ordered(order, t);
+        std::optional<std::int64_t> target;
+        if (order == Order::position) target = m->kind == Move::Kind::relative ? saturated_sum(m->target, here) : m->target;
+        feedback.ordered(order, target, t);
     }
-    if (std::holds_alternative<Home>(body)) feedback.ordered(Order::homing, t);
+    if (std::holds_alternative<Home>(body)) feedback.ordered(Order::homing, {}, t);
     if (std::holds_alternative<SetPosition>(body)) known.fb.referenced = true;
     if (const auto* home = std::get_if<Home>(&body); home && home->method != 0) known.homing_method = home->method;
 }
@@ -289,7 +299,7 @@ Axis::News Axis::finish(Job& job, Turn& t) {
         return News::none;
     }
     if (is_urgent(body)) known.order = Order::none;
-    moves_now(body, t);
+    moves_now(body, job.here, t);
     const auto* read = std::get_if<ReadParameter>(&body);
     const auto* to = std::get_if<WriteParameter>(&body);
     Value value;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "adapters/cia402/demand.hpp"
+#include "adapters/cia402/drive_polled.hpp"
 #include "adapters/cia402/drive_rates.hpp"
 #include "adapters/cia402/drive_turns.hpp"
 #include "adapters/cia402/feedback.hpp"
@@ -36,6 +37,8 @@ public:
     void first_read(const Step& step, const canopen::SdoEnd& end);
     void set_up(std::vector<Step>& steps);
     void want_pdos(std::vector<PdoSetUp::Wanted>& wanted);
+    /// The parts of the profile that the drive does not have, and their replacement; empty: none.
+    [[nodiscard]] std::string lacks() const;
     void made_ready(Instant now);
     void begin_anew() noexcept { new_ = true; }
     [[nodiscard]] bool is_new() const noexcept { return new_; }  ///< must be read and set up before commands are carried out
@@ -72,6 +75,7 @@ public:
     Node& node;
     AxisKnown known;
     Feedback feedback{*this};
+    Polled polled{*this};
     PdoTurns turns{*this};
     Rates rates{*this};
     SetPointStream stream{*this};
@@ -91,7 +95,7 @@ private:
     void drop(const Job& job) noexcept;
     [[nodiscard]] bool still_waits(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);
     News finish(Job& job, Turn& t);
-    void moves_now(const CommandBody& body, Turn& t);
+    void moves_now(const CommandBody& body, std::int64_t here, Turn& t);
     [[nodiscard]] static Step here(const Job& job);
     [[nodiscard]] Address asked(const Step& step) const;  ///< the address in the node's object dictionary
     [[nodiscard]] bool read_value(const Job& job, const ReadParameter& read, Value& value, Turn& t);

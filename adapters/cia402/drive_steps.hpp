@@ -94,7 +94,7 @@ struct Job {
 
 /// One transfer, and the axis that needs its answer.
 struct Ask {
-    enum class Why : std::uint8_t { probe, start, check, error, turns, rates, flush, step, stop } why = Why::probe;
+    enum class Why : std::uint8_t { probe, start, check, error, turns, rates, flush, step, stop, poll } why = Why::probe;
     Step step;
     Ticket ticket = no_ticket;
     int left = 0;          ///< remaining repetitions

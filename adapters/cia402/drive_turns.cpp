@@ -46,8 +46,9 @@ void PdoTurns::give_up(Reported& p, std::string_view why, Turn& t) {
 }
 
 bool PdoTurns::wants(Instant now) const noexcept {
-    if (!drive_.known.profile) return false;
-    if (act_ == Act::rest) return misplaced(reported_[status]) || misplaced(reported_[motion]);
+    const AxisKnown& known = drive_.known;
+    if (!known.profile || known.polled) return false;
+    if (act_ == Act::rest) return misplaced(reported_[status]) || (known.reports_motion() && misplaced(reported_[motion]));
     return act_ != Act::on || drive_.node.line.in_turn(reported_[at_].wanted_slot, now);
 }
 

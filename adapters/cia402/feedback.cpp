@@ -54,10 +54,11 @@ void Drive::on_heartbeat(const Frame& f, Turn& t) {
 bool Drive::on_pdo(const Frame& f, Turn& t) {
     for (const auto& place : axes) {
         Axis& a = *place;
+        const bool whole = a.listens() && !a.known.polled;
         const std::uint32_t shift = per_axis * static_cast<std::uint32_t>(a.place()) + node.number;
         const bool status = canopen::is_data(f, status_base + shift);
         if (!status && !canopen::is_data(f, motion_base + shift)) continue;
-        if (!a.listens()) {
+        if (!whole) {
             node.presence.received(t.now);
             return true;
         }
@@ -79,8 +80,13 @@ void Feedback::begin(Instant now) {
     deaf_ = 0;
     status_new_ = motion_new_ = seen_ = false;
     fallen_ = 0;
-    if (drive_.known.profile) check_at_ = now + std::max<Duration>(8 * drive_.node.line.cycle(), std::chrono::milliseconds(200));
+    place_at_ = {};
+    if (drive_.known.polled) drive_.polled.begin_anew();
+    if (drive_.known.profile) look_by(now + std::max<Duration>(8 * drive_.node.line.cycle(), std::chrono::milliseconds(200)));
 }
+/// The polls of an axis without PDOs notice by themselves that the node is silent.
+void Feedback::look_by(Instant at) noexcept { check_at_ = drive_.known.polled ? never : at; }
+void Feedback::look_soon(Instant at) noexcept { look_by(std::min(check_at_, at)); }
 void Feedback::forget() noexcept {
     check_at_ = never;
     need_code_ = false;
@@ -96,27 +102,52 @@ void Feedback::restarted() {
 
 void Feedback::on_status(std::span<const std::uint8_t> b, Turn& t) {
     AxisKnown& known = drive_.known;
-    if (b.size() != 7) {
+    if (b.size() != (known.has_mode ? 7u : 6u)) {
         ++drive_.node.line.counters.garbled;
         return;
     }
     known.fb.native_status = static_cast<std::uint32_t>(canopen::low_first(b.first(2)));
     known.fb.position = signed_of(b.subspan(2, 4));
-    known.mode = static_cast<int>(signed_of(b.subspan(6, 1)));
+    known.mode = known.has_mode ? static_cast<int>(signed_of(b.subspan(6, 1))) : known.ordered_mode;
     drive_.stream.mode_shown(known.mode, t);
     status_new_ = true;
-    if (motion_new_) learnt(t);
+    if (motion_new_ || !known.reports_motion()) learnt(t);
 }
 void Feedback::on_motion(std::span<const std::uint8_t> b, Turn& t) {
     AxisKnown& known = drive_.known;
-    if (b.size() != 8) {
+    if (b.size() != (known.has_velocity ? 4u : 0u) + (known.has_demand ? 4u : 0u)) {
         ++drive_.node.line.counters.garbled;
         return;
     }
-    known.fb.velocity = signed_of(b.first(4));
-    known.fb.position_demand = signed_of(b.subspan(4, 4));
+    if (known.has_velocity) known.fb.velocity = signed_of(b.first(4));
+    if (known.has_demand) known.fb.position_demand = signed_of(b.last(4));
     motion_new_ = true;
     if (status_new_) learnt(t);
+}
+void Feedback::on_values(std::uint32_t status_word, std::int64_t position, int mode, std::int64_t velocity, Turn& t) {
+    AxisKnown& known = drive_.known;
+    known.fb.native_status = status_word;
+    known.fb.position = position;
+    known.fb.position_demand = position;
+    known.mode = known.has_mode ? mode : known.ordered_mode;
+    if (known.has_velocity) known.fb.velocity = velocity;
+    drive_.stream.mode_shown(known.mode, t);
+    learnt(t);
+}
+void Feedback::calculate_missing(Instant now) noexcept {
+    AxisKnown& known = drive_.known;
+    if (!known.has_demand) known.fb.position_demand = known.fb.position;
+    if (known.has_velocity) return;
+    constexpr Duration shortest = std::chrono::milliseconds(15);
+    constexpr std::int64_t flicker = 2;  // increments: of an encoder at standstill
+    if (place_at_ != Instant{} && now < place_at_ + shortest) return;
+    const std::int64_t way = saturated_difference(known.fb.position, place_);
+    const bool first = place_at_ == Instant{};
+    known.fb.velocity = first || std::llabs(way) <= flicker
+                            ? 0
+                            : static_cast<std::int64_t>(static_cast<double>(way) / seconds(now - place_at_));
+    place_ = known.fb.position;
+    place_at_ = now;
 }
 void Feedback::on_status_word(std::uint32_t word, Turn& t) {
     drive_.known.fb.native_status = word;
@@ -143,9 +174,13 @@ void Feedback::error_code_read(const canopen::SdoEnd& end, Turn& t) {
     emit(t);
 }
 
-void Feedback::ordered(Order order, Turn& t) {
+void Feedback::ordered(Order order, std::optional<std::int64_t> target, Turn& t) {
     AxisFeedback& fb = drive_.known.fb;
     drive_.known.order = order;
+    target_ = target;
+    way_ = target ? saturated_difference(*target, fb.position) : 0;
+    left_ = false;
+    ordered_at_ = t.now;
     fb.target_reached = false;
     fb.moving = true;
     if (order == Order::homing) {
@@ -158,7 +193,7 @@ void Feedback::ordered(Order order, Turn& t) {
 }
 
 bool Feedback::deaf(Instant now) noexcept {
-    check_at_ = now + std::max<Duration>(4 * drive_.node.line.cycle(), std::chrono::milliseconds(100));
+    look_by(now + std::max<Duration>(4 * drive_.node.line.cycle(), std::chrono::milliseconds(100)));
     return ++deaf_ >= 3;
 }
 
@@ -168,7 +203,8 @@ void Feedback::learnt(Turn& t) {
     deaf_ = 0;
     node.presence.answered();
     ++node.line.counters.exchanges;  // a SYNC counts as the request, both PDOs as the answer
-    check_at_ = t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150));
+    look_by(t.now + std::max<Duration>(3 * node.line.cycle(), std::chrono::milliseconds(150)));
+    calculate_missing(t.now);
     seen_ = true;
     watch_power(drive_.known.fb.native_status);
     judge(t);
@@ -230,7 +266,7 @@ void Feedback::judge(Turn& t) {
         known.order = Order::none;
     }
     if (!enabled) drive_.stream.end();
-    judge_order(sw);
+    judge_order(sw, t.now);
     if (fb.power != AxisFeedback::Power::on) fb.moving = fb.velocity != 0;
     if (!fb.fault) fb.error_code = 0;
     if (fb.fault && !was_fault && fb.error_code == 0) {  // its EMCY was lost: the fault is reported when its number has been read
@@ -241,7 +277,7 @@ void Feedback::judge(Turn& t) {
 }
 
 /// The progress of the ordered motion.
-void Feedback::judge_order(unsigned sw) {
+void Feedback::judge_order(unsigned sw, Instant now) {
     AxisKnown& known = drive_.known;
     AxisFeedback& fb = known.fb;
     if (known.order == Order::homing) {
@@ -252,11 +288,20 @@ void Feedback::judge_order(unsigned sw) {
             known.order = Order::none;
         }
     }
-    // Bit 10 of the previous motion may still be set in the first status word after a new set-point; it counts from the second one on.
+    // Bit 10 of the previous motion may still be set after a new set-point.
     const bool fresh = std::exchange(fresh_, fresh_ > 0 ? fresh_ - 1 : 0) > 0;
-    fb.target_reached = known.order == Order::position && known.mode == 1 && (sw & 0x400u) && !fresh;
+    left_ = left_ || (!fresh && (sw & 0x400u) == 0);
+    fb.target_reached = known.order == Order::position && known.mode == 1 && (sw & 0x400u) && !fresh && may_have_arrived(now);
     const bool on_its_way = (known.order == Order::position && !fb.target_reached) || fb.homing;
     fb.moving = fb.velocity != 0 || on_its_way || drive_.stream.moves();
+}
+
+/// A drive that clears bit 10 late has not arrived although it says so. A short positioning may begin and end between two reports, so that
+/// nobody has seen bit 10 cleared: then the axis is near its target. If neither is true for long, the drive is believed.
+bool Feedback::may_have_arrived(Instant now) const noexcept {
+    constexpr std::int64_t near = 20;  // increments
+    if (left_ || !target_ || now >= ordered_at_ + drive_.node.start_timeout) return true;
+    return std::llabs(saturated_difference(*target_, drive_.known.fb.position)) <= std::max<std::int64_t>(near, std::llabs(way_) / 50);
 }
 
 void Feedback::emit(Turn& t) {

@@ -1,7 +1,9 @@
 // Feedback turns the PDOs of an axis into its feedback and monitors that they arrive. Feedback is reported when both PDOs of one SYNC have
-// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too.
+// arrived, so that it never mixes two instants. Values read by SDO that are newer than the last PDO are taken, too. If a drive lacks a
+// measured value, the velocity is calculated from its positions, the demand is the position, and the mode is the one that was ordered.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "adapters/cia402/drive_node.hpp"
@@ -22,6 +24,8 @@ public:
     void restarted();
     void on_status(std::span<const std::uint8_t> bytes, Turn& t);
     void on_motion(std::span<const std::uint8_t> bytes, Turn& t);
+    /// A complete set that was read by SDO. A mode or velocity that the drive does not have is not used.
+    void on_values(std::uint32_t status_word, std::int64_t position, int mode, std::int64_t velocity, Turn& t);
     void after_sync() noexcept;
     /// Read by SDO and newer than the last PDO.
     void on_status_word(std::uint32_t word, Turn& t);
@@ -31,23 +35,26 @@ public:
     /// Read by SDO, because the EMCY was lost.
     void error_code_read(const canopen::SdoEnd& end, Turn& t);
     [[nodiscard]] bool needs_error_code() const noexcept { return need_code_; }
-    /// A motion or homing was ordered: the result of the previous one must not count for it.
-    void ordered(Order order, Turn& t);
+    /// A motion or homing was ordered: the result of the previous one must not count for it. `target` is the place of a positioning.
+    void ordered(Order order, std::optional<std::int64_t> target, Turn& t);
 
     /// The deceleration in force has changed: it is reported at once if feedback was reported before.
     void tell_rates(Turn& t);
 
     // --- monitoring of the PDOs ---------------------------------------------------------------------------------------------
     [[nodiscard]] Instant check_at() const noexcept { return check_at_; }
-    void look_soon(Instant at) noexcept { check_at_ = std::min(check_at_, at); }
+    void look_soon(Instant at) noexcept;
     /// The node has answered by SDO but sends no PDOs. True: this has happened several times; the node was reset, or another master has
     /// disabled its PDOs.
     [[nodiscard]] bool deaf(Instant now) noexcept;
 
 private:
     void learnt(Turn& t);
+    void look_by(Instant at) noexcept;
+    void calculate_missing(Instant now) noexcept;
     void judge(Turn& t);
-    void judge_order(unsigned statusword);
+    void judge_order(unsigned statusword, Instant now);
+    [[nodiscard]] bool may_have_arrived(Instant now) const noexcept;
     void emit(Turn& t);
     void watch_power(unsigned statusword);
     [[nodiscard]] Course course() const noexcept;
@@ -57,7 +64,13 @@ private:
     bool power_lost_ = false;  ///< the drive has left operation by itself, and has had no voltage since
     int fallen_ = 0;           ///< reports in succession of an axis that is off under a control word that enables it
     int fresh_ = 0;            ///< status words since a new set-point that do not concern it yet
+    bool left_ = false;        ///< since the order, the drive has shown that the target is not reached
+    std::optional<std::int64_t> target_{};  ///< of the positioning
+    std::int64_t way_ = 0;                  ///< from its begin to its target
+    Instant ordered_at_{};
     Instant check_at_ = never;
+    Instant place_at_{};     ///< of the position from which the velocity is calculated
+    std::int64_t place_ = 0;
     int deaf_ = 0;  ///< SDO answers in succession without a PDO between them
 };
 

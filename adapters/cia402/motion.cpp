@@ -14,6 +14,7 @@ bool fits_i32(std::int64_t v) { return v >= INT32_MIN && v <= INT32_MAX; }
 void enter_mode(const Node& node, const AxisKnown& known, Job& job, int mode) {
     if (known.mode == mode && known.ordered_mode == mode) return;
     job.write(object::mode, mode, 1);
+    if (!known.has_mode) return;
     job.await(Step::Awaits::mode, object::mode_shown, 0xFF, static_cast<std::uint8_t>(mode), node.mode_timeout);
 }
 /// Resets bit 4 of the previous motion; a halt remains in force until the new target is sent.

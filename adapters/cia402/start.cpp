@@ -170,14 +170,16 @@ void Start::done(Turn& t) {
     // The drive is used all the same: the plant knows whether another model of the same manufacturer is safe; the gateway does not.
     if (const std::string fault = differs(expected_, reported_); !fault.empty())
         drive_.notice(Severity::warning, "identity", 0, fmt::format("{}: {}", node.setup.name, fault), t);
+    for (const auto& a : drive_.axes)
+        if (const std::string text = a->lacks(); a->is_new() && !text.empty())
+            drive_.notice(Severity::info, "drive_lacks", 0, fmt::format("{}: {}", node.setup.name, text), t);
     drive_.made_ready(t);
 }
 
 void Start::answered(const canopen::SdoEnd& end, Turn& t) {
     if (at_ >= steps_.size()) return;
     if (sets_pdos()) {
-        if (!pdos_.answered(end, t)) cannot_be_set_up(end, t);
-        return;
+        return pdos_.answered(end, t);
     }
     const auto [step, axis, pdos] = steps_[at_];
     if (!end.done() && !step.optional) return cannot_be_set_up(end, t);
@@ -217,7 +219,8 @@ void Start::identity_read(Address address, const canopen::SdoEnd& end) {
 
 void Axis::first_reads(std::vector<Step>& steps) const {
     for (const Address a :
-         {object::statusword, object::velocity, object::mode, object::modes, object::controlword, object::homing_method,
+         {object::statusword, object::velocity, object::demand, object::mode_shown, object::mode, object::modes, object::controlword,
+          object::homing_method,
           object::profile_velocity, object::profile_acceleration, object::profile_deceleration, object::quick_stop_deceleration,
           object::error_code, object::quick_stop_option, object::cycle, object::cycle_index})
         steps.push_back({Step::Kind::read, a, {}, 0, 0, true});
@@ -233,8 +236,13 @@ void Axis::first_read(const Step& step, const canopen::SdoEnd& end) {
     if (a == object::statusword) known.profile = end.done() || !node.dialect.profile_optional;
     if (a == object::statusword && end.done()) known.fb.native_status = static_cast<std::uint32_t>(raw);
     if (a == object::velocity && end.done()) known.fb.velocity = signed_of(end.data);
+    if (a == object::velocity) known.has_velocity = end.done();
+    if (a == object::demand) known.has_demand = end.done();
+    if (a == object::mode_shown) known.has_mode = end.done();
     if (a == object::mode && end.done()) known.ordered_mode = static_cast<int>(signed_of(end.data));
-    if (a == object::modes) known.modes = static_cast<std::uint32_t>(raw);
+    // A drive that does not say which modes it has may have those of the profile: a mode that it lacks is refused when it is ordered.
+    constexpr std::uint32_t usual_modes = 0x3A5;  // 1, 3, 6, 8, 9, 10
+    if (a == object::modes) known.modes = end.done() ? static_cast<std::uint32_t>(raw) : usual_modes;
     if (a == object::controlword) known.cw = static_cast<std::uint16_t>(raw);
     if (a == object::homing_method) known.homing_method = signed_of(end.data);
     for (const auto& [place, i] :
@@ -262,16 +270,33 @@ void Axis::set_up(std::vector<Step>& steps) {
 
 void Axis::want_pdos(std::vector<PdoSetUp::Wanted>& wanted) {
     if (!known.profile) return;
-    for (auto p : {status_pdo(node.number, place_), motion_pdo(node.number, place_)}) {
+    known.polled = false;
+    known.targets.fill(true);
+    std::vector<canopen::Pdo> reports{status_pdo(node.number, place_, known.has_mode)};
+    if (known.reports_motion()) reports.push_back(motion_pdo(node.number, place_, known.has_velocity, known.has_demand));
+    for (canopen::Pdo& p : reports) {
         p.settings.transmission = static_cast<std::uint8_t>(node.line.plan.turns);
-        wanted.push_back({std::move(p), false});
+        wanted.push_back({std::move(p), this});
     }
     if (place_ > 0) return;  // the receive PDOs of the connection set belong to the first axis
     for (const auto kind : {SetPoint::Mode::position, SetPoint::Mode::velocity, SetPoint::Mode::torque}) {
         const int mode = known.stream_mode(kind);
         if (known.offers(mode))
-            wanted.push_back({target_pdo(node.number, static_cast<std::uint16_t>(1 + static_cast<int>(kind)), mode == 7), true});
+            wanted.push_back({target_pdo(node.number, static_cast<std::uint16_t>(1 + static_cast<int>(kind)), mode == 7), this, kind});
     }
+}
+
+std::string Axis::lacks() const {
+    if (!known.profile) return {};
+    std::string text;
+    const auto add = [&](bool missing, std::string_view said) {
+        if (missing) text += fmt::format("{}{}", text.empty() ? "" : "; ", said);
+    };
+    add(known.polled, "its PDOs cannot be set up: its values are read by SDO, and are older than those of other drives");
+    add(!known.has_velocity, "it has no actual velocity (606Ch): the velocity is calculated from its positions");
+    add(!known.has_demand, "it has no position demand (6062h): the actual position is shown instead");
+    add(!known.has_mode, "it does not show its mode (6061h): the mode that was ordered is shown");
+    return text;
 }
 
 void Axis::made_ready(Instant now) {

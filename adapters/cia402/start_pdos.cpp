@@ -9,11 +9,16 @@
 
 namespace axisgate::cia402_drive {
 namespace {
-constexpr Duration between_looks = std::chrono::milliseconds(100);
 constexpr std::uint32_t out_of_use = 0x80000000u;
-constexpr std::array picture{object::statusword, object::position, object::mode_shown, object::velocity, object::demand};
-constexpr std::array<std::size_t, 5> sizes{2, 4, 1, 4, 4};
+
+/// The refusal does not depend on the state of the node: there is no such PDO, or it is fixed.
+bool is_final(canopen::Abort abort) noexcept {
+    using canopen::Abort;
+    return abort == Abort::no_object || abort == Abort::no_subindex || abort == Abort::not_mappable;
+}
 }  // namespace
+
+Instant PdoSetUp::look_at() const noexcept { return watches_ ? drive_.axes[axis_]->polled.due() : never; }
 
 void PdoSetUp::begin(std::vector<Wanted> wanted) {
     wanted_ = std::move(wanted);
@@ -26,6 +31,8 @@ void PdoSetUp::begin_pdo() {
     writes_now_ = false;
     written_ = 0;
     careful_ = moves();
+    while (!over() && wanted_[at_].axis->known.polled && !wanted_[at_].target)
+        ++at_;
     if (over()) return;
     reader_.emplace(wanted_[at_].pdo.direction, wanted_[at_].pdo.number);
 }
@@ -35,11 +42,10 @@ void PdoSetUp::next_pdo() {
 }
 
 Step PdoSetUp::next() {
+    if (watches_) return drive_.axes[axis_]->polled.next();
     Step s;
     s.literal = true;
-    if (watches_) {
-        s.address = of_axis(picture[seen_], drive_.axes[axis_]->place());
-    } else if (writes_now_) {
+    if (writes_now_) {
         s = {Step::Kind::write, writes_[written_].address, writes_[written_].bytes};
         s.literal = true;
     } else {
@@ -48,13 +54,12 @@ Step PdoSetUp::next() {
     return s;
 }
 
-bool PdoSetUp::answered(const canopen::SdoEnd& end, Turn& t) {
-    if (over()) return true;
-    if (watches_) return watched(end, t), true;
-    if (!writes_now_) return read(end), true;
+void PdoSetUp::answered(const canopen::SdoEnd& end, Turn& t) {
+    if (over()) return;
+    if (watches_) return watched(end, t);
+    if (!writes_now_) return read(end);
     if (!end.done()) return refused(end, t);
     if (++written_ >= writes_.size()) next_pdo();
-    return true;
 }
 
 void PdoSetUp::read(const canopen::SdoEnd& end) {
@@ -87,21 +92,27 @@ void PdoSetUp::plan_writes(std::uint32_t id_word) {
         writes_.insert(writes_.begin(), {writes_.front().address, bytes_of(std::int64_t{id_word | out_of_use}, 4)});
 }
 
-bool PdoSetUp::refused(const canopen::SdoEnd& end, Turn& t) {
-    const bool optional = wanted_[at_].optional;
-    if (tried_ || (optional && end.abort != canopen::Abort::device_state)) {
-        if (optional) next_pdo();
-        return optional;
-    }
-    if (!moves()) return pre_operational(t), true;
+void PdoSetUp::refused(const canopen::SdoEnd& end, Turn& t) {
+    const bool target = wanted_[at_].target.has_value();
+    if (tried_ || is_final(end.abort) || (target && end.abort != canopen::Abort::device_state)) return go_without();
+    if (!moves()) return pre_operational(t);
     watches_ = true;
-    axis_ = seen_ = 0;
-    picture_.clear();
-    look_at_ = t.now;
+    axis_ = 0;
+    for (const auto& a : drive_.axes)
+        a->polled.begin_anew();
     const std::string text = "it takes its PDOs in pre-operational alone, and moves: it is asked for its state until it stands";
     drive_.notice(Severity::warning, "pdo_setup", 0, fmt::format("{}: {}", drive_.node.setup.name, text), t);
     drive_.node.presence.report(text, t.out);
-    return true;
+}
+
+/// The axis is used without this PDO.
+void PdoSetUp::go_without() {
+    AxisKnown& known = wanted_[at_].axis->known;
+    if (const auto target = wanted_[at_].target)
+        known.targets[static_cast<std::size_t>(*target)] = false;
+    else
+        known.polled = true;
+    next_pdo();
 }
 
 void PdoSetUp::pre_operational(Turn& t) {
@@ -113,21 +124,8 @@ void PdoSetUp::pre_operational(Turn& t) {
 }
 
 void PdoSetUp::watched(const canopen::SdoEnd& end, Turn& t) {
-    std::vector<std::uint8_t> bytes = end.done() ? end.data : std::vector<std::uint8_t>{};
-    bytes.resize(sizes[seen_]);
-    picture_.insert(picture_.end(), bytes.begin(), bytes.end());
-    if (++seen_ < picture.size()) return;
-    seen_ = 0;
-    Axis& a = *drive_.axes[axis_];
-    const std::span<const std::uint8_t> all(picture_);
-    if (a.known.profile) {
-        a.feedback.on_status(all.first(7), t);
-        a.feedback.on_motion(all.subspan(7), t);
-    }
-    picture_.clear();
-    if (++axis_ < drive_.axes.size()) return;
+    if (!drive_.axes[axis_]->polled.answered(end, t) || ++axis_ < drive_.axes.size()) return;
     axis_ = 0;
-    look_at_ = t.now + between_looks;
     if (!moves()) pre_operational(t);
 }
 

@@ -1,6 +1,7 @@
 // PdoSetUp writes the gateway's PDOs into a node, also if the node accepts a mapping in pre-operational only (NMT). While an axis of the
 // node moves, its PDOs are read first and left as they are if they are correct; if the node refuses a change, the set-up waits until the
-// axis stands still. A node is never sent to pre-operational while one of its axes moves.
+// axis stands still. A node is never sent to pre-operational while one of its axes moves. If the node refuses the PDOs of an axis at all,
+// the values of this axis are read by SDO.
 #pragma once
 
 #include <optional>
@@ -13,6 +14,7 @@
 #include "gateway/protocols/canopen/sdo_client.hpp"
 
 namespace axisgate::cia402_drive {
+class Axis;
 class Drive;
 
 class PdoSetUp : public drive::Part<Drive> {
@@ -20,23 +22,24 @@ public:
     using Part::Part;
     struct Wanted {
         canopen::Pdo pdo;
-        bool optional;  ///< a node that refuses it is used without it
+        Axis* axis;
+        std::optional<SetPoint::Mode> target{};  ///< it carries targets: a node that refuses it is used without it
     };
 
     void begin(std::vector<Wanted> wanted);
     [[nodiscard]] bool over() const noexcept { return at_ >= wanted_.size(); }
     /// The next read of a moving node; `never`: it does not wait.
-    [[nodiscard]] Instant look_at() const noexcept { return watches_ && seen_ == 0 ? look_at_ : never; }
+    [[nodiscard]] Instant look_at() const noexcept;
     [[nodiscard]] Step next();
-    /// False: the node cannot be set up.
-    [[nodiscard]] bool answered(const canopen::SdoEnd& end, Turn& t);
+    void answered(const canopen::SdoEnd& end, Turn& t);
 
 private:
     void begin_pdo();
     void next_pdo();
     void read(const canopen::SdoEnd& end);
     void plan_writes(std::uint32_t id_word);
-    [[nodiscard]] bool refused(const canopen::SdoEnd& end, Turn& t);
+    void refused(const canopen::SdoEnd& end, Turn& t);
+    void go_without();
     void pre_operational(Turn& t);
     void watched(const canopen::SdoEnd& end, Turn& t);
     [[nodiscard]] bool moves() const noexcept;
@@ -51,9 +54,7 @@ private:
     bool writes_now_ = false;
     // the node moves and refuses changes of its PDOs
     bool watches_ = false;
-    Instant look_at_{};
-    std::size_t axis_ = 0, seen_ = 0;
-    std::vector<std::uint8_t> picture_;
+    std::size_t axis_ = 0;
 };
 
 }  // namespace axisgate::cia402_drive

@@ -26,15 +26,18 @@ canopen::Pdo pdo(canopen::PdoDirection direction, std::uint16_t number, std::uin
 }
 }  // namespace
 
-canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis) {
+canopen::Pdo status_pdo(std::uint8_t node, std::size_t axis, bool mode) {
+    canopen::PdoMapping mapping{{of_axis(object::statusword, axis), 16}, {of_axis(object::position, axis), 32}};
+    if (mode) mapping.push_back({of_axis(object::mode_shown, axis), 8});
     return pdo(canopen::PdoDirection::transmit, static_cast<std::uint16_t>(1 + 2 * axis),
-               status_base + per_axis * static_cast<std::uint32_t>(axis) + node,
-               {{of_axis({0x6041, 0}, axis), 16}, {of_axis({0x6064, 0}, axis), 32}, {of_axis({0x6061, 0}, axis), 8}});
+               status_base + per_axis * static_cast<std::uint32_t>(axis) + node, std::move(mapping));
 }
-canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis) {
+canopen::Pdo motion_pdo(std::uint8_t node, std::size_t axis, bool velocity, bool demand) {
+    canopen::PdoMapping mapping;
+    if (velocity) mapping.push_back({of_axis(object::velocity, axis), 32});
+    if (demand) mapping.push_back({of_axis(object::demand, axis), 32});
     return pdo(canopen::PdoDirection::transmit, static_cast<std::uint16_t>(2 + 2 * axis),
-               motion_base + per_axis * static_cast<std::uint32_t>(axis) + node,
-               {{of_axis({0x606C, 0}, axis), 32}, {of_axis({0x6062, 0}, axis), 32}});
+               motion_base + per_axis * static_cast<std::uint32_t>(axis) + node, std::move(mapping));
 }
 canopen::Pdo target_pdo(std::uint8_t node, std::uint16_t number, bool interpolated) {
     const canopen::MappedEntry targets[] = {

@@ -327,6 +327,7 @@ function(axisgate_test_suites)
     axisgate_test_program(test_${f}_twin adapters/${f}/tests ONLY twin*.cpp LINKS axisgate_${f}_twin axisgate::wire)
   endforeach()
   axisgate_test_program(test_conformance tests/conformance DOORS LINKS axisgate::families_tested axisgate::engine axisgate::registers axisgate::door_enip axisgate::services axisgate_assets_tested)
+  target_sources(test_conformance PRIVATE tests/world/specimen_day.cpp)  # the laws that the world asks of drawn specimens, too
   axisgate_test_program(test_world tests/world DOORS LINKS axisgate::families_tested axisgate::engine axisgate::services axisgate_assets_tested)
 endfunction()
 

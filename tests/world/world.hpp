@@ -17,6 +17,7 @@
 #include "gateway/doors/http/words.hpp"
 #include "gateway/engine/engine.hpp"
 #include "gateway/wire/fault_line.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 #include "gateway/wire/twin_bus.hpp"
 #include "gateway/wire/twin_bus_end.hpp"
 
@@ -69,12 +70,14 @@ enum class Wire : std::uint8_t { can, serial, network };
 /// One family on one of its wires: the subject of the laws.
 struct Subject : FamilyEntry {
     Wire wire = Wire::serial;
-    std::string variant{};  ///< not empty: a family that was changed for the test, with this word
+    std::string variant{};   ///< not empty: a family that was changed for the test, with this word
+    std::string specimen{};  ///< of its twins; empty: the drive as its manual shows it
 
     [[nodiscard]] LineKind kind() const { return wire == Wire::can ? LineKind::can : LineKind::bytes; }
     [[nodiscard]] std::string text() const {
         static constexpr const char* wires[] = {"can", "serial", "network"};
-        return std::string(family->name) + "_" + wires[static_cast<int>(wire)] + (variant.empty() ? "" : "_" + variant);
+        return std::string(family->name) + "_" + wires[static_cast<int>(wire)] + (variant.empty() ? "" : "_" + variant) +
+               (specimen.empty() ? "" : "_" + specimen);
     }
     /// URI of a cable of this wire, with real drives behind it (World::plug_in), or none.
     [[nodiscard]] std::string cable() const {
@@ -194,9 +197,14 @@ public:
     }
     /// Embedded drives on the subject's wire.
     Site twins(const Subject& s, std::size_t drives = 1, int channels = 1) {
-        if (s.wire == Wire::network) return make_site(s, s.cable(), drives, "twin", channels);
-        if (s.wire == Wire::serial && s.family->uses_can) return make_site(s, "twin", drives, "auto", channels, {{"kind", "bytes"}});
-        return make_site(s, "twin", drives, "auto", channels);
+        Site site = s.wire == Wire::network ? make_site(s, s.cable(), drives, "twin", channels)
+                    : s.wire == Wire::serial && s.family->uses_can
+                        ? make_site(s, "twin", drives, "auto", channels, {{"kind", "bytes"}})
+                        : make_site(s, "twin", drives, "auto", channels);
+        for (DriveSpec& d : site.drives) {
+            if (!s.specimen.empty()) d.options["specimen"] = s.specimen;
+        }
+        return site;
     }
     std::shared_ptr<const SiteState> apply(Site site, SiteMemory memory = {}) {
         auto s = engine.apply_site(std::move(site), std::move(memory), ++revision, now);
@@ -211,12 +219,13 @@ public:
     }
     /// Puts a drive behind a simulated cable.
     void plug_in(const std::string& line, DriveId key, const FamilyEntry& e, const std::string& address, LineKind kind,
-                 const NonVolatile& memory = {}, int channels = 1) {
+                 const NonVolatile& memory = {}, int channels = 1, const std::string& specimen = {}) {
         TwinSetup t;
         t.address = address;
         t.kind = kind;
         t.axes = channels;
-        buses.at(line)->add(key, e.family->make_twin(*e.catalogue, t), memory, now);
+        if (!specimen.empty()) t.options["specimen"] = specimen;
+        buses.at(line)->add(key, make_specimen(*e.family, *e.catalogue, t), memory, now);
     }
     Ticket command(AxisId axis, CommandBody body, bool until_done = false) {
         Command c;

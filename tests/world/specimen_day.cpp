@@ -1,0 +1,226 @@
+#include "tests/world/specimen_day.hpp"
+
+namespace axisgate::test {
+using namespace std::chrono_literals;
+namespace {
+std::string in_short(const Result* r) {
+    return r ? std::string(name_of(r->outcome)) + " " + std::string(name_of(r->reason)) + ": " + r->text : "no result";
+}
+}  // namespace
+
+TwinMechanics SpecimenDay::shaft() const {
+    const Twin* twin = behind_a_cable ? plant->buses.at("line")->twin(DriveId{900}) : world->engine.twin(site->drive_ids.at(0));
+    return twin->mechanics(1, world->now);
+}
+
+Duration SpecimenDay::slowness() const {
+    std::int64_t ms = 0;
+    for (const Freedom& f : e.catalogue->freedoms()) {
+        if (f.unit == "ms") ms += freedom(values, f.name, f.fallback);
+    }
+    return std::chrono::milliseconds(ms);
+}
+
+double SpecimenDay::looseness() const {
+    double all = 20;
+    for (const Freedom& f : e.catalogue->freedoms()) {
+        if (f.unit == "increments") all += static_cast<double>(std::llabs(freedom(values, f.name, f.fallback)));
+    }
+    return all;
+}
+
+std::string SpecimenDay::in_words() const {
+    std::string all = "\n  the drive:";
+    for (const std::string& line : specimen_in_words(*e.catalogue, values))
+        all += "\n    " + line;
+    all += "\n  told:";
+    for (std::size_t i = world->events.size() > 12 ? world->events.size() - 12 : 0; i < world->events.size(); ++i)
+        all += "\n    " + world->events[i].kind + ": " + world->events[i].text;
+    return all;
+}
+
+const Result* SpecimenDay::ask(CommandBody body, bool until_done, Duration limit) {
+    return world->wait(world->command(axis, std::move(body), until_done), limit);
+}
+
+Move SpecimenDay::to(std::int64_t target, Move::Kind kind) {
+    Move m;
+    m.kind = kind;
+    m.target = target;
+    if (kind != Move::Kind::velocity) m.velocity = 4000;
+    m.acceleration = m.deceleration = 20'000;
+    return m;
+}
+
+bool SpecimenDay::found() { return world->run_until_true([&] { return online(); }, 60s + 4 * slowness()); }
+
+/// Returns true if the axis came up.
+bool SpecimenDay::served() {
+    site = world->apply(world->twins(e));
+    axis = site->axis_ids.at(0);
+    const bool up = found();
+    EXPECT_TRUE(up) << "the drive is not found" << in_words();
+    world->run_for(1s + slowness());
+    return up;
+}
+
+/// Returns true if it has power.
+bool SpecimenDay::powered() {
+    if (!served()) return false;
+    const Result* r = ask(Enable{}, true, 60s);
+    EXPECT_TRUE(r) << "an order has an answer" << in_words();
+    if (!r) return false;
+    EXPECT_TRUE(good(*r)) << "it is not enabled: " << in_short(r) << in_words();
+    return good(*r);
+}
+
+bool SpecimenDay::rests(Duration limit) {
+    return world->run_until_true([&] { return speed() < 1 && !moving(); }, limit);
+}
+
+/// An answer that says no has a text; nothing moves then, and nothing is said to move.
+void SpecimenDay::told_as_not_done(const Result& r) {
+    EXPECT_FALSE(r.text.empty()) << in_short(&r);
+    EXPECT_TRUE(rests(10s + slowness())) << "it was answered with " << in_short(&r) << ", and it moves at " << speed()
+                                         << (moving() ? ", and is said to move" : "") << in_words();
+}
+
+void SpecimenDay::is_found_and_stays_served() {
+    if (!served()) return;
+    for (int i = 0; i < 100; ++i) {
+        world->run_for(100ms);
+        ASSERT_TRUE(online()) << "it was lost after " << i << " tenths of a second at rest" << in_words();
+    }
+    for (const Event& v : world->events)
+        EXPECT_EQ(v.text.find("two "), std::string::npos) << "a late or doubled answer is not another drive: " << v.text << in_words();
+}
+
+void SpecimenDay::a_motion_is_made_or_told_as_not_made() {
+    if (!powered()) return;
+    for (const int way : {20'000, -15'000}) {
+        const double begin = shaft().position;
+        const Result* r = ask(to(way, Move::Kind::relative), true, 90s + slowness());
+        ASSERT_TRUE(r) << "it has an answer" << in_words();
+        if (!good(*r)) {
+            told_as_not_done(*r);
+            continue;
+        }
+        EXPECT_TRUE(rests(2s + slowness())) << "it was done, and is said to move" << in_words();
+        EXPECT_NEAR(shaft().position - begin, way, 2 * looseness()) << "done, but not made" << in_words();
+    }
+}
+
+void SpecimenDay::an_accepted_motion_begins_within_its_bound() {
+    if (!powered()) return;
+    const Result* r = ask(to(40'000, Move::Kind::relative), false, 60s);
+    ASSERT_TRUE(r) << in_words();
+    if (!good(*r)) return told_as_not_done(*r);
+    EXPECT_TRUE(world->run_until_true([&] { return speed() > 400; }, 2s + slowness())) << "accepted, and it does not begin" << in_words();
+    EXPECT_TRUE(rests(60s)) << "nothing moves for ever" << in_words();
+}
+
+void SpecimenDay::a_stop_ends_each_motion() {
+    if (!powered()) return;
+    int turned = 0;
+    for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}, CommandBody{Disable{}}}) {
+        const Result* on = ask(Enable{}, true, 60s);
+        ASSERT_TRUE(on && good(*on)) << name_of(stop) << ": " << in_short(on) << in_words();
+        const Result* r = ask(to(4000, Move::Kind::velocity), false, 30s);
+        ASSERT_TRUE(r) << in_words();
+        if (!good(*r)) r = ask(to(200'000, Move::Kind::relative), false, 30s);
+        ASSERT_TRUE(r) << in_words();
+        if (!good(*r)) {
+            told_as_not_done(*r);
+            continue;
+        }
+        ASSERT_TRUE(world->run_until_true([&] { return speed() > 1000; }, 5s + slowness())) << in_words();
+        ++turned;
+        const Result* stopped = ask(stop, false, 10s + slowness());
+        ASSERT_TRUE(stopped) << name_of(stop) << " has no answer" << in_words();
+        EXPECT_TRUE(good(*stopped)) << name_of(stop) << ": " << in_short(stopped) << in_words();
+        EXPECT_TRUE(rests(5s + slowness())) << name_of(stop) << ": it goes on at " << speed() << in_words();
+    }
+    EXPECT_GT(turned, 0) << "nothing was tried" << in_words();
+}
+
+void SpecimenDay::a_stream_begins_where_the_axis_is() {
+    if (!e.catalogue->offers_mode(cia402::mode_of(SetPoint::Mode::position))) return;  // StreamLaws: it says so
+    if (!powered()) return;
+    const Result* r = ask(to(8'000, Move::Kind::relative), true, 90s);
+    ASSERT_TRUE(r) << in_words();
+    const std::int64_t begin = now().position;
+    double fastest = 0, last = shaft().position;
+    const Origin plc{enip::clients, std::make_shared<const std::string>("192.0.2.9:50000"), {}};
+    constexpr Duration cycle = 10ms;
+    const std::int64_t cycles = 500 + slowness() / cycle;
+    for (std::int64_t i = 1; i <= cycles; ++i) {
+        SetPoint p;
+        p.axis = axis;
+        p.mode = SetPoint::Mode::position;
+        p.value = begin + std::min<std::int64_t>(i * 20, 10'000);  // 2000 increments/s
+        p.velocity = 4000;
+        p.acceleration = p.deceleration = 20'000;
+        p.good_for = 200ms;
+        p.at = world->now;
+        p.origin = plc;
+        (void)world->engine.on_set_point(p, world->now);
+        world->run_for(cycle);
+        const double place = shaft().position;
+        fastest = std::max(fastest, std::fabs(place - last) / seconds(cycle));
+        last = place;
+    }
+    EXPECT_LT(fastest, 6500) << "it jumps" << in_words();
+    if (now().set_points == 0) EXPECT_NE(now().set_point_refusal, Reason::none) << "not followed, and nobody says why" << in_words();
+    EXPECT_TRUE(rests(10s + slowness())) << in_words();
+}
+
+/// A gateway that starts with the drives behind the cable.
+void SpecimenDay::gateway(std::uint64_t seed, Duration after) {
+    const Instant at = world->now + after;
+    world = std::make_unique<World>(seed, plant);
+    world->now = at;
+    behind_a_cable = true;
+    site = world->apply(world->make_site(e, e.cable(), 1, "device"));
+    axis = site->axis_ids.at(0);
+}
+
+void SpecimenDay::stops_and_serves() {
+    const Result* stopped = ask(QuickStop{}, false, 10s + slowness());
+    ASSERT_TRUE(stopped) << "a stop has an answer" << in_words();
+    EXPECT_TRUE(good(*stopped)) << in_short(stopped) << in_words();
+    EXPECT_TRUE(world->run_until_true([&] { return speed() < 1; }, 5s + slowness())) << in_words();
+    world->run_for(1s + slowness());
+    (void)ask(ResetFault{}, true, 20s);
+    const Result* on = ask(Enable{}, true, 60s);
+    ASSERT_TRUE(on) << in_words();
+    EXPECT_TRUE(good(*on)) << "the next gateway cannot enable it: " << in_short(on) << in_words();
+}
+
+void SpecimenDay::the_next_gateway_finds_it() {
+    gateway(1, 1s);
+    world->plug_in("line", DriveId{900}, e, addresses(e, 1).at(0), e.kind(), {}, 1, e.specimen);
+    ASSERT_TRUE(found()) << in_words();
+    world->run_for(1s + slowness());
+    for (const std::string_view state : {"at rest", "enabled", "moving"}) {
+        SCOPED_TRACE(state);
+        if (state != "at rest") {
+            const Result* on = ask(Enable{}, true, 60s);
+            ASSERT_TRUE(on && good(*on)) << in_short(on) << in_words();
+        }
+        if (state == "moving") {
+            const Result* r = ask(to(200'000, Move::Kind::relative), false, 30s);
+            ASSERT_TRUE(r) << in_words();
+            if (!good(*r)) return told_as_not_done(*r);
+            ASSERT_TRUE(world->run_until_true([&] { return speed() > 1000; }, 5s + slowness())) << in_words();
+        }
+        gateway(2, 300ms);
+        ASSERT_TRUE(found()) << "the next gateway does not find it" << in_words();
+        stops_and_serves();
+        if (testing::Test::HasFatalFailure()) return;
+        const Result* off = ask(Disable{}, false, 20s);
+        ASSERT_TRUE(off && good(*off)) << in_short(off) << in_words();
+        world->run_for(1s + slowness());
+    }
+}
+
+}  // namespace axisgate::test

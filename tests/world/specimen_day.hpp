@@ -1,0 +1,60 @@
+// The laws that every specimen of every family keeps, as functions of one subject: a drive that is late, that lacks a part or is weak is
+// served with what it has, what it lacks is said, and what was accepted is made or is told as not made. The judge is the twin's mechanics.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "gateway/core/specimen.hpp"
+#include "gateway/doors/enip/words.hpp"
+#include "tests/world/world.hpp"
+
+namespace axisgate::test {
+
+class SpecimenDay {
+public:
+    explicit SpecimenDay(const Subject& subject) : e(subject) {}
+
+    void is_found_and_stays_served();
+    void a_motion_is_made_or_told_as_not_made();
+    void an_accepted_motion_begins_within_its_bound();
+    void a_stop_ends_each_motion();
+    void a_stream_begins_where_the_axis_is();
+    void the_next_gateway_finds_it();
+
+private:
+    Subject e;
+    FreedomValues values = specimen_values(*e.catalogue, e.specimen);
+    std::shared_ptr<Plant> plant = std::make_shared<Plant>();
+    std::unique_ptr<World> world = std::make_unique<World>(1, plant);
+    std::shared_ptr<const SiteState> site;
+    AxisId axis = no_axis;
+    bool behind_a_cable = false;
+
+    [[nodiscard]] AxisPicture now() const { return world->picture(axis); }
+    [[nodiscard]] bool online() const { return (now().flags & flag_online) && now().ever_seen; }
+    [[nodiscard]] bool moving() const { return (now().flags & flag_moving) != 0; }
+    [[nodiscard]] TwinMechanics shaft() const;
+    [[nodiscard]] double speed() const { return std::fabs(shaft().velocity); }
+    /// The longest time by which a drive of this specimen may be late: all of its delays together.
+    [[nodiscard]] Duration slowness() const;
+    /// How far a shaft of this specimen may be from its target at rest, increments.
+    [[nodiscard]] double looseness() const;
+    /// The drive and the last events, for people.
+    [[nodiscard]] std::string in_words() const;
+
+    void gateway(std::uint64_t seed, Duration after);
+    [[nodiscard]] bool found();
+    [[nodiscard]] bool served();
+    [[nodiscard]] bool powered();
+    [[nodiscard]] bool rests(Duration limit);
+    const Result* ask(CommandBody body, bool until_done, Duration limit);
+    [[nodiscard]] static Move to(std::int64_t target, Move::Kind kind);
+    void told_as_not_done(const Result& r);
+    void stops_and_serves();
+};
+
+}  // namespace axisgate::test

@@ -1,0 +1,49 @@
+// Specimens drawn anew in each run, for every family on each of its wires. A failure prints the seed; AXISGATE_SEED=17 plays that drive,
+// AXISGATE_SPECIMENS=100 draws so many of each family and wire.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "tests/world/specimen_day.hpp"
+
+namespace axisgate::test {
+namespace {
+
+std::uint32_t number_in(const char* variable, std::uint32_t fallback) {
+    const char* text = std::getenv(variable);
+    return text ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10)) : fallback;
+}
+
+class DrawnSpecimens : public testing::TestWithParam<Subject> {};
+
+TEST_P(DrawnSpecimens, LawsHold) {
+    const std::uint32_t only = number_in("AXISGATE_SEED", 0), times = only != 0 ? 1 : number_in("AXISGATE_SPECIMENS", 2);
+    std::random_device chance;
+    for (std::uint32_t i = 0; i < times; ++i) {
+        Subject subject = GetParam();
+        subject.specimen = std::to_string(only != 0 ? only : 1 + chance() % largest_specimen);
+        SCOPED_TRACE("AXISGATE_SEED=" + subject.specimen + " on " + subject.text());
+        SpecimenDay(subject).is_found_and_stays_served();
+        SpecimenDay(subject).a_motion_is_made_or_told_as_not_made();
+        SpecimenDay(subject).an_accepted_motion_begins_within_its_bound();
+        SpecimenDay(subject).a_stop_ends_each_motion();
+        SpecimenDay(subject).a_stream_begins_where_the_axis_is();
+        SpecimenDay(subject).the_next_gateway_finds_it();
+        if (HasFailure()) return;
+    }
+}
+
+std::vector<Subject> with_freedoms() {
+    std::vector<Subject> out;
+    for (const Subject& s : subjects()) {
+        if (!s.catalogue->freedoms().empty()) out.push_back(s);
+    }
+    return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, DrawnSpecimens, testing::ValuesIn(with_freedoms()), name_of_subject);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(DrawnSpecimens);
+
+}  // namespace
+}  // namespace axisgate::test

@@ -16,6 +16,7 @@ import tempfile
 import alone
 import classes
 import functions
+import matrix
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # arpa/inet.h is none: it makes addresses of texts, and opens nothing.
@@ -145,6 +146,7 @@ RULES = {
     "families": "a family is a folder and a page of data",
     "roles": "a family's files are called by their roles",
     "errata": "a family lists the errata that it speaks of",
+    "matrix": "a family tells what its twin does of each statement of the manual, and which test shows it",
     "format": "sources look as clang-format writes them",
     "alone": "the sources that a newcomer copies compile one by one",
     "python": "flake8 finds nothing in a Python file",
@@ -233,6 +235,9 @@ def main():
             missing = {int(n) for n in re.findall(r"\bE-(\d+)\b", page.read_text(encoding="utf-8", errors="replace"))} - listed
             if missing:
                 faults.append(("errata", f"{page.relative_to(TOP)}: E-{min(missing):02} stands in no list of adapters/{f}/*.md"))
+    faults += [("matrix", what) for what in matrix.faults(TOP, families)]
+    if not matrix.holds():
+        faults.append(("matrix", "the rule no longer finds what it is for"))
     headers = [p for p in sources if p.suffix == ".hpp" and p.relative_to(TOP).parts[0] in ("gateway", "adapters")]
     counted = [(str(p.relative_to(TOP)), *c) for p in headers for c in classes.functions_of(p.read_text(encoding="utf-8"))]
     faults += [("classes", what) for what in classes.faults_of(counted)]

@@ -1,10 +1,11 @@
 // Makes the handbook's pages: docs/handbook/README.md names the chapters and their order, each becomes dist/help/NAME.html, with a search index.
-// In: Markdown of docs/, adapters/ and gateway/doors/. Out: dist/help/. Ends with a failure where a link, an anchor or a picture leads nowhere.
+// In: Markdown of docs/, adapters/ and gateway/doors/, statements of twins (matrix.mjs). Out: dist/help/. Ends with a failure where a link, an anchor or a picture leads nowhere.
 // Nothing inline and nothing from elsewhere, as the content security policy has it; the chapters can be read without any script.
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, normalize, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import MarkdownIt from 'markdown-it';
+import { familyOf, matrixText } from './matrix.mjs';
 
 const web = fileURLToPath(new URL('..', import.meta.url));
 const top = join(web, '..');
@@ -18,8 +19,8 @@ const md = new MarkdownIt({ html: false, linkify: false, typographer: false });
 
 /** @param {string} s */
 const escape = (s) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c] ?? c);
-/** Address of a file's page: docs/handbook/access.md is access, adapters/mcode/README.md is adapters-mcode. @param {string} file */
-const nameOf = (file) => (file === book ? 'index' : file.replace(/^docs\/(handbook\/)?/, '').replace(/(\/README)?\.md$/, '').replaceAll('/', '-'));
+/** Address of a file's page: docs/handbook/access.md is access, adapters/mcode/README.md is adapters-mcode, adapters/mcode/twin/matrix.json is adapters-mcode-matrix. @param {string} file */
+const nameOf = (file) => (file === book ? 'index' : file.replace(/^docs\/(handbook\/)?/, '').replace(/(\/README)?\.md$|\/twin(?=\/matrix\.json$)|\.json$/g, '').replaceAll('/', '-'));
 /** The words of an inline token, without marks. @param {any} token @returns {string} */
 const words = (token) => (token.children ?? []).map((/** @type {any} */ t) => (t.type === 'softbreak' ? ' ' : t.content)).join('');
 /** As GitHub makes anchors of headings. @param {string} text */
@@ -27,7 +28,8 @@ const slug = (text) => text.toLowerCase().replace(/[^\p{L}\p{N}\s_-]/gu, '').tri
 
 /** @param {string} file @param {string} part @returns {Chapter} */
 function read(file, part) {
-  const tokens = md.parse(readFileSync(join(top, file), 'utf8'), {});
+  const family = familyOf(file);
+  const tokens = md.parse(family ? matrixText(top, family) : readFileSync(join(top, file), 'utf8'), {});
   const headings = [];
   const taken = new Set();
   for (let i = 0; i < tokens.length; ++i) {
@@ -55,7 +57,7 @@ function chaptersOf(/** @type {Chapter} */ contents) {
     for (const c of t.children ?? []) {
       if (c.type !== 'link_open' || part === '') continue;
       const file = normalize(join(dirname(book), String(c.attrGet('href')).split('#')[0] ?? ''));
-      if (!file.endsWith('.md') || list.some((x) => x.file === file)) continue;
+      if (!(file.endsWith('.md') || familyOf(file)) || list.some((x) => x.file === file)) continue;
       if (!existsSync(join(top, file))) faults.push(`${book} names ${file}, which is not there`);
       else list.push(read(file, part));
     }

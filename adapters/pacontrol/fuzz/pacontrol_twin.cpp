@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     setup.axes = in.ConsumeIntegralInRange<int>(1, 4);
     if (in.ConsumeBool()) setup.options["absolute"] = "off";
     if (in.ConsumeBool()) setup.options["switch_on_mode"] = std::to_string(in.ConsumeIntegralInRange<int>(0, 4));
-    if (in.ConsumeBool()) setup.options["reply_ms"] = std::to_string(in.ConsumeIntegral<std::uint8_t>());
+    if (in.ConsumeBool()) setup.options["motion_start_ms"] = std::to_string(in.ConsumeIntegral<std::uint8_t>());
     if (in.ConsumeBool()) setup.options["axis_modules"] = "on";
     if (in.ConsumeBool()) setup.options["programs"] = in.ConsumeRandomLengthString(40);
     for (const char* text : {"limits", "travel", "rotary"})

@@ -220,14 +220,5 @@ TEST(TwinFrame, NumbersOfRequests) {
     EXPECT_EQ(b.quit("0907;27;1;999999999999999999999999999999999999999"), 41) << "more than a single holds";
 }
 
-TEST(TwinFrame, AnswersTakeTheTimeThatWasAsked) {
-    Bench b(setup(1, {{"reply_ms", "7"}}));
-    const Instant asked = b.now;
-    EXPECT_TRUE(b.bytes(frame("1909;0;0;0")).empty());
-    b.pass(20ms);
-    ASSERT_EQ(b.when.size(), 1u);
-    EXPECT_EQ(b.when[0] - asked, 7ms);
-}
-
 }  // namespace
 }  // namespace axisgate::pacontrol::twin::test

@@ -191,7 +191,7 @@ TEST(TwinHand, Temperature) {
 }
 
 TEST(TwinHand, OptionsThatCannotBeReadAreLeft) {
-    Bench b(setup(99, {{"reply_ms", "soon"},
+    Bench b(setup(99, {{"home_ms", "soon"},
                        {"start_ms", "-1"},
                        {"programs", "X,Y:z,:5,W:1:5000"},
                        {"check", "learn"},

@@ -18,7 +18,7 @@ TEST(TwinRobust, LawsUnderRandomUse) {
         std::map<std::string, std::string> options{{"switch_on_mode", std::to_string(seed % 5)}, {"programs", "A:50,B:20:510"}};
         if (seed % 3 == 0) options["absolute"] = "off";
         if (seed % 4 == 0) options["axis_modules"] = "on";
-        if (seed % 5 == 0) options["reply_ms"] = "3";
+        if (seed % 5 == 0) options["position_every_ms"] = "3";
         Bench b(setup(3, options));
         std::uint64_t revision = b.twin().non_volatile_revision();
         NonVolatile memory = b.twin().non_volatile();

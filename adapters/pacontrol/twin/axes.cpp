@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gateway/core/specimen.hpp"
+
 namespace axisgate::pacontrol::twin {
 
 Axes::Axes(int n, const AxisModel& model, const std::map<int, double>& rotary, const AxisParameters& factory)
@@ -14,6 +16,7 @@ Axes::Axes(int n, const AxisModel& model, const std::map<int, double>& rotary, c
 
 void Axes::add() {
     AxisModel model = model_;
+    model.seed = specimen_draw(model_.seed, "axis", static_cast<std::uint64_t>(count()));
     if (const auto it = rotary_.find(count() + 1); it != rotary_.end()) model.revolution = it->second;
     axes_.emplace_back(model, factory_);
     kept_.emplace_back();
@@ -32,13 +35,18 @@ bool Axes::all_stand() const noexcept {
 
 void Axes::advance(Instant now) {
     for (Axis& a : axes_)
-        a.traverse().advance(now);
+        a.advance(now);
+}
+
+void Axes::settle(Instant now) {
+    for (Axis& a : axes_)
+        a.settle(now);
 }
 
 Instant Axes::deadline() const noexcept {
     Instant next = never;
     for (const Axis& a : axes_)
-        next = std::min(next, a.traverse().deadline());
+        next = std::min(next, a.deadline());
     return next;
 }
 

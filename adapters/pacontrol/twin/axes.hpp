@@ -28,6 +28,8 @@ public:
 
     [[nodiscard]] bool all_stand() const noexcept;
     void advance(Instant now);
+    /// After something of them may have changed.
+    void settle(Instant now);
     [[nodiscard]] Instant deadline() const noexcept;
 
     // --- what all of them are told ---

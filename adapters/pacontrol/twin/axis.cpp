@@ -14,6 +14,18 @@ std::uint8_t Axis::status() const noexcept {
     return traverse_.stopped() ? 2 : 0;
 }
 
+Axis::Shown Axis::telling() const noexcept {
+    const bool hidden = !model_.reference_shown && running() && traverse_.task() == Task::reference && state_.fault == 0;
+    return hidden ? Shown{} : Shown{status(), running()};
+}
+
+void Axis::advance(Instant t) {
+    traverse_.follow(t);
+    position_.follow(t, [&](Instant at) { return own_position(at); });
+    if (on_at_ <= t) (void)now_on(on_at_, on_goes_on_);
+    traverse_.advance(t);
+}
+
 void Axis::set_referenced(bool on) noexcept {
     state_.referenced = on;
     state_.changed = true;
@@ -40,6 +52,15 @@ void Axis::delete_g29() noexcept {
 }
 
 std::uint16_t Axis::switch_on(Instant t, bool go_on) {
+    const bool at_once = model_.axis_on == Duration::zero() || (state_.enabled() && !state_.off);
+    if (at_once || state_.fault != 0 || !state_.outside.power_pack || state_.measuring) return now_on(t, go_on);
+    if (!switching_on()) on_at_ = t + model_.axis_on;
+    on_goes_on_ = go_on;
+    return quit::ok;
+}
+
+std::uint16_t Axis::now_on(Instant t, bool go_on) {
+    on_at_ = never;
     if (state_.fault != 0 || !state_.outside.power_pack || state_.measuring) return quit::not_ready;
     const bool was_off = std::exchange(state_.off, false) || !state_.enabled();
     if (was_off && model_.switch_on_mode == 4 && std::abs(shaft_.place(t) - state_.off_place) > model_.max_displacement) {
@@ -59,6 +80,7 @@ std::uint16_t Axis::switch_on(Instant t, bool go_on) {
 
 /// Enable mode [L734-738]; its values but 1 are not printed: 0 and 1 IDLE, 2 HALT, 3 SAFE in this model.
 void Axis::switch_off(Instant t) {
+    on_at_ = never;
     if (state_.off || !state_.enabled()) return;
     state_.off = true;
     state_.off_position = shaft_.position(t);
@@ -134,6 +156,8 @@ void Axis::boot(const Kept& kept) {
     state_.off_place = kept.shaft;
     state_.off = static_cast<int>(p_[ap::enable_mode]) != 1;
     state_.power = state_.off ? AxisPower::idle : AxisPower::on;
+    on_at_ = never;
+    shown_.set(telling());
 }
 
 // --- the hand ---

@@ -13,12 +13,13 @@ struct CommandReply {
     Datum data;
     /// Not done: when it is expected to be, if it is a matter of the mode machine's own times; `never` otherwise.
     Instant expected = never;
+    bool unanswered = false;  ///< the control says nothing at all
 };
 
 class CommandInProgress {
 public:
-    /// What has to come to its end: a move, a reference run, the standstill of an axis, a change of the operating mode.
-    enum class Awaits : std::uint8_t { none, move, reference, halt, mode };
+    /// What has to come to its end: a move, a reference run, the standstill of an axis, its being switched on, a change of the mode.
+    enum class Awaits : std::uint8_t { none, move, reference, halt, power, mode };
     struct Job {
         Awaits awaits = Awaits::none;
         int axis = 0;
@@ -28,6 +29,8 @@ public:
 
     /// While it runs nothing but polls, 0600, 0603, 0A81 and 0A93 is taken (E-69).
     [[nodiscard]] bool exclusive() const noexcept { return exclusive(job_); }
+    /// An end of processing has not been told yet.
+    [[nodiscard]] bool pending() const noexcept { return job_.awaits != Awaits::none; }
     /// From now on this one is it; its acknowledgement at once.
     CommandReply begin(const Job& job, Instant now);
     /// The acknowledgement as it is now: live position while it runs, after that the last one.

@@ -60,7 +60,7 @@ CommandReply get_axis_parameter(Control& k, const Call& c) {
 
 CommandReply get_input(Control& k, const Call& c) {
     if (!k.signals().elements().inputs.has(c.parameter)) return refuse(quit::no_input);
-    return say(k.signals().input(c.parameter) ? 1 : 0);
+    return say(k.signals().shown_input(c.parameter) ? 1 : 0);
 }
 
 CommandReply get_input_word(Control& k, const Call& c) {
@@ -68,7 +68,7 @@ CommandReply get_input_word(Control& k, const Call& c) {
     int w = 0;
     const std::int64_t first = (c.parameter - 1) / 16 * 16 + 1;  // any input inside the word names it [L2430]
     for (int b = 0; b < 16; ++b)
-        w |= (k.signals().input(first + b) ? 1 : 0) << b;
+        w |= (k.signals().shown_input(first + b) ? 1 : 0) << b;
     return say(w);
 }
 
@@ -84,7 +84,7 @@ CommandReply put_output(Control& k, const Call& c) {
 
 CommandReply get_output(Control& k, const Call& c) {
     if (!k.signals().elements().outputs.has(c.parameter)) return refuse(quit::no_output);
-    return say(k.signals().output(c.parameter) ? 1 : 0);
+    return say(k.signals().shown_output(c.parameter) ? 1 : 0);
 }
 
 CommandReply put_output_word(Control& k, const Call& c) {
@@ -99,7 +99,7 @@ CommandReply get_output_word(Control& k, const Call& c) {
     int w = 0;
     const std::int64_t first = (c.parameter - 1) / 16 * 16 + 1;
     for (int b = 0; b < 16; ++b)
-        w |= (k.signals().output(first + b) ? 1 : 0) << b;
+        w |= (k.signals().shown_output(first + b) ? 1 : 0) << b;
     return say(w);
 }
 
@@ -159,7 +159,7 @@ CommandReply reset_error(Control& k, const Call& c) {
     return r;
 }
 
-CommandReply get_error(Control& k, const Call&) { return say(k.error()); }
+CommandReply get_error(Control& k, const Call&) { return say(k.shown_error()); }
 CommandReply get_state(Control& k, const Call&) { return say(k.status()); }
 
 /// Reads something of one axis.
@@ -169,7 +169,7 @@ CommandReply of_axis(Control& k, const Call& c, F&& f) {
 }
 
 CommandReply get_position(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shaft().position(c.now)); });
+    return of_axis(k, c, [&](const Axis& a) { return say_real(a.shown_position(c.now)); });
 }
 
 CommandReply get_speed(Control& k, const Call& c) {
@@ -190,13 +190,13 @@ CommandReply get_greatest_lag(Control& k, const Call& c) {
 }
 
 CommandReply get_axis_status(Control& k, const Call& c) {
-    return of_axis(k, c, [&](const Axis& a) { return say(a.status()); });
+    return of_axis(k, c, [&](const Axis& a) { return say(a.shown().status); });
 }
 
 CommandReply get_running(Control& k, const Call&) {
     int mask = 0;
     for (int n = 1; k.settings().has_axis(n); ++n)
-        mask |= (k.axis(n).running() ? 1 : 0) << (n - 1);
+        mask |= (k.axis(n).shown().running ? 1 : 0) << (n - 1);
     return say(mask);
 }
 
@@ -226,7 +226,7 @@ CommandReply get_temperature(Control& k, const Call& c) {
 CommandReply get_extended(Control& k, const Call& c) {
     return of_axis(k, c, [&](const Axis& a) {
         return say((a.state().outside.power_pack ? 0x01000000 : 0) + (a.switches().limit(true) ? 0 : 0x00010000) +
-                   (a.switches().limit(false) ? 0 : 0x00000100) + a.status());
+                   (a.switches().limit(false) ? 0 : 0x00000100) + a.shown().status);
     });
 }
 
@@ -259,7 +259,10 @@ CommandReply no_reference(Control& k, const Call& c) {
 CommandReply reference(Control& k, const Call& c) {
     if (!k.settings().has_axis(c.parameter)) return refuse(quit::no_axis);
     const std::uint16_t q = k.motions().start_task(axis_of(c), AxisTask{AxisTask::Kind::reference, 0, 1000, 1000, {}, true}, c.now);
-    return q != 0 ? refuse(q) : k.begin({Awaits::reference, axis_of(c)}, c.now);
+    if (q != 0) return refuse(q);
+    if (!k.freedoms().reference_at_once) return k.begin({Awaits::reference, axis_of(c)}, c.now);
+    k.settle(c.now);
+    return {0, true, {}, never};
 }
 
 /// 0A85 (G26 with 0), 0A86 (G29), 0A96 (G26 with a value). 0A85 sets the reference flag as G26 does (E-34).
@@ -271,7 +274,7 @@ CommandReply set_position(Control& k, const Call& c) {
         if (c.code == 0x0A86) {
             a.set_position_g29(x);
         } else {
-            a.set_position_g26(x, true);
+            a.set_position_g26(x, c.code != 0x0A85 || k.freedoms().null_references);
         }
         k.settle(c.now);
         return c.code == 0x0A85 ? say(0) : say_real(x);
@@ -284,7 +287,7 @@ CommandReply move(Control& k, const Call& c) {
     const int n = axis_of(c);
     const bool relative = c.code == 0x0A89 || c.code == 0x0A91 || c.code == 0x0A95;
     const bool manual = c.code == 0x0A90 || c.code == 0x0A91;
-    const double from = k.axis(n).shaft().position(c.now);
+    const double from = k.axis(n).shown_position(c.now);
     const std::uint16_t q = k.motions().start_move(n, c.data.value, relative, manual ? Task::manual : Task::position, c.now);
     if (q != 0) return refuse(q);
     if (c.code != 0x0A87 && c.code != 0x0A89) return say_real(from);
@@ -317,7 +320,7 @@ CommandReply set_acceleration(Control& k, const Call& c) {
 CommandReply renew(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
         a.traverse().renew(c.now);
-        return say_real(a.shaft().position(c.now));
+        return say_real(a.shown_position(c.now));
     });
 }
 
@@ -327,19 +330,22 @@ CommandReply abort_move(Control& k, const Call& c) {
     k.axis(axis_of(c)).traverse().finish(c.now);
     k.settle(c.now);
     if (c.code == 0x0A93) return k.begin({Awaits::halt, axis_of(c)}, c.now);
-    return say_real(k.axis(axis_of(c)).shaft().position(c.now));
+    return say_real(k.axis(axis_of(c)).shown_position(c.now));
 }
 
 CommandReply axis_on(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
+        if (k.freedoms().switching == Switching::no_switch) return refuse(quit::not_executable);
         const std::uint16_t q = a.switch_on(c.now, k.status() == status::online);
         k.settle(c.now);
-        return q != 0 ? refuse(q) : say(0);
+        if (q != 0) return refuse(q);
+        return k.freedoms().axis_on_awaited ? k.begin({Awaits::power, axis_of(c)}, c.now) : say(0);
     });
 }
 
 CommandReply axis_off(Control& k, const Call& c) {
     return of_axis(k, c, [&](Axis& a) {
+        if (k.freedoms().switching == Switching::no_switch) return refuse(quit::not_executable);
         a.switch_off(c.now);
         k.settle(c.now);
         return say(0);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "adapters/pacontrol/twin/command_in_progress.hpp"
+#include "adapters/pacontrol/twin/freedoms.hpp"
 #include "adapters/pacontrol/twin/motions.hpp"
 #include "adapters/pacontrol/twin/system_views.hpp"
 
@@ -28,6 +29,7 @@ struct ControlSetup {
         0;  ///< 2..99: the address that the rotary switches hold; writing it is refused with 39h [L4072]. 1: E205 [L333-L335]
     Profile profile;
     std::map<int, double> rotary;  ///< axis: AE of a revolution
+    ControlFreedoms freedoms;
 };
 
 class Control {
@@ -41,6 +43,8 @@ public:
     CommandReply execute(std::uint16_t code, std::int64_t parameter, const Datum& data, Instant now);
     /// The acknowledgement of the last command as it is now: live position while it runs; the last one repeated after that (E-16).
     CommandReply progress(Instant now);
+    /// A command is in progress whose end of processing was not told.
+    [[nodiscard]] bool pending() const noexcept { return in_progress_.pending(); }
     /// A frame error that a transport found takes the place of the last acknowledgement, unless a command is in progress.
     void note_frame_error(std::uint16_t quit) noexcept { in_progress_.note({quit, true, {}, never}); }
     /// For a command that is not done at once: settles what it has begun, and its acknowledgement.
@@ -50,8 +54,10 @@ public:
     void advance(Instant now) { operation_.advance(now); }
     void settle(Instant now) { operation_.settle(now); }
     [[nodiscard]] Instant deadline() const noexcept { return operation_.deadline(); }
-    [[nodiscard]] std::uint8_t status() const noexcept { return operation_.status(); }  ///< operating status, decimal [L3991]
-    [[nodiscard]] std::uint16_t error() const noexcept { return error_.number(); }      ///< PA-CONTROL error number, 0: none
+    [[nodiscard]] std::uint8_t status() const noexcept { return operation_.status(); }   ///< operating status, decimal [L3991]
+    [[nodiscard]] std::uint16_t error() const noexcept { return error_.number(); }       ///< PA-CONTROL error number, 0: none
+    [[nodiscard]] std::uint16_t shown_error() const noexcept { return error_.shown(); }  ///< the one that is told
+    [[nodiscard]] const ControlFreedoms& freedoms() const noexcept { return setup_.freedoms; }
     /// As many axes as this, 16 at most; those that come new are as the factory made them, the others go on as they are.
     void fit_axes(int n, Instant now);
     [[nodiscard]] int axes() const noexcept { return axes_.count(); }
@@ -88,6 +94,9 @@ public:
     }
 
 private:
+    /// 0, or the command error with which it is not even looked at.
+    [[nodiscard]] std::uint16_t not_admitted(std::uint16_t code, Instant now) const;
+
     ControlSetup setup_;
     SystemError error_;
     Axes axes_;
@@ -99,6 +108,7 @@ private:
     Operation operation_;
     Motions motions_;
     CommandInProgress in_progress_;
+    Instant busy_until_ = Instant::min();
     std::uint64_t power_ons_ = 0;  ///< each of them is told as a change of the memory
 };
 

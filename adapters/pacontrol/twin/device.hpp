@@ -17,8 +17,7 @@ namespace axisgate::pacontrol::twin {
 struct DeviceSetup {
     ControlSetup control;
     ReplyCheck reply_check = ReplyCheck::with_etx;
-    bool lenient = false;
-    Duration reply_time{};
+    AnswerFreedoms answers;
     bool fixed_axes = false;  ///< so many axes are built, whatever the site uses
 };
 
@@ -29,7 +28,7 @@ public:
     /// Acknowledgements that wait for their time; more are lost, which a master that waits for each never sees.
     static constexpr std::size_t waiting_limit = 16;
 
-    explicit Device(const DeviceSetup& setup) : setup_(setup), control_(setup.control), reader_(setup.lenient) {}
+    explicit Device(const DeviceSetup& setup) : setup_(setup), control_(setup.control), reader_(setup.answers.frames) {}
 
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
@@ -52,7 +51,12 @@ private:
         CommandReply reply;
     };
     void received(const Received& h, Instant now, Out& out);
-    void answer(const CommandReply& reply, Instant now, Out& out);
+    /// `earliest`: not before then.
+    void answer(const CommandReply& reply, Instant now, Out& out, Instant earliest = Instant::min());
+    /// What it says at power on without being asked.
+    void announce_power(Instant now, Out& out) const;
+    /// Another error number is shown: it says so, if it is one that does.
+    void announce_error(Instant now, Out& out);
     void send(const CommandReply& reply, Instant now, Out& out) const;
     void pass(Instant now, Out& out);
     /// What a condition of an axis is set at.
@@ -74,6 +78,8 @@ private:
     std::deque<Waiting> waiting_;
     bool powered_ = false;
     bool silent_ = false;
+    Instant deaf_until_ = Instant::min();  ///< it stores a parameter
+    std::uint16_t announced_error_ = 0;
     Instant last_ = Instant::min();
 };
 

@@ -9,6 +9,7 @@ namespace axisgate::pacontrol::twin {
 /// Command error numbers that an axis gives [L4036-4076].
 namespace quit {
 inline constexpr std::uint16_t ok = 0;
+inline constexpr std::uint16_t unknown_command = 0x13;
 inline constexpr std::uint16_t inadmissible = 0x14;
 inline constexpr std::uint16_t not_executable = 0x15;
 inline constexpr std::uint16_t no_axis = 0x20;
@@ -24,6 +25,7 @@ inline constexpr std::uint16_t moves = 0x2A;
 inline constexpr std::uint16_t no_reference = 0x2B;
 inline constexpr std::uint16_t no_external_stop = 0x2C;
 inline constexpr std::uint16_t not_ready = 0x2E;
+inline constexpr std::uint16_t not_initialised = 0x34;
 inline constexpr std::uint16_t path_too_long = 0x36;
 inline constexpr std::uint16_t switched_off = 0x37;
 inline constexpr std::uint16_t displaced = 0x38;

@@ -1,5 +1,5 @@
 // Bytes to requests, acknowledgements to bytes.
-// In: bytes. Out: requests, polls, faults; bytes. Never blocks on half a frame: the next SOH or 1 s of silence ends it.
+// In: bytes. Out: requests, polls, faults; bytes. Never blocks on half a frame: the next SOH or silence ends it.
 #include "adapters/pacontrol/twin/frame.hpp"
 
 #include <array>
@@ -49,7 +49,7 @@ void FrameReader::begin() noexcept {
 }
 
 std::optional<Received> FrameReader::feed(std::uint8_t byte, Instant at) {
-    if (state_ != State::idle && at - last_ > silence) reset();
+    if (state_ != State::idle && at - last_ > rules_.silence) reset();
     last_ = at;
     if (byte == soh) {
         begin();
@@ -104,7 +104,9 @@ Received FrameReader::finish() const {
     const auto check = check_.size() <= 3 && !check_.starts_with('-') ? decimal(check_) : std::nullopt;
     const std::uint8_t right = xor_of(text_);
     // 0 switches the check off [L1047].
-    if (!check || (*check != 0 && *check != right && !(lenient_ && *check == (right ^ 3)))) return fault(quit_check);
+    const bool plain = rules_.check != RequestCheck::with_etx, etx_in = rules_.check != RequestCheck::text;
+    const bool fits = check && ((plain && *check == right) || (etx_in && *check == (right ^ 3)));
+    if (!check || (*check != 0 && !fits)) return fault(quit_check);
 
     std::array<std::string_view, 4> field;
     std::string_view rest = text_;
@@ -129,9 +131,9 @@ Received FrameReader::finish() const {
 }
 
 std::vector<std::uint8_t> acknowledgement(std::uint16_t quit, bool end, std::uint8_t status, std::uint16_t error, const Datum& data,
-                                          ReplyCheck check) {
+                                          ReplyCheck check, RealForm reals) {
     const std::string text = std::to_string(quit) + (end ? ";1;" : ";0;") + std::to_string(status) + ";" + std::to_string(error) +
-                             (data.real ? ";1;" : ";0;") + to_wire(data);
+                             (data.real ? ";1;" : ";0;") + to_wire(data, reals);
     const int sum = check == ReplyCheck::zero ? 0 : check == ReplyCheck::text ? xor_of(text) : xor_of(text) ^ 3;
     std::vector<std::uint8_t> bytes{soh, stx};
     bytes.insert(bytes.end(), text.begin(), text.end());

@@ -29,24 +29,32 @@ struct Received {
     Datum data;                  ///< request
 };
 
+/// Check of a request: XOR of the text; that or the same with ETX (3) in it; only the latter (E-04). 0 is always admitted [L1047].
+enum class RequestCheck : std::uint8_t { text, either, with_etx };
+
+struct FrameRules {
+    RequestCheck check = RequestCheck::text;
+    Duration silence = std::chrono::seconds(1);  ///< between two bytes of a request; a longer one forgets it
+};
+
 /// `SOH STX text ETX check EOT` [L1125-1155]. SOH begins a new frame wherever it comes (E-17); an EOT outside a frame is a poll
-/// [L1193]. 1 s of silence inside a frame forgets it without a word (E-17). A text over 64 characters is a wrong sequence.
+/// [L1193]. Silence inside a frame forgets it (E-17). A text over 64 characters is a wrong sequence.
 class FrameReader {
 public:
     static constexpr std::size_t text_limit = 64;
-    static constexpr Duration silence = std::chrono::seconds(1);
 
-    /// `lenient`: also takes the check of the other direction, text XOR 3 (E-04).
-    explicit FrameReader(bool lenient = false) : lenient_(lenient) {}
+    explicit FrameReader(const FrameRules& rules = {}) : rules_(rules) {}
     [[nodiscard]] std::optional<Received> feed(std::uint8_t byte, Instant at);
     void reset() noexcept;
+    /// When the silence is over that forgets what was begun; `never`.
+    [[nodiscard]] Instant forgets() const noexcept { return state_ == State::idle ? never : last_ + rules_.silence; }
 
 private:
     enum class State : std::uint8_t { idle, begun, text, check, headless };
     [[nodiscard]] Received finish() const;
     void begin() noexcept;
 
-    bool lenient_;
+    FrameRules rules_;
     State state_ = State::idle;
     bool disorder_ = false;  // control symbols out of order, or a byte that is none of 7 bits
     std::string text_;
@@ -62,6 +70,6 @@ enum class ReplyCheck : std::uint8_t { with_etx, text, zero };
 
 /// `QUIT ; BE ; STATUS ; ERROR ; TYP_QUIT ; Q_PAR` framed [L1161-1203].
 [[nodiscard]] std::vector<std::uint8_t> acknowledgement(std::uint16_t quit, bool end, std::uint8_t status, std::uint16_t error,
-                                                        const Datum& data, ReplyCheck check);
+                                                        const Datum& data, ReplyCheck check, RealForm reals = RealForm::seven_digits);
 
 }  // namespace axisgate::pacontrol::twin

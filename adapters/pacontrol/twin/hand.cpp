@@ -42,7 +42,9 @@ const HandRow<Device> Device::conditions[] = {
              d.powered_ = on;
              if (on) {
                  d.reader_.reset();
+                 d.deaf_until_ = Instant::min();
                  d.control_.power_on(d.control_.memory(), w.now);
+                 d.announced_error_ = d.control_.shown_error();
              } else {
                  d.control_.power_off(w.now);
                  d.waiting_.clear();
@@ -174,8 +176,11 @@ std::vector<HandItem> Device::hand() const {
 std::string Device::set_hand(const std::string& name, const Value& value, Instant now, Out& out) {
     now = std::max(now, last_);
     pass(now, out);
+    const bool was_powered = powered_;
     std::string fault = set_condition(name, value, now);
     control_.settle(now);
+    if (powered_ && !was_powered) announce_power(now, out);
+    announce_error(now, out);
     return fault;
 }
 

@@ -185,7 +185,7 @@ void Image::command(Control& control, Instant now) {
     } else if (stopped_by_zeros_) {
         put_word(out, 6, word(out, 6) & 0x7FFFu);
     }
-    put_word(out, 4, (control.error() != 0 ? 0x8000u : 0u) | control.status());
+    put_word(out, 4, (control.shown_error() != 0 ? 0x8000u : 0u) | control.status());
 }
 
 void Image::control_word(Control& control, Instant now) {
@@ -211,14 +211,14 @@ void Image::control_word(Control& control, Instant now) {
     const bool automatic = column_of(n) == gate::automatic, online = column_of(n) == gate::online;
     const bool stands = n == status::auto_stopped || n == status::auto_malfunction_stopped || n == status::online_stopped ||
                         n == status::online_malfunction_stopped;
-    std::uint32_t v = (n != status::none ? 1u : 0u) | 2u | (control.error() != 0 ? 4u : 0u);
+    std::uint32_t v = (n != status::none ? 1u : 0u) | 2u | (control.shown_error() != 0 ? 4u : 0u);
     v |= automatic ? (stands ? bit_of(9) : bit_of(8)) : 0u;
     v |= online ? (stands ? bit_of(11) : bit_of(10)) : 0u;
     v |= integers_ ? bit_of(15) : 0u;
     const std::span<std::uint8_t> out(out_);
     put_word(out, 8, v);
     for (std::size_t i = 1; i < 4; ++i)
-        put_word(out, 8 + 2 * i, i == shape_.error_word ? control.error() : 0u);
+        put_word(out, 8 + 2 * i, i == shape_.error_word ? control.shown_error() : 0u);
 }
 
 double Image::real_at(std::size_t at) const noexcept {

@@ -21,6 +21,12 @@ void Mode::reset() noexcept {
     left_ = {};
 }
 
+void Mode::initialise(Instant now) noexcept {
+    reset();
+    status_ = status::none;
+    until_ = now + times_.initialise;
+}
+
 Mode::Entered Mode::enter(std::uint8_t s) noexcept {
     status_ = s;
     until_ = never;
@@ -112,9 +118,15 @@ void Mode::leave(std::uint8_t target) noexcept {
 }
 
 Mode::Entered Mode::step(Instant now, bool all_stand) {
-    if (leaving_) return all_stand ? enter(target_) : Entered::nothing;
+    if (leaving_) {
+        if (!all_stand) return Entered::nothing;
+        if (until_ == never) until_ = now + times_.home;
+        return now >= until_ ? enter(target_) : Entered::nothing;
+    }
     const bool due = now >= until_;
     switch (status_) {
+        case status::none:
+            return due ? enter(status::home) : Entered::nothing;
         case status::auto_started:
         case status::auto_after_stop: {
             if (!due) break;

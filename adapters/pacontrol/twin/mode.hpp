@@ -65,6 +65,8 @@ struct ModeTimes {
     Duration stop_program = std::chrono::milliseconds(100);         ///< 13
     Duration start_after_stop = std::chrono::milliseconds(100);     ///< 16
     Duration malfunction_program = std::chrono::milliseconds(100);  ///< 18
+    Duration home{};                                                ///< from the standstill of all axes to home position
+    Duration initialise{};                                          ///< 0 after power on
 };
 
 class Mode {
@@ -72,8 +74,10 @@ public:
     enum class Entered : std::uint8_t { nothing, other, home, manual, automatic, online, program_ended };
 
     explicit Mode(const ModeTimes& times) : times_(times) {}
-    /// Power on.
+    /// Power on: home position.
     void reset() noexcept;
+    /// Power on: status 0, and home position after the time of initialisation.
+    void initialise(Instant now) noexcept;
 
     /// Without 9 and 3, which depend on what is elsewhere.
     [[nodiscard]] std::uint8_t status() const noexcept { return status_; }

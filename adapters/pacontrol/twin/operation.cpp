@@ -3,6 +3,7 @@
 #include "adapters/pacontrol/twin/operation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "adapters/pacontrol/twin/errors.hpp"
 
@@ -13,14 +14,14 @@ constexpr int steps_per_call = 100'000;  // a bound of one advance; a control ha
 
 std::uint8_t Operation::status() const noexcept {
     const std::uint8_t s = mode_.status();
-    if (s == status::home && with_.error.stands()) return status::home_error;
+    if (s == status::home && with_.error.shown() != 0) return status::home_error;
     if (s == status::manual && !with_.axes.all_stand()) return status::manual_moves;
     return s;
 }
 
 // --- time ---
 
-Instant Operation::deadline() const noexcept { return std::min(mode_.deadline(), with_.axes.deadline()); }
+Instant Operation::deadline() const noexcept { return std::min({mode_.deadline(), with_.axes.deadline(), with_.error.due()}); }
 
 void Operation::advance(Instant now) {
     for (int i = 0; i < steps_per_call; ++i) {
@@ -44,6 +45,8 @@ void Operation::settle(Instant now) {
         entered(what, now);
     }
     run_program(now);
+    with_.error.follow(now);
+    with_.axes.settle(now);
 }
 
 void Operation::run_program(Instant now) {
@@ -78,8 +81,10 @@ void Operation::entered(Mode::Entered what, Instant now) {
                 if (a.state().fault >= 500 || a.state().fault == 0) a.clear_fault();
                 a.clear_displaced();
                 with_.orders.of(n).end();
+                if (!rules_.reference_outlives && a.parameters()[ap::absolute] == 0 && a.state().referenced) a.set_referenced(false);
                 if (static_cast<int>(a.parameters()[ap::enable_mode]) == 1) (void)a.switch_on(now, false);
             }
+            if (std::exchange(autostart_, false)) (void)start_automatic(now);
             break;
         case Mode::Entered::automatic:
         case Mode::Entered::online:
@@ -120,6 +125,7 @@ std::uint16_t Operation::start_online(Instant now) {
     advance(now);
     const bool stopped = mode_.status() == status::online_stopped && !mode_.leaving();
     if (!stopped && (mode_.status() != status::home || mode_.leaving())) return quit::inadmissible;
+    if (stopped && !rules_.resumes_online) return quit::inadmissible;
     if (with_.error.stands()) return quit::not_executable;
     if (!with_.signals.external_stop_powered()) return quit::no_external_stop;  // must be defined and carry power [L2037]
     if (stopped) {
@@ -167,6 +173,7 @@ std::uint16_t Operation::reset_error(Instant now) {
     if (with_.error.number() < 100 || rules_.lasting.contains(with_.error.number())) return quit::not_executable;
     with_.error.clear();
     with_.axes.clear_faults();
+    settle(now);
     return quit::ok;
 }
 
@@ -230,6 +237,11 @@ void Operation::stop_if_open(Instant now) {
     if (!with_.signals.external_stop_open()) return;
     const std::uint8_t c = mode_.column();
     if (c == gate::automatic || c == gate::online) (void)stop(now);
+}
+
+void Operation::initialise(bool autostart, Instant now) noexcept {
+    autostart_ = autostart;
+    mode_.initialise(now);
 }
 
 void Operation::power_off(Instant now) {

@@ -15,6 +15,8 @@ namespace axisgate::pacontrol::twin {
 struct OperationRules {
     ModeTimes times;
     std::set<std::uint16_t> lasting;  ///< errors of class 2 that cannot be reset
+    bool resumes_online = true;       ///< 0603 is admitted in status 35 (E-20)
+    bool reference_outlives = true;   ///< without an absolute system, the reference flag outlives ONLINE
     bool axis_modules = false;        ///< an error of an axis stops that axis only and is told in its module [L711]
 };
 
@@ -64,6 +66,8 @@ public:
     // --- supply ---
     /// Home position, as after power on.
     void reset() noexcept { mode_.reset(); }
+    /// The same, after the time of initialisation; AUTOMATIC starts by itself then.
+    void initialise(bool autostart, Instant now) noexcept;
     /// The axes stand where they are, and what they want kept is taken over.
     void power_off(Instant now);
 
@@ -77,6 +81,7 @@ private:
     OperationRules rules_;
     Mode mode_;
     OperationParts with_;
+    bool autostart_ = false;  ///< when it is initialised
 };
 
 }  // namespace axisgate::pacontrol::twin

@@ -84,7 +84,7 @@ double Path::position(Instant t) const noexcept {
 }
 
 double Path::velocity(Instant t) const noexcept {
-    if (t >= end_) return 0;
+    if (t >= end_ || t < t0_) return 0;
     const double s = std::max(0.0, seconds(t - t0_));
     if (s < t1_) return direction_ * (entry_ + (peak_ >= entry_ ? a_ : -a_) * s);
     if (s < t1_ + t2_) return direction_ * peak_;

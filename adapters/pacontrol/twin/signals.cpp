@@ -17,6 +17,17 @@ bool Signals::output(std::int64_t n) const noexcept {
     return elements_.outputs.get(n);
 }
 
+void Signals::scan(Instant now) noexcept {
+    if (period_ == Duration::zero()) return;
+    const Instant tick = time_zero + (now - time_zero) / period_ * period_;
+    if (tick <= scanned_) return;
+    scanned_ = tick;
+    for (std::size_t i = 1; i <= elements_.inputs.count(); ++i)
+        inputs_.set(static_cast<std::int64_t>(i), input(static_cast<std::int64_t>(i)));
+    for (std::size_t i = 1; i <= elements_.outputs.count(); ++i)
+        outputs_.set(static_cast<std::int64_t>(i), output(static_cast<std::int64_t>(i)));
+}
+
 bool Signals::external_stop_powered() const noexcept {
     const std::int32_t n = system_[sp::stop_input];
     return n != 0 && input(n);

@@ -13,13 +13,19 @@ namespace axisgate::pacontrol::twin {
 class Signals {
 public:
     /// `made`: how many of each there are. `system` names the input of the external stop and the two outputs.
-    Signals(const Elements& made, const SystemParameters& system, const SystemError& error)
-        : elements_(made), system_(system), error_(error) {}
+    /// `scan`: inputs and outputs are shown as they were at its last multiple; 0: as they are.
+    Signals(const Elements& made, const SystemParameters& system, const SystemError& error, Duration scan = {})
+        : elements_(made), system_(system), error_(error), period_(scan), inputs_(made.inputs.count()), outputs_(made.outputs.count()) {}
 
     [[nodiscard]] const Elements& elements() const noexcept { return elements_; }
     /// Input `n` as the control sees it: its level, and for the stop input the wire of the external stop.
     [[nodiscard]] bool input(std::int64_t n) const noexcept;
     [[nodiscard]] bool output(std::int64_t n) const noexcept;
+    /// As the commands tell them, as of the last `scan`.
+    [[nodiscard]] bool shown_input(std::int64_t n) const noexcept { return period_ == Duration::zero() ? input(n) : inputs_.get(n); }
+    [[nodiscard]] bool shown_output(std::int64_t n) const noexcept { return period_ == Duration::zero() ? output(n) : outputs_.get(n); }
+    /// To be called before inputs and outputs change, and before they are shown.
+    void scan(Instant now) noexcept;
     [[nodiscard]] bool external_stop_wire() const noexcept { return external_stop_; }
     /// A stop input is defined and carries power.
     [[nodiscard]] bool external_stop_powered() const noexcept;
@@ -49,6 +55,9 @@ private:
     const SystemError& error_;
     bool external_stop_ = true;
     std::uint64_t revision_ = 0;
+    Duration period_;
+    Instant scanned_ = Instant::min();
+    Bits inputs_, outputs_;  ///< at the last scan
 };
 
 }  // namespace axisgate::pacontrol::twin

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "gateway/core/instant.hpp"
+#include "gateway/core/shaft.hpp"
 
 namespace axisgate::pacontrol::twin {
 
@@ -17,6 +18,17 @@ struct AxisModel {
     double travel_min = -10'050, travel_max = 10'050;  ///< AE of the shaft: where the switches at the ends of travel are
     double revolution = 0;  ///< AE; above 0 a rotary axis: one switch just before each whole turn, seen in both directions [L834]
     Duration watchdog = std::chrono::seconds(1);  ///< of a manual move [L3553]
+
+    // --- freedoms ---
+    Duration motion_start{};         ///< a motion begins so much later than its command was acknowledged
+    Duration axis_on{};              ///< from 0A97 until the axis is on
+    Duration status_behind{};        ///< the axis status that is shown
+    Duration position_every{};       ///< the position that is shown is refreshed at multiples of this; 0: always
+    bool reference_shown = true;     ///< false: the axis status does not show a reference run as a motion
+    bool measured_position = false;  ///< 190C shows the encoder's position, not the control's counter
+    double hysteresis = 0;           ///< AE: a switch opens so far from where it closes
+    ShaftFreedoms mechanics;         ///< in 0.001 AE
+    std::uint64_t seed = 0;
 };
 
 /// Motor state as in the status word of the module interface [L734-L760].

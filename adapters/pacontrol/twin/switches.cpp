@@ -17,7 +17,10 @@ bool Switches::limit(bool positive) const noexcept {
 
 bool Switches::at_shaft(bool positive) const noexcept {
     const double at = shaft_.place();
-    if (model_.revolution <= 0) return positive ? at >= model_.travel_max - 1e-6 : at <= model_.travel_min + 1e-6;
+    if (model_.revolution <= 0) {
+        const double beyond = (positive ? at - model_.travel_max : model_.travel_min - at) + 1e-6;
+        return closed(beyond, positive ? was_positive_ : was_negative_);
+    }
     const double turn = at / model_.revolution;
     const double part = turn - std::floor(turn);
     return part >= 1 - switch_share - 1e-9 && part < 1 - 1e-9;
@@ -25,7 +28,17 @@ bool Switches::at_shaft(bool positive) const noexcept {
 
 bool Switches::home() const noexcept {
     if (home_) return true;
-    return model_.revolution > 0 ? at_shaft(false) : shaft_.rest_place() < 0;
+    if (model_.revolution > 0) return at_shaft(false);
+    const double at = shaft_.rest_place();
+    return at < 0 || (was_home_ && at < model_.hysteresis);
+}
+
+void Switches::follow() noexcept {
+    if (model_.hysteresis <= 0 || model_.revolution > 0) return;
+    was_positive_ = at_shaft(true);
+    was_negative_ = at_shaft(false);
+    const double at = shaft_.place();
+    was_home_ = at < 0 || (was_home_ && at < model_.hysteresis);
 }
 
 /// At shaft position 0; of a rotary axis the whole turn at or below, where its switch is the reference switch first of all [L834]; on the

@@ -25,6 +25,8 @@ public:
     /// When the running shaft comes onto the switch in its way; `never`.
     [[nodiscard]] Instant passed() const noexcept;
 
+    /// What stays closed until the shaft is away from it, after the last advance.
+    void follow() noexcept;
     void set_limit(bool positive, bool actuated) noexcept { (positive ? positive_ : negative_) = actuated; }
     void set_home(bool actuated) noexcept { home_ = actuated; }
     [[nodiscard]] bool limit_by_hand(bool positive) const noexcept { return positive ? positive_ : negative_; }
@@ -32,12 +34,15 @@ public:
 
 private:
     [[nodiscard]] bool at_shaft(bool positive) const noexcept;
+    /// Of a straight axis: `way` is how far the shaft is beyond the edge of the switch, AE.
+    [[nodiscard]] bool closed(double way, bool was) const noexcept { return way >= 0 || (was && way > -model_.hysteresis); }
 
     const AxisModel& model_;
     const AxisParameters& p_;
     const Shaft& shaft_;
     bool positive_ = false, negative_ = false;
     bool home_ = false;
+    bool was_positive_ = false, was_negative_ = false, was_home_ = false;
 };
 
 }  // namespace axisgate::pacontrol::twin

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace axisgate::pacontrol::twin {
 namespace {
@@ -44,7 +45,8 @@ void Traverse::start(const Motion& m, Instant t) {
     braking_ = interrupted_ = want_interrupt_ = stopped_ = stopped_by_condition_ = false;
     ended_with_ = 0;
     watchdog_ = m.task == Task::manual ? t + model_.watchdog : never;
-    run(Path::to(here, m.target, 0, m.speed, static_cast<double>(p_[ap::start_stop_speed]), m.acceleration, t), t);
+    const Instant begins = t + model_.motion_start;
+    run(Path::to(here, m.target, 0, m.speed, static_cast<double>(p_[ap::start_stop_speed]), m.acceleration, begins), t);
 }
 
 std::uint16_t Traverse::may_reference() const {
@@ -71,9 +73,9 @@ void Traverse::start_reference(Instant t) {
     phase_ = on_switch ? Phase::creep_out : Phase::seek;
     const double edge = shaft_.offset() + switches_.edge_below(shaft_.rest_place());
     target_ = edge;
-    const double out = switches_.home_by_hand() ? shaft_.rest() + creep_way_forced : edge + creep_way;
+    const double out = switches_.home_by_hand() ? shaft_.rest() + creep_way_forced : edge + creep_way + model_.hysteresis;
     run(Path::to(shaft_.rest(), on_switch ? out : edge, 0, static_cast<double>(p_[on_switch ? ap::creep_speed : ap::reference_speed]), 0,
-                 motion_.acceleration, t),
+                 motion_.acceleration, t + model_.motion_start),
         t);
 }
 
@@ -83,8 +85,8 @@ void Traverse::next_phase(Instant t) {
     switch (phase_) {
         case Phase::seek:
             phase_ = Phase::creep_out;
-            run(Path::to(shaft_.rest(), shaft_.rest() + (switches_.home_by_hand() ? creep_way_forced : creep_way), 0, creep, 0,
-                         motion_.acceleration, t),
+            run(Path::to(shaft_.rest(), shaft_.rest() + (switches_.home_by_hand() ? creep_way_forced : creep_way + model_.hysteresis), 0,
+                         creep, 0, motion_.acceleration, t),
                 t);
             return;
         case Phase::creep_out:
@@ -246,10 +248,9 @@ void Traverse::home_changed(bool active, Instant t) {
     }
 }
 
-Instant Traverse::lag_exceeded() const noexcept {
-    const double most = static_cast<double>(p_[ap::following_error]);
-    return most <= 0 || p_[ap::rotation_monitoring] == 0 ? never : shaft_.lag_passes(most);
-}
+double Traverse::most_lag() const noexcept { return p_[ap::rotation_monitoring] == 0 ? 0 : static_cast<double>(p_[ap::following_error]); }
+
+Instant Traverse::lag_exceeded() const noexcept { return most_lag() <= 0 ? never : shaft_.lag_passes(most_lag()); }
 
 /// While switches are monitored. Those that are exchanged in the parameters stop nothing.
 Instant Traverse::limit_passed() const noexcept {
@@ -259,11 +260,24 @@ Instant Traverse::limit_passed() const noexcept {
 }
 
 Instant Traverse::deadline() const noexcept {
-    if (!shaft_.running()) return never;
-    return std::min({shaft_.path().end(), watchdog_, lag_exceeded(), limit_passed()});
+    const Instant lag = most_lag() > 0 && moved_by_motor() ? shaft_.lag_due() : never;
+    if (!shaft_.running()) return lag;
+    return std::min({shaft_.path().end(), watchdog_, lag_exceeded(), limit_passed(), lag});
+}
+
+/// Power goes as soon as the ramp to standstill is over.
+bool Traverse::moved_by_motor() const noexcept { return shaft_.running() || (state_.enabled() && !state_.off && !state_.measuring); }
+
+void Traverse::follow(Instant t) {
+    const Instant exceeded = shaft_.follow(t, moved_by_motor(), state_.fault == 0 ? most_lag() : 0);
+    lagged_ = std::min(lagged_, exceeded);
 }
 
 void Traverse::advance(Instant t) {
+    if (lagged_ != never) {
+        shaft_.seen(t);
+        abort_with(error::following_error, quit::not_ready, std::exchange(lagged_, never));
+    }
     if (shaft_.running()) shaft_.note_lag(t);
     for (int rounds = 0; shaft_.running() && rounds < 16; ++rounds) {  // a motion has at most a handful of events at one instant
         const Instant exceeded = lag_exceeded(), passed = limit_passed();
@@ -283,6 +297,7 @@ void Traverse::advance(Instant t) {
         }
     }
     shaft_.seen(t);
+    switches_.follow();
 }
 
 }  // namespace axisgate::pacontrol::twin

@@ -21,7 +21,7 @@ struct Motion {
 
 class Traverse {
 public:
-    Traverse(const AxisModel& model, const AxisParameters& parameters, AxisState& state, Shaft& shaft, const Switches& switches)
+    Traverse(const AxisModel& model, const AxisParameters& parameters, AxisState& state, Shaft& shaft, Switches& switches)
         : model_(model), p_(parameters), state_(state), shaft_(shaft), switches_(switches) {}
     Traverse(const Traverse&) = delete;
     Traverse& operator=(const Traverse&) = delete;
@@ -68,6 +68,8 @@ public:
     /// The hand has actuated a limit switch, or changed the home switch.
     void limit_changed(Instant t);
     void home_changed(bool active, Instant t);
+    /// Before `advance`, and before anything else changes: the mechanics follow up to `t`.
+    void follow(Instant t);
     void advance(Instant t);
     [[nodiscard]] Instant deadline() const noexcept;
 
@@ -79,6 +81,9 @@ private:
     void next_phase(Instant t);
     void ramp_down(Instant t);
     void hit_limit(bool positive, Instant t);
+    /// AE that the following error may have; 0: it is not monitored.
+    [[nodiscard]] double most_lag() const noexcept;
+    [[nodiscard]] bool moved_by_motor() const noexcept;
     [[nodiscard]] Instant lag_exceeded() const noexcept;
     [[nodiscard]] Instant limit_passed() const noexcept;
 
@@ -86,11 +91,12 @@ private:
     const AxisParameters& p_;
     AxisState& state_;
     Shaft& shaft_;
-    const Switches& switches_;
+    Switches& switches_;
     Motion motion_;
     Task task_ = Task::none;
     Phase phase_ = Phase::none;
     Instant watchdog_ = never;
+    Instant lagged_ = never;  ///< the lag of the mechanics was too large then, which has not been dealt with
     double target_ = 0;
     bool braking_ = false;  ///< the ramp of an end or an interruption
     bool interrupted_ = false;

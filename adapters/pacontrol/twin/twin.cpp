@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "adapters/pacontrol/twin/device.hpp"
+#include "adapters/pacontrol/twin/freedoms_read.hpp"
 
 namespace axisgate::pacontrol::twin {
 namespace {
@@ -91,14 +92,13 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     const auto built = number(text("axes"), 1, 16);
     d.fixed_axes = built.has_value();
     d.control.axes = static_cast<int>(built.value_or(std::clamp(setup.axes, 1, 16)));
+    take_freedoms(setup, d);
     if (text("reply_check") == "text") d.reply_check = ReplyCheck::text;
     if (text("reply_check") == "zero") d.reply_check = ReplyCheck::zero;
-    d.lenient = text("request_check") == "lenient";
-    if (const auto n = number(text("reply_ms"), 0, 5000)) d.reply_time = std::chrono::milliseconds(*n);
-    if (const auto n = number(text("start_ms"), 0, 60'000)) d.control.times.start = std::chrono::milliseconds(*n);
-    d.control.axis.ep = text("model") != "other";
-    d.control.axis.measuring = text("measuring") != "off";
-    d.control.absolute = text("absolute") != "off";
+    if (text("request_check") == "lenient") d.answers.frames.check = RequestCheck::either;
+    if (text("model") == "other") d.control.axis.ep = false;
+    if (text("measuring") == "off") d.control.axis.measuring = false;
+    if (text("absolute") == "off") d.control.absolute = false;
     if (const auto n = number(text("switch_on_mode"), 0, 4)) d.control.axis.switch_on_mode = static_cast<int>(*n);
     if (const auto n = number(text("max_displacement"), 0, 1'000'000)) d.control.axis.max_displacement = static_cast<double>(*n);
     d.control.axis.manual_at_traverse = text("manual_speed") == "traverse";
@@ -130,12 +130,30 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     return std::make_unique<Device>(d);
 }
 
-void Device::power_on(const NonVolatile& memory, Instant now, Out&) {
+void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {
     last_ = std::max(now, last_);
     powered_ = true;
     waiting_.clear();
     reader_.reset();
+    deaf_until_ = Instant::min();
     control_.power_on(memory, last_);
+    announced_error_ = control_.shown_error();
+    announce_power(last_, out);
+}
+
+void Device::announce_power(Instant now, Out& out) const {
+    if (silent_) return;
+    if (setup_.answers.at_power_on == Announcement::acknowledgement) return send({}, now, out);
+    if (setup_.answers.at_power_on == Announcement::none) return;
+    static constexpr std::string_view text = "PA-CONTROL V5.23\r\n";
+    Frame f = Frame::run({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    f.at = now;
+    out.send(f);
+}
+
+void Device::announce_error(Instant now, Out& out) {
+    if (!powered_ || std::exchange(announced_error_, control_.shown_error()) == control_.shown_error()) return;
+    if (setup_.answers.errors_announced) send({}, now, out);
 }
 
 bool Device::fit_axes(int axes, Instant now) {
@@ -148,7 +166,8 @@ bool Device::fit_axes(int axes, Instant now) {
 
 Instant Device::deadline() const {
     if (!powered_) return never;
-    const Instant next = control_.deadline();
+    Instant next = control_.deadline();
+    if (setup_.answers.silence_answered) next = std::min(next, reader_.forgets());
     return waiting_.empty() ? next : std::min(next, waiting_.front().at);
 }
 
@@ -161,7 +180,15 @@ void Device::pass(Instant now, Out& out) {
         control_.advance(w.at);
         send(w.refresh ? control_.progress(w.at) : w.reply, w.at, out);
     }
+    if (powered_ && setup_.answers.silence_answered && reader_.forgets() <= now) {
+        const Instant over = reader_.forgets();
+        control_.advance(over);
+        reader_.reset();
+        control_.note_frame_error(quit_sequence);
+        answer({quit_sequence, true, {}, never}, over, out);
+    }
     if (powered_) control_.advance(now);
+    announce_error(now, out);
 }
 
 void Device::on_deadline(Instant now, Out& out) { pass(std::max(now, last_), out); }
@@ -169,7 +196,7 @@ void Device::on_deadline(Instant now, Out& out) { pass(std::max(now, last_), out
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     now = std::max(now, last_);
     pass(now, out);
-    if (!powered_ || frame.kind != Frame::Kind::bytes) return;
+    if (!powered_ || frame.kind != Frame::Kind::bytes || now < deaf_until_) return;
     for (const std::uint8_t byte : frame.data()) {
         if (const auto h = reader_.feed(byte, now)) received(*h, now, out);
     }
@@ -179,22 +206,30 @@ void Device::received(const Received& h, Instant now, Out& out) {
     // The master did not wait: what still waits for an end of processing leaves as it is.
     if (!waiting_.empty() && waiting_.back().refresh) {
         const CommandReply r = control_.progress(now);
-        waiting_.back() = {setup_.reply_time == Duration::zero() ? now : waiting_.back().at, false, r};
+        waiting_.back() = {now, false, r};
         pass(now, out);
     }
     switch (h.kind) {
-        case Received::Kind::poll:
-            return answer(control_.progress(now), now, out);
+        case Received::Kind::poll: {
+            const bool idle = !control_.pending();
+            const CommandReply r = control_.progress(now);
+            if (idle && setup_.answers.idle_poll == IdlePoll::none) return;
+            return answer(idle && setup_.answers.idle_poll == IdlePoll::empty ? CommandReply{} : r, now, out);
+        }
         case Received::Kind::fault:
             control_.note_frame_error(h.quit);
             return answer({h.quit, true, {}, never}, now, out);
         case Received::Kind::request:
-            return answer(control_.execute(h.code, h.parameter, h.data, now), now, out);
+            break;
     }
+    const CommandReply reply = control_.execute(h.code, h.parameter, h.data, now);
+    const bool stores = reply.quit == 0 && (h.code == 0x0700 || h.code == 0x0800);
+    if (stores) deaf_until_ = now + setup_.answers.parameter_store;
+    if (!reply.unanswered) answer(reply, now, out, deaf_until_);
 }
 
-void Device::answer(const CommandReply& reply, Instant now, Out& out) {
-    Instant at = now + setup_.reply_time;
+void Device::answer(const CommandReply& reply, Instant now, Out& out, Instant earliest) {
+    Instant at = std::max(now, earliest);
     const bool refresh = !reply.done && reply.expected != never && reply.expected - now <= patience;
     if (refresh) at = std::max(at, reply.expected);
     if (at <= now && waiting_.empty()) return send(reply, now, out);
@@ -203,7 +238,8 @@ void Device::answer(const CommandReply& reply, Instant now, Out& out) {
 
 void Device::send(const CommandReply& reply, Instant now, Out& out) const {
     if (silent_) return;
-    const auto bytes = acknowledgement(reply.quit, reply.done, control_.status(), control_.error(), reply.data, setup_.reply_check);
+    const auto bytes = acknowledgement(reply.quit, reply.done, control_.status(), control_.shown_error(), reply.data, setup_.reply_check,
+                                       setup_.answers.reals);
     Frame f = Frame::run(bytes);
     f.at = now;
     out.send(f);

@@ -16,12 +16,12 @@ namespace axisgate::pacontrol::twin {
 /// Makes one control, without power until `power_on`. Point to point: `setup.address` is not used.
 ///
 /// `setup.axes`: axes that the control has, 1..16 (others are held to that).
-/// `setup.options`, the line's and the drive's; other names, and values that cannot be read, are left alone:
+/// `setup.freedoms`: the page's, by name (freedoms.hpp); what the twin itself does not have is with_common_freedoms'.
+/// `setup.options`, the line's and the drive's; a freedom by its name, where `setup.freedoms` does not have it; other names, and values
+/// that cannot be read, are left alone:
 ///   "reply_check"   "etx" (default: XOR of text and ETX, as nine of the ten printed acknowledgements), "text" (without ETX, as the
 ///                   tenth), "zero"
 ///   "request_check" "strict" (default: XOR of the text, or 0), "lenient": also that XOR 3
-///   "reply_ms"      0..5000, default 0: time to an acknowledgement
-///   "start_ms"      0..60000, default 8: operating status 10 and 30. Up to 10 ms the acknowledgement waits for the end of it.
 ///   "model"         "ep" (default), "other": no encoder, no temperature, no change of speed while moving
 ///   "measuring"     "on" (default), "off": the option measuring mode is missing (6Ch)
 ///   "absolute"      "on" (default), "off": factory value of axis parameter 25h; off: unreferenced at position 0 after power on

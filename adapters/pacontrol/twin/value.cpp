@@ -18,12 +18,27 @@ std::optional<float> single(const Datum& d) noexcept {
     return static_cast<float>(d.value);
 }
 
-std::string to_wire(const Datum& d) {
+namespace {
+
+/// With at most three decimals: all of them, or as few as the value needs, but one.
+std::string with_decimals(double v, bool all_three) {
+    char text[400];  // the largest double has 309 digits
+    std::snprintf(text, sizeof text, "%.3f", v);
+    std::string s = text;
+    while (!all_three && s.ends_with('0') && s[s.size() - 2] != '.')
+        s.pop_back();
+    return s.find_first_not_of("-0.") == std::string::npos && s.starts_with('-') ? s.substr(1) : s;
+}
+
+}  // namespace
+
+std::string to_wire(const Datum& d, RealForm form) {
     char text[64];
     if (!d.real) {
         std::snprintf(text, sizeof text, "%.0f", std::clamp(std::round(d.value), -2147483648.0, integer_limit) + 0.0);
         return text;
     }
+    if (form != RealForm::seven_digits) return with_decimals(d.value, form == RealForm::three_decimals);
     const double v = d.value == 0 ? 0.0 : d.value;  // no -0
     int decimals = 6;
     for (double edge = 10; decimals > 0 && std::abs(v) >= edge; edge *= 10)

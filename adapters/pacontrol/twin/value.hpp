@@ -27,8 +27,11 @@ inline constexpr double integer_limit = 2147483647.0;
 /// The nearest single (IEEE 754); nothing if it does not fit.
 [[nodiscard]] std::optional<float> single(const Datum& d) noexcept;
 
-/// An integer in plain decimal; a real with 7 significant digits, fixed notation, the sign extra: `640.0000`, `0.000000` (E-06).
-[[nodiscard]] std::string to_wire(const Datum& d);
+/// Forms in which the manual prints reals (E-06): `640.0000`, `640.000`, `640.0`.
+enum class RealForm : std::uint8_t { seven_digits, three_decimals, shortest };
+
+/// An integer in plain decimal; a real in fixed notation, by default with 7 significant digits, the sign extra: `640.0000`, `0.000000`.
+[[nodiscard]] std::string to_wire(const Datum& d, RealForm form = RealForm::seven_digits);
 /// Decimal text with an optional sign and, for reals, one point. Nothing for anything else, `1e5` and `nan` included. The stated type
 /// decides: a fraction in an integer field is rounded (E-59).
 [[nodiscard]] std::optional<Datum> from_wire(std::string_view text, bool real);

@@ -52,11 +52,21 @@ Move SpecimenDay::to(std::int64_t target, Move::Kind kind) {
     return m;
 }
 
+void SpecimenDay::fit(Site& wanted) const {
+    const auto of = [&](std::string_view name) { return freedom(values, name); };
+    constexpr std::int64_t longest_answer = 64;  // bytes
+    const std::int64_t chunks = of("chunk_bytes") == 0 ? 0 : longest_answer / of("chunk_bytes");
+    const std::int64_t late = of("reply_ms") + of("reply_spread_ms") + of("late_ms") + of("flash_silence_ms") + chunks * of("chunk_pause_ms");
+    if (late > 50) wanted.lines.at(0).timing.reply_timeout = std::max<Duration>(600ms, std::chrono::milliseconds(late + 100));
+}
+
 bool SpecimenDay::found() { return world->run_until_true([&] { return online(); }, 60s + 4 * slowness()); }
 
 /// Returns true if the axis came up.
 bool SpecimenDay::served() {
-    site = world->apply(world->twins(e));
+    Site wanted = world->twins(e);
+    fit(wanted);
+    site = world->apply(std::move(wanted));
     axis = site->axis_ids.at(0);
     const bool up = found();
     EXPECT_TRUE(up) << "the drive is not found" << in_words();
@@ -180,7 +190,9 @@ void SpecimenDay::gateway(std::uint64_t seed, Duration after) {
     world = std::make_unique<World>(seed, plant);
     world->now = at;
     behind_a_cable = true;
-    site = world->apply(world->make_site(e, e.cable(), 1, "device"));
+    Site wanted = world->make_site(e, e.cable(), 1, "device");
+    fit(wanted);
+    site = world->apply(std::move(wanted));
     axis = site->axis_ids.at(0);
 }
 

@@ -46,6 +46,8 @@ private:
     /// The drive and the last events, for people.
     [[nodiscard]] std::string in_words() const;
 
+    /// The line's reply time-out as a person sets it for a drive that answers so late.
+    void fit(Site& wanted) const;
     void gateway(std::uint64_t seed, Duration after);
     [[nodiscard]] bool found();
     [[nodiscard]] bool served();

@@ -29,7 +29,7 @@ const Family& family_cia402() {
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Adapter> { return std::make_unique<cia402_drive::LineAdapter>(c); },
         [](const Catalogue& c, const TwinSetup& setup) -> std::unique_ptr<Twin> {
             const auto described = cia402_drive::description_of(c);
-            return cia402_drive::twin::make_twin(setup, described ? &*described : nullptr);
+            return cia402_drive::twin::make_twin(setup, described ? &*described : nullptr, c.freedoms());
         },
         [](const Catalogue& c, LineKind) -> std::unique_ptr<Decoder> { return std::make_unique<cia402_drive::CanDecoder>(c); },
         cia402_drive::check_address,

@@ -24,6 +24,7 @@ struct ShaftFreedoms {
         return follow_ms == 0 && most_acceleration == 0 && friction_increments == 0 && backlash_increments == 0 && noise_increments == 0 &&
                drift_increments == 0;
     }
+    bool operator==(const ShaftFreedoms&) const = default;
 };
 /// Reads them by their names.
 [[nodiscard]] ShaftFreedoms shaft_freedoms(const FreedomValues& values);

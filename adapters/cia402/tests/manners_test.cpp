@@ -1,11 +1,12 @@
 // The adapter with drives that use what CiA 301 and CiA 402 leave open: a mode that is shown late, a control word that is sampled slowly,
 // an acknowledgement that is late or missing, mappings in pre-operational only, slow SDO answers, NMT stop by another master. The twins are
-// configured by twin/freedoms.hpp.
+// configured by the freedoms of the page.
 #include <fmt/core.h>
 
 #include <cmath>
 
 #include "adapters/cia402/tests/line_bench.hpp"
+#include "gateway/core/specimen.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 
 namespace axisgate::cia402_drive::test {
@@ -16,12 +17,12 @@ struct Manners : LineBench {
     std::vector<std::uint16_t> words;  ///< control words that were sent to the drive
     int pre_operational = 0, started = 0;
 
-    explicit Manners(Options of_twin = {}, Options of_drive = {}) : LineBench(page(), 1, std::move(of_drive)) {
+    explicit Manners(const Options& of_twin = {}, Options of_drive = {}) : LineBench(page(), 1, std::move(of_drive)) {
         TwinSetup t;
         t.address = "5";
         t.kind = LineKind::can;
-        t.options = std::move(of_twin);
-        bus->add(DriveId{0}, twin::make_twin(t), {}, now);
+        t.freedoms = freedoms_of(page(), of_twin);
+        bus->add(DriveId{0}, twin::make_twin(t, nullptr, page().freedoms()), {}, now);
         crossed = [this](const Frame& f) { note(f); };
         open();
     }

@@ -13,7 +13,7 @@ double index_above(double place) { return std::ceil((place + 1) / index_way) * i
 
 std::span<const int> homing_methods() noexcept { return methods; }
 
-HomingWay homing_way(int method, double here, double travel) {
+HomingWay homing_way(int method, double here, double travel, double hysteresis) {
     if (method == 35 || method == 37) return {true, {}, here, false};
     if (method == 33) return {true, {}, index_below(here), true};
     if (method == 34) return {true, {}, index_above(here), true};
@@ -22,18 +22,22 @@ HomingWay homing_way(int method, double here, double travel) {
     if (m < 1 || m > 14 || travel <= 0) return {};
 
     if (m <= 2) {  // a limit switch, and the first index pulse on the way back
-        const double edge = m == 1 ? -travel : travel;
-        return {true, {edge}, to_edge ? edge : m == 1 ? index_above(edge) : index_below(edge), true};
+        const double end = m == 1 ? -travel : travel, edge = m == 1 ? end + hysteresis : end - hysteresis;
+        return {true, {end}, to_edge ? edge : m == 1 ? index_above(edge) : index_below(edge), true};
     }
     // 3, 4: a home switch that is active from its edge to the positive end; 5, 6: to the negative end. The index pulse of 3 and 6 is to the
-    // left of it.
-    if (m <= 6) return {true, {0}, to_edge ? 0 : m == 3 || m == 6 ? index_below(0) : index_above(0), true};
+    // left of it. 3 and 5 leave the switch, 4 and 6 enter it.
+    if (m <= 6) {
+        const double edge = m == 3 ? -hysteresis : m == 5 ? hysteresis : 0;
+        return {true, {0}, to_edge ? edge : m == 3 || m == 6 ? index_below(edge) : index_above(edge), true};
+    }
 
     // 7 to 10 start to the right and reverse at the positive limit switch; 11 to 14 are mirrored. In order: outside the near edge, inside
     // it, inside the far edge, outside the far edge.
     const double side = m <= 10 ? 1 : -1;
     const int kind = (m - 7) % 4;
-    const double edge = side * (kind < 2 ? -cam : cam);
+    const double released = kind == 0 || kind == 3 ? cam + hysteresis : cam;  // outside an edge: the axis leaves the cam
+    const double edge = side * (kind < 2 ? -released : released);
     HomingWay way{true, {}, edge, true};
     if (side * here > cam) way.search.push_back(side * travel);
     way.search.push_back(edge);

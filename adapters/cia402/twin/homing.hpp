@@ -61,7 +61,8 @@ private:
 
 /// All methods that 60E3h offers, in ascending order.
 [[nodiscard]] std::span<const int> homing_methods() noexcept;
-/// `travel`: the limit switches are at -travel and +travel; 0: there are neither limit switches nor a home switch.
-[[nodiscard]] HomingWay homing_way(int method, double here, double travel);
+/// `travel`: the limit switches are at -travel and +travel; 0: there are neither limit switches nor a home switch. `hysteresis`: a switch
+/// that the axis leaves is released this many increments behind the place where it is operated.
+[[nodiscard]] HomingWay homing_way(int method, double here, double travel, double hysteresis = 0);
 
 }  // namespace axisgate::cia402_drive::twin

@@ -18,6 +18,10 @@ Motion Mechanics::demand(Instant now) const {
 }
 Motion Mechanics::shaft(Instant now) const {
     if (held_) return {held_at_, 0, 0};
+    if (motor_.differs()) {
+        follow(now);
+        return {motor_.position(), motor_.velocity(), 0};
+    }
     Motion m = demand(now);
     m.position -= lag_ * m.velocity;
     m.velocity -= lag_ * m.acceleration;
@@ -27,10 +31,32 @@ Motion Mechanics::shaft(Instant now) const {
 double Mechanics::read(Instant now) const {
     constexpr double swings_per_s = 1 / 0.007;
     const double swing = swing_ == 0 ? 0 : swing_ * std::sin(2 * std::numbers::pi * swings_per_s * seconds(now - Instant{}));
-    return shaft(now).position + misread_ + swing;
+    const double here = shaft(now).position, play_and_noise = motor_.differs() ? motor_.shown() - motor_.position() : 0;
+    return here + play_and_noise + misread_ + swing;
+}
+
+void Mechanics::set_shaft(const ShaftFreedoms& freedoms, std::uint64_t seed, Instant now) {
+    const double here = shaft(now).position;
+    motor_ = Shaft(freedoms, seed);
+    motor_.set(here, now);
+    ran_out_ = false;
+}
+void Mechanics::set_power(bool on, Instant now) {
+    follow(now);
+    on_ = on;
+    ran_out_ = false;
+}
+void Mechanics::follow(Instant now) const {
+    if (held_ || !motor_.differs()) return;
+    const auto demanded = [this](Instant at) { return demand(at).position; };
+    if (on_) return motor_.advance(now, demanded);
+    if (!ran_out_) motor_.advance(std::min(now, end()), demanded);
+    ran_out_ = ran_out_ || now >= end();
+    if (ran_out_) motor_.advance_without_power(now);
 }
 
 void Mechanics::begin(Instant now) {
+    follow(now);
     at_ = demand(now);
     since_ = now;
     end_ = step_velocity_ = push_from_ = push_to_ = push_slope_ = 0;
@@ -111,6 +137,7 @@ void Mechanics::rest_at(double position, Instant now) {
 }
 void Mechanics::hold(bool held, Instant now) {
     if (held && !held_) held_at_ = shaft(now).position;
+    if (!held && held_) motor_.set(held_at_, now);
     held_ = held;
 }
 Instant Mechanics::end() const { return since_ + Duration{std::llround(std::ceil(end_ * 1e9))}; }

@@ -1,12 +1,13 @@
 // Mechanics calculates the demand position of the simulated servo at any instant, as segments of a profile, and the position of a shaft
-// that lags behind it or is blocked. Each order (to a position, at a speed, with a torque, to a stop) continues from the state that the
-// previous one has reached, without a jump. Units: increments of the motor, seconds.
+// that lags behind it, is blocked, or follows it with finite force, friction and play. Each order (to a position, at a speed, with a
+// torque, to a stop) continues from the state that the previous one has reached, without a jump. Units: increments of the motor, seconds.
 #pragma once
 
 #include <vector>
 
 #include "adapters/cia402/twin/profile.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/core/shaft.hpp"
 
 namespace axisgate::cia402_drive::twin {
 
@@ -25,6 +26,11 @@ public:
     /// Lag of a position controller: the shaft follows its demand with this delay.
     void set_lag(double seconds) { lag_ = seconds; }
     [[nodiscard]] bool lags() const noexcept { return lag_ > 0; }
+    /// How the shaft differs from its demand, from now on; it begins at its present position. Replaces `set_lag`.
+    void set_shaft(const ShaftFreedoms& freedoms, std::uint64_t seed, Instant now);
+    [[nodiscard]] bool differs() const noexcept { return motor_.differs(); }
+    /// Without power a shaft that differs from its demand runs out with it, and then drifts.
+    void set_power(bool on, Instant now);
 
     /// Errors of the encoder from now on: `misread` is a constant offset, `swing` an oscillation by `size` increments to both sides with a
     /// period of 7 ms.
@@ -34,6 +40,7 @@ public:
     [[nodiscard]] bool misreads() const noexcept { return misread_ != 0 || swing_ != 0; }
 
     [[nodiscard]] Motion demand(Instant now) const;
+    /// Where `differs`: not for an instant in the future, because the shaft has no closed form.
     [[nodiscard]] Motion shaft(Instant now) const;
     /// As the encoder reports it.
     [[nodiscard]] double read(Instant now) const;
@@ -54,12 +61,15 @@ private:
     void take(const Profile& profile);
     void add(const Segment& segment);
     void rest() { pieces_.push_back({end_, at_, {}}); }
+    void follow(Instant now) const;
     std::vector<Piece> pieces_{{0, {}, {}}};
     Instant since_{};
     Motion at_;
     double end_ = 0, held_at_ = 0, step_velocity_ = 0, lag_ = 0, misread_ = 0, swing_ = 0;
     double push_from_ = 0, push_to_ = 0, push_slope_ = 0;
-    bool held_ = false;
+    bool held_ = false, on_ = true;
+    mutable Shaft motor_;           ///< advanced when it is asked for, with the demand until then
+    mutable bool ran_out_ = false;  ///< without power, it has reached standstill
 };
 
 }  // namespace axisgate::cia402_drive::twin

@@ -2,7 +2,6 @@
 #include "adapters/cia402/twin/node.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace axisgate::cia402_drive::twin {
 using canopen::Abort;
@@ -14,10 +13,23 @@ using canopen::PdoDirection;
 namespace {
 constexpr std::int64_t save_word = 0x65766173, load_word = 0x64616F6C;  // "save", "load"
 constexpr int most_events = 100'000;                                    // in one call; older ones are dropped
-std::string key_of(Address a) {
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%04X:%02X", unsigned{a.index}, unsigned{a.sub});
-    return text.data();
+
+/// Memory of a node, and what it has without it.
+struct Origin {
+    const NonVolatile& memory;
+    const Freedoms& freedoms;
+};
+/// The value of the memory, or the maker's. Memory of an object that the drive lacks does not count.
+void restore(canopen::Dictionary& d, const Origin& from, Address address, const canopen::Entry& made) {
+    const auto kept = from.memory.find(memory_key(address));
+    const bool uses = kept != from.memory.end() && !from.freedoms.lacks(address.index);
+    if (!uses || !d.set(address, kept->second)) (void)d.set_bytes(address, made.bytes);
+}
+/// The order that another master on the bus gives; this node carries it out as well.
+void stop_as_other_master(std::uint8_t node, Instant at, Out& out) {
+    Frame order = canopen::nmt_frame(NmtCommand::stop, node);
+    order.at = at;
+    out.send(order);
 }
 }  // namespace
 
@@ -25,6 +37,7 @@ Node::Node(std::uint8_t node, canopen::Dictionary dictionary)
     : node_(node), factory_(std::move(dictionary)), d_(factory_), server_(node, d_) {
     d_.on_write([this](Address a, std::span<const std::uint8_t> bytes) { return on_write(a, bytes); });
     d_.on_read([this](Address a) {
+        if (free_.lacks(a.index)) return Abort::no_object;
         if (a.index >= 0x2000) show(now_);
         return Abort::none;
     });
@@ -44,19 +57,19 @@ void Node::send(Frame f, Instant at, Out& out) const {
 
 void Node::load() {
     for (const auto& [address, entry] : factory_.entries()) {
-        if (!device_->keeps(address, entry)) {
+        if (device_->keeps(address, entry)) {
+            restore(d_, {stored_, free_}, address, entry);
+        } else {
             (void)d_.set_bytes(address, entry.bytes);
-            continue;
         }
-        const auto kept = stored_.find(key_of(address));
-        if (kept == stored_.end() || !d_.set(address, kept->second)) (void)d_.set_bytes(address, entry.bytes);
     }
+    shape_pdos(free_, stored_, d_);
     device_->load(stored_);
 }
 void Node::save() {
     NonVolatile now;
     for (const auto& [address, entry] : factory_.entries())
-        if (device_->keeps(address, entry) && d_.find(address)->bytes != entry.bytes) now[key_of(address)] = d_.value(address);
+        if (device_->keeps(address, entry) && d_.find(address)->bytes != entry.bytes) now[memory_key(address)] = d_.value(address);
     device_->save(now);
     if (now != stored_) ++revision_;
     stored_ = std::move(now);
@@ -67,6 +80,8 @@ void Node::power_on(const NonVolatile& memory, Instant now, Out& out) {
     if (memory != stored_) stored_ = memory;
     powered_ = true;
     shown_.reset();
+    awake_at_ = other_stop_ = never;
+    other_stopped_ = false;
     reset(true, now, out);
 }
 void Node::power_off(Instant now) {
@@ -76,6 +91,7 @@ void Node::power_off(Instant now) {
     state_ = NmtState::boot_up;
     requests_.clear();
     heartbeat_.set_period({}, now);
+    awake_at_ = never;
     guard_.set({}, 0);
     watch_ = canopen::HeartbeatWatch{0};
     server_.reset();
@@ -96,9 +112,9 @@ void Node::reset(bool all, Instant now, Out& out) {
     } else {
         for (const auto& [address, entry] : factory_.entries()) {
             if (address.index >= 0x2000) break;
-            const auto kept = stored_.find(key_of(address));
-            if (kept == stored_.end() || !d_.set(address, kept->second)) (void)d_.set_bytes(address, entry.bytes);
+            restore(d_, {stored_, free_}, address, entry);
         }
+        shape_pdos(free_, stored_, d_);
     }
     server_.reset();
     requests_.clear();
@@ -169,30 +185,13 @@ void Node::read_pdo(PdoDirection direction, std::uint16_t n, Instant now) {
         p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
 }
 
-bool Node::may_set_up(Address a) const noexcept {
-    const bool mapping = (a.index >= 0x1600 && a.index < 0x1800) || (a.index >= 0x1A00 && a.index < 0x1C00);
-    const bool any = a.index >= 0x1400 && a.index < 0x1C00;
-    return state_ == NmtState::pre_operational || (free_.pdo_setup == 2 ? !any : free_.pdo_setup == 0 || !mapping);
-}
-
 Abort Node::on_write(Address a, std::span<const std::uint8_t> bytes) {
-    if (!may_set_up(a)) return Abort::device_state;
+    if (free_.lacks(a.index)) return Abort::no_object;
     const auto v = static_cast<std::int64_t>(canopen::low_first(bytes));
+    if (const Abort fault = fault_of_setup({free_, d_, state_ == NmtState::pre_operational}, a, v); fault != Abort::none) return fault;
     if (a.index == 0x1010 && v != save_word) return Abort::transfer;
     if (a.index == 0x1011 && v != load_word) return Abort::transfer;
-    const bool receive_map = a.index >= 0x1600 && a.index < 0x1604, transmit_map = a.index >= 0x1A00 && a.index < 0x1A04;
-    if ((receive_map || transmit_map) && a.sub == 0 && v > 8) return Abort::pdo_length;
-    if ((receive_map || transmit_map) && a.sub > 0 && v != 0) {
-        const auto direction = receive_map ? PdoDirection::receive : PdoDirection::transmit;
-        const Abort fault = canopen::fault_of({canopen::mapped_entry(static_cast<std::uint32_t>(v))}, direction, d_);
-        if (fault != Abort::none) return fault;
-    }
-    if ((receive_map || transmit_map) && a.sub == 0 && v > 0) {
-        canopen::PdoMapping all;
-        for (std::uint8_t i = 1; i <= v; ++i)
-            all.push_back(canopen::mapped_entry(static_cast<std::uint32_t>(d_.integer({a.index, i}).value_or(0))));
-        if (canopen::bits_of(all) > canopen::pdo_bits) return Abort::pdo_length;
-    }
+    if (const Abort fault = fault_of_mapping(free_, d_, a, v); fault != Abort::none) return fault;
     // CiA 301, 7.5.2.17: 1 is not a valid overflow, and it is constant while a period is produced; 7.5.2.37: sub 6 is constant while the
     // PDO is enabled.
     if (a.index == 0x1019 && v == 1) return Abort::value;
@@ -246,6 +245,8 @@ void Node::nmt(NmtCommand command, Instant now, Out& out) {
                 for (Pdo& p : transmit_)
                     p.syncs = 0, p.begun = false;
             state_ = NmtState::operational;
+            if (free_.stopped_by_other > Duration::zero() && !std::exchange(other_stopped_, true))
+                other_stop_ = now + free_.stopped_by_other;
             for (Pdo& p : transmit_)
                 if (p.valid && p.pdo.settings.event_ms > 0) p.event = now + std::chrono::milliseconds(p.pdo.settings.event_ms);
             return events(now, out);
@@ -258,7 +259,11 @@ void Node::nmt(NmtCommand command, Instant now, Out& out) {
             state_ = NmtState::pre_operational;
             return;
         case NmtCommand::reset_node:
-            return reset(true, now, out);
+            if (free_.boot == Duration::zero()) return reset(true, now, out);
+            power_off(now);
+            powered_ = true;
+            awake_at_ = now + free_.boot;
+            return;
         case NmtCommand::reset_communication:
             return reset(false, now, out);
     }
@@ -268,6 +273,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     if (!powered_) return;
     advance(now, out);
     now_ = now;
+    if (awake_at_ != never) return;
     if (f.kind != Frame::Kind::can || f.extended) return;
     if (const auto command = canopen::nmt_for(f, node_)) return nmt(*command, now, out);
     (void)watch_.on_frame(f, now);
@@ -275,7 +281,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
     if (state_ == NmtState::stopped) return;
     if (canopen::is_data(f, sync_id_)) return on_sync(f, now, out);
     if (canopen::is_data(f, std::uint32_t{canopen::sdo_request_base} + node_))
-        return free_.sdo_answer_ms > 0 || !requests_.empty() ? keep_request(f, now) : serve_request(f, now, out);
+        return free_.sdo_answer > Duration::zero() || !requests_.empty() ? keep_request(f, now) : serve_request(f, now, out);
     if (state_ != NmtState::operational) return;
     for (Pdo& p : receive_)
         if (p.valid && canopen::is_data(f, p.pdo.settings.id)) return receive(p, f.data(), now, out);
@@ -285,7 +291,7 @@ void Node::on_frame(const Frame& f, Instant now, Out& out) {
 
 void Node::keep_request(const Frame& f, Instant now) {
     if (requests_.size() >= most_requests) return;
-    requests_.push_back({f, (requests_.empty() ? now : std::max(now, requests_.back().due)) + free_.sdo_answer()});
+    requests_.push_back({f, (requests_.empty() ? now : std::max(now, requests_.back().due)) + free_.sdo_answer});
 }
 void Node::serve_request(const Frame& f, Instant at, Out& out) {
     std::vector<Frame> answers;
@@ -368,9 +374,15 @@ void Node::transmit(Pdo& p, Instant at, Out& out) {
 }
 
 void Node::events(Instant at, Out& out) {
-    for (const auto& reported : device_->take_reported())
-        if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, reported.emergency), reported.at, out);
-    if (state_ != NmtState::operational) return;
+    const auto emergencies = [&] {
+        for (const auto& reported : device_->take_reported())
+            if (state_ != NmtState::stopped) send(canopen::emergency_frame(node_, reported.emergency), reported.at, out);
+    };
+    if (!free_.emergency_after_status) emergencies();
+    if (state_ == NmtState::operational) send_changed(at, out);
+    if (free_.emergency_after_status) emergencies();
+}
+void Node::send_changed(Instant at, Out& out) {
     for (Pdo& p : transmit_) {
         if (!p.valid || p.pdo.settings.transmission < 254) continue;
         // A PDO is event-driven if it contains states, inputs or modes; measured values are sent with them.
@@ -382,7 +394,9 @@ void Node::events(Instant at, Out& out) {
 
 Instant Node::deadline() const {
     if (!powered_) return never;
+    if (awake_at_ != never) return awake_at_;
     Instant next = std::min({device_->next_event(now_), heartbeat_.deadline(), server_.deadline(), guard_.deadline(), watch_.deadline()});
+    next = std::min(next, other_stop_);
     if (!requests_.empty()) next = std::min(next, requests_.front().due);
     if (state_ == NmtState::operational)
         for (const Pdo& p : transmit_)
@@ -396,6 +410,16 @@ void Node::advance(Instant now, Out& out) {
         if (due > now) break;
         const Instant at = std::max(due, now_);
         now_ = at;
+        if (awake_at_ <= at) {
+            awake_at_ = never;
+            reset(true, at, out);
+            continue;
+        }
+        if (other_stop_ <= at) {
+            other_stop_ = never;
+            stop_as_other_master(node_, at, out);
+            nmt(NmtCommand::stop, at, out);
+        }
         if (device_->next_event(now_) <= at) {
             shown_.reset();
             device_->on_event(at);

@@ -9,6 +9,8 @@
 
 #include "adapters/cia402/twin/device.hpp"
 #include "adapters/cia402/twin/freedoms.hpp"
+#include "adapters/cia402/twin/late_heartbeat.hpp"
+#include "adapters/cia402/twin/pdo_rules.hpp"
 #include "gateway/core/twin.hpp"
 #include "gateway/protocols/canopen/nmt.hpp"
 #include "gateway/protocols/canopen/pdo.hpp"
@@ -18,7 +20,6 @@ namespace axisgate::cia402_drive::twin {
 
 class Node {
 public:
-    static constexpr std::uint16_t pdos = 4;  ///< of each direction
     Node(std::uint8_t node, canopen::Dictionary dictionary);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
@@ -34,8 +35,11 @@ public:
     /// The identifiers of the pre-defined connection set: its own ones, NMT, SYNC, and those of the node whose heartbeat it monitors.
     [[nodiscard]] Acceptance acceptance() const noexcept;
 
-    /// How it answers and which set-up it accepts, from now on.
-    void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
+    /// How it answers and which set-up it accepts, from now on. Objects and PDOs of the drive's own change with the next reset.
+    void set_freedoms(const Freedoms& freedoms) noexcept {
+        free_ = freedoms;
+        heartbeat_.set_jitter(free_.heartbeat_jitter, free_.seed);
+    }
 
     [[nodiscard]] NonVolatile stored() const { return stored_; }
     [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -71,7 +75,6 @@ private:
     void read_pdos(Instant now);
     void read_pdo(canopen::PdoDirection direction, std::uint16_t number, Instant now);
     void show(Instant now);  ///< writes the measured values into the dictionary
-    [[nodiscard]] bool may_set_up(canopen::Address address) const noexcept;
     void keep_request(const Frame& request, Instant now);
     void serve_request(const Frame& request, Instant at, Out& out);
     void nmt(canopen::NmtCommand command, Instant now, Out& out);
@@ -83,6 +86,7 @@ private:
     void watch_as_written();
     void connection_lost(Instant at, Out& out);
     void events(Instant at, Out& out);  ///< EMCY, and event-driven PDOs
+    void send_changed(Instant at, Out& out);
 
     static constexpr std::size_t most_requests = 8;  ///< that wait for their answer; further ones are lost
     struct Request {
@@ -99,13 +103,16 @@ private:
     std::uint32_t sync_id_ = 0x80;
     int sync_overflow_ = 0;  ///< 1019h; 0: SYNC has no counter
     bool sync_odd_ = false;  ///< the last SYNC had a wrong length
-    canopen::HeartbeatProducer heartbeat_;
+    LateHeartbeat heartbeat_;
     canopen::GuardSlave guard_;
     canopen::HeartbeatWatch watch_{0};  ///< the node in 1016h:01
     std::uint8_t watched_ = 0;
     std::array<Pdo, pdos> receive_, transmit_;
     std::vector<canopen::Address> writes_;
     Instant now_{};
+    Instant awake_at_ = never;        ///< it restarts, and hears and says nothing until then
+    Instant other_stop_ = never;      ///< another master stops the node
+    bool other_stopped_ = false;      ///< or will
     std::optional<Instant> shown_{};  ///< of the measured values in the dictionary; empty: they are out of date
     NonVolatile stored_;
     std::uint64_t revision_ = 0;

@@ -14,6 +14,7 @@ void Orders::reset(int mode) {
 void Orders::forget() {
     step_.reset();
     reading_.reset();
+    inside_.reset();
     target_.reset();
     buffered_.reset();
 }
@@ -65,7 +66,20 @@ void Orders::act(Instant now) {
     }
 }
 
+double Orders::target_time() const {
+    const Duration between = sync_time();
+    if (!knows_target_time && between > Duration::zero()) return seconds(between);
+    return static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2)));
+}
+Duration Orders::sync_time() const {
+    const Duration period = std::chrono::microseconds(o_.of_node(0x1006));
+    return period > Duration::zero() ? period : between_syncs_;
+}
+
 void Orders::sync(unsigned cw, Instant now) {
+    constexpr Duration pause = std::chrono::milliseconds(500);  // of a master that has begun anew
+    between_syncs_ = sync_at_ == never || now - sync_at_ > pause ? Duration::zero() : now - sync_at_;
+    sync_at_ = now;
     if ((mode_ != 8 && mode_ != 7) || halted_) return;
     if (mode_ == 7 && (cw & 0x10u) == 0) return;
     const auto [low, high] = u_.limits();
@@ -73,7 +87,7 @@ void Orders::sync(unsigned cw, Instant now) {
     limited_ = low < high && (to < low || to > high);
     if (low < high) to = std::clamp(to, low, high);
     // 60C2h is the time between two targets: SYNCs may come more often, and a SYNC without a new target continues the last step.
-    const double time = static_cast<double>(o_.get(0x60C2, 1)) * std::pow(10.0, static_cast<double>(o_.get(0x60C2, 2)));
+    const double time = target_time();
     const bool on_its_way = step_ && step_->to == to && seconds(now - step_->at) < time - std::min(time / 4, 0.0005);
     if (on_its_way) return;
     step_ = Step{to, now};
@@ -89,6 +103,7 @@ void Orders::set_point(bool relative, bool at_once, Instant now) {
     acknowledged_ = true;
     reached_ = false;
     reading_.reset();
+    inside_.reset();
     if (!at_once && target_ && m_.moves(now)) {
         buffered_ = to;
         return;
@@ -119,12 +134,17 @@ std::optional<Instant> Orders::arrival() const {
         if (reading_) return reading_at_ + window_time();
         if (settles() || m_.misreads()) return std::max(m_.end(), reading_at_ + std::chrono::milliseconds(1));
     }
+    if (m_.differs() && !m_.held() && !buffered_) {
+        constexpr Duration often = std::chrono::milliseconds(1), seldom = std::chrono::milliseconds(50), usual = std::chrono::seconds(1);
+        return std::max(m_.end(), looked_at_ + (looked_at_ < m_.end() + usual ? often : seldom));
+    }
     if (!settles()) return std::nullopt;
     return m_.end() + (buffered_ ? Duration{} : window_time());
 }
 void Orders::arrive(unsigned cw, Instant at) {
     if (halted_) return;
     if (readings_within && target_ && !reached_ && !buffered_ && m_.demand(at).position == *target_) return take_reading(at);
+    if (target_ && !reached_ && !buffered_ && m_.differs() && !m_.held() && m_.demand(at).position == *target_) return take_look(at);
     if (target_ && !reached_ && settles() && m_.demand(at).position == *target_) {
         if (buffered_) {
             target_ = std::exchange(buffered_, std::nullopt);
@@ -144,6 +164,12 @@ void Orders::take_reading(Instant at) {
     reading_ = !reached_ && in_window(at) ? std::optional(here) : std::nullopt;
     reading_at_ = at;
 }
+void Orders::take_look(Instant at) {
+    looked_at_ = at;
+    if (!in_window(at)) return inside_.reset();
+    if (!inside_) inside_ = at;
+    reached_ = at >= *inside_ + window_time();
+}
 bool Orders::in_window(Instant at) const {
     const auto window = o_.get(0x6067);
     return window == 0xFFFFFFFF || std::fabs(m_.read(at) - m_.demand(at).position) <= u_.way_of(0x6067);
@@ -151,7 +177,7 @@ bool Orders::in_window(Instant at) const {
 
 /// At the end of the positioning the shaft is within the position window (6067h; FFFFFFFFh: no window).
 bool Orders::settles() const {
-    if ((!m_.held() && !m_.lags()) || o_.get(0x6067) == 0xFFFFFFFF) return true;
+    if ((!m_.held() && !m_.lags()) || (m_.differs() && !m_.held()) || o_.get(0x6067) == 0xFFFFFFFF) return true;
     return std::fabs(m_.shaft(m_.end()).position - m_.demand(m_.end()).position) <= u_.way_of(0x6067);
 }
 

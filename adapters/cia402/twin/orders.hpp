@@ -29,6 +29,7 @@ public:
     void halt(bool on, Instant now);
     /// Bit 4 of the control word is 0: the next set-point is accepted.
     void released() { acknowledged_ = buffered_.has_value(); }
+    [[nodiscard]] bool buffers() const noexcept { return buffered_.has_value(); }
     void limit_switch() {
         limited_ = true;
         target_.reset();
@@ -50,6 +51,13 @@ public:
     void set_reached(bool reached) noexcept { reached_ = reached; }
     /// The present torque in 1/1000 of the rated torque.
     [[nodiscard]] double torque(Instant now) const { return m_.pushed(now) / per_mille; }
+    /// 7, 8, 9 or 10, and not halted: it waits for targets.
+    [[nodiscard]] bool cyclic() const noexcept { return mode_ >= 7 && !halted_; }
+    /// Time between two targets by 60C2h, in seconds.
+    [[nodiscard]] double target_time() const;
+    /// Time between two SYNCs: 1006h, or that between the last two; zero before there were two.
+    [[nodiscard]] Duration sync_time() const;
+    bool knows_target_time = true;  ///< there is a 60C2h; otherwise each SYNC has a target
 
 private:
     static constexpr double per_mille = 50;  ///< acceleration of this load by 1/1000 of the rated torque, increments/s^2
@@ -57,6 +65,7 @@ private:
     [[nodiscard]] bool settles() const;
     [[nodiscard]] bool in_window(Instant at) const;
     void take_reading(Instant at);
+    void take_look(Instant at);
     [[nodiscard]] Duration window_time() const { return std::chrono::milliseconds(o_.get(0x6068)); }
     AxisObjects& o_;
     UserUnits& u_;
@@ -72,6 +81,10 @@ private:
     std::optional<Step> step_;       ///< the last step of a cyclic mode
     std::optional<double> reading_;  ///< the first of two readings
     Instant reading_at_{};
+    Instant looked_at_{};            ///< a shaft that differs from its demand: when its position was compared with the window
+    std::optional<Instant> inside_;  ///< since when it has been within the window
+    Instant sync_at_ = never;
+    Duration between_syncs_{};
 };
 
 }  // namespace axisgate::cia402_drive::twin

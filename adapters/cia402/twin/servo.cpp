@@ -16,9 +16,9 @@ std::uint8_t register_of(std::uint16_t code) {
 }  // namespace
 
 const std::vector<std::uint16_t>& error_codes() {
-    static const std::vector<std::uint16_t> codes{0x1000, 0x2310, 0x2320, 0x2330, 0x3110, 0x3120, 0x3210, 0x3220,
-                                                  0x4210, 0x4310, 0x5113, 0x5441, 0x5530, 0x6010, 0x6320, 0x7121,
-                                                  0x7122, 0x7305, 0x8110, 0x8130, 0x8400, 0x8500, 0x8611, 0x8612};
+    static const std::vector<std::uint16_t> codes{0x1000, 0x2310, 0x2320, 0x2330, 0x3110, 0x3120, 0x3210, 0x3220, 0x4210,
+                                                  0x4310, 0x5113, 0x5441, 0x5530, 0x6010, 0x6320, 0x7121, 0x7122, 0x7305,
+                                                  0x8110, 0x8130, 0x8250, 0x8400, 0x8500, 0x8611, 0x8612, 0x8700};
     return codes;
 }
 
@@ -30,7 +30,6 @@ void Servo::power_on(Instant now) {
     state_ = State::switch_on_disabled;
     after_stop_.reset();
     cw_ = 0;
-    late_ = {};
     orders_.reset(static_cast<int>(o_.get(0x6060)));
     homing_.forget();
     behind_ = 0;
@@ -39,6 +38,7 @@ void Servo::power_on(Instant now) {
     if (cause_ != 0) fail(cause_, now);
 }
 void Servo::power_off(Instant now) {
+    if (powered()) m_.set_power(false, now);
     m_.rest_at(m_.shaft(now).position, now);
     state_ = State::switch_on_disabled;
     after_stop_.reset();
@@ -69,16 +69,10 @@ canopen::Abort Servo::may_write(canopen::Address a, std::int64_t v, Instant now)
 
 void Servo::written(canopen::Address a, Instant now) {
     switch (a.index - o_.shift()) {
-        case 0x6040: {
-            const Duration every = free_.control_sample();
-            if (every == Duration::zero()) return control(now);
-            if (late_.sample == never) late_.sample = now + every - now.time_since_epoch() % every;
-            return;
-        }
+        case 0x6040:
+            return control(now);
         case 0x6060:
-            if (free_.mode_shown() == Duration::zero()) return set_mode(now);
-            late_.mode = now + free_.mode_shown();
-            return;
+            return set_mode(now);
         case 0x60FF:
         case 0x6071:
             if (state_ == State::enabled && !after_stop_) orders_.act(now);
@@ -99,13 +93,6 @@ void Servo::on_sync(Instant now) {
     if (state_ == State::enabled && !after_stop_) orders_.sync(cw_, now);
 }
 
-/// A control word that was written before and is sampled now.
-void Servo::take_late(Instant at) {
-    if (late_.sample <= at) late_.sample = never, control(at);
-    if (late_.mode <= at) late_.mode = never, set_mode(at);
-    if (late_.shown <= at) late_.shown = never, shown_ = true;
-}
-
 void Servo::control(Instant now) {
     const unsigned cw = static_cast<unsigned>(o_.get(0x6040)), rising = cw & ~cw_, before = std::exchange(cw_, cw);
     if (state_ == State::fault) {
@@ -120,12 +107,7 @@ void Servo::control(Instant now) {
     command(cw, now);
     if (state_ != State::enabled || after_stop_) return;
     if ((cw & 0x10u) == 0) orders_.released();
-    if (orders_.mode() == 1 && (rising & 0x10u) && !orders_.acknowledged()) {
-        orders_.set_point(cw & 0x40u, (cw & 0x20u) != 0, now);
-        const bool late = free_.acknowledges == 0 || free_.acknowledge() > Duration::zero();
-        shown_ = !late;
-        late_.shown = late && free_.acknowledges != 0 ? now + free_.acknowledge() : never;
-    }
+    if (orders_.mode() == 1 && (rising & 0x10u) && !orders_.acknowledged()) orders_.set_point(cw & 0x40u, (cw & 0x20u) != 0, now);
     if (orders_.mode() == 6 && (rising & 0x10u)) begin_homing(now);
     if (orders_.mode() == 6 && (before & 0x10u) && !(cw & 0x10u) && homing_.active()) {
         homing_.forget();  // resetting the start bit interrupts homing
@@ -182,13 +164,17 @@ void Servo::enter(State state, Instant now) {
     const bool was = powered();
     after_stop_.reset();
     if (state == State::enabled) {
-        if (!was) m_.rest_at(m_.shaft(now).position, now);
+        if (!was) {
+            m_.rest_at(m_.shaft(now).position, now);
+            m_.set_power(true, now);
+        }
         orders_.enabled(cw_);
         behind_ = 0;
         checked_ = now;
     }
     state_ = state;
     if (!powered()) {
+        if (was) m_.set_power(false, now);
         orders_.taken_off();
         behind_ = 0;
         homing_.interrupt();
@@ -249,16 +235,22 @@ void Servo::connection_lost(Instant now) {
     if (option == 3) command(0x0A, now);
 }
 
-/// Following errors are checked only if they are possible: the shaft is blocked, its encoder reports a wrong position, or it lags that far
-/// at its present speed.
+/// A torque has no position that the shaft could be behind, and a drive that brakes because of a fault has reported one.
+bool Servo::follows_demand() const noexcept {
+    return !m_.differs() || m_.held() || (orders_.mode() != 4 && orders_.mode() != 10 && state_ != State::fault_reaction);
+}
+/// Following errors are checked only if they are possible: the shaft is blocked, its encoder reports a wrong position, or it is behind its
+/// demand. Switches with hysteresis are looked at while the shaft moves.
 bool Servo::watches() const {
     if (!powered()) return false;
+    if (switches_.hysteresis > 0 && travel_ > 0 && m_.moves(checked_)) return true;
+    if (m_.differs() && !m_.held()) return follows_demand() && (m_.moves(checked_) || behind_ > 0);
     if (m_.misreads()) return true;
     if (m_.held()) return m_.moves(checked_) || behind_ > 0;
     return m_.lags() && (m_.moves(checked_) || behind_ > 0);
 }
 Instant Servo::next_event(Instant now) const {
-    Instant next = late_.first();
+    Instant next = never;
     if (after_stop_ || homing_.to_switch() || homing_.to_zero()) next = std::max(m_.end(), now);
     if (const auto arrival = orders_.arrival()) next = std::max(*arrival, now);
     if (watches()) next = std::min(next, checked_ + watch_every_);
@@ -267,7 +259,9 @@ Instant Servo::next_event(Instant now) const {
 
 void Servo::watch(Instant at) {
     checked_ = at;
+    switches_.look(m_.shaft(at).position, travel_);
     if (orders_.reads()) return;  // no check between two readings of a target window
+    if (!follows_demand()) return;
     const double behind = std::fabs(m_.demand(at).position - m_.read(at));
     const auto window = o_.get(0x6065);
     behind_ = window == 0xFFFFFFFF || behind <= units_.way_of(0x6065) ? 0 : behind_ + 1;
@@ -276,7 +270,6 @@ void Servo::watch(Instant at) {
     fail(0x8611, at);
 }
 void Servo::on_event(Instant at) {
-    if (late_.first() <= at) return take_late(at);
     if (watches() && checked_ + watch_every_ <= at) watch(at);
     if (at < m_.end()) return;
     if (after_stop_) return enter(*after_stop_, at);
@@ -289,7 +282,7 @@ void Servo::begin_homing(Instant now) {
     const auto method = o_.get(0x6098);
     orders_.set_reached(false);
     if (method < 0) return homing_.lead();
-    homing_.take(homing_way(static_cast<int>(method), m_.demand(now).position, travel_));
+    homing_.take(homing_way(static_cast<int>(method), m_.demand(now).position, travel_, switches_.hysteresis));
     if (homing_.failed()) return;
     if (!homing_.way().moves) return homing_ended(homing_.way().zero + units_.zero() - units_.place_of(0x607C));
     if (m_.held()) return homing_.end(false);
@@ -308,20 +301,25 @@ void Servo::homing_ended(std::optional<double> zero) {
     units_.set_zero(*zero);
 }
 
+bool Servo::stands(Instant now) const {
+    if (m_.moves(now)) return false;
+    return !m_.differs() || std::fabs(units_.speed_in_units(m_.shaft(now).velocity)) <= static_cast<double>(o_.get(0x606F));
+}
+
 std::uint16_t Servo::statusword(Instant now) const {
     static constexpr unsigned states[] = {0x40, 0x21, 0x23, 0x27, 0x07, 0x0F, 0x08};
     const int mode = orders_.mode();
     unsigned sw = states[static_cast<std::size_t>(state_)] | 0x200u | (safe_voltage ? 0x10u : 0u);
-    const bool stands = !m_.moves(now);
+    const bool rests = stands(now);
     bool ten = orders_.reached();
     if (mode == 3)
         ten = std::fabs(units_.speed_in_units(m_.shaft(now).velocity) - static_cast<double>(o_.get(0x60FF))) <=
               static_cast<double>(o_.get(0x606D));
-    if (orders_.halted() || state_ == State::quick_stop) ten = stands;
+    if (orders_.halted() || state_ == State::quick_stop) ten = rests;
     if (ten && powered()) sw |= 0x400u;
     if (orders_.limited()) sw |= 0x800u;
-    if (mode == 1 && orders_.acknowledged() && shown_) sw |= 0x1000u;
-    if (mode == 3 && stands) sw |= 0x1000u;
+    if (mode == 1 && orders_.acknowledged()) sw |= 0x1000u;
+    if (mode == 3 && rests) sw |= 0x1000u;
     if (mode == 6) sw |= homing_.attained() ? 0x1000u : homing_.failed() ? 0x2000u : 0u;
     if (mode >= 7 && state_ == State::enabled && !orders_.halted()) sw |= 0x1000u;
     return static_cast<std::uint16_t>(sw);
@@ -344,9 +342,8 @@ void Servo::refresh(Instant now) {
     o_.put(0x60F4, std::llround(units_.way_in_units(demand.position - read)));
     o_.put(0x60B9, probes_.status());
     // A switch is operated by the simulated hand, or by the shaft if the travel has switches.
-    const bool low = limit_negative || (travel_ > 0 && shaft.position < -travel_),
-               high = limit_positive || (travel_ > 0 && shaft.position > travel_);
-    const bool home = home_switch || (travel_ > 0 && std::fabs(shaft.position) < cam);
+    switches_.look(shaft.position, travel_);
+    const bool low = limit_negative || switches_.low(), high = limit_positive || switches_.high(), home = home_switch || switches_.home();
     o_.put(0x60FD, static_cast<std::int64_t>((low ? 1u : 0u) | (high ? 2u : 0u) | (home ? 4u : 0u) | (inputs & 0xFFFF0000u)));
 }
 TwinMechanics Servo::mechanics(Instant now) const {

@@ -2,17 +2,16 @@
 // 8, 9 and 10 (Orders). It knows no frames.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "adapters/cia402/twin/device.hpp"
-#include "adapters/cia402/twin/freedoms.hpp"
 #include "adapters/cia402/twin/homing.hpp"
 #include "adapters/cia402/twin/orders.hpp"
 #include "adapters/cia402/twin/probes.hpp"
+#include "adapters/cia402/twin/switches.hpp"
 
 namespace axisgate::cia402_drive::twin {
 
@@ -58,9 +57,6 @@ public:
     [[nodiscard]] TwinMechanics mechanics(Instant now) const;
     [[nodiscard]] std::uint16_t statusword(Instant now) const;
 
-    /// When it samples its control word, shows a mode and acknowledges, from now on.
-    void set_freedoms(const Freedoms& freedoms) noexcept { free_ = freedoms; }
-
     // for a controller that moves the servo in addition to the bus
     [[nodiscard]] Mechanics& shaft() noexcept { return m_; }
     [[nodiscard]] const Mechanics& shaft() const noexcept { return m_; }
@@ -76,31 +72,26 @@ public:
     void homing_ended(std::optional<double> zero);
 
 private:
-    void control(Instant now);
-    void take_late(Instant at);
     void command(unsigned cw, Instant now);
     void stop_then(State state, const Ramps& ramps, bool at_once, Instant now);
     void enter(State state, Instant now);
-    void set_mode(Instant now);
     void begin_homing(Instant now);
     void next_search(Instant now);
     void watch(Instant at);
     [[nodiscard]] bool watches() const;
+    [[nodiscard]] bool follows_demand() const noexcept;
 
-    Freedoms free_;
-    struct Late {
-        Instant sample = never;  ///< when the written control word is sampled
-        Instant mode = never;    ///< when the ordered mode is in force
-        Instant shown = never;   ///< when bit 12 acknowledges the accepted set-point
-        [[nodiscard]] Instant first() const noexcept { return std::min({sample, mode, shown}); }
-    };
-    Late late_;
-    bool shown_ = true;  ///< bit 12 has acknowledged it
+protected:
+    void control(Instant now);   ///< carries out the control word that is in the dictionary
+    void set_mode(Instant now);  ///< puts the mode that is in the dictionary in force
+    [[nodiscard]] bool stands(Instant now) const;
+
     AxisObjects o_;
     Mechanics m_;
     UserUnits units_;
     Orders orders_;
     TouchProbes probes_;
+    Switches switches_;
     double travel_;
     State state_ = State::switch_on_disabled;
     std::optional<State> after_stop_;

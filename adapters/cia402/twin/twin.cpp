@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "adapters/cia402/twin/free_servo.hpp"
 #include "adapters/cia402/twin/node.hpp"
 #include "adapters/cia402/twin/objects.hpp"
-#include "adapters/cia402/twin/servo.hpp"
 
 namespace axisgate::cia402_drive::twin {
 namespace {
@@ -26,11 +26,14 @@ canopen::Dictionary described(std::uint8_t node, const canopen::Eds* eds, std::i
 
 class CanServo final : public Twin {
 public:
-    CanServo(const TwinSetup& setup, const canopen::Eds* eds)
+    CanServo(const TwinSetup& setup, const canopen::Eds* eds, std::span<const Freedom> freedoms)
         : node_(number(setup), described(number(setup), eds, unmodelled_)),
           servo_(node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str())) {
         node_.attach(servo_);
-        be(freedoms_of(setup.options));
+        freedoms_.assign(freedoms.begin(), freedoms.end());
+        values_ = setup.freedoms;
+        seed_ = setup.seed;
+        be(Instant{});
     }
 
     void on_frame(const Frame& f, Instant now, Out& out) override { node_.on_frame(f, now, out); }
@@ -44,7 +47,7 @@ public:
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }
 
     [[nodiscard]] std::vector<HandItem> hand() const override {
-        const Servo& s = servo_;
+        const FreeServo& s = servo_;
         return {
             {"power", Value{node_.powered()}, true, "supply of the drive"},
             {"silent", Value{node_.silent()}, true, "it hears and does not answer"},
@@ -66,11 +69,7 @@ public:
         if (node_.powered()) node_.advance(now, out);
         Servo& s = servo_;
         const bool on = *n != 0, flag = *n == 0 || *n == 1;
-        if (const Freedom* f = freedom_of(name)) {  // another behaviour from now on, as of a drive with another firmware
-            std::string fault = set_freedom(free_, *f, *n);
-            be(free_);
-            return fault;
-        }
+        if (const auto f = std::ranges::find(freedoms_, name, &Freedom::name); f != freedoms_.end()) return set_freedom(*f, *n, now);
         if (name == "inject_error") {
             const auto& codes = error_codes();
             if (on && std::ranges::find(codes, *n) == codes.end())
@@ -107,10 +106,21 @@ public:
     [[nodiscard]] TwinMechanics mechanics(int, Instant now) const override { return servo_.mechanics(now); }
 
 private:
-    void be(const Freedoms& freedoms) {
-        free_ = freedoms;
-        node_.set_freedoms(free_);
-        servo_.set_freedoms(free_);
+    /// Another behaviour from now on, as of a drive with another firmware.
+    std::string set_freedom(const Freedom& f, std::int64_t value, Instant now) {
+        if (f.name == "flash_silence_ms") return f.name + " is an option of the twin; it cannot be changed here";
+        const bool listed = f.values.empty() || std::ranges::any_of(f.values, [value](const auto& v) { return v.first == value; });
+        if (value < f.min || value > f.max || !listed)
+            return f.name + ": write " + std::to_string(f.min) + " to " + std::to_string(f.max) +
+                   (listed ? "" : ", as the page lists them");
+        values_[f.name] = value;
+        be(now);
+        return {};
+    }
+    void be(Instant now) {
+        const Freedoms all(values_, seed_);
+        node_.set_freedoms(all);
+        servo_.set_freedoms(all, now);
     }
     /// 60FEh, limited by its mask.
     [[nodiscard]] std::int64_t outputs() const {
@@ -122,15 +132,17 @@ private:
     }
     std::int64_t unmodelled_ = 0;  ///< counted when the node is made
     Node node_;
-    Servo servo_;
-    Freedoms free_;
+    FreeServo servo_;
+    std::vector<Freedom> freedoms_;  ///< with their ranges, for the hand
+    FreedomValues values_;
+    std::uint64_t seed_ = 0;
     bool stalled_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Twin> make_twin(const TwinSetup& setup, const canopen::Eds* description) {
-    return std::make_unique<CanServo>(setup, description);
+std::unique_ptr<Twin> make_twin(const TwinSetup& setup, const canopen::Eds* description, std::span<const Freedom> freedoms) {
+    return std::make_unique<CanServo>(setup, description, freedoms);
 }
 
 }  // namespace axisgate::cia402_drive::twin

@@ -52,7 +52,7 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
     if (byte == esc || byte == ctrl_e || byte == ctrl_c) return interrupt(byte);
     if (stepping_ && line_.empty() && (byte == ' ' || byte == cr)) return {byte == ' ' ? LinkEvent::Kind::step : LinkEvent::Kind::run_on};
     const bool second_half = std::exchange(after_cr_, byte == cr);
-    if (byte == (flags.py ? lf : cr) || (network && byte == lf && !second_half)) return finish();
+    if (byte == (flags.py ? lf : cr) || (network && byte == lf && !second_half)) return finish(echo);
     if (byte == lf || byte == cr) return {};
     // On one pair of wires the answers of the neighbours are heard too: an acknowledgement ends theirs.
     if (flags.py && (byte == ack || byte == nak)) {
@@ -61,11 +61,16 @@ LinkEvent Comm::receive(std::uint8_t byte, std::string& echo) {
     }
     if (byte == backspace && !line_.empty()) {
         line_.pop_back();
-        if (!flags.py && flags.em == 0) echo += static_cast<char>(byte);
+        if (!flags.py && flags.em == 0 && !manners.echo_whole) echo += static_cast<char>(byte);
         return {};
     }
     if ((byte < 0x20 && byte != '\t') || discarding_) return {};
     return append(static_cast<char>(byte), echo);
+}
+
+bool Comm::echoes() const noexcept {
+    if (flags.em != 0 || line_.empty()) return false;
+    return !flags.py || (armed_ && addressed(line_[0]) && (line_[0] == flags.dn || !flags.dg));
 }
 
 /// A character of a line.
@@ -74,8 +79,8 @@ LinkEvent Comm::append(char c, std::string& echo) {
     line_ += c;
     const bool mine = !flags.py || (armed_ && addressed(line_[0]));
     const bool quiet = flags.py && line_[0] != flags.dn && flags.dg;
-    const bool name = flags.py && line_.size() == 1;
-    if (mine && !name && flags.em == 0 && !quiet) echo += c;
+    const bool name = flags.py && line_.size() == 1 && !manners.echo_name;
+    if (!name && !manners.echo_whole && echoes()) echo += c;
     const std::size_t limit = line_limit + (flags.py ? 1 : 0) + (flags.ck > 0 ? 1 : 0);
     if (line_.size() <= limit) return {};
     clear();
@@ -85,8 +90,9 @@ LinkEvent Comm::append(char c, std::string& echo) {
     return {LinkEvent::Kind::overrun};
 }
 
-LinkEvent Comm::finish() {
+LinkEvent Comm::finish(std::string& echo) {
     const bool was_discarding = discarding_;
+    if (manners.echo_whole && echoes()) echo += flags.py && !manners.echo_name ? line_.substr(1) : line_;
     std::string line = std::move(line_);
     clear();
     if (flags.py && !armed_) {
@@ -122,26 +128,29 @@ char Comm::checksum(std::string_view text) noexcept {
     return static_cast<char>(((0U - sum) & 0x7FU) | 0x80U);
 }
 
-std::string Comm::reply(const Command& c, std::optional<std::string_view> data, bool ended, bool good, bool pending, bool running) {
-    std::string out;
+Reply Comm::reply(const Command& c, std::optional<std::string_view> data, bool ended, bool good, bool pending, bool running) const {
+    using Order = Manners::Order;
+    Reply out;
     if (c.silent) return out;
     const bool sum = c.flags.ck > 0;
     const int em = c.flags.em;
     // The command as it came, without the name in front of it: tables 7.2 and 7.4 echo (command) where (DN) (command) was sent.
-    if (em == 3) out += c.flags.py && !c.as_received.empty() ? c.as_received.substr(1) : c.as_received;
-    if (em != 2) {
+    if (em == 3) out.head += c.flags.py && !c.as_received.empty() && !manners.echo_name ? c.as_received.substr(1) : c.as_received;
+    const Order order = em == 1 && data ? manners.answer_order : Order::acknowledged_first;
+    if (em != 2 && order != Order::data_alone) {
+        std::string& place = order == Order::data_first ? out.tail : out.head;
         if (!sum) {
-            out += "\r\n";
+            place += "\r\n";
         } else if (!(c.flags.ck == 2 && running && good)) {
-            out += static_cast<char>(good ? ack : nak);
+            place += static_cast<char>(good ? ack : nak);
         }
     }
     if (data) {
-        out += *data;
-        if (sum) out += checksum(*data);
-        if (ended) out += "\r\n";
+        out.data = *data;
+        if (sum) out.data += checksum(*data);
+        if (ended) out.data += "\r\n";
     }
-    if (em == 0) out += pending ? '?' : '>';
+    if (em == 0) out.prompt = pending ? '?' : '>';
     return out;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "adapters/mcode/twin/manners.hpp"
 #include "adapters/mcode/twin/token.hpp"
 
 namespace axisgate::mcode::twin {
@@ -31,6 +32,14 @@ struct LinkFlags {
 inline constexpr std::array rate_codes{48, 96, 19, 38, 11};
 /// bit/s; 0: no such code.
 [[nodiscard]] std::uint32_t rate_of_code(int code) noexcept;
+
+/// An answer in the order in which it leaves.
+struct Reply {
+    std::string head;    ///< the line given back with EM = 3, and the acknowledgement
+    std::string data;    ///< with its checksum and line end
+    std::string tail;    ///< an acknowledgement that stands behind the data
+    std::string prompt;  ///< EM = 0
+};
 
 /// One complete command line.
 struct Command {
@@ -58,6 +67,7 @@ struct LinkEvent {
 class Comm {
 public:
     LinkFlags flags;
+    Manners manners;
     bool network = false;  ///< TCP or UDP: a bare LF ends a line as CR does, the LF of a CR LF nothing (E-6)
 
     /// As after power-up, or after PY = 1: in party mode nothing is obeyed until the first LF [L5002].
@@ -75,15 +85,17 @@ public:
     [[nodiscard]] static char checksum(std::string_view text) noexcept;
     /// What follows the execution. `data`: what PR and L have given, without their last line end; `ended`: that line end is wanted.
     /// `good`: no error; `pending`: the prompt is `?`; `running`: a program runs (CK = 2 then answers errors only).
-    [[nodiscard]] static std::string reply(const Command& c, std::optional<std::string_view> data, bool ended, bool good, bool pending,
-                                           bool running);
+    [[nodiscard]] Reply reply(const Command& c, std::optional<std::string_view> data, bool ended, bool good, bool pending,
+                              bool running) const;
 
 private:
     void clear() noexcept;
     [[nodiscard]] bool addressed(char first) const noexcept;
     LinkEvent interrupt(std::uint8_t byte);
     LinkEvent append(char c, std::string& echo);
-    LinkEvent finish();
+    LinkEvent finish(std::string& echo);
+    /// Whether the line in hand is echoed.
+    [[nodiscard]] bool echoes() const noexcept;
 
     std::string line_;    // bounded by the limit below
     bool armed_ = false;  // party mode: the first LF has come

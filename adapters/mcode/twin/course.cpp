@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "adapters/mcode/twin/errors.hpp"
 
@@ -22,6 +23,7 @@ void Course::restart(Instant now) noexcept {
     phase_ = Phase::rest;
     phase_end_ = never;
     corrections_ = 0;
+    out_of_step_ = false;
     clear_stall();
     p_.shaft.restart(touch.held, now);
 }
@@ -104,6 +106,7 @@ void Course::freeze(Instant now) {
     phase_ = Phase::rest;
     phase_end_ = never;
     corrections_ = 0;
+    in_step(now);
     p_.loop.stop();
     p_.cams.judge(now);
 }
@@ -132,6 +135,7 @@ void Course::resync(Instant now) noexcept {
 
 void Course::settle(Instant now) noexcept {
     demand.braking = false;
+    in_step(now);
     phase_ = Phase::settling;
     phase_end_ = now + std::chrono::milliseconds(p_.settings.whole(Word::MT));
 }
@@ -140,7 +144,7 @@ bool Course::pass_phase(Instant now) {
     phase_end_ = never;
     if (phase_ == Phase::settling) {
         const bool checked = p_.settings.encoder_mode() && (demand.task == Task::position || demand.task == Task::correction);
-        if (checked && std::abs(demand.target - p_.shaft.rotor(now).position) > p_.settings[Word::DB]) {
+        if (checked && std::abs(demand.target - p_.shaft.measured(now).position) > p_.settings[Word::DB]) {
             if (corrections_ < correction_limit) {
                 ++corrections_;
                 correct(now);
@@ -173,9 +177,34 @@ void Course::stalled(Instant now) {
     if (p_.settings[Word::SM] == 0) abort(now);
 }
 
+bool Course::notice(Instant now) {
+    if (!steps()) return false;
+    const Settings& s = p_.settings;
+    const bool stall = s.encoder_mode() && !stall_reported_ && p_.shaft.state() != Shaft::Rotor::held &&
+                       std::abs(p_.shaft.commanded(now).position - p_.shaft.measured(now).position) > s[Word::SF];
+    if (stall) {
+        stalled(now);
+        return true;
+    }
+    if (s.hmt_mode() != 0 || out_of_step_ || !p_.real.out_of_step()) return false;
+    // It stands until the motion is over; without an encoder nobody notices.
+    out_of_step_ = true;
+    judge_rotor(now);
+    p_.real.set(p_.shaft.turns(now), now);
+    p_.shaft.stray = 0;
+    return true;
+}
+
+/// The rotor finds a field that stands.
+void Course::in_step(Instant now) {
+    if (!std::exchange(out_of_step_, false)) return;
+    judge_rotor(now);
+}
+
 /// One attempt, at VI, to bring the rotor to where the move should have ended.
 void Course::correct(Instant now) {
     stand_at(p_.shaft.rotor(now).position, now);
+    p_.shaft.stand_as_measured(now);
     p_.shaft.give(Profile::creep(now, p_.shaft.command().end_position(), demand.target, p_.settings.creep_speed()));
     step_on();
     stall_reported_ = p_.settings[Word::SM] != 0;

@@ -76,6 +76,8 @@ public:
 
     /// The command is SF ahead of the rotor.
     void stalled(Instant now);
+    /// What the real rotor does at this millisecond: SF is passed, or the motor falls out of step. True: the motion has changed.
+    [[nodiscard]] bool notice(Instant now);
     void maintain(Instant now);
     void judge_rotor(Instant now);
     void run_torque(Instant now);
@@ -100,11 +102,13 @@ private:
     void stand_at(double position, Instant now) noexcept;
     void make_up(Instant now);
     void correct(Instant now);
+    void in_step(Instant now);
 
     Parts& p_;
     Phase phase_ = Phase::rest;
     Instant phase_end_ = never;
     int corrections_ = 0;
+    bool out_of_step_ = false;
     bool stall_flag_ = false;
     bool stall_reported_ = false;
 };

@@ -34,7 +34,7 @@ void Course::run_torque(Instant now) {
 void Course::judge_rotor(Instant now) {
     const int mode = p_.settings.hmt_mode();
     const double torque = p_.settings[mode == 3 ? Word::TQ : Word::RC];
-    const bool blocked = touch.held || (steps() && touch.load * 100 > torque);
+    const bool blocked = touch.held || out_of_step_ || (steps() && touch.load * 100 > torque);
     if (blocked == (p_.shaft.state() == Shaft::Rotor::held)) return;
     if (blocked) {
         p_.loop.disturbed(now);
@@ -70,6 +70,10 @@ void Course::make_up(Instant now) {
 void Course::turn_to(double position, Instant now) {
     const bool held = p_.shaft.state() == Shaft::Rotor::held;
     p_.shaft.turn_to(position, now);
+    if (p_.real.differs()) {
+        p_.real.set(p_.shaft.turns(now), now);
+        p_.shaft.stray = 0;
+    }
     if (!held) {
         if (p_.settings.makes_up()) {
             if (!p_.power.enabled()) {

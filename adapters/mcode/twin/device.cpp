@@ -12,6 +12,7 @@ Device::Device(DeviceSetup setup, std::unique_ptr<Mechanism> motor)
     : setup_(std::move(setup)), motor_(std::move(motor)), run_(program_, *this) {
     run_.base_two(setup_.base_two);
     comm_.network = setup_.ethernet;
+    comm_.manners = setup_.manners;
 }
 
 bool Device::deaf() const noexcept {
@@ -30,10 +31,13 @@ void Device::say(std::string_view text) {
 
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     pass_until(now, out);
-    if (deaf() || frame.kind != Frame::Kind::bytes) return;
+    if (deaf() || frame.kind != Frame::Kind::bytes || pace_.deaf(now_)) return;
     const auto bytes = frame.data();
     for (std::size_t i = comm_.pass_over(bytes); i < bytes.size(); i += 1 + comm_.pass_over(bytes.subspan(i + 1))) {
-        switch (comm_.receive(bytes[i], tx_.now).kind) {
+        std::string echo;
+        const LinkEvent event = comm_.receive(bytes[i], echo);
+        tx_.say(echo, now_);
+        switch (event.kind) {
             case LinkEvent::Kind::none:
                 break;
             case LinkEvent::Kind::command:
@@ -42,10 +46,15 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
                     break;
                 }
                 waiting_.push_back(comm_.take());
-                if (command_due_ == never) command_due_ = now_ + command_time;
+                if (command_due_ == never) command_due_ = pace_.next_line(now_);
+                if (program_mode_.on() && setup_.manners.store > Duration::zero()) {
+                    pace_.deaf_for(setup_.manners.store, command_due_);
+                    return settle(out);
+                }
                 break;
             case LinkEvent::Kind::stop:
-                stop_everything();
+                pace_.stop_asked(now_);
+                if (pace_.take_stop(now_)) stop_everything();
                 break;
             case LinkEvent::Kind::reset:
                 boot();
@@ -85,6 +94,9 @@ void Device::pass_until(Instant now, Out& out) {
 /// Everything that is due up to now_, oldest first.
 void Device::settle(Out& out) {
     if (powered_) {
+        if (pace_.take_stop(now_)) stop_everything();
+        while (const auto code = pace_.take_error(now_))
+            raise(*code);
         if (trips_.time() <= now_) {
             // The position is that of the instant, however late the call is.
             motor_->advance(trips_.time());
@@ -98,8 +110,9 @@ void Device::settle(Out& out) {
         while (command_due_ <= now_ && !waiting_.empty()) {
             const Command c = std::move(waiting_.front());
             waiting_.pop_front();
-            command_due_ = waiting_.empty() ? never : now_ + command_time;
+            command_due_ = waiting_.empty() ? never : pace_.next_line(now_);
             run_command(c);
+            if (command_due_ != never) command_due_ = pace_.next_line(now_);
             if (!powered_ || upgrading_) break;
         }
         if (waiting_.empty()) command_due_ = never;
@@ -151,10 +164,14 @@ void Device::take_events() {
         if (!e) return;
         switch (e->kind) {
             case MotorEvent::Kind::error:
-                raise(e->code);
+                if (setup_.manners.error_late > Duration::zero()) {
+                    pace_.error(e->code, now_);
+                } else {
+                    raise(e->code);
+                }
                 break;
             case MotorEvent::Kind::finished:
-                if (announce_) tx_.now += comm_.flags.dn;  // whatever PY is [L4115]
+                if (announce_) tx_.say(std::string_view(&comm_.flags.dn, 1), now_);  // whatever PY is [L4115]
                 announce_ = false;
                 break;
             case MotorEvent::Kind::trip:
@@ -201,21 +218,25 @@ void Device::run_command(const Command& command) {
     data_given_ = false;
     const bool running = !run_.idle();
     bool good = command.checksum_good;
+    const bool stored = program_mode_.on();
     if (good) {
         code = typed(command.text);
         good = code == 0;
     }
     data_ = nullptr;
     if (code != 0) raise(code);
-    tx_.now +=
-        Comm::reply(command, data_given_ ? std::optional<std::string_view>(data) : std::nullopt, data_ended_, good, error_.flag, running);
+    if (stored) pace_.busy_for(setup_.manners.store, now_);
+    const auto printed = data_given_ ? std::optional<std::string_view>(data) : std::nullopt;
+    if (pace_.busy_until() > now_) tx_.pause_until(pace_.busy_until());
+    deliver(comm_.reply(command, printed, data_ended_, good, error_.flag, running), command.flags.py, setup_.manners, now_, tx_);
+    if (setup_.manners.turnaround > Duration::zero()) pace_.deaf_for(setup_.manners.turnaround, tx_.end(now_));
 }
 
 Instant Device::deadline() const { return std::max(due(), now_); }
 
 Instant Device::due() const {
     if (!powered_) return never;
-    Instant t = std::min({command_due_, trips_.time(), motor_->deadline()});
+    Instant t = std::min({command_due_, trips_.time(), motor_->deadline(), tx_.due(), pace_.due()});
     if (!run_.idle() && !paused_ && !ending_) {
         if (run_.state() == Run::State::running && !tracer_.waits()) t = std::min(t, slice_due_);
         if (run_.state() == Run::State::hold_time) t = std::min(t, run_.hold_until());

@@ -1,6 +1,7 @@
 // Device: one Lexium drive: link, language, memory and motor put together as a Twin.
 // In: bytes, time, the tester's hand. Out: bytes, the non-volatile memory.
-// Never blocks: a typed line takes `command_time`, a program `statement_time` per line, and one call runs a bounded number of them.
+// Never blocks: a typed line takes `execution` (Manners), a program `slice_time` for some lines, and one call runs a bounded number of
+// them.
 #pragma once
 
 #include <deque>
@@ -9,17 +10,16 @@
 #include <vector>
 
 #include "adapters/mcode/twin/awaited.hpp"
+#include "adapters/mcode/twin/delivery.hpp"
+#include "adapters/mcode/twin/pace.hpp"
 #include "adapters/mcode/twin/program_mode.hpp"
 #include "adapters/mcode/twin/tracer.hpp"
-#include "adapters/mcode/twin/transmitter.hpp"
 #include "adapters/mcode/twin/trip_table.hpp"
 #include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
 namespace axisgate::mcode::twin {
 
-/// Execution of a typed line: 1 ms, the short end of the 1-5 ms of the manual [L6821].
-inline constexpr Duration command_time = std::chrono::milliseconds(1);
 /// A stored program runs in slices of 1 ms with 20 lines each: 50 us per line. The manual gives no figure.
 inline constexpr Duration slice_time = std::chrono::milliseconds(1);
 inline constexpr int lines_per_slice = 20;
@@ -37,10 +37,15 @@ struct DeviceSetup {
     bool base_two = false;       ///< LO has base 2, else it is the natural logarithm (E-15)
     std::string part_number = "LMDCM571";
     std::string serial_number = "0000000001";
+    Manners manners{};
     std::vector<int> codes;  ///< errors that a hand can inject; empty: all numbers
 
     /// 37 for a word that this drive does not have, else 0.
     [[nodiscard]] int available(Word word) const noexcept;
+    /// The error of a line that has a word of a later firmware; 0: it has none.
+    [[nodiscard]] int too_new(std::string_view text) const;
+    /// VR.
+    [[nodiscard]] std::string version_text() const;
 };
 
 /// ER and EF.
@@ -126,6 +131,7 @@ private:
     Awaited awaited_{program_, run_};
 
     Instant now_{};
+    Pace pace_{setup_.manners};
     Transmitter tx_{setup_.bit_rate};
     std::string* data_ = nullptr;  ///< where PR and L of a typed line write; null: program output
     bool data_ended_ = true;

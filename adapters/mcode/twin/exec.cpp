@@ -40,7 +40,7 @@ bool is_party_name(std::string_view s) {
 }  // namespace
 
 int DeviceSetup::available(Word word) const noexcept {
-    if ((info(word).products & product) == 0) return err::not_available;
+    if ((info(word).products & product) == 0 || (manners.before_6() && came_with_6(word))) return err::not_available;
     if (ethernet) {
         switch (word) {
             case Word::BD:
@@ -80,6 +80,7 @@ int Device::typed(std::string_view text) {
     text = trimmed(text);
     std::string apart;
     if (is_joined_pg(text)) text = apart = "PG " + std::string(text.substr(2));
+    if (const int code = setup_.too_new(text); code != 0) return code;
     if (program_mode_.on()) return program_mode_.line(text);
     if (awaited_.takes(text)) return awaited_.take(text);
     const Statement s = program_.compile_typed(text);
@@ -276,12 +277,14 @@ const Device::Instruction Device::instructions[] = {
          if (d.motor_->busy(false, d.now_)) return err::saving_in_motion;
          d.lk_saved_ = d.lk_;
          d.keep();
+         d.pace_.memory_works(d.now_);
          return 0;
      }},
     {Word::IP,
      [](Device& d, const Statement&, Fields) -> int {
          if (d.motor_->busy(true, d.now_)) return err::restoring_in_motion;
          d.restore(d.nvm_, false);
+         d.pace_.memory_works(d.now_);
          return 0;
      }},
     {Word::FD,
@@ -290,6 +293,7 @@ const Device::Instruction Device::instructions[] = {
          d.stop_program();
          d.factory_state(false);
          d.keep();
+         d.pace_.memory_works(d.now_);
          return 0;
      }},
     {Word::UG,

@@ -3,6 +3,7 @@
 // Never closes a direction away from a limit [L3943-3944].
 #include "adapters/mcode/twin/limits.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +13,7 @@ namespace axisgate::mcode::twin {
 namespace {
 /// Length of the home switch that the hand puts beside the axis, in turns.
 constexpr double home_length = 0.05;
-/// A switch opens this much behind the place where it has closed, in turns: less than a thousandth of a step.
+/// The least by which a switch opens behind the place where it has closed, in turns: less than a thousandth of a step.
 constexpr double switch_gap = 1e-8;
 
 struct Region {
@@ -63,7 +64,7 @@ void Limits::load(const NonVolatile& m) {
 }
 
 int Limits::held(int way, Instant now) const noexcept {
-    const double p = shaft_.position(now).position;
+    const double p = shaft_.shown_position(now).position;
     if (way > 0 && (inputs_.active(InputType::limit_plus) || (soft_[1].on && p >= soft_[1].position))) return err::plus_limit;
     if (way < 0 && (inputs_.active(InputType::limit_minus) || (soft_[0].on && p <= soft_[0].position))) return err::minus_limit;
     return 0;
@@ -74,6 +75,9 @@ Instant Limits::crossing(Instant now) const noexcept {
     return soft_[1].on ? std::min(minus, shaft_.position_crossing(soft_[1].position, now, 1)) : minus;
 }
 
+Cams::Cams(const Shaft& shaft, Inputs& inputs, double hysteresis)
+    : shaft_(shaft), inputs_(inputs), gap_(std::max(hysteresis, switch_gap)) {}
+
 void Cams::place(std::size_t cam, std::optional<double> turns, Instant now) {
     cams_[cam] = {turns, false};
     hold(now);
@@ -81,7 +85,7 @@ void Cams::place(std::size_t cam, std::optional<double> turns, Instant now) {
 
 bool Cams::active(std::size_t cam, Instant now) const noexcept {
     const Region r = region_of(cam, *cams_[cam].turns);
-    const double t = shaft_.turns(now), slack = cams_[cam].was ? switch_gap : switch_gap / 10;
+    const double t = shaft_.turns(now), slack = cams_[cam].was ? gap_ : switch_gap / 10;
     return t >= r.low - slack && t <= r.high + slack;
 }
 
@@ -113,7 +117,7 @@ Instant Cams::crossing(Instant now) const noexcept {
     for (std::size_t i = 0; i < cams_.size(); ++i) {
         if (!cams_[i].turns) continue;
         const Region r = region_of(i, *cams_[i].turns);
-        const double gap = cams_[i].was ? 2 * switch_gap : 0;
+        const double gap = cams_[i].was ? gap_ + switch_gap : 0;
         for (const double edge : {r.low - gap, r.high + gap}) {
             if (std::isfinite(edge)) t = std::min(t, shaft_.turns_crossing(edge, now));
         }

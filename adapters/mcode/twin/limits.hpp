@@ -41,7 +41,8 @@ class Cams {
 public:
     static constexpr std::array types{InputType::limit_minus, InputType::limit_plus, InputType::home};
 
-    Cams(const Shaft& shaft, Inputs& inputs) : shaft_(shaft), inputs_(inputs) {}
+    /// `hysteresis`, in turns: a closed switch opens this much behind the place where it has closed.
+    Cams(const Shaft& shaft, Inputs& inputs, double hysteresis);
 
     /// Where the switch of this type begins, in turns of the shaft; nothing: there is none.
     [[nodiscard]] std::optional<double> place(std::size_t cam) const noexcept { return cams_[cam].turns; }
@@ -61,6 +62,7 @@ private:
     };
     const Shaft& shaft_;
     Inputs& inputs_;
+    double gap_;
     std::array<Cam, types.size()> cams_{};
 };
 

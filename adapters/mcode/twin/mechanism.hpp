@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/mcode/twin/manners.hpp"
 #include "adapters/mcode/twin/value.hpp"
 #include "adapters/mcode/twin/words.hpp"
 #include "gateway/core/twin.hpp"
@@ -21,6 +22,7 @@ namespace axisgate::mcode::twin {
 struct MechanismSetup {
     std::uint8_t product = lmdc;
     int frame_size = 23;  ///< NEMA 17, 23 or 34; 17 has fewer inputs and outputs [L6919]
+    MotorManners manners{};
 };
 
 /// The trips, in the order of their bits in TE.

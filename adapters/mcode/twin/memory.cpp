@@ -27,12 +27,18 @@ void Device::factory_state(bool as_delivered) {
         comm_.flags.dn = setup_.name;
         comm_.flags.py = true;
     }
+    if (as_delivered) {
+        comm_.flags.em = setup_.manners.delivered_em;
+        if (!setup_.ethernet) comm_.flags.ck = setup_.manners.delivered_ck;
+        load_chatter(setup_.manners, program_);
+    }
     comm_.restart();
     lk_ = lk_saved_ = false;
     ne_ = false;
     radians_ = true;
     format_ = {};
-    format_.pad = setup_.pad;
+    format_.pad = setup_.pad || setup_.manners.number_form >= 1;
+    format_.sign_blank = setup_.manners.number_form == 2;
     on_error_.reset();
     tracer_.clear_break();
     trips_.clear();
@@ -128,6 +134,7 @@ void Device::restore(const NonVolatile& memory, bool programs) {
 void Device::boot() {
     waiting_.clear();
     command_due_ = never;
+    pace_.restart(now_);
     stop_program();
     program_mode_.leave();
     announce_ = false;
@@ -139,6 +146,7 @@ void Device::boot() {
     restore(nvm_, true);
     comm_.restart();
     active_rate_ = rate_of_code(bd_);
+    tx_.say(sign_on(setup_.manners, comm_.flags, setup_.ethernet), now_);
     const SymbolId start = program_.symbols().find("SU");
     if (start != no_symbol && program_.symbols().at(start).kind == Symbol::Kind::label) {
         Target t;

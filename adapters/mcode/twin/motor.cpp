@@ -12,19 +12,45 @@
 namespace axisgate::mcode::twin {
 namespace {
 constexpr int happenings_per_call = 256;
+/// A real rotor in motion is looked at this often, so that nobody learns of its stall much later.
+constexpr Duration rotor_pause = std::chrono::milliseconds(10);
 
 }  // namespace
 
 std::unique_ptr<Mechanism> make_mechanism(const MechanismSetup& setup) { return std::make_unique<Motor>(setup); }
 
 void Motor::advance(Instant now) {
-    for (int n = 0; n < happenings_per_call && next_ <= now; ++n) {
-        const Instant t = std::max(next_, last_);
+    for (int n = 0; n < happenings_per_call; ++n) {
+        const Instant t = std::max(std::min(next_, now), last_);
+        if (!follow(t)) continue;
+        if (next_ > now) break;
         last_ = t;
         handle(t);
         replan(t);
     }
     last_ = std::max(last_, now);
+    if (rotor_tick_ <= last_) rotor_tick_ = course_.rests() ? never : last_ + rotor_pause;
+}
+
+bool Motor::follow(Instant until) {
+    RealRotor& real = p_.real;
+    if (!real.differs()) return true;
+    real.skip_to(until);
+    while (real.at() + axisgate::Shaft::step <= until) {
+        const Instant t = std::max(real.at() + axisgate::Shaft::step, last_);
+        const double turns = p_.shaft.turns(t);
+        if (p_.power.good()) {
+            real.step(turns, p_.settings.direction() * p_.shaft.rotor(t).velocity / p_.settings.units_per_turn());
+        } else {
+            real.step_without_power(turns);
+        }
+        p_.shaft.stray = real.stray();
+        if (!course_.notice(t)) continue;
+        last_ = t;
+        replan(t);
+        return false;
+    }
+    return true;
 }
 
 void Motor::replan(Instant now) {
@@ -39,6 +65,9 @@ void Motor::replan(Instant now) {
         due_.cam = p_.cams.crossing(now);
     }
     p_.trips.plan(course_.steps(), now);
+    moving_.note(p_.settings.manners().moving_ends_with_steps ? course_.steps() : !course_.rests(), now);
+    to_position_.note(course_.to_position(), now);
+    if (p_.real.differs()) rotor_tick_ = course_.rests() ? never : std::min(rotor_tick_, now + rotor_pause);
     next_ = std::min({due_.soft, due_.index, p_.trips.deadline(), due_.stall, due_.lag, due_.wrap, due_.cam, p_.inputs.deadline(),
                       course_.demand.passing, course_.phase_end(), p_.loop.lock_due(), p_.shaft.meeting(), course_.steps_end()});
 }
@@ -262,7 +291,7 @@ void Motor::tell(bool error_flag, bool program_running, Instant) {
 
 TwinMechanics Motor::mechanics(Instant now) const {
     const Travel r = p_.shaft.rotor(std::max(now, last_));
-    return {r.position, r.velocity, p_.power.good()};
+    return {r.position + p_.shaft.measured(now).position - p_.shaft.rotor(now).position, r.velocity, p_.power.good()};
 }
 
 }  // namespace axisgate::mcode::twin

@@ -5,6 +5,7 @@
 // Error codes are those of appendix "Error codes" [L8452-8630].
 #pragma once
 
+#include "adapters/mcode/twin/delayed.hpp"
 #include "adapters/mcode/twin/numbering.hpp"
 #include "gateway/core/hand_table.hpp"
 
@@ -34,7 +35,7 @@ public:
     void tell(bool error_flag, bool program_running, Instant now) override;
 
     void advance(Instant now) override;
-    Instant deadline() const override { return next_; }
+    Instant deadline() const override { return std::min(next_, rotor_tick_); }
     std::optional<MotorEvent> next_event() override { return p_.events.next(); }
 
     std::vector<HandItem> hand(Instant now) const override;
@@ -50,6 +51,8 @@ private:
     static const HandRow<Motor> conditions[];
     std::string set_supply(double& into, const HandWish& wish);
     void replan(Instant now);
+    /// The real rotor up to this instant; false: up to an earlier one, because the motion has changed there.
+    [[nodiscard]] bool follow(Instant until);
     void handle(Instant t);
     void edge(const InputEdge& e, Instant now);
     [[nodiscard]] bool output(std::size_t n, Instant now) const noexcept;
@@ -72,7 +75,9 @@ private:
     int output_fault_ = 0;
     std::int64_t clock_pulses_ = 0;
     Due due_;
+    Delayed moving_{p_.settings.manners().moving_late}, to_position_{p_.settings.manners().moving_late};  ///< MV, MP
     Instant next_ = never;
+    Instant rotor_tick_ = never;  ///< when the real rotor is to be looked at
     Instant last_{};
 };
 

@@ -26,7 +26,7 @@ Number Motor::read(Word w, Instant now, int& error) {
     const auto flag = [](bool b) { return Number::of(b ? 1 : 0); };
     switch (w) {
         case Word::P:
-            return Number::of(wrapped(p_.shaft.position(now).position));
+            return Number::of(wrapped(p_.shaft.shown_position(now).position));
         case Word::C1:
             return Number::of(wrapped(p_.shaft.c1(now)));
         case Word::C2:
@@ -40,15 +40,17 @@ Number Motor::read(Word w, Instant now, int& error) {
         case Word::VC:
             return flag(course_.velocity_changing(now));
         case Word::MV:
-            return flag(!course_.rests());
+            return flag(moving_.at(now));
         case Word::MP:
-            return flag(course_.to_position());
+            return flag(to_position_.at(now));
         case Word::ST:
             return flag(course_.stall_flag());
         case Word::LR:
             return flag(p_.loop.locked());
         case Word::LL:
-            return Number::of(p_.settings.hmt_mode() == 0 ? 0 : wrapped(p_.shaft.owed(now)));
+            return Number::of(p_.settings.hmt_mode() == 0
+                                  ? 0
+                                  : wrapped((p_.shaft.commanded(now).position - p_.shaft.measured(now).position) * p_.shaft.way(now)));
         case Word::AF:
             return Number::of(p_.loop.status(p_.power.supply, now));
         case Word::I1:

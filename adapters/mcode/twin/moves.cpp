@@ -54,7 +54,7 @@ int Moves::start_move(Word word, std::span<const Number> f, Instant now) {
     const bool go_on = f.size() == 3 && f[2].as_integer() == 1;
     if (!course_.steps()) course_.forget_corrections();
     course_.resync(now);
-    const double here = std::round(p_.shaft.position(now).position);
+    const double here = std::round(p_.shaft.shown_position(now).position);
     double target = static_cast<double>(value) + (word == Word::MR ? here : 0.0);
     const int way = way_of(target - here);
     std::optional<double> second;

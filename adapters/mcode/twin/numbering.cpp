@@ -26,7 +26,7 @@ std::optional<int> Numbering::write(Word w, const Number& n, Instant now) {
         case Word::AS:
             return set_hmt_mode(v, now);
         case Word::P:
-            shift(d - nearest(p_.shaft.position(now).position));
+            shift(d - nearest(p_.shaft.shown_position(now).position));
             return 0;
         case Word::C1: {
             const double by = d - nearest(p_.shaft.c1(now));
@@ -112,7 +112,7 @@ int Numbering::set_hmt_mode(std::int64_t mode, Instant now) {
     if (mode == 3 && !p_.power.supply.plus_v_good()) return err::no_supply;
     const Shaft::Kept k = p_.shaft.keep(now);
     // P goes on from its number; the rotor is taken as it stands.
-    const double p = std::round(p_.shaft.position(now).position);
+    const double p = std::round(p_.shaft.shown_position(now).position);
     const bool counted = s.encoder_mode();
     s.set(Word::AS, static_cast<double>(mode));
     if (s.encoder_mode() != counted) {
@@ -143,7 +143,7 @@ void Numbering::factory(Instant now) {
 
 void Numbering::load(const NonVolatile& m, Instant now) {
     const Shaft::Kept k = p_.shaft.keep(now);
-    const double p = std::round(p_.shaft.position(now).position);
+    const double p = std::round(p_.shaft.shown_position(now).position);
     const bool counted = p_.settings.encoder_mode();
     p_.settings.load(m);
     p_.shaft.renumber(p_.settings.encoder_mode() == counted ? p : in_present_unit(k), k, now);

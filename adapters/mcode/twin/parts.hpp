@@ -6,6 +6,7 @@
 #include "adapters/mcode/twin/hmt.hpp"
 #include "adapters/mcode/twin/limits.hpp"
 #include "adapters/mcode/twin/power.hpp"
+#include "adapters/mcode/twin/real_rotor.hpp"
 
 namespace axisgate::mcode::twin {
 
@@ -26,9 +27,10 @@ struct Parts {
     Outputs outputs;
     Power power{settings};
     Shaft shaft{settings};
+    RealRotor real{settings.manners()};
     TripConditions trips{shaft, inputs, outputs, events};
     Limits limits{shaft, inputs};
-    Cams cams{shaft, inputs};
+    Cams cams{shaft, inputs, static_cast<double>(settings.manners().switch_hysteresis) / RealRotor::per_turn};
     ClosedLoop loop{settings, shaft, trips, events};
 };
 

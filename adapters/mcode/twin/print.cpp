@@ -21,17 +21,17 @@ std::optional<std::string> Device::text_of_word(Word word, int& error) {
         case Word::SN:
             return setup_.serial_number;
         case Word::VR:
-            // Product, then M for the serial link or E for Ethernet, as in the part number [L6192].
-            return std::string((setup_.product & lmm) != 0    ? "LMMC"
-                               : (setup_.product & lmdo) != 0 ? "LMDO"
-                                                              : "LMDC") +
-                   (setup_.ethernet ? "E" : "M") + " 6.002, Hw: 3.2";
+            return setup_.version_text();
         case Word::PF:
             return std::to_string(format_.width) + ',' + std::to_string(format_.decimals) + ',' + (format_.scientific ? '1' : '0') + ',' +
                    (format_.left ? '1' : '0');
         case Word::PW:
             return std::to_string(pw_[0]) + ',' + std::to_string(pw_[1]) + ',' + std::to_string(pw_[2]) + ',' + std::to_string(pw_[3]);
         case Word::UV: {
+            if (!setup_.manners.lists) {
+                error = err::bad_print;
+                return std::nullopt;
+            }
             std::string text;
             const Symbols& names = program_.symbols();
             for (std::size_t i = 0; i < names.size(); ++i) {
@@ -43,11 +43,24 @@ std::optional<std::string> Device::text_of_word(Word word, int& error) {
             return text;
         }
         case Word::AL:
-            return all_values();
+            if (setup_.manners.lists) return all_values();
+            error = err::bad_print;
+            return std::nullopt;
         default:
             break;
     }
     return info(word).owner == Owner::motor ? motor_->text(word, now_) : std::nullopt;
+}
+
+/// Product, then M for the serial link or E for Ethernet, as in the part number; firmware and hardware [L6192].
+std::string DeviceSetup::version_text() const {
+    const int version = manners.version;
+    const std::string number = std::to_string(version / 1000) + '.' + std::to_string(1000 + version % 1000).substr(1);
+    if (manners.version_alone) return number;
+    return std::string((product & lmm) != 0    ? "LMMC"
+                       : (product & lmdo) != 0 ? "LMDO"
+                                               : "LMDC") +
+           (ethernet ? "E " : "M ") + number + ", Hw: 3.2";
 }
 
 std::string Device::all_values() {

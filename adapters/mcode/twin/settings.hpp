@@ -20,6 +20,7 @@ public:
     void set(Word w, double v) noexcept { values_[static_cast<std::size_t>(w)] = v; }
     /// The figures of the factory; FS outlives them [L2890].
     void factory() noexcept;
+    [[nodiscard]] const MotorManners& manners() const noexcept { return setup_.manners; }
     /// VI, VM, A and D of the present unit.
     void unit_defaults() noexcept;
     void save(NonVolatile& m) const;
@@ -37,7 +38,7 @@ public:
     [[nodiscard]] bool makes_up() const noexcept { return hmt_mode() == 1 || hmt_mode() == 2; }
     /// The rotor is what P counts, not the command.
     [[nodiscard]] bool feedback() const noexcept { return encoder_mode() || hmt_mode() != 0; }
-    [[nodiscard]] double counts_per_turn() const noexcept { return is(lmm) ? 4 * (*this)[Word::EL] : 4000; }
+    [[nodiscard]] double counts_per_turn() const noexcept { return 4 * (is(lmm) ? (*this)[Word::EL] : setup_.manners.encoder_lines); }
     [[nodiscard]] double steps_per_turn() const noexcept { return 360.0 / (*this)[Word::SA] * (*this)[Word::MS]; }
     [[nodiscard]] double units_per_turn() const noexcept { return encoder_mode() ? counts_per_turn() : steps_per_turn(); }
     [[nodiscard]] double direction() const noexcept { return (*this)[Word::RD] != 0 ? -1 : 1; }

@@ -23,6 +23,12 @@ Travel Shaft::rotor(Instant now) const noexcept {
     return t;
 }
 
+Travel Shaft::measured(Instant now) const noexcept {
+    Travel t = rotor(now);
+    t.position += settings_.direction() * stray * settings_.units_per_turn();
+    return t;
+}
+
 int Shaft::way(Instant now) const noexcept {
     const Instant end = command_.end();
     const Instant moves = now < end || end == Instant::min() ? now : end - std::chrono::microseconds(1);
@@ -35,7 +41,7 @@ double Shaft::c1(Instant now) const noexcept {
 }
 
 double Shaft::c2(Instant now) const noexcept {
-    return c2_.base + (rotor(now).position - c2_.at) * settings_.counts_per_turn() / settings_.units_per_turn();
+    return c2_.base + (measured(now).position - c2_.at) * settings_.counts_per_turn() / settings_.units_per_turn();
 }
 
 double Shaft::turns(Instant now) const noexcept {
@@ -118,6 +124,16 @@ void Shaft::let_go(Instant now) noexcept {
     state_ = Rotor::follows;
 }
 
+void Shaft::stand_as_measured(Instant now) noexcept {
+    Kept k = keep(now);
+    k.turns += stray;
+    const double here = measured(now).position;
+    stray = 0;
+    command_ = Profile::rest(here);
+    join();
+    put_back(k, now);
+}
+
 void Shaft::turn_to(double position, Instant now) noexcept {
     if (state_ == Rotor::held) {
         held_at_ = position;
@@ -143,12 +159,14 @@ void Shaft::restart(bool held, Instant now) noexcept {
     state_ = held ? Rotor::held : Rotor::follows;
     meeting_ = never;
     way_ = 1;
-    renumber(0, {0, 0, kept}, now);
+    const MotorManners& m = settings_.manners();
+    const auto c1 = static_cast<double>(m.counter_start);
+    renumber(c1, {c1, static_cast<double>(m.encoder_start), kept}, now);
 }
 
 void Shaft::put_back(const Kept& k, Instant now) noexcept {
     c1_ = {k.c1, pulses(now)};
-    c2_ = {k.c2, rotor(now).position};
+    c2_ = {k.c2, measured(now).position};
     turns_ = {k.turns, rotor(now).position};
 }
 
@@ -159,6 +177,7 @@ void Shaft::rescale(const Kept& k, Instant now) noexcept {
 }
 
 void Shaft::renumber(double position, const Kept& k, Instant now) noexcept {
+    if (settings_.feedback()) position -= settings_.direction() * stray * settings_.units_per_turn();
     command_ = Profile::rest(position);
     rescale(k, now);
 }

@@ -20,12 +20,17 @@ public:
 
     explicit Shaft(const Settings& settings) : settings_(settings) {}
 
+    double stray = 0;  ///< of the real rotor from the place that is calculated here, in turns
+
     [[nodiscard]] const Profile& command() const noexcept { return command_; }
     [[nodiscard]] Travel commanded(Instant now) const noexcept { return command_.at(now); }
     [[nodiscard]] Rotor state() const noexcept { return state_; }
     [[nodiscard]] Travel rotor(Instant now) const noexcept;
     /// What P counts: the rotor with an encoder in use, else the command.
     [[nodiscard]] Travel position(Instant now) const noexcept { return settings_.feedback() ? rotor(now) : command_.at(now); }
+    /// The rotor as the encoder shows it, and P with it: RealRotor's stray is in it.
+    [[nodiscard]] Travel measured(Instant now) const noexcept;
+    [[nodiscard]] Travel shown_position(Instant now) const noexcept { return settings_.feedback() ? measured(now) : command_.at(now); }
     [[nodiscard]] double lag(Instant now) const noexcept { return command_.at(now).position - rotor(now).position; }
     /// LL: lag positive, lead negative, seen in the direction of the command [L3868-3874].
     [[nodiscard]] double owed(Instant now) const noexcept { return lag(now) * way(now); }
@@ -56,6 +61,8 @@ public:
     void hold_at(double position) noexcept;
     /// Free again: what the command has gone meanwhile is slip.
     void let_go(Instant now) noexcept;
+    /// The command begins anew where the encoder shows the rotor.
+    void stand_as_measured(Instant now) noexcept;
     /// The shaft was turned to this place.
     void turn_to(double position, Instant now) noexcept;
     void chase(Profile p, Instant meeting) noexcept;

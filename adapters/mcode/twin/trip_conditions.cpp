@@ -73,7 +73,7 @@ void TripConditions::supply_low(Instant now) {
 }
 
 void TripConditions::capture(Instant now) noexcept {
-    captured_ = std::llround(shaft_.position(now).position);
+    captured_ = std::llround(shaft_.shown_position(now).position);
     if (outputs_.has(OutputType::trip)) ++pulses_;
 }
 

@@ -18,11 +18,13 @@ std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& set
     d.product = product == "LMM" ? twin::lmm : product == "LMDO" ? twin::lmdo : twin::lmdc;
     d.ethernet = switched_on(option(setup.options, "ethernet", "off"));
     d.bit_rate = setup.bit_rate;
+    d.manners = twin::manners_of(setup.freedoms);
     d.pad = switched_on(option(setup.options, "pad", "off"));
     d.base_two = option(setup.options, "log_base", "e") == "2";
     if (setup.address.size() == 1) d.name = setup.address[0];
     const std::string nema = option(setup.options, "nema", "23");
     m.product = d.product;
+    m.manners = twin::motor_manners_of(setup.freedoms, setup.seed);
     m.frame_size = nema == "17" ? 17 : nema == "34" ? 34 : 23;
     const std::string size = m.frame_size == 17 ? "421" : m.frame_size == 34 ? "851" : "571";
     d.part_number =

@@ -66,7 +66,7 @@ std::optional<Number> apply(Operator op, const Number& a, const Number& b, bool 
 }
 
 std::string to_text(const Number& n, const PrintFormat& format) {
-    if (!n.real) return std::to_string(n.i);
+    if (!n.real) return (format.sign_blank && n.i >= 0 ? " " : "") + std::to_string(n.i);
     // 309 digits before the point and 16 after it is the longest.
     std::array<char, 352> buffer{};
     const int size = format.scientific ? std::snprintf(buffer.data(), buffer.size(), "%.*E", format.decimals, n.d)

@@ -35,7 +35,8 @@ struct PrintFormat {
     int decimals = 6;
     bool scientific = false;
     bool left = false;
-    bool pad = false;  ///< of the model: see to_text
+    bool pad = false;         ///< of the model: see to_text
+    bool sign_blank = false;  ///< of the model: a whole number from 0 on has a blank where others have their sign
     auto operator<=>(const PrintFormat&) const = default;
 };
 /// Digits of a value: integers plain, doubles by `format`. The width is kept and never cuts, nor pads unless the model is made so

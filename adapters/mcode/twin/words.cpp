@@ -42,6 +42,29 @@ std::optional<Word> word_named(std::string_view letters) noexcept {
     return at->word;
 }
 
+bool came_with_6(Word w) noexcept {
+    switch (w) {
+        case Word::AJ:
+        case Word::AT:
+        case Word::AV:
+        case Word::BE:
+        case Word::BL:
+        case Word::BM:
+        case Word::DJ:
+        case Word::DT:
+        case Word::FL:
+        case Word::FS:
+        case Word::HF:
+        case Word::HI:
+        case Word::LS:
+        case Word::PF:
+        case Word::RA:
+            return true;
+        default:
+            return info(w).kind == WordKind::math || (w >= Word::F1 && w <= Word::F8);
+    }
+}
+
 bool countable(Word w) noexcept {
     const WordInfo& i = info(w);
     if (i.access != Access::rw || i.kind != WordKind::variable) return false;

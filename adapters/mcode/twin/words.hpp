@@ -238,6 +238,8 @@ inline constexpr std::array words = {
 [[nodiscard]] constexpr Word nth(Word first, int n) noexcept { return static_cast<Word>(static_cast<int>(first) + n); }
 /// The word that these letters are, in any case of letters [L6871]; nothing for names of users.
 [[nodiscard]] std::optional<Word> word_named(std::string_view letters) noexcept;
+/// It came with firmware 6.0.01 [L1027-1130, L1228, L1266].
+[[nodiscard]] bool came_with_6(Word w) noexcept;
 /// IC and DC change it by one; mode and configuration words answer with error 26 [L2334-2338].
 [[nodiscard]] bool countable(Word w) noexcept;
 

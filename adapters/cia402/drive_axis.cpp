@@ -241,6 +241,21 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     return finish(done, t);
 }
 
+/// An Enable was planned by a status word that was out of date: the drive has left its quick stop by itself (605Ah below 5), or has begun
+/// one. The steps begin again, by the state that was just read.
+bool Axis::plans_anew(Job& job, const Step& s, unsigned sw, Instant now) {
+    if (!std::holds_alternative<Enable>(job.command.body) || s.address != object::statusword || job.planned_anew) return false;
+    const bool fallen = s.want == 0x27 && (sw & 0x4Fu) == 0x40, quick = (s.want == 0x21 || s.want == 0x23) && (sw & 0x6Fu) == 0x07;
+    if (!fallen && !quick) return false;
+    Job again;
+    again.command = job.command;
+    again.planned_anew = true;
+    Reason reason = Reason::none;
+    if (!plan(node, known, place_, again, now, reason).empty()) return false;
+    job = std::move(again);
+    return true;
+}
+
 /// The value is not the expected one, and the step has not ended: read it again, or let the job fail.
 bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn& t) {
     if (s.away_from) {
@@ -249,6 +264,7 @@ bool Axis::still_waits(Job& job, const Step& s, const canopen::SdoEnd& end, Turn
     } else if (met(known, job, s, end, t.now)) {
         return false;
     }
+    if (plans_anew(job, s, static_cast<unsigned>(canopen::low_first(end.data)), t.now)) return true;
     if (job.give_up == never) job.give_up = t.now + s.patience;
     job.wait_until = t.now + std::chrono::milliseconds(10);
     if (t.now < job.give_up) return true;

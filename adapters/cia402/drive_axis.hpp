@@ -93,6 +93,7 @@ private:
     void take_back(CommandBody body, void (*planned)(const AxisKnown&, Job&));
     News step_done(Job& job, const canopen::SdoEnd& end, Turn& t);
     void drop(const Job& job) noexcept;
+    [[nodiscard]] bool plans_anew(Job& job, const Step& step, unsigned statusword, Instant now);
     [[nodiscard]] bool still_waits(Job& job, const Step& step, const canopen::SdoEnd& end, Turn& t);
     News finish(Job& job, Turn& t);
     void moves_now(const CommandBody& body, std::int64_t here, Turn& t);

@@ -43,6 +43,19 @@ const Result* SpecimenDay::ask(CommandBody body, bool until_done, Duration limit
     return world->wait(world->command(axis, std::move(body), until_done), limit);
 }
 
+const Result* SpecimenDay::ask_with_remedy(const CommandBody& body, Duration limit) {
+    const Result* r = ask(body, true, limit);
+    if (!r || good(*r)) return r;
+    for (const CatalogueCommand& c : e.catalogue->commands()) {
+        if (c.name.empty() || !c.arguments.empty() || r->text.find(c.name) == std::string::npos) continue;
+        const Result* remedy = ask(Action{c.name, "", {}}, true, limit);
+        EXPECT_TRUE(remedy && good(*remedy)) << "the answer names " << c.name << ", and that: " << in_short(remedy) << in_words();
+        world->run_for(1s + slowness());
+        return ask(body, true, limit);
+    }
+    return r;
+}
+
 Move SpecimenDay::to(std::int64_t target, Move::Kind kind) {
     Move m;
     m.kind = kind;
@@ -77,7 +90,7 @@ bool SpecimenDay::served() {
 /// Returns true if it has power.
 bool SpecimenDay::powered() {
     if (!served()) return false;
-    const Result* r = ask(Enable{}, true, 60s);
+    const Result* r = ask_with_remedy(Enable{}, 60s);
     EXPECT_TRUE(r) << "an order has an answer" << in_words();
     if (!r) return false;
     EXPECT_TRUE(good(*r)) << "it is not enabled: " << in_short(r) << in_words();
@@ -133,7 +146,7 @@ void SpecimenDay::a_stop_ends_each_motion() {
     if (!powered()) return;
     int turned = 0;
     for (const CommandBody& stop : {CommandBody{Halt{}}, CommandBody{QuickStop{}}, CommandBody{Disable{}}}) {
-        const Result* on = ask(Enable{}, true, 60s);
+        const Result* on = ask_with_remedy(Enable{}, 60s);
         ASSERT_TRUE(on && good(*on)) << name_of(stop) << ": " << in_short(on) << in_words();
         const Result* r = ask(to(4000, Move::Kind::velocity), false, 30s);
         ASSERT_TRUE(r) << in_words();
@@ -203,7 +216,7 @@ void SpecimenDay::stops_and_serves() {
     EXPECT_TRUE(world->run_until_true([&] { return speed() < 1; }, 5s + slowness())) << in_words();
     world->run_for(1s + slowness());
     (void)ask(ResetFault{}, true, 20s);
-    const Result* on = ask(Enable{}, true, 60s);
+    const Result* on = ask_with_remedy(Enable{}, 60s);
     ASSERT_TRUE(on) << in_words();
     EXPECT_TRUE(good(*on)) << "the next gateway cannot enable it: " << in_short(on) << in_words();
 }
@@ -216,7 +229,7 @@ void SpecimenDay::the_next_gateway_finds_it() {
     for (const std::string_view state : {"at rest", "enabled", "moving"}) {
         SCOPED_TRACE(state);
         if (state != "at rest") {
-            const Result* on = ask(Enable{}, true, 60s);
+            const Result* on = ask_with_remedy(Enable{}, 60s);
             ASSERT_TRUE(on && good(*on)) << in_short(on) << in_words();
         }
         if (state == "moving") {

@@ -167,6 +167,23 @@ TEST(Cia402Poorer, ADriveWithNothingOptionalAtAll) {
     b.moves_and_stops();
 }
 
+/// Its last report says that it is in a quick stop, which it has ended by itself since.
+TEST(Cia402Poorer, AnEnableBehindAQuickStopThatTheDriveHasEndedBeginsAnew) {
+    for (int after_ms = 300; after_ms < 420; after_ms += 5) {
+        Poorer b({0x605A}, 0x06010002);
+        ASSERT_TRUE(b.enable());
+        Move turn;
+        turn.kind = Move::Kind::velocity;
+        turn.target = 20'000;
+        ASSERT_TRUE(good(b.ask(turn)));
+        b.run(1s);
+        ASSERT_TRUE(good(b.ask(QuickStop{})));
+        b.run(std::chrono::milliseconds(after_ms));
+        const Result r = b.ask(Enable{});
+        EXPECT_TRUE(good(r)) << after_ms << ": " << r.text;
+    }
+}
+
 TEST(Cia402Poorer, AWholeDriveLacksNothing) {
     Poorer b({});
     b.moves_and_stops();

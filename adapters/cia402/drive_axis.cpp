@@ -224,6 +224,7 @@ Axis::News Axis::step_done(Job& job, const canopen::SdoEnd& end, Turn& t) {
     if (s.kind == Step::Kind::until && s.address == object::statusword && end.done()) {
         const auto word = static_cast<std::uint16_t>(canopen::low_first(end.data));
         if (!job.went) job.status = word;
+        polled.saw_status(word);
         feedback.on_status_word(word, t);
     }
     if (s.kind == Step::Kind::until && end.done() && still_waits(job, s, end, t)) return News::none;

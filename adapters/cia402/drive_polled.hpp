@@ -21,6 +21,8 @@ public:
     [[nodiscard]] Step next() const;
     /// True: the round is complete, and its values are in the feedback of the axis.
     bool answered(const canopen::SdoEnd& end, drive::Turn& t);
+    /// A command has read the status word: the one of the round that is under way is older.
+    void saw_status(std::uint32_t word) noexcept { values_[0] = word; }
     /// The next round begins at once.
     void begin_anew() noexcept { at_ = 0, look_at_ = {}; }
 

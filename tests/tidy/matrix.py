@@ -48,7 +48,7 @@ def faults_of(data, exists):
             yield f"{at}: the number does not begin with that of a section"
         if s.get("kind") not in KINDS:
             yield f"{at}: kind is one of {', '.join(KINDS)}"
-        if s.get("kind") != "as_printed" and not s.get("note"):
+        if s.get("kind") in ("choice", "not_modelled") and not s.get("note"):
             yield f"{at}: the note is missing (why the choice was made, or what the twin does instead)"
         if s.get("kind") != "not_modelled" and not s.get("tests"):
             yield f"{at}: no test shows it"

@@ -125,6 +125,7 @@ void Shaft::let_go(Instant now) noexcept {
 }
 
 void Shaft::stand_as_measured(Instant now) noexcept {
+    if (stray == 0 || state_ != Rotor::follows) return;
     Kept k = keep(now);
     k.turns += stray;
     const double here = measured(now).position;

@@ -8,6 +8,12 @@
 #include "gateway/core/specimen.hpp"
 
 namespace axisgate {
+namespace {
+constexpr double step_s = 0.001;
+
+/// Time constant of the position loop in seconds. A motor that is only weak follows with a stiff loop of 2 ms.
+double loop_s(const ShaftFreedoms& f) noexcept { return std::max<double>(2, static_cast<double>(f.follow_ms)) / 1000; }
+}  // namespace
 
 ShaftFreedoms shaft_freedoms(const FreedomValues& values) {
     ShaftFreedoms f;
@@ -24,46 +30,60 @@ ShaftFreedoms shaft_freedoms(const FreedomValues& values) {
 void Shaft::set(double position, Instant now) {
     x_ = load_ = demand_ = position;
     v_ = demand_velocity_ = force_ = 0;
-    last_ = time_zero + (now - time_zero) / step * step;
+    last_ = on_grid(now);
     off_since_ = never;
 }
 
-void Shaft::begin_gap(Instant now) {
-    off_since_ = never;
-    if (now - last_ > longest_gap) last_ = time_zero + (now - longest_gap - time_zero) / step * step;
+void Shaft::skip_to(double demand) noexcept {
+    if (demand == demand_ && v_ == 0) return;
+    x_ = load_ = demand_ = demand;
+    v_ = demand_velocity_ = force_ = 0;
 }
 
 void Shaft::one_step(double demand) {
-    constexpr double dt = 0.001;
-    demand_velocity_ = (demand - demand_) / dt;
+    demand_velocity_ = (demand - demand_) / step_s;
     demand_ = demand;
+    const double friction = static_cast<double>(free_.friction_increments);
     if (free_.follow_ms == 0 && free_.most_acceleration == 0) {
-        v_ = demand_velocity_;
-        if (std::abs(demand - x_) > static_cast<double>(free_.friction_increments) || demand_velocity_ != 0) x_ = demand;
+        const double before = x_;
+        x_ = std::clamp(x_, demand - friction, demand + friction);
+        v_ = (x_ - before) / step_s;
         return drag_load();
     }
-    // A motor that is only weak follows with a stiff loop of 2 ms.
-    const double period = std::max<double>(2, static_cast<double>(free_.follow_ms)) / 1000;
-    const double stiffness = 1 / period, damping = static_cast<double>(free_.damping_percent) / 100;
     const double error = demand - x_;
-    const double friction = static_cast<double>(free_.friction_increments);
-    if (demand_velocity_ == 0 && std::abs(error) <= friction && std::abs(v_) <= friction * stiffness) {
+    const bool creeps = demand_velocity_ == 0 && std::abs(v_) <= friction / loop_s(free_);
+    if ((v_ == 0 || creeps) && std::abs(error) <= friction) {
         v_ = force_ = 0;
         return drag_load();
     }
-    double acceleration = stiffness * stiffness * error - 2 * damping * stiffness * v_;
-    if (free_.most_acceleration != 0) {
-        const double most = static_cast<double>(free_.most_acceleration);
-        force_ = std::min(1.0, std::abs(acceleration) / most);
-        acceleration = std::clamp(acceleration, -most, most);
-    }
-    v_ += acceleration * dt;
-    x_ += v_ * dt;
+    v_ += acceleration(error) * step_s;
+    x_ += v_ * step_s;
     if (demand_velocity_ == 0 && std::abs(demand - x_) < 0.01 && std::abs(v_) < 0.1) {
         x_ = demand;
         v_ = 0;
     }
     drag_load();
+}
+
+/// The loop wants a speed in proportion to the error. A motor of finite force limits it to the speed from which it can still stop at its
+/// demand, because without that limit it would swing around it for minutes. The speed loop is integrated implicitly, which is stable for
+/// every time constant and damping.
+double Shaft::acceleration(double error) noexcept {
+    const double damping = static_cast<double>(std::max<std::int64_t>(1, free_.damping_percent)) / 100;
+    const double speed_loop = 2 * damping / loop_s(free_);
+    double wanted = error / (2 * damping * loop_s(free_));
+    const double most = static_cast<double>(free_.most_acceleration);
+    if (most > 0) {
+        const double stops_from = std::sqrt(2 * most * std::abs(error));
+        const double away = std::max(0.0, error < 0 ? -demand_velocity_ : demand_velocity_);
+        wanted = std::clamp(wanted, -away - stops_from, away + stops_from);
+    }
+    double a = speed_loop * (wanted - v_) / (1 + speed_loop * step_s);
+    if (most > 0) {
+        force_ = std::min(1.0, std::abs(a) / most);
+        a = std::clamp(a, -most, most);
+    }
+    return a;
 }
 
 void Shaft::drag_load() noexcept {
@@ -78,7 +98,7 @@ void Shaft::advance_without_power(Instant now) {
     }
     v_ = force_ = 0;
     if (now <= last_) return;
-    last_ = time_zero + (now - time_zero) / step * step;
+    last_ = on_grid(now);
     constexpr double time_constant_s = 0.3;
     const double before = x_;
     x_ = drift_from_ + static_cast<double>(free_.drift_increments) * (1 - std::exp(-seconds(last_ - off_since_) / time_constant_s));

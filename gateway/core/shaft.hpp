@@ -15,7 +15,7 @@ struct ShaftFreedoms {
     std::int64_t follow_ms = 0;           ///< time constant of the position loop, without feed-forward; 0: the shaft is at its demand
     std::int64_t damping_percent = 100;   ///< below 100 it overshoots and rings before it settles
     std::int64_t most_acceleration = 0;   ///< increments/s^2 that the motor's force gives the load; 0: no limit
-    std::int64_t friction_increments = 0; ///< at rest it stays up to this far from its demand
+    std::int64_t friction_increments = 0; ///< it stays where it is while its demand is not further away than this
     std::int64_t backlash_increments = 0; ///< play between the motor and the encoder at the load
     std::int64_t noise_increments = 0;    ///< the encoder shows up to this much more or less, changing each millisecond
     std::int64_t drift_increments = 0;    ///< without power it moves this far within about a second, and stays there
@@ -29,8 +29,8 @@ struct ShaftFreedoms {
 /// Reads them by their names.
 [[nodiscard]] ShaftFreedoms shaft_freedoms(const FreedomValues& values);
 
-/// Advances on a fixed grid of one millisecond, so that its answers do not depend on when they are asked for. A gap of more than
-/// `longest_gap` is not calculated: the shaft is at its demand.
+/// Advances on a fixed grid of one millisecond, so that its answers do not depend on when they are asked for. Of a gap of more than
+/// `longest_gap` only the last part is calculated: at its beginning the shaft is at its demand, or where it stood if the demand is the same.
 class Shaft {
 public:
     static constexpr Duration step = std::chrono::milliseconds(1);
@@ -46,13 +46,18 @@ public:
     /// instants since the last call, in order.
     template <class Demand>
     void advance(Instant now, Demand&& demand) {
-        begin_gap(now);
+        off_since_ = never;
+        if (now - last_ > longest_gap) {
+            last_ = on_grid(now - longest_gap);
+            skip_to(demand(last_));
+        }
         while (last_ + step <= now) {
             last_ += step;
             one_step(demand(last_));
         }
     }
-    /// While the drive has no power: the shaft drifts from where it was switched off, whatever the demand is.
+    /// While the drive has no power: the shaft drifts from where it was switched off, whatever the demand is. Call `advance` for the instant
+    /// of switching off before.
     void advance_without_power(Instant now);
 
     /// Position and velocity of the motor as of the last advance, increments and increments/s.
@@ -66,8 +71,10 @@ public:
     [[nodiscard]] double force() const noexcept { return force_; }
 
 private:
-    void begin_gap(Instant now);
+    [[nodiscard]] static Instant on_grid(Instant t) noexcept { return time_zero + (t - time_zero) / step * step; }
+    void skip_to(double demand) noexcept;
     void one_step(double demand);
+    [[nodiscard]] double acceleration(double error) noexcept;
     void drag_load() noexcept;
 
     ShaftFreedoms free_;

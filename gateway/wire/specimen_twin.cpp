@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
+#include <utility>
 
 #include "gateway/core/specimen.hpp"
 
@@ -12,9 +14,13 @@ namespace {
 
 struct Manners {
     explicit Manners(const TwinSetup& setup)
-        : seed(setup.seed), reply(ms(setup, common_freedom::reply_ms)), spread(ms(setup, common_freedom::reply_spread_ms)),
-          late(ms(setup, common_freedom::late_ms)), chunk_pause(ms(setup, common_freedom::chunk_pause_ms)),
-          boot(ms(setup, common_freedom::boot_ms)), flash(ms(setup, common_freedom::flash_silence_ms)),
+        : seed(setup.seed),
+          reply(ms(setup, common_freedom::reply_ms)),
+          spread(ms(setup, common_freedom::reply_spread_ms)),
+          late(ms(setup, common_freedom::late_ms)),
+          chunk_pause(ms(setup, common_freedom::chunk_pause_ms)),
+          boot(ms(setup, common_freedom::boot_ms)),
+          flash(ms(setup, common_freedom::flash_silence_ms)),
           late_share(freedom(setup.freedoms, common_freedom::late_per_mille)),
           doubled_share(freedom(setup.freedoms, common_freedom::doubled_per_mille)),
           lost_share(freedom(setup.freedoms, common_freedom::lost_per_mille)),
@@ -42,21 +48,26 @@ public:
 
     void on_frame(const Frame& frame, Instant now, Out& out) override {
         run(now, out);
-        if (boots() || now < deaf_until_) return;
+        if (boots()) return;
+        const std::uint64_t before = twin_->non_volatile_revision();
         Out own;
         twin_->on_frame(frame, now, own);
         answer(own, now);
-        after(now, out);
+        // A change that no request made (a tester's hand, the place of an absolute encoder) is no write of a flash memory.
+        if (twin_->non_volatile_revision() != before) fall_silent(now);
+        send_due(now, out);
     }
     [[nodiscard]] Acceptance acceptance() const noexcept override { return twin_->acceptance(); }
     void on_deadline(Instant now, Out& out) override { run(now, out); }
     [[nodiscard]] Instant deadline() const override {
         if (boots()) return boot_end_;
-        return std::min(twin_->deadline(), waiting_.empty() ? never : waiting_.front().at);
+        return std::min({twin_->deadline(), switch_on_at_, waiting_.empty() ? never : waiting_.front().at});
     }
 
     void power_on(const NonVolatile& memory, Instant now, Out& out) override {
         waiting_.clear();
+        silent_until_ = stream_free_ = now;
+        switch_on_at_ = never;
         boot_end_ = now + manners_.boot;
         memory_ = memory;
         run(now, out);
@@ -64,18 +75,27 @@ public:
     [[nodiscard]] NonVolatile non_volatile() const override { return boots() ? *memory_ : twin_->non_volatile(); }
     [[nodiscard]] bool fit_axes(int axes, Instant now) override { return twin_->fit_axes(axes, now); }
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return twin_->non_volatile_revision(); }
-    [[nodiscard]] std::vector<HandItem> hand() const override { return twin_->hand(); }
+    [[nodiscard]] std::vector<HandItem> hand() const override {
+        std::vector<HandItem> items = twin_->hand();
+        if (!boots() && switch_on_at_ == never) return items;
+        for (HandItem& item : items)
+            if (item.name == "power") item.value = Value{true};  // it has its supply, and boots
+        return items;
+    }
     [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
         run(now, out);
-        Out own;
-        if (boots()) finish_boot(now, own);  // the hand needs the drive's switches, which are there before its program runs
-        if (name == "power") {
-            if (as_integer(value).value_or(0) == 0) waiting_.clear();
-            else if (!powered()) deaf_until_ = silent_until_ = now + manners_.boot;
+        if (boots()) wait_switched_off(now);
+        if (name == "power" && manners_.boot != Duration::zero()) {
+            const auto on = as_flag(value);
+            if (on && *on && switch_on_at_ != never) return {};
+            if (on && *on && !powered()) return switch_on_at_ = now + manners_.boot, std::string();
+            if (on) switch_on_at_ = never;
         }
+        if (name == "power" && as_flag(value) == false) waiting_.clear();
+        Out own;
         std::string fault = twin_->set_hand(name, value, now, own);
         keep(own, now);
-        after(now, out);
+        send_due(now, out);
         return fault;
     }
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override { return twin_->mechanics(channel, now); }
@@ -101,7 +121,12 @@ private:
         const NonVolatile memory = std::move(*memory_);
         memory_.reset();
         twin_->power_on(memory, now, own);
-        revision_ = twin_->non_volatile_revision();
+    }
+    /// The hand sets conditions of a drive that still boots: the twin gets its memory now, and its power when the boot is over.
+    void wait_switched_off(Instant now) {
+        Out unsent;
+        finish_boot(now, unsent);
+        if (twin_->set_hand("power", Value{false}, now, unsent).empty()) switch_on_at_ = boot_end_;
     }
 
     /// Everything of the drive's own that is due by `now`, each at its instant.
@@ -111,12 +136,17 @@ private:
             finish_boot(boot_end_, own);
             keep(own, now);
         }
-        if (!boots()) {
+        if (switch_on_at_ <= now) {
             Out own;
-            if (twin_->deadline() <= now) twin_->on_deadline(now, own);
+            (void)twin_->set_hand("power", Value{true}, std::exchange(switch_on_at_, never), own);
             keep(own, now);
         }
-        after(now, out);
+        if (!boots() && twin_->deadline() <= now) {
+            Out own;
+            twin_->on_deadline(now, own);
+            keep(own, now);
+        }
+        send_due(now, out);
     }
 
     [[nodiscard]] bool happens(std::string_view what, std::int64_t share) const {
@@ -173,17 +203,15 @@ private:
         waiting_.insert(place, {at, tx});
     }
 
-    /// Sends frames that are due, after the memory was looked at.
-    void after(Instant now, Out& out) {
-        if (!boots() && twin_->non_volatile_revision() != revision_) {
-            revision_ = twin_->non_volatile_revision();
-            if (manners_.flash != Duration::zero()) {
-                silent_until_ = now + manners_.flash;
-                for (Waiting& w : waiting_)
-                    w.at = std::max(w.at, silent_until_);
-                stream_free_ = std::max(stream_free_, silent_until_);
-            }
-        }
+    /// The memory is written: nothing leaves the drive, its answer to the write included.
+    void fall_silent(Instant now) {
+        if (manners_.flash == Duration::zero()) return;
+        silent_until_ = now + manners_.flash;
+        for (Waiting& w : waiting_)
+            w.at = std::max(w.at, silent_until_);
+        stream_free_ = std::max(stream_free_, silent_until_);
+    }
+    void send_due(Instant now, Out& out) {
         while (!waiting_.empty() && waiting_.front().at <= now) {
             Out::Tx& tx = waiting_.front().tx;
             tx.frame.at = waiting_.front().at;
@@ -194,10 +222,11 @@ private:
 
     std::unique_ptr<Twin> twin_;
     Manners manners_;
-    std::deque<Waiting> waiting_;  ///< in order of time
+    std::deque<Waiting> waiting_;        ///< in order of time
     std::optional<NonVolatile> memory_;  ///< while it boots: the memory with which it will be switched on
-    Instant boot_end_{}, deaf_until_{}, silent_until_{}, stream_free_{};
-    std::uint64_t revision_ = 0, messages_ = 0;
+    Instant boot_end_{}, silent_until_{}, stream_free_{};
+    Instant switch_on_at_ = never;  ///< end of a boot after the hand has given power
+    std::uint64_t messages_ = 0;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ inline constexpr std::string_view chunk_bytes = "chunk_bytes";                //
 inline constexpr std::string_view chunk_pause_ms = "chunk_pause_ms";          ///< with this pause between two runs of one message
 inline constexpr std::string_view noise_per_mille = "noise_per_mille";        ///< before this share of the messages a wrong byte is sent
 inline constexpr std::string_view boot_ms = "boot_ms";                        ///< it hears and says nothing this long after power-on
-inline constexpr std::string_view flash_silence_ms = "flash_silence_ms";      ///< no frame is sent this long after a change of its memory
+inline constexpr std::string_view flash_silence_ms = "flash_silence_ms";      ///< no frame is sent this long after a request that changed its memory
 }  // namespace common_freedom
 
 /// The twin of a drive as the specimen that `setup.options` name ("specimen", and freedoms by name). Fills setup.freedoms and setup.seed.

@@ -63,7 +63,9 @@ public:
     /// Position and velocity of the motor as of the last advance, increments and increments/s.
     [[nodiscard]] double position() const noexcept { return x_; }
     [[nodiscard]] double velocity() const noexcept { return v_; }
-    /// As the encoder shows it: behind the backlash, and with noise.
+    /// Position of the load, behind the backlash.
+    [[nodiscard]] double load() const noexcept { return load_; }
+    /// As the encoder at the load shows it, with noise.
     [[nodiscard]] double shown() const noexcept;
     /// The demand at the last step minus the motor's position.
     [[nodiscard]] double following_error() const noexcept { return demand_ - x_; }

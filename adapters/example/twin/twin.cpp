@@ -1,7 +1,8 @@
 // Requests are answered at once, at their own instant. Requests with a wrong checksum or for another drive are ignored, and all while the
-// twin is silent or off.
+// twin is silent or off. A specimen may send the state of its first axis unasked.
 #include "adapters/example/twin/twin.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
@@ -12,7 +13,11 @@ namespace {
 
 class ExampleTwin final : public Twin {
 public:
-    explicit ExampleTwin(const TwinSetup& setup) : address_(std::atoi(setup.address.c_str())) {}
+    explicit ExampleTwin(const TwinSetup& setup)
+        : address_(std::atoi(setup.address.c_str())), report_period_(std::chrono::milliseconds(freedom(setup.freedoms, "report_ms"))) {
+        for (std::size_t a = 0; a < axes_.size(); ++a)
+            axes_[a] = Axis(setup.freedoms, setup.seed + a);
+    }
 
     void on_frame(const Frame& f, Instant now, Out& out) override {
         if (f.kind != Frame::Kind::bytes) return;
@@ -22,16 +27,23 @@ public:
             if (c == '\r') take(now, out);
         }
     }
-    void on_deadline(Instant, Out&) override {}
-    [[nodiscard]] Instant deadline() const override { return never; }
+    void on_deadline(Instant now, Out& out) override {
+        while (report_at_ <= now) {
+            char address[4];
+            std::snprintf(address, sizeof address, "%02d1", address_ % 100);
+            if (!silent_) say("#" + std::string(address) + "S00=" + axes_[0].state(report_at_), report_at_, out);
+            report_at_ += report_period_;
+        }
+    }
+    [[nodiscard]] Instant deadline() const override { return report_at_; }
 
-    void power_on(const NonVolatile& memory, Instant, Out&) override {
+    void power_on(const NonVolatile& memory, Instant now, Out&) override {
         for (std::size_t a = 0; a < axes_.size(); ++a)
             for (std::size_t i = 0; i < Axis::settings; ++i) {
                 const auto kept = memory.find(name_of(a, i));
                 axes_[a].values[i] = kept == memory.end() ? Axis::factory[i] : as_integer(kept->second).value_or(Axis::factory[i]);
             }
-        powered_ = true;
+        set_power(true, now);
     }
     [[nodiscard]] NonVolatile non_volatile() const override {
         NonVolatile m;
@@ -60,7 +72,7 @@ public:
             if (name == "inject_error") a.fail(static_cast<int>(*n), now);
             if (name == "power" && *n == 0) a.power_off(now);
         }
-        if (name == "power") powered_ = *n != 0;
+        if (name == "power") set_power(*n != 0, now);
         return name == "silent" || name == "stall" || name == "inject_error" || name == "power"
                    ? ""
                    : name + " is nothing that a hand can do here";
@@ -71,6 +83,10 @@ public:
     }
 
 private:
+    void set_power(bool on, Instant now) {
+        if (!on || !powered_) report_at_ = on && report_period_ != Duration::zero() ? now + report_period_ : never;
+        powered_ = on;
+    }
     static std::string name_of(std::size_t axis, std::size_t i) { return std::to_string(axis + 1) + ".R" + std::to_string(i + 6); }
     static std::string check(const std::string& s) {
         unsigned sum = 0;
@@ -108,7 +124,9 @@ private:
             if (a.values != before) ++revision_;
         }
         if (silent_) return;
-        std::string r = "#" + s.substr(1, 6) + (refused ? "!" + std::to_string(refused) : "=" + answer);
+        say("#" + s.substr(1, 6) + (refused ? "!" + std::to_string(refused) : "=" + answer), now, out);
+    }
+    static void say(std::string r, Instant now, Out& out) {
         r += check(r) + '\r';
         Frame f = Frame::run({reinterpret_cast<const std::uint8_t*>(r.data()), r.size()});
         f.at = now;
@@ -116,6 +134,8 @@ private:
     }
 
     int address_;
+    Duration report_period_;
+    Instant report_at_ = never;
     std::string line_;
     std::array<Axis, 4> axes_;
     bool powered_ = false, silent_ = false, stalled_ = false;

@@ -34,6 +34,18 @@ void Shaft::set(double position, Instant now) {
     off_since_ = never;
 }
 
+void Shaft::shift(double by) noexcept {
+    x_ += by;
+    load_ += by;
+    demand_ += by;
+    drift_from_ += by;
+}
+
+double Shaft::lack() const noexcept {
+    const double damping = static_cast<double>(std::max<std::int64_t>(1, free_.damping_percent)) / 100;
+    return std::abs(demand_ - x_ - 2 * damping * loop_s(free_) * v_);
+}
+
 void Shaft::skip_to(double demand) noexcept {
     if (demand == demand_ && v_ == 0) return;
     x_ = load_ = demand_ = demand;

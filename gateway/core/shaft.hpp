@@ -42,6 +42,8 @@ public:
     [[nodiscard]] bool differs() const noexcept { return !free_.none(); }
     /// At rest at this position from now on: power-on, a new reference of the position, a hand that has moved it.
     void set(double position, Instant now);
+    /// Everything is numbered anew: each position becomes more by this.
+    void shift(double by) noexcept;
     /// Advances until `now`; `demand` is a function of an Instant: the demand position at that instant, in increments. It is called for
     /// instants since the last call, in order.
     template <class Demand>
@@ -69,6 +71,8 @@ public:
     [[nodiscard]] double shown() const noexcept;
     /// The demand at the last step minus the motor's position.
     [[nodiscard]] double following_error() const noexcept { return demand_ - x_; }
+    /// The following error beyond that of a motor that is strong enough: what it lacks to the lag of its loop at its speed, increments.
+    [[nodiscard]] double lack() const noexcept;
     /// The share of the motor's force that the last step needed, 0..1; 0 without a limit.
     [[nodiscard]] double force() const noexcept { return force_; }
 

@@ -239,8 +239,8 @@ TEST(ExampleFreedoms, AMotorThatCannotFollowIsAFault) {
     EXPECT_EQ(s[2], 0);
     Drive often = enabled({{"most_acceleration", 2'000}});
     (void)often.ask("R22", "4000");
-    for (int i = 0; i < 10'000; ++i) {
-        often.now += 1ms;
+    for (int i = 0; i < 2000; ++i) {
+        often.now += 5ms;
         (void)often.state();
     }
     EXPECT_EQ(often.state(), s) << "asked often, it tells the same";

@@ -1,6 +1,6 @@
 // Motion states, counter, encoder, lost pulses and stall.
 // In: starts, stops, the hand, time. Out: events.
-// Never allocates and never ticks.
+// Never allocates, and never ticks but for a specimen whose shaft is not at its pulses (axis_shaft.cpp).
 #include "adapters/uim342/twin/axis.hpp"
 
 #include <algorithm>
@@ -28,23 +28,29 @@ std::int32_t wrap_i32(double pulses) noexcept {
     return static_cast<std::int32_t>(inside);
 }
 
-double Axis::counter(Instant now) const noexcept {
+double Axis::counter(Instant now) const noexcept { return mechanics_.closed_loop && lags() ? real_.shown() : seat(now); }
+
+/// The counter without the noise of an encoder.
+double Axis::seat(Instant now) const noexcept {
     if (!mechanics_.closed_loop) return profile_.at(now).position;
-    return coasting_ ? coast_.at(now).position : held_ ? held_at_ : profile_.at(now).position;
+    return coasting_ ? coast_.at(now).position : held_ ? held_at_ : lags() ? real_.load() : profile_.at(now).position;
 }
 
 double Axis::speed(Instant now) const noexcept {
     if (!mechanics_.closed_loop) return profile_.at(now).velocity;
-    return coasting_ ? coast_.at(now).velocity : held_ ? 0 : profile_.at(now).velocity;
+    return coasting_ ? coast_.at(now).velocity : held_ ? 0 : lags() ? real_.velocity() : profile_.at(now).velocity;
 }
 
 std::int32_t Axis::position(Instant now) const noexcept { return wrap_i32(counter(now)); }
+
+std::int32_t Axis::place(Instant now) const noexcept { return wrap_i32(seat(now)); }
 
 std::int32_t Axis::relative(Instant now) const noexcept { return wrap_i32(std::round(counter(now)) - relative_zero_); }
 
 MotionState Axis::shaft(Instant now) const noexcept {
     if (coasting_) return coast_.at(now);
     if (held_) return {held_at_, 0};
+    if (lags()) return {real_.load() + slip_, out_of_step_ ? 0 : real_.velocity()};
     MotionState s = profile_.at(now);
     s.position += slip_;
     return s;
@@ -70,6 +76,7 @@ void Axis::end_coast(Instant now) noexcept {
     } else {
         slip_ = there - profile_.end_position();
     }
+    fit_shaft(now);
 }
 
 int Axis::reverse_direction(Instant now) const noexcept {
@@ -84,6 +91,7 @@ void Axis::rest_at(double position) noexcept {
 }
 
 void Axis::power_up(std::int32_t position, Instant now) noexcept {
+    follow(now);
     keep_turns(now);
     coasting_ = false;
     rest_at(position);
@@ -95,12 +103,16 @@ void Axis::power_up(std::int32_t position, Instant now) noexcept {
     held_at_ = profile_.end_position();
     lost_ = 0;
     stall_armed_ = speed_armed_ = give_up_ = arrival_pending_ = false;
-    stall_at_ = too_fast_at_ = deadline_ = never;
+    stall_at_ = too_fast_at_ = watch_at_ = deadline_ = never;
+    was_on_ = false;
+    fit_shaft(now);
     turns_from_ = shaft(now).position;
 }
 
 void Axis::configure(const Mechanics& mechanics, Instant now) noexcept {
+    follow(now);
     keep_turns(now);
+    const bool other_loop = mechanics.closed_loop != mechanics_.closed_loop;
     if (mechanics.closed_loop && !mechanics_.closed_loop) {  // from now on the encoder counts: the counter takes the shaft's place
         const double there = std::round(shaft(now).position);
         coasting_ = false;
@@ -108,19 +120,30 @@ void Axis::configure(const Mechanics& mechanics, Instant now) noexcept {
         slip_ = 0;
     }
     mechanics_ = mechanics;
+    if (other_loop && real_.differs()) {  // without a position loop nothing lags by a loop's time
+        ShaftFreedoms f = free_;
+        if (!mechanics_.closed_loop) f.follow_ms = f.noise_increments = 0;
+        const double stands = mechanics_.closed_loop ? profile_.end_position() : real_.load();
+        real_ = Shaft(f, seed_);
+        real_.set(stands, now);
+    }
     turns_from_ = shaft(now).position;
     plan(now);
 }
 
 void Axis::set_driver(bool on, Instant now) noexcept {
     if (on == driver_on_) return;
+    follow(now);
+    if (on) drift_ends(now);
     driver_on_ = on;
+    was_on_ = was_on_ || on;
     lost_ = 0;
     end_coast(now);
     if (!on) {
         const MotionState free = shaft(now);
         if (const int d = sign_of(profile_.at(now).velocity); d != 0) last_direction_ = d;
-        const double there = std::round(counter(now));
+        const double there = std::round(seat(now));
+        if (out_of_step_) slip_poles(now);
         if (held_ && !mechanics_.closed_loop) slip_ = held_at_ - there;
         rest_at(there);
         if (held_ && mechanics_.closed_loop) held_at_ = there;
@@ -136,6 +159,7 @@ void Axis::set_driver(bool on, Instant now) noexcept {
 
 /// Present state as the base of a new plan, with the counter inside its 32 bits.
 MotionState Axis::begin(Instant now) noexcept {
+    follow(now);
     MotionState from = profile_.at(now);
     if (const int d = sign_of(from.velocity); d != 0) last_direction_ = d;
     const double turns = turn_of_counter * std::floor((from.position + turn_of_counter / 2) / turn_of_counter);
@@ -143,7 +167,7 @@ MotionState Axis::begin(Instant now) noexcept {
         renumber(turns);
         from.position -= turns;
     }
-    arrival_pending_ = give_up_ = false;
+    arrival_pending_ = give_up_ = overloaded_ = false;
     stall_armed_ = speed_armed_ = true;
     relative_zero_ = std::round(counter(now));
     if (state_ == State::idle) {
@@ -199,6 +223,7 @@ void Axis::move_by(Instant now, std::int64_t displacement, double speed, const V
 
 void Axis::run_stop(State state, double rate, Instant now) noexcept {
     if (state_ == State::idle || coasting_) return;
+    follow(now);
     const MotionState from = profile_.at(now);
     if (const int d = sign_of(from.velocity); d != 0) last_direction_ = d;
     profile_ = Profile::stop(now, from, rate, cut_in_);
@@ -216,6 +241,7 @@ void Axis::stop_fast(Instant now, std::uint32_t sd) noexcept { run_stop(State::e
 void Axis::renumber(double pulses) noexcept {
     profile_.shift(pulses);
     coast_.shift(pulses);
+    real_.shift(-pulses);
     relative_zero_ -= pulses;
     started_at_ -= pulses;
     turns_from_ -= pulses;
@@ -223,6 +249,7 @@ void Axis::renumber(double pulses) noexcept {
 }
 
 void Axis::set_origin(Instant now) noexcept {
+    follow(now);
     if (!mechanics_.closed_loop) keep_turns(now);
     renumber(std::round(counter(now)));
     relative_zero_ = 0;
@@ -237,6 +264,7 @@ void Axis::set_origin(Instant now) noexcept {
 
 Axis::Event Axis::hold(bool held, Instant now) noexcept {
     if (held == held_) return Event::none;
+    follow(now);
     if (held) {
         held_at_ = shaft(now).position;
         end_coast(now);
@@ -246,6 +274,10 @@ Axis::Event Axis::hold(bool held, Instant now) noexcept {
     }
     if (!mechanics_.closed_loop) slip_ = held_at_ - profile_.at(now).position;
     held_ = false;
+    if (mechanics_.closed_loop)
+        real_.set(held_at_, now);
+    else
+        fit_shaft(now);
     plan(now);
     if (!arrival_pending_) return Event::none;
     arrival_pending_ = false;
@@ -271,6 +303,7 @@ void Axis::forget_lost(Instant now) noexcept {
 
 void Axis::displace(double position, Instant now) noexcept {
     const double there = std::round(position);
+    follow(now);
     end_coast(now);
     if (mechanics_.closed_loop) {
         relative_zero_ += there - profile_.end_position();
@@ -280,10 +313,13 @@ void Axis::displace(double position, Instant now) noexcept {
         slip_ = there - profile_.end_position();
     }
     held_at_ = there;
+    was_on_ = false;  // it stands where the hand has left it
+    fit_shaft(now);
 }
 
 Axis::Event Axis::stall(Instant at) noexcept {
     lost_ = 0;
+    overloaded_ = false;
     stall_armed_ = false;
     if (state_ == State::idle) {
         if (held_) rest_at(std::round(held_at_));
@@ -297,6 +333,7 @@ Axis::Event Axis::stall(Instant at) noexcept {
 
 Axis::Event Axis::step(Instant at) noexcept {
     if (at < deadline_) return Event::none;
+    follow(at);
     if (coasting_) {
         end_coast(at);
         plan(at);
@@ -308,10 +345,16 @@ Axis::Event Axis::step(Instant at) noexcept {
         plan(at);
         return Event::too_fast;
     }
+    if (at >= watch_at_ && at < profile_.end()) {
+        if (overloaded_) return stall(at);
+        plan(at);
+        return Event::none;
+    }
     const bool target = state_ == State::ptp && profile_.reaches_target();
     if (const int d = profile_.last_direction(); d != 0) last_direction_ = d;
     double there = profile_.end_position();
     if (give_up_ && held_ && mechanics_.closed_loop) there = held_at_ = std::round(held_at_);
+    if (give_up_ && mechanics_.closed_loop && lags()) there = std::round(real_.load());
     give_up_ = false;
     rest_at(there);
     arrival_pending_ = target && held_ && mechanics_.closed_loop && std::round(held_at_) != there;
@@ -322,7 +365,7 @@ Axis::Event Axis::step(Instant at) noexcept {
 
 void Axis::plan(Instant now) noexcept {
     deadline_ = coasting_ ? coast_.end() : state_ == State::idle ? never : profile_.end();
-    stall_at_ = too_fast_at_ = never;
+    stall_at_ = too_fast_at_ = watch_at_ = never;
     if (!driver_on_ || state_ == State::idle) return;
     if (mechanics_.closed_loop && stall_armed_) {
         const double left = static_cast<double>(mechanics_.tolerance) - static_cast<double>(lost_);
@@ -335,7 +378,9 @@ void Axis::plan(Instant now) noexcept {
         }
     }
     if (speed_armed_ && !held_) too_fast_at_ = profile_.first_faster(now, most_turns_per_s * shaft_per_turn() * (1 + 1e-9));
-    deadline_ = std::min({deadline_, stall_at_, too_fast_at_});
+    constexpr Duration watch = std::chrono::milliseconds(5);
+    if (free_.most_acceleration != 0 && mechanics_.closed_loop && stall_armed_ && lags()) watch_at_ = now + watch;
+    deadline_ = std::min({deadline_, stall_at_, too_fast_at_, watch_at_});
 }
 
 }  // namespace axisgate::uim342::twin

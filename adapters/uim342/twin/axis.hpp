@@ -1,12 +1,14 @@
 // The axis of the twin: which motion is under way, the position counter, the encoder, lost pulses and the stall.
 // In: starts and stops with their values, the shaft held or moved by hand, time. Out: counter, speed, and what happened at its deadline.
-// Never knows instructions, flags or notifications.
+// Never knows instructions, flags or notifications. The pulses follow the profile exactly; a specimen's shaft follows the pulses as its
+// mechanics permit: in closed loop the counter shows the shaft, in open loop a motor that lacks force falls out of step.
 #pragma once
 
 #include <cstdint>
 
 #include "adapters/uim342/twin/motion.hpp"
 #include "gateway/core/instant.hpp"
+#include "gateway/core/shaft.hpp"
 
 namespace axisgate::uim342::twin {
 
@@ -46,6 +48,12 @@ public:
         int direction = 1;                ///< of the shaft for a growing counter: +1 counter-clockwise, facing the shaft [L771]
     };
 
+    /// `seed` is that of the encoder's noise.
+    explicit Axis(const ShaftFreedoms& freedoms = {}, std::uint64_t seed = 0) noexcept
+        : free_(freedoms), seed_(seed), real_(freedoms, seed) {}
+    /// Advances the shaft of a specimen. To be called before a question about `now`; changes do it themselves.
+    void follow(Instant now) noexcept;
+
     /// Power came back: driver off, the counter begins here (absolute encoder: where the shaft is, incremental: 0), the shaft stands.
     void power_up(std::int32_t position, Instant now) noexcept;
     /// At rest only.
@@ -59,6 +67,8 @@ public:
     [[nodiscard]] bool moving() const noexcept { return state_ != State::idle; }
     /// Position counter: the encoder in closed loop, the pulses sent in open loop. It wraps at 32 bits.
     [[nodiscard]] std::int32_t position(Instant now) const noexcept;
+    /// The same without the flicker of an encoder.
+    [[nodiscard]] std::int32_t place(Instant now) const noexcept;
     /// Position since the last start of a motion; frozen at rest.
     [[nodiscard]] std::int32_t relative(Instant now) const noexcept;
     /// Of the encoder in closed loop (0 while the shaft is held), of the pulses sent in open loop; pulse/s.
@@ -110,6 +120,22 @@ private:
         return mechanics_.closed_loop ? mechanics_.feedback_per_turn : mechanics_.pulses_per_turn;
     }
     [[nodiscard]] double counter(Instant now) const noexcept;
+    [[nodiscard]] double seat(Instant now) const noexcept;
+    [[nodiscard]] bool lags() const noexcept { return real_.differs() && !held_ && !coasting_; }
+    void follow_pulses(Instant now) noexcept;
+    void slip_poles(Instant now) noexcept;
+    void fit_shaft(Instant now) noexcept;
+    void drift_ends(Instant now) noexcept;
+
+    // The specimen: `real_` is the shaft without `slip_`.
+    ShaftFreedoms free_;
+    std::uint64_t seed_ = 0;
+    Shaft real_;
+    bool was_on_ = false;       // a motor that never had current does not drift when it has none
+    bool out_of_step_ = false;  // the shaft stands while the pulses go on (open loop)
+    bool overloaded_ = false;   // closed loop: it lacks the stall tolerance
+    Instant followed_{};
+    Instant watch_at_ = never;  // when a motor of finite force is looked at next
 
     Profile profile_ = Profile::rest(0);
     State state_ = State::idle;

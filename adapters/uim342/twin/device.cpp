@@ -6,20 +6,33 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "adapters/uim342/twin/telegrams.hpp"
+#include "gateway/core/specimen.hpp"
+
 namespace axisgate::uim342::twin {
 namespace {
 
 constexpr std::uint8_t code_arrived = 0x29;
 constexpr const char* encoder_position_name = "encoder.position";
 
+Settings factory_settings(const Manners& manners) {
+    Settings s;
+    if (!manners.notifications_at_factory) s.ie = {0, 0, 0, 0};
+    return s;
+}
+
 }  // namespace
 
 Device::Device(const DeviceSetup& setup)
     : identity_(setup.identity),
-      boot_time_(setup.boot_time),
+      manners_(setup.manners),
       link_(setup.kind, setup.form, setup.bus_rate),
-      memory_(setup.factory, setup.identity.serial),
-      reader_(setup.crc) {}
+      memory_(setup.factory, setup.identity.serial, factory_settings(setup.manners)),
+      axis_(setup.manners.shaft, setup.manners.seed),
+      reader_(setup.crc) {
+    link_.notifies = manners_.notification_to;
+    inputs_.set_late(manners_.input_late);
+}
 
 // --- power and boot -----------------------------------------------------------------------------------------------------
 
@@ -31,7 +44,7 @@ void Device::power_on(const NonVolatile& memory, Instant now, Out& out) {
     if (const auto it = memory.find(encoder_position_name); it != memory.end()) {
         if (const auto n = as_integer(it->second)) position = wrap_i32(static_cast<double>(*n));
     }
-    boot(last_, position);
+    boot(last_, position, {});
     settle(last_, out);
 }
 
@@ -45,26 +58,30 @@ NonVolatile Device::non_volatile() const {
 void Device::power_off(Instant now) {
     axis_.set_driver(false, now);
     powered_ = online_ = false;
-    boot_end_ = actions_at_ = never;
+    boot_end_ = actions_at_ = arrive_at_ = driver_on_at_ = unasked_at_ = never;
+    notices_.clear();
 }
 
 /// Section 3.4: RAM from FLASH and EEPROM, flags and history clear, everything volatile at its beginning.
-void Device::boot(Instant now, std::int32_t encoder_position) {
+void Device::boot(Instant now, std::int32_t encoder_position, Duration takes) {
     memory_.reboot();
     link_.boot(memory_.flash());
     microsteps_ = memory_.ram().mt[0];
     pulses_per_turn_ = memory_.ram().qe[4];
     absolute_ = memory_.has_absolute_encoder();
-    axis_.power_up(absolute_ ? encoder_position : 0, now);
+    axis_.power_up(absolute_ ? encoder_position : manners_.counter_start, now);
     keep_position(now);
     configure_axis(now);
     flags_ = {};
     wanted_ = {};
-    history_ = {};
+    history_ = ErrorHistory(manners_.error_slots);
+    notices_.clear();
+    statuses_.clear();
+    arrive_at_ = driver_on_at_ = unasked_at_ = never;
     reader_.reset();
     online_ = false;
     actions_at_ = never;
-    boot_end_ = now + boot_time_;
+    boot_end_ = now + takes;
 }
 
 void Device::boot_done(Instant at, Out& out) {
@@ -75,6 +92,14 @@ void Device::boot_done(Instant at, Out& out) {
     if (battery_low_ && !encoder_error_) history_.at_power_on({static_cast<std::uint8_t>(Alarm::battery_low), 0, 0});
     if (encoder_error_) raise(Alarm::encoder_error, at, out);
     if (battery_low_) raise(Alarm::battery_low, at, out);
+    if (manners_.boot_notice) {
+        Telegram model;
+        fill_model(model);
+        model.producer = link_.node;
+        model.consumer = link_.notifies;
+        link_.send(model, at, out);
+    }
+    if (manners_.unasked_status != Duration::zero()) unasked_at_ = at + manners_.unasked_status;
     enable_at_boot_ = memory_.ram().ic[0] == 1;
     actions_at_ = enable_at_boot_ ? at + std::chrono::milliseconds(memory_.ram().mt[3]) : at;
 }
@@ -107,14 +132,14 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     now = std::max(now, last_);
     if (next_ <= now) settle(now, out);
     last_ = now;
+    axis_.follow(now);
     if (link_.kind == LineKind::can) {
         if (!online_ || !link_.on_the_bus() || frame.kind != Frame::Kind::can || !link_.is_for_me(consumer_of(frame.id))) return;
         if (const auto t = read_can(frame)) {
             // Another node's error report is no instruction: answering it would make two nodes report to each other for ever, once a
             // spoilt identifier has named a node as the producer.
             if (t->cw == 0x0F && t->dl >= 4 && t->producer != host_id) return;
-            instruct(*t, now, out);
-            settle(now, out);
+            receive(*t, now, out);
         }
         return;
     }
@@ -122,15 +147,27 @@ void Device::on_frame(const Frame& frame, Instant now, Out& out) {
     reader_.feed(frame.data(), [&](const Telegram& t, Form form) {
         link_.form = form;  // the host's way of speaking; notifications follow it
         if (!online_ || !link_.is_for_me(t.consumer)) return;
-        instruct(t, now, out);
-        settle(now, out);
+        receive(t, now, out);
     });
+}
+
+/// What an instruction causes at once is told behind its acknowledgement, by a specimen before it.
+void Device::receive(const Telegram& t, Instant now, Out& out) {
+    if (!manners_.notification_first) {
+        instruct(t, now, out);
+        return settle(now, out);
+    }
+    Out answer;
+    instruct(t, now, answer);
+    settle(now, out);
+    out.frames.insert(out.frames.end(), answer.frames.begin(), answer.frames.end());
 }
 
 void Device::on_deadline(Instant now, Out& out) { settle(std::max(now, last_), out); }
 
 Instant Device::earliest() const noexcept {
-    Instant t = std::min({boot_end_, actions_at_, axis_.deadline()});
+    Instant t = std::min({boot_end_, actions_at_, axis_.deadline(), arrive_at_, driver_on_at_, unasked_at_});
+    if (!notices_.empty()) t = std::min(t, notices_.front().at);
     if (online_) t = std::min(t, inputs_.deadline());
     return t;
 }
@@ -140,13 +177,15 @@ void Device::settle(Instant now, Out& out) {
     for (next_ = earliest(); next_ <= now; next_ = earliest())
         step(next_, out);
     last_ = now;
+    axis_.follow(now);
     keep_position(now);
+    keep_status(now);
 }
 
 /// The absolute encoder's own memory: where the shaft came to rest.
 void Device::keep_position(Instant now) noexcept {
     if (!memory_.has_absolute_encoder() || axis_.moving()) return;
-    const std::int32_t there = axis_.position(now);
+    const std::int32_t there = axis_.place(now);
     if (there == saved_position_) return;
     saved_position_ = there;
     memory_.touch();
@@ -154,15 +193,29 @@ void Device::keep_position(Instant now) noexcept {
 
 /// One event. At the same instant the end of a motion comes before an input, so that an arrival is never lost to a stop.
 void Device::step(Instant at, Out& out) {
+    axis_.follow(at);
     if (boot_end_ <= at) {
         boot_done(at, out);
+    } else if (driver_on_at_ <= at) {
+        driver_on_at_ = never;
+        axis_.set_driver(true, at);
     } else if (actions_at_ <= at) {
         power_on_actions(at, out);
     } else if (axis_.deadline() <= at) {
         on_axis(axis_.step(at), at, out);
+    } else if (arrive_at_ <= at) {
+        arrive(at, out);
+    } else if (!notices_.empty() && notices_.front().at <= at) {
+        const Notice n = notices_.front();
+        notices_.pop_front();
+        link_.notify({n.data.data(), n.size}, at, out);
+    } else if (unasked_at_ <= at) {
+        unasked_at_ += manners_.unasked_status;
+        send_status(at, out);
     } else if (const auto edge = inputs_.step(at)) {
         on_edge(*edge, at, out);
     }
+    keep_status(at);
 }
 
 // --- what happens by itself -------------------------------------------------------------------------------------------
@@ -170,20 +223,61 @@ void Device::step(Instant at, Out& out) {
 /// Alarms have no enable bit: they are always sent.
 void Device::raise(Alarm alarm, Instant at, Out& out) {
     flags_.err = true;
-    link_.notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
+    notify({0, static_cast<std::uint8_t>(alarm), 0, 0, 0}, at, out);
+}
+
+/// A specimen's notification can be late, or missing.
+void Device::notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) {
+    ++notified_;
+    const bool lost = manners_.notification_lost > 0 && static_cast<std::int64_t>(specimen_draw(manners_.seed, "notification", notified_) %
+                                                                                  1000) < manners_.notification_lost;
+    if (lost) return;
+    if (manners_.notification_late == Duration::zero()) return link_.notify({data.begin(), data.size()}, at, out);
+    if (notices_.size() >= most_notices) return;
+    Notice n{at + manners_.notification_late, {}, static_cast<std::uint8_t>(data.size())};
+    std::copy(data.begin(), data.end(), n.data.begin());
+    notices_.push_back(n);
+}
+
+void Device::arrive(Instant at, Out& out) {
+    arrive_at_ = never;
+    flags_.paif = true;
+    if (memory_.ram().ie[3] == 0) return;
+    const auto p = static_cast<std::uint32_t>(axis_.position(at));
+    const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
+    notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
+}
+
+/// Remembers the changes of MS[0] for as long as a specimen shows them late.
+void Device::keep_status(Instant at) {
+    if (manners_.status_late == Duration::zero()) return;
+    const auto bits = status_bits();
+    if (!statuses_.empty() && statuses_.back().bits == bits) return;
+    statuses_.push_back({at, bits});
+    while (statuses_.size() > most_statuses || (statuses_.size() > 1 && statuses_[1].at + manners_.status_late <= at))
+        statuses_.pop_front();
+}
+
+void Device::send_status(Instant at, Out& out) const {
+    Telegram t;
+    t.producer = link_.node;
+    t.consumer = link_.notifies;
+    t.cw = MS;
+    fill_status(t, at);
+    link_.send(t, at, out);
 }
 
 void Device::on_axis(Axis::Event event, Instant at, Out& out) {
     if (event == Axis::Event::arrived) {
-        flags_.paif = true;
-        if (memory_.ram().ie[3] == 0) return;
-        const auto p = static_cast<std::uint32_t>(axis_.position(at));
-        const auto byte = [p](int n) { return static_cast<std::uint8_t>(p >> (8 * n)); };
-        link_.notify({code_arrived, 0, 0, 0, byte(0), byte(1), byte(2), byte(3)}, at, out);
+        if (manners_.in_position == Duration::zero())
+            arrive(at, out);
+        else
+            arrive_at_ = at + manners_.in_position;
     } else if (event == Axis::Event::too_fast) {
         raise(Alarm::overspeed, at, out);  // what the drive does about it is not printed: nothing (E-51)
     } else if (event == Axis::Event::stalled) {
         flags_.tlif = true;
+        arrive_at_ = never;
         raise(Alarm::stall, at, out);
         if (memory_.ram().il[3] == 1) {
             axis_.set_driver(false, at);
@@ -196,7 +290,7 @@ void Device::on_axis(Axis::Event event, Instant at, Out& out) {
 /// Order on one edge: the level is latched (by Inputs), the notification goes out if enabled, the action runs whatever IE says.
 void Device::on_edge(Edge edge, Instant at, Out& out) {
     if (memory_.ram().ie[edge.input] == 1) {
-        link_.notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
+        notify({static_cast<std::uint8_t>(2 * edge.input + (edge.rising ? 2 : 1))}, at, out);
     }
     const std::uint16_t il = memory_.ram().il[edge.input];
     if (memory_.ram().tg[edge.input] == trigger_one_time) {
@@ -235,6 +329,7 @@ void Device::run_action(std::uint8_t action, std::size_t group, Instant at, Out&
     if (action == 0x04 || action >= 0x07) {
         if (!may_start()) return;
         flags_.paif = false;
+        arrive_at_ = never;
     }
     switch (action) {
         case 0x01:
@@ -280,7 +375,9 @@ void Device::run_action(std::uint8_t action, std::size_t group, Instant at, Out&
 
 TwinMechanics Device::mechanics(int channel, Instant now) const {
     if (channel != 1) return {};
-    const MotionState s = axis_.shaft(std::max(now, last_));
+    Axis axis = axis_;  // a question must not change it
+    axis.follow(std::max(now, last_));
+    const MotionState s = axis.shaft(std::max(now, last_));
     return {s.position, s.velocity, axis_.driver_on()};
 }
 

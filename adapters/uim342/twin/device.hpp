@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "adapters/uim342/twin/errors.hpp"
 #include "adapters/uim342/twin/inputs.hpp"
 #include "adapters/uim342/twin/link.hpp"
+#include "adapters/uim342/twin/manners.hpp"
 #include "adapters/uim342/twin/memory.hpp"
 #include "adapters/uim342/twin/wire.hpp"
 #include "gateway/core/hand_table.hpp"
@@ -59,7 +62,7 @@ struct DeviceSetup {
     Form form = Form::crc12;  ///< of notifications, before the host has spoken
     Protocol factory;
     Identity identity;
-    Duration boot_time{};
+    Manners manners;
     /// Of the bus, as PP[5] has it; nothing: not known, or a byte line, and then the drive hears whatever its own rate is.
     std::optional<std::uint8_t> bus_rate;
 };
@@ -97,13 +100,18 @@ private:
 
     // --- life (device.cpp) ---
     void power_off(Instant now);
-    void boot(Instant now, std::int32_t encoder_position);
+    void boot(Instant now, std::int32_t encoder_position, Duration takes);
     void boot_done(Instant at, Out& out);
     void power_on_actions(Instant at, Out& out);
     void settle(Instant now, Out& out);
     void step(Instant at, Out& out);
     [[nodiscard]] Instant earliest() const noexcept;
     void raise(Alarm alarm, Instant at, Out& out);
+    void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out);
+    void arrive(Instant at, Out& out);
+    void keep_status(Instant at);
+    void send_status(Instant at, Out& out) const;
+    void fill_model(Telegram& reply) const noexcept;
     void on_edge(Edge edge, Instant at, Out& out);
     void run_action(std::uint8_t action, std::size_t group, Instant at, Out& out);
     void emergency_stop_by_input(Instant at, Out& out);
@@ -114,7 +122,10 @@ private:
     void keep_position(Instant now) noexcept;
 
     // --- instructions (instructions.cpp, sets.cpp) ---
+    void receive(const Telegram& t, Instant now, Out& out);
     void instruct(const Telegram& t, Instant now, Out& out);
+    void restart(Instant now, Out& out);
+    [[nodiscard]] Fault strict_fault(const Telegram& t, bool is_set) const noexcept;
     [[nodiscard]] Fault get(const Telegram& t, Instant now, Telegram& reply);
     [[nodiscard]] Fault get_indexed(const Telegram& t, Instant now, Telegram& reply) const;
     [[nodiscard]] Fault set(const Telegram& t, Instant now, Telegram& reply, Out& out);
@@ -126,13 +137,14 @@ private:
     [[nodiscard]] Fault clear_error(const Telegram& t, Telegram& reply);
     void report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out);
     void fill_status(Telegram& reply, Instant now) const noexcept;
+    [[nodiscard]] std::array<std::uint8_t, 2> status_bits() const noexcept;
 
     // --- the hand (hand.cpp) ---
     static const HandRow<Device> conditions[];
     void set_alarm_condition(bool& condition, Alarm alarm, bool on, Instant now, Out& out);
 
     Identity identity_;
-    Duration boot_time_;
+    Manners manners_;
     Link link_;
     Memory memory_;
     Axis axis_;
@@ -157,6 +169,26 @@ private:
     Wanted wanted_;
     ErrorHistory history_;
     std::int32_t saved_position_ = 0;  // of the absolute encoder
+
+    // What a specimen shows or does later than the manual's drive.
+    struct Notice {
+        Instant at;
+        std::array<std::uint8_t, 8> data;
+        std::uint8_t size;
+    };
+    struct Status {
+        Instant at;
+        std::array<std::uint8_t, 2> bits;
+        bool operator==(const Status&) const = default;
+    };
+    static constexpr std::size_t most_notices = 64;   ///< further ones are lost
+    static constexpr std::size_t most_statuses = 64;  ///< the oldest go first
+    std::deque<Notice> notices_;                      ///< in order of time
+    std::deque<Status> statuses_;                     ///< changes of MS[0], oldest first
+    std::uint64_t notified_ = 0;
+    Instant arrive_at_ = never;
+    Instant driver_on_at_ = never;
+    Instant unasked_at_ = never;
 
     Instant boot_end_ = never;
     Instant actions_at_ = never;

@@ -17,12 +17,15 @@ struct ErrorEntry {
 class ErrorHistory {
     template <class Self>
     static auto* slot_of(Self& self, std::uint8_t index) noexcept {
+        if (index >= 10 + self.kept_) return static_cast<decltype(self.latest_.data())>(nullptr);
         if (index == 0) return self.latest_.data();
         if (index == 6) return &self.power_on_;
         return index >= 10 && index < 10 + self.latest_.size() ? &self.latest_[index - 10u] : nullptr;
     }
 
 public:
+    /// `kept`: 9 latest errors, or 8 as in the manual's other sentence (E-14).
+    explicit ErrorHistory(std::uint8_t kept = 9) noexcept : kept_(kept) {}
     void add(const ErrorEntry& entry) noexcept {
         std::ranges::move_backward(latest_.begin(), latest_.end() - 1, latest_.end());
         latest_[0] = entry;
@@ -36,6 +39,7 @@ public:
 private:
     std::array<ErrorEntry, 9> latest_{};
     ErrorEntry power_on_{};
+    std::uint8_t kept_;
 };
 
 }  // namespace axisgate::uim342::twin

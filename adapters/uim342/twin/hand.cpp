@@ -43,7 +43,7 @@ const HandRow<Device> Device::conditions[] = {
              if (on == d.powered_) return;
              if (!on) return d.power_off(w.now);
              d.powered_ = true;
-             d.boot(w.now, d.axis_.position(w.now));
+             d.boot(w.now, d.axis_.place(w.now), {});
          });
      }},
     {"silent", true, "the drive hears and acts, but nothing that it sends reaches the line",

@@ -23,6 +23,7 @@ bool bit(std::uint8_t mask, std::size_t i) noexcept { return ((mask >> i) & 1u) 
 
 void Inputs::apply(std::uint8_t levels, Instant now) noexcept {
     applied_ = levels & 0x07;
+    applied_at_ = now;
     plan(now);
 }
 
@@ -40,7 +41,7 @@ void Inputs::set_mode(std::size_t input, std::uint16_t mode, Instant now) noexce
 }
 
 void Inputs::plan(Instant now) noexcept {
-    sample_at_ = applied_ == sampled_ ? never : on_grid(now);
+    sample_at_ = applied_ == sampled_ ? never : on_grid(std::max(now, applied_at_ + late_));
     deadline_ = sample_at_;
     for (std::size_t i = 0; i < input_count; ++i) {
         if (since_[i] == never) continue;

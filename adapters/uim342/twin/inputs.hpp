@@ -26,6 +26,8 @@ public:
     void apply(std::uint8_t levels, Instant now) noexcept;
     [[nodiscard]] std::uint8_t applied() const noexcept { return applied_; }
 
+    /// A level must stand this long before the drive sees it: the filter in front of its inputs.
+    void set_late(Duration late) noexcept { late_ = late; }
     /// At boot: the present levels are the latched ones, without an edge.
     void restart(const std::array<std::uint16_t, input_count>& modes) noexcept;
     /// A new TG[i]; a change that was being filtered is judged anew from the next sample on.
@@ -49,6 +51,8 @@ private:
     std::uint8_t latched_ = 0;
     std::array<std::uint16_t, input_count> modes_{};
     std::array<Instant, input_count> since_{never, never, never};  // sampled level differs from the latched one since then
+    Duration late_{};
+    Instant applied_at_{};
     Instant sample_at_ = never;
     Instant deadline_ = never;
 };

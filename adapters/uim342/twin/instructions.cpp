@@ -68,6 +68,7 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
         report(Fault::syntax, t, sub, now, out);
         return;
     }
+    if (const Fault fault = strict_fault(t, is_set); fault != Fault::none) return report(fault, t, sub, now, out);
     Telegram reply;
     reply.producer = link_.node;
     reply.consumer = t.producer;
@@ -80,22 +81,34 @@ void Device::instruct(const Telegram& t, Instant now, Out& out) {
     }
     if (fault != Fault::none) {
         report(fault, t, sub, now, out);
-    } else if (t.wants_ack() && t.function() != SY) {
+    } else if (t.wants_ack() && t.function() != SY && (manners_.broadcast_acknowledge || t.consumer == link_.node)) {
         link_.send(reply, now, out);
     }
+}
+
+/// Refusals of a specimen that insists on more than the manual's drive: whole values, and settings at rest only.
+Fault Device::strict_fault(const Telegram& t, bool is_set) const noexcept {
+    if (!is_set) return Fault::none;
+    constexpr auto of_values = static_cast<std::uint16_t>(dl(1) | dl(2) | dl(3) | dl(4));
+    if (!manners_.short_values && shapes[t.function()].set == of_values && t.dl != 4) return Fault::syntax;
+    constexpr std::array<std::uint8_t, 9> settings{AC, DC, SS, SD, BL, IE, IL, TG, MT};
+    const bool setting = std::ranges::find(settings, t.function()) != settings.end();
+    return manners_.settings_at_rest && setting && axis_.moving() ? Fault::running : Fault::none;
 }
 
 /// Sent even if no acknowledgement was asked for; d2 keeps bit 7 of the instruction [L1183]. Spends a pending MF.
 void Device::report(Fault fault, const Telegram& t, std::uint8_t sub, Instant now, Out& out) {
     wanted_.pending_group = 0;
     flags_.err = true;
-    history_.add({static_cast<std::uint8_t>(fault), t.cw, sub});
+    const std::uint8_t cw = manners_.error_keeps_bit7 ? t.cw : t.function();
+    history_.add({static_cast<std::uint8_t>(fault), cw, sub});
+    if (!t.wants_ack() && !manners_.unasked_errors) return;
     Telegram error;
     error.producer = link_.node;
     error.consumer = t.producer;
     error.cw = ER;
     error.dl = 6;
-    error.d = {0, static_cast<std::uint8_t>(fault), t.cw, sub, 0, 0, 0, 0};
+    error.d = {0, static_cast<std::uint8_t>(fault), cw, sub, 0, 0, 0, 0};
     link_.send(error, now, out);
 }
 
@@ -105,8 +118,7 @@ Fault Device::get(const Telegram& t, Instant now, Telegram& reply) {
     const Settings& s = memory_.ram();
     switch (t.function()) {
         case ML:
-            reply.dl = 8;  // d3 and d7:d6 are the factory's, the firmware version in d5:d4 is not published
-            std::copy(identity_.model.begin(), identity_.model.end(), reply.d.begin());
+            fill_model(reply);
             return Fault::none;
         case SN:
             put(reply, 0, memory_.serial(), 4);
@@ -225,16 +237,32 @@ Fault Device::get_indexed(const Telegram& t, Instant now, Telegram& reply) const
     }
 }
 
-/// MS[0] [L879-905].
+/// ML [L1143-1148]: d3 and d7:d6 are the factory's, the firmware versions in d5:d4 are not published.
+void Device::fill_model(Telegram& reply) const noexcept {
+    reply.cw = ML;
+    reply.dl = 8;
+    std::copy(identity_.model.begin(), identity_.model.end(), reply.d.begin());
+    put(reply, 4, manners_.firmware, 2);
+}
+
+/// MS[0] [L879-905], as a specimen shows it late.
 void Device::fill_status(Telegram& reply, Instant now) const noexcept {
-    const auto bit = [](bool on, int n) { return on ? 1u << n : 0u; };
-    reply.d = {};
-    reply.d[1] = static_cast<std::uint8_t>(bit(wanted_.ptp, 0) | bit(axis_.driver_on(), 2) | (unsigned{inputs_.latched()} << 3) |
-                                           bit(flags_.output, 6));
-    reply.d[2] = static_cast<std::uint8_t>(bit(!axis_.moving(), 0) | bit(flags_.paif, 1) | bit(flags_.tlif, 3) | bit(flags_.lock, 5) |
-                                           bit(flags_.err, 7));
+    auto bits = status_bits();
+    if (!statuses_.empty()) bits = statuses_.front().bits;
+    for (const Status& s : statuses_)
+        if (s.at + manners_.status_late <= now) bits = s.bits;
+    reply.d = {0, bits[0], bits[1], 0, 0, 0, 0, 0};
     put(reply, 4, static_cast<std::uint32_t>(axis_.relative(now)), 4);
     reply.dl = 8;
+}
+
+/// d1 and d2 of MS[0].
+std::array<std::uint8_t, 2> Device::status_bits() const noexcept {
+    const auto bit = [](bool on, int n) { return on ? 1u << n : 0u; };
+    return {static_cast<std::uint8_t>(bit(wanted_.ptp, 0) | bit(axis_.driver_on(), 2) | (unsigned{inputs_.latched()} << 3) |
+                                      bit(flags_.output, 6)),
+            static_cast<std::uint8_t>(bit(!axis_.moving(), 0) | bit(flags_.paif, 1) | bit(flags_.tlif, 3) | bit(flags_.lock, 5) |
+                                      bit(flags_.err, 7))};
 }
 
 // --- error history ------------------------------------------------------------------------------------------------------

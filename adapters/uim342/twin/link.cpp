@@ -22,10 +22,10 @@ void Link::send(const Telegram& telegram, Instant at, Out& out) const {
     out.send(f);
 }
 
-void Link::notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const {
+void Link::notify(std::span<const std::uint8_t> data, Instant at, Out& out) const {
     Telegram t;
     t.producer = node;
-    t.consumer = host_id;
+    t.consumer = notifies;
     t.cw = cw_notification;
     t.dl = static_cast<std::uint8_t>(data.size());
     std::copy(data.begin(), data.end(), t.d.begin());

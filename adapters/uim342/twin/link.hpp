@@ -2,8 +2,8 @@
 // In: telegrams to send. Out: frames; whether a telegram is for it. Never speaks on a bus with another bit rate than its own.
 #pragma once
 
-#include <initializer_list>
 #include <optional>
+#include <span>
 
 #include "adapters/uim342/twin/memory.hpp"
 #include "adapters/uim342/twin/wire.hpp"
@@ -24,14 +24,16 @@ public:
     /// The same three on a CAN bus.
     [[nodiscard]] Acceptance acceptance() const noexcept;
     void send(const Telegram& telegram, Instant at, Out& out) const;
-    void notify(std::initializer_list<std::uint8_t> data, Instant at, Out& out) const;
+    /// To the master; of a specimen to every device.
+    void notify(std::span<const std::uint8_t> data, Instant at, Out& out) const;
 
     const LineKind kind;
     const std::optional<std::uint8_t> bus_rate;
     Form form;  ///< of the byte line
     std::uint8_t node = 5, group = 10;
     std::uint8_t bit_rate = 2;  ///< as PP[5] was at boot
-    bool silent = false;        ///< nothing that it sends reaches the line
+    std::uint8_t notifies = host_id;
+    bool silent = false;  ///< nothing that it sends reaches the line
 };
 
 }  // namespace axisgate::uim342::twin

@@ -110,9 +110,8 @@ std::optional<std::size_t> ie_slot(std::uint8_t index) noexcept {
 }
 
 void Memory::restore_factory() noexcept {
-    if (!(eeprom_ == Settings{})) ++revision_;
-    eeprom_ = Settings{};
-    ram_ = Settings{};
+    if (!(eeprom_ == factory_settings_)) ++revision_;
+    eeprom_ = ram_ = factory_settings_;
 }
 
 void Memory::save(NonVolatile& to) const {
@@ -135,7 +134,7 @@ void Memory::load(const NonVolatile& from) {
     byte(8, flash_.group);
     serial_ = factory_serial_;
     if (const auto n = number(from, "SN"); n && *n >= 0 && *n <= 0xFFFFFFFFLL) serial_ = static_cast<std::uint32_t>(*n);
-    eeprom_ = Settings{};
+    eeprom_ = factory_settings_;
     for_each_setting(eeprom_, [&from](const std::string& name, auto& field, const auto& takes) {
         const auto n = number(from, name);
         if (n && takes(*n)) field = static_cast<std::remove_reference_t<decltype(field)>>(*n);

@@ -62,8 +62,14 @@ struct Protocol {
 
 class Memory {
 public:
-    Memory(Protocol factory, std::uint32_t serial) noexcept
-        : factory_(factory), factory_serial_(serial), flash_(factory), serial_(serial) {}
+    Memory(Protocol factory, std::uint32_t serial, const Settings& factory_settings) noexcept
+        : factory_(factory),
+          factory_serial_(serial),
+          factory_settings_(factory_settings),
+          flash_(factory),
+          serial_(serial),
+          eeprom_(factory_settings),
+          ram_(factory_settings) {}
 
     [[nodiscard]] const Settings& ram() const noexcept { return ram_; }
     /// As configured; a change of IC[5] is always kept and acts at the next boot, when the counter begins at the encoder's place or at 0.
@@ -103,6 +109,7 @@ public:
 private:
     Protocol factory_;
     std::uint32_t factory_serial_;
+    Settings factory_settings_;
     Protocol flash_;
     std::uint32_t serial_;
     Settings eeprom_;

@@ -43,6 +43,10 @@ Fault Device::set_driver(std::uint8_t value, Instant now) {
     if (value == 0) {
         flags_.lock = false;  // the one way out of the lock besides a reboot
         enable_at_boot_ = false;
+        driver_on_at_ = arrive_at_ = never;
+    } else if (manners_.driver_on != Duration::zero() && !axis_.driver_on()) {
+        if (driver_on_at_ == never) driver_on_at_ = now + manners_.driver_on;
+        return Fault::none;
     }
     axis_.set_driver(value == 1, now);
     return Fault::none;
@@ -52,6 +56,7 @@ Fault Device::begin_motion(Instant now) {
     if (!axis_.driver_on()) return Fault::driver_off;
     if (flags_.lock || axis_.state() == Axis::State::emergency_stop) return Fault::stopping;
     flags_.paif = false;
+    arrive_at_ = never;
     const double speed = std::abs(static_cast<double>(wanted_.speed));  // the sign of SP says nothing here [L799]
     if (!wanted_.ptp) {
         axis_.jog(now, wanted_.speed, values_of(0));
@@ -139,17 +144,19 @@ Fault Device::set_motion_value(const Telegram& t, Telegram& reply) {
 /// SY: 1 starts the drive anew, 2 restores the factory's settings.
 Fault Device::command_system(std::uint8_t i, Instant now, Out& out) {
     if (i != 1 && i != 2) return Fault::sub_index;
-    if (i == 1) {
-        axis_.set_driver(false, now);
-        boot(now, axis_.position(now));
-        settle(now, out);
-        return Fault::none;
-    }
+    if (i == 1) return restart(now, out), Fault::none;
     if (axis_.moving()) return Fault::running;
     memory_.restore_factory();
     inputs_.set_modes(memory_.ram().tg, now);
     configure_axis(now);
+    if (manners_.restore_restarts) restart(now, out);
     return Fault::none;
+}
+
+void Device::restart(Instant now, Out& out) {
+    axis_.set_driver(false, now);
+    boot(now, axis_.place(now), manners_.restart);
+    settle(now, out);
 }
 
 Fault Device::set_indexed(const Telegram& t, Instant now, Telegram& reply, Out& out) {

@@ -57,7 +57,7 @@ std::unique_ptr<Twin> make_twin(const Catalogue&, const TwinSetup& setup) {
     d.identity.model = model_named(option(setup.options, "model", "342XS"));
     // The manual's example for the factory address, and one more for each address: drives of one bus differ.
     d.identity.serial = 0x04030201u + node - factory_node;
-    if (const auto ms = number(option(setup.options, "boot_ms", "0")); ms && *ms <= 60'000) d.boot_time = std::chrono::milliseconds(*ms);
+    d.manners = twin::Manners(setup.freedoms, setup.seed);
     return std::make_unique<twin::Device>(d);
 }
 

@@ -25,7 +25,7 @@ namespace axisgate::uim342 {
 ///   without
 ///             a CRC are heard with every value, and answers go back as they were asked: this is for what comes before a question.
 ///   "model"   "342XS" (default), "342S", "342C02", "342C04", "342C08", "342H08": what ML says [L1143-1148].
-///   "boot_ms" 0..60000 (default 0: the manual gives no boot time): deaf for so long after SY[1] and after power came back.
+/// `setup.freedoms`: those of the page that are not common to all families (manners.hpp); absent ones have the manual's value.
 [[nodiscard]] std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& setup);
 
 }  // namespace axisgate::uim342

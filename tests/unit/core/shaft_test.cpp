@@ -98,6 +98,37 @@ TEST(Shaft, ItIsStillForceAndNotTheLoopThatLimitsAFastFollower) {
     EXPECT_LT(strong.force(), 0.01);
 }
 
+TEST(Shaft, AMotorThatIsStrongEnoughLacksNothing) {
+    ShaftFreedoms f = only(&ShaftFreedoms::follow_ms, 10);
+    f.most_acceleration = 20'000;
+    Shaft strong = at_rest(f), weak = at_rest(f);
+    strong.advance(begin + 1s, [](Instant t) { return 5000 * t_of(t) * t_of(t); });  // 10,000/s^2
+    EXPECT_GT(strong.following_error(), 150);
+    EXPECT_LT(strong.lack(), 15);
+    weak.advance(begin + 1s, [](Instant t) { return 20'000 * t_of(t) * t_of(t); });  // 40,000/s^2
+    EXPECT_NEAR(weak.lack(), 10'000 - 400, 100) << "the half of the way, and without the lag at its speed";
+    EXPECT_DOUBLE_EQ(weak.force(), 1);
+}
+
+TEST(Shaft, ANewNumberingChangesNothingElse) {
+    ShaftFreedoms f = only(&ShaftFreedoms::follow_ms, 20);
+    f.backlash_increments = 4;
+    f.drift_increments = 100;
+    Shaft here = at_rest(f), there = at_rest(f);
+    here.advance(begin + 50ms, [](Instant) { return 100.0; });
+    there.advance(begin + 50ms, [](Instant) { return 100.0; });
+    there.shift(1000);
+    here.advance(begin + 100ms, [](Instant) { return 100.0; });
+    there.advance(begin + 100ms, [](Instant) { return 1100.0; });
+    EXPECT_NEAR(there.shown(), here.shown() + 1000, 1e-6);
+    here.advance_without_power(begin + 200ms);
+    there.advance_without_power(begin + 200ms);
+    there.shift(-1000);
+    here.advance_without_power(begin + 1s);
+    there.advance_without_power(begin + 1s);
+    EXPECT_NEAR(there.position(), here.position(), 1e-6);
+}
+
 TEST(Shaft, FrictionKeepsItFromItsDemand) {
     Shaft s = at_rest(only(&ShaftFreedoms::friction_increments, 5));
     s.advance(begin + 1s, [](Instant) { return 4.0; });

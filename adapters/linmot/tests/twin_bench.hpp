@@ -7,6 +7,8 @@
 #include "adapters/linmot/tests/vectors.hpp"
 #include "adapters/linmot/twin/device.hpp"
 #include "adapters/linmot/twin/twin.hpp"
+#include "gateway/core/specimen.hpp"
+#include "gateway/wire/specimen_twin.hpp"
 
 namespace axisgate::linmot::test {
 using namespace std::chrono_literals;
@@ -23,10 +25,13 @@ struct Bench {
         TwinSetup s;
         s.address = "17";
         s.options = options;
-        twin = linmot::twin::make_twin(page(), s);
+        s.freedoms = freedoms_of(page(), options);
+        s.seed = 1;
+        twin = with_common_freedoms(linmot::twin::make_twin(page(), s), s);
         Out out;
         twin->power_on({}, now, out);
     }
+    /// Not with freedoms that are common to all families: the drive is behind another twin then.
     twin::Device& device() { return static_cast<twin::Device&>(*twin); }
     twin::Drive& drive() { return device().drive(); }
 

@@ -15,9 +15,13 @@ struct CommandBuffer {
     Bytes bytes{};
     std::uint8_t echo = 0;  ///< count of the last command
     std::uint16_t last_header = 0;
-    void power_on() noexcept { echo = 0, last_header = 0; }
-    /// The content counts as old (choice O-09).
-    void forget() noexcept { echo = static_cast<std::uint8_t>(bytes[0] & 0x0F); }
+    /// `first`: the count of a command that an earlier master has left; 0: none.
+    void power_on(std::uint8_t first) noexcept {
+        echo = first, last_header = 0;
+        if (first != 0) bytes[0] = static_cast<std::uint8_t>((bytes[0] & 0xF0) | first);
+    }
+    /// The content counts as old (choice O-09); `clears`: its count is 0.
+    void forget(bool clears) noexcept { echo = clears ? std::uint8_t{0} : static_cast<std::uint8_t>(bytes[0] & 0x0F); }
 };
 
 struct Body {
@@ -37,7 +41,7 @@ struct Body {
     Curves& curves;
     MasterEncoder master{memory};
     Demand demand{memory, master, curves, setup.winding};
-    Follower follower{memory, demand, outside};
+    Follower follower{memory, demand, outside, setup};
     Monitor monitor{memory, outside, setup.series};
     Table table;
     ForceWatch force;

@@ -3,6 +3,7 @@
 #include "adapters/linmot/twin/device.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "adapters/linmot/twin/bytes.hpp"
@@ -41,6 +42,11 @@ void Device::start(Instant now) {
     reply_at_ = never;
     list_open_ = false;
     block_sizes_.clear();
+    slow_.clear();
+    shown_.forget();
+    const auto first = [&](Duration period) { return period == Duration::zero() ? never : now + period; };
+    foreign_at_ = first(manners().foreign);
+    unsolicited_at_ = first(manners().unsolicited);
 }
 
 void Device::power_on(const NonVolatile& memory, Instant now, Out&) {
@@ -90,7 +96,9 @@ NonVolatile Device::non_volatile() const {
 
 // --- telegrams --------------------------------------------------------------------------------------------------------------
 void Device::on_frame(const Frame& frame, Instant now, Out& out) {
-    if (frame.kind != Frame::Kind::bytes || !powered_ || now < deaf_until_) return;
+    if (frame.kind != Frame::Kind::bytes || !powered_) return;
+    unasked(now, out);
+    if (now < deaf_until_) return;
     if (!held_.empty() && now - last_byte_ > std::chrono::milliseconds(50)) held_.clear();  // the rest of a telegram has not arrived
     last_byte_ = now;
     held_.insert(held_.end(), frame.data().begin(), frame.data().end());
@@ -117,27 +125,94 @@ void Device::look(Instant now, Out& out) {
         at += whole;
         if (rest[1] != setup_.id) continue;  // most telegrams of a full line
         const std::vector<std::uint8_t> body(rest.begin() + 4, rest.begin() + static_cast<std::ptrdiff_t>(n + 3));
-        if (body.size() >= 2) received(body, now, out);
+        if (body.size() < 2 || !heeds(body[1], body.size() - 2, now)) continue;
+        free_at_ = now + manners().request_pause;
+        received(body, now, out);
     }
     held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(std::min(at, held_.size())));
 }
 
-void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const {
-    std::vector<std::uint8_t> t{1, setup_.id, static_cast<std::uint8_t>(data.size() + 3), 2, sub, 0};
-    t.insert(t.end(), data.begin(), data.end());
+/// Whether it takes a request: not too soon after the one before, and of the exact length if it insists on that.
+bool Device::heeds(std::uint8_t main, std::size_t size, Instant now) const {
+    if (now < free_at_) return false;
+    if (!manners().exact_length) return true;
+    return main == 0 ? size == 0 : main != 1 && main != 3 ? true : size == 2;
+}
+
+std::vector<std::uint8_t> Device::telegram(std::uint8_t id, std::span<const std::uint8_t> body) const {
+    std::vector<std::uint8_t> t{1, id, static_cast<std::uint8_t>(body.size() + 1), 2};
+    t.insert(t.end(), body.begin(), body.end());
     if (setup_.checksum != "none") put(t, sum(t), 2);
     t.push_back(4);
-    if (silent_) return;
-    Frame frame = Frame::run(t);
-    frame.at = at_;
+    return t;
+}
+
+void Device::send(std::span<const std::uint8_t> bytes, Instant at, Out& out) const {
+    Frame frame = Frame::run(bytes);
+    frame.at = at;
     out.send(frame);
 }
 
+void Device::answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const {
+    if (silent_) return;
+    data.insert(data.begin(), {sub, 0});
+    send(telegram(setup_.id, data), at_, out);
+}
+
+/// Answers of jobs in the memory, which take some time.
+void Device::answer_later(Duration time, const Out& answers) {
+    for (const auto& tx : answers.frames) {
+        if (slow_.size() >= most_slow) return;
+        slow_.emplace_back(std::max(at_ + time, slow_.empty() ? at_ : slow_.back().first), tx.frame);
+    }
+}
+
+/// Another master asks another drive, which answers: the number differs from the own one in its highest bit, so that it is hardly one of
+/// the site.
+void Device::speak_foreign(Instant at, Out& out) const {
+    const auto id = static_cast<std::uint8_t>(setup_.id ^ 0x80);
+    const std::array<std::uint8_t, 2> request{1, 0};
+    send(telegram(id, request), at, out);
+    std::vector<std::uint8_t> response{0, 0, Comm::ok, 0x37, 0x04, 0xC1, 0x08};
+    put(response, static_cast<std::uint32_t>(ns_of(at) / 1'000'000), 4);
+    send(telegram(id, response), at + std::chrono::milliseconds(2), out);
+}
+
+/// Everything that is sent without a request and is due.
+void Device::unasked(Instant now, Out& out) {
+    constexpr int most = 1000;  // in one call: a test that does not ask for hours does not receive all of them
+    for (int i = 0; i < most && std::min(foreign_at_, unsolicited_at_) <= now; ++i) {
+        if (foreign_at_ <= unsolicited_at_) {
+            speak_foreign(foreign_at_, out);
+            foreign_at_ += manners().foreign;
+        } else {
+            at_ = unsolicited_at_;
+            advance(at_);
+            if (at_ >= deaf_until_) default_response(out);
+            unsolicited_at_ += manners().unsolicited;
+        }
+    }
+    while (!slow_.empty() && slow_.front().first <= now) {
+        if (!silent_) send(slow_.front().second.data(), slow_.front().first, out);
+        slow_.pop_front();
+    }
+}
+
 void Device::default_response(Out& out, std::span<const std::uint8_t> more) const {
+    const Words words = shown_.at(drive_, at_);
+    const auto place = [](double v) {
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(std::clamp(v, -2147483648.0, 2147483647.0))));
+    };
     std::vector<std::uint8_t> d{Comm::ok};
-    put(d, drive_.status_word(), 2);
-    put(d, drive_.state_var(), 2);
-    put(d, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(std::clamp(drive_.actual(), -2147483648.0, 2147483647.0)))), 4);
+    put(d, words.status, 2);
+    put(d, words.state_var, 2);
+    const Content content = manners().content;
+    if (content != Content::without_position) put(d, place(drive_.actual()), 4);
+    if (content == Content::with_demand || content == Content::with_all) put(d, place(drive_.demand()), 4);
+    if (content == Content::with_all) {
+        put(d, drive_.ram(0x1B93), 2);
+        put(d, words.warn, 2);
+    }
     d.insert(d.end(), more.begin(), more.end());
     answer(0, std::move(d), out);
 }
@@ -157,14 +232,15 @@ void Device::set_error_count() {
 
 void Device::received(Data body, Instant now, Out& out) {
     at_ = now;
-    drive_.advance(now);
+    advance(now);
     const std::uint8_t sub = body[0], main = body[1];
     const Data data = body.subspan(2);
     switch (main) {
         case 0x00:
             if (sub == 3) {  // warn word and two bytes of unknown meaning follow: seen in public programs only
+                if (manners().warn_answer == WarnAnswer::none) break;
                 std::vector<std::uint8_t> more;
-                put(more, drive_.warn_word(), 4);
+                put(more, shown_.at(drive_, at_).warn, manners().warn_answer == WarnAnswer::long_form ? 4 : 2);
                 default_response(out, more);
             } else if (sub >= 1 && sub <= 4) {
                 default_response(out);
@@ -181,7 +257,7 @@ void Device::received(Data body, Instant now, Out& out) {
             default_response(out);
             break;
         case 0x03:
-            if (sub == 0 && data.size() >= 2) {
+            if (sub == 0 && data.size() >= 2 && manners().ram_access) {
                 std::vector<std::uint8_t> more;
                 put(more, drive_.ram(at16(data, 0)), 4);
                 default_response(out, more);
@@ -211,12 +287,13 @@ void Device::received(Data body, Instant now, Out& out) {
 // --- time -------------------------------------------------------------------------------------------------------------------
 Instant Device::deadline() const {
     if (!powered_) return never;
-    return std::min(reply_at_, drive_.next_event());
+    return std::min({reply_at_, drive_.next_event(), foreign_at_, unsolicited_at_, slow_.empty() ? never : slow_.front().first});
 }
 
 void Device::on_deadline(Instant now, Out& out) {
     if (!powered_) return;
-    drive_.advance(now);
+    unasked(now, out);
+    advance(now);
     if (now >= reply_at_) {
         Frame frame = Frame::run(reply_);
         frame.at = reply_at_;
@@ -226,7 +303,7 @@ void Device::on_deadline(Instant now, Out& out) {
 }
 
 TwinMechanics Device::mechanics(int, Instant now) const {
-    if (powered_) drive_.advance(now);
+    if (powered_) advance(now);
     const Point p = drive_.mechanics();
     return {p.position, p.velocity, powered_ && drive_.powered()};
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/linmot/twin/drive.hpp"
+#include "adapters/linmot/twin/shown_words.hpp"
 #include "gateway/core/hand_table.hpp"
 #include "gateway/core/twin.hpp"
 
@@ -26,9 +26,7 @@ struct DeviceSetup {
 
 class Device final : public Twin {
 public:
-    static constexpr Duration start_time = std::chrono::seconds(3);  ///< start of the software, also after a restart
-
-    explicit Device(DeviceSetup setup) : setup_(std::move(setup)), drive_(setup_.drive) {}
+    explicit Device(DeviceSetup setup) : setup_(std::move(setup)), drive_(setup_.drive), shown_(setup_.drive.manners) {}
 
     void on_frame(const Frame& frame, Instant now, Out& out) override;
     void on_deadline(Instant now, Out& out) override;
@@ -47,7 +45,15 @@ private:
     using Data = std::span<const std::uint8_t>;
     void look(Instant now, Out& out);
     void received(Data body, Instant now, Out& out);
+    [[nodiscard]] const Manners& manners() const noexcept { return setup_.drive.manners; }
+    void advance(Instant now) const { shown_.advance(drive_, now); }
+    [[nodiscard]] bool heeds(std::uint8_t main, std::size_t size, Instant now) const;
+    [[nodiscard]] std::vector<std::uint8_t> telegram(std::uint8_t id, std::span<const std::uint8_t> body) const;
+    void send(std::span<const std::uint8_t> bytes, Instant at, Out& out) const;
     void answer(std::uint8_t sub, std::vector<std::uint8_t> data, Out& out) const;
+    void answer_later(Duration time, const Out& answers);
+    void unasked(Instant now, Out& out);
+    void speak_foreign(Instant at, Out& out) const;
     void default_response(Out& out, std::span<const std::uint8_t> more = {}) const;
     void config(std::uint8_t sub, std::uint8_t state, std::uint16_t index, std::uint32_t value, Out& out) const;
     void parameters(std::uint8_t sub, Data data, Out& out);
@@ -70,11 +76,16 @@ private:
 
     DeviceSetup setup_;
     mutable Drive drive_;  ///< mechanics() advances it, without a visible change
+    mutable ShownWords shown_;
     std::vector<std::uint8_t> held_;
     bool powered_ = false, silent_ = false;
     Instant deaf_until_{};
     Instant reply_at_ = never;  ///< of an answer that takes some time
     std::vector<std::uint8_t> reply_;
+    static constexpr std::size_t most_slow = 16;  ///< further answers of slow jobs are lost
+    std::deque<std::pair<Instant, Frame>> slow_;  ///< answers of jobs in the memory, in order of time
+    Instant free_at_{};                           ///< requests before that are not heeded
+    Instant foreign_at_ = never, unsolicited_at_ = never;
     std::map<std::uint16_t, TableEntry> table_flash_;
     std::map<std::uint16_t, Curve> curves_flash_;
     std::uint64_t revision_ = 0;

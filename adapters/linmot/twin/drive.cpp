@@ -2,6 +2,7 @@
 #include "adapters/linmot/twin/drive.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace axisgate::linmot::twin {
 
@@ -10,7 +11,7 @@ void Drive::power_on(Instant now) {
     memory.restart();
     states_.power_on();
     commands_.power_on();
-    body_.buffer.power_on();
+    body_.buffer.power_on(body_.setup.manners.first_count);
     body_.follower.power_on();
     body_.demand.vai().power_on();
     body_.demand.coupling().power_on();
@@ -50,6 +51,10 @@ void Drive::set_outside(const Outside& outside, Instant now) {
     body_.master.set(moved ? static_cast<double>(outside.encoder) : body_.master.edges(now), static_cast<double>(outside.encoder_speed),
                      now);
     body_.monitor.seen(outside, now);
+    if (outside.current != body_.outside.current) {
+        current_from_ = shown_current();
+        current_since_ = now;
+    }
     body_.outside = outside;
     body_.monitor.show_temperatures();
     body_.demand.step_coupling(now);
@@ -71,7 +76,7 @@ void Drive::capture(Instant now) {
 
 void Drive::move_by_hand(double physical, Instant now) {
     advance(now);
-    body_.follower.push(physical);
+    body_.follower.push(physical, now);
     if (!states_.powered()) body_.demand.vai().rest(body_.follower.rest(), now);
 }
 
@@ -79,6 +84,18 @@ void Drive::inject(std::uint16_t code, Instant now) {
     advance(now);
     if (states_.running() && code != 0) states_.raise(code, now);
     states_.evaluate(now);
+}
+
+/// The current that 1B93h shows rises and falls evenly from the value before its last change.
+double Drive::shown_current() const {
+    const auto to = static_cast<double>(body_.outside.current);
+    const double rise = seconds(body_.setup.manners.current_rise);
+    return rise <= 0 ? to : to + (current_from_ - to) * std::max(0.0, 1 - seconds(now_ - current_since_) / rise);
+}
+
+std::uint32_t Drive::ram(std::uint16_t upid) const {
+    if (upid != 0x1B93) return body_.ram(upid);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(std::lround(shown_current())));
 }
 
 // --- time ----------------------------------------------------------------------------------------------------------------
@@ -89,9 +106,11 @@ void Drive::advance(Instant now) {
         const Instant at = due();
         if (at > now) break;
         now_ = std::max(now_, at);
+        body_.follower.advance(now_);
         handle(now_);
     }
     now_ = now;
+    body_.follower.advance(now);
 }
 
 Instant Drive::due() const {

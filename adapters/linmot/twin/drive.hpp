@@ -44,7 +44,7 @@ public:
     [[nodiscard]] Point mechanics() const { return body_.follower.place(now_); }
     [[nodiscard]] bool powered() const noexcept { return states_.powered(); }
     [[nodiscard]] std::uint16_t control_word() const noexcept { return states_.control_word(); }
-    [[nodiscard]] std::uint32_t ram(std::uint16_t upid) const { return body_.ram(upid); }
+    [[nodiscard]] std::uint32_t ram(std::uint16_t upid) const;
     [[nodiscard]] std::uint16_t outputs_x4() const noexcept { return commands_.outputs_x4(); }
     [[nodiscard]] std::uint16_t outputs_x6() const noexcept { return commands_.outputs_x6(); }
     [[nodiscard]] std::uint64_t commands_done() const noexcept { return commands_.commands_done(); }
@@ -73,6 +73,7 @@ public:
 private:
     [[nodiscard]] Instant due() const;
     [[nodiscard]] bool crossed(Instant now) const;
+    [[nodiscard]] double shown_current() const;  ///< mA
     void handle(Instant now);
     [[nodiscard]] Fault limit_passed(Instant now) const;
 
@@ -80,6 +81,8 @@ private:
     States states_{body_};
     Interpreter commands_{body_, states_};
     Instant now_{};
+    double current_from_ = 0;  ///< mA
+    Instant current_since_{};
 };
 
 }  // namespace axisgate::linmot::twin

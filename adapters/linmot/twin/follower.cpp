@@ -6,15 +6,32 @@
 
 namespace axisgate::linmot::twin {
 
+void Follower::advance(Instant now) {
+    if (!shaft_.differs()) return;
+    if (!controlled_) return was_controlled_ ? shaft_.advance_without_power(now) : shaft_.set(place_, now);
+    if (outside_.stall) return shaft_.set(held_at_, now);
+    shaft_.advance(now, [this](Instant at) {
+        const Point d = demand_.at(at);
+        return d.position - offset_ - d.velocity * outside_.lag_ms / 1000;
+    });
+}
+
+bool Follower::swings(Instant now) const {
+    if (!shaft_.differs() || !controlled_) return false;
+    return demand_.moves(now) || shaft_.velocity() != 0 || std::fabs(shaft_.following_error()) > friction_ + 1;
+}
+
 Point Follower::place(Instant now) const {
-    if (!controlled_) return {place_, 0};
+    if (!controlled_) return {shaft_.differs() ? shaft_.position() : place_, 0};
     if (outside_.stall) return {held_at_, 0};
+    if (shaft_.differs()) return {shaft_.position(), shaft_.velocity()};
     const Point d = demand_.at(now);
     return {d.position - offset_ - d.velocity * outside_.lag_ms / 1000, d.velocity};
 }
 
 Point Follower::actual(Instant now) const {
     Point p = place(now);
+    if (shaft_.differs()) p.position = shaft_.shown();
     p.position += offset_;
     return p;
 }
@@ -31,12 +48,19 @@ double Follower::home(double position, Instant now) {
 }
 
 void Follower::control(bool on) noexcept {
+    if (on && shaft_.differs()) place_ = shaft_.position();
     controlled_ = on;
+    was_controlled_ = was_controlled_ || on;
     if (on) held_at_ = place_;
 }
 
 Instant Follower::lag_limit(Instant now, Instant after) const {
-    if (!outside_.stall || !controlled_) return never;
+    if (!controlled_ || (!outside_.stall && !shaft_.differs())) return never;
+    if (!outside_.stall) {
+        const double most = memory_.number(demand_.moves(now) ? 0x1473 : standing_);
+        if (most > 0 && std::fabs(shaft_.following_error()) > most) return now;
+        return swings(now) ? now + watch_step : never;
+    }
     const double limit = memory_.number(0x1473);
     if (limit <= 0) return never;
     const double here = held_at_ + offset_;

@@ -1,5 +1,6 @@
 // Follower is the slider: its mechanical place, the position that the drive reports, and its lag behind the demand. It follows the demand
-// while it is powered, and a hand while it is not. position = place + offset.
+// while it is powered, and a hand while it is not. position = place + offset. A weak motor, a soft machine or a noisy encoder is the Shaft
+// of the core, which is advanced with the drive.
 #pragma once
 
 #include "adapters/linmot/twin/demand.hpp"
@@ -10,13 +11,25 @@ namespace axisgate::linmot::twin {
 /// All values in 0.1 um.
 class Follower {
 public:
-    Follower(const Memory& memory, const Demand& demand, const Outside& outside) : memory_(memory), demand_(demand), outside_(outside) {}
+    Follower(const Memory& memory, const Demand& demand, const Outside& outside, const DriveSetup& setup)
+        : memory_(memory),
+          demand_(demand),
+          outside_(outside),
+          standing_(setup.series == Series::b1100 ? 0x1473 : 0x1475),
+          friction_(static_cast<double>(setup.manners.shaft.friction_increments)),
+          shaft_(setup.manners.shaft, setup.seed) {}
 
+    /// The slider follows the demand of the time since the last call; called before each change of the demand.
+    void advance(Instant now);
+    /// The slider is not yet where it will come to rest.
+    [[nodiscard]] bool swings(Instant now) const;
     /// The mechanical place.
     [[nodiscard]] Point place(Instant now) const;
     /// The position that the drive reports.
     [[nodiscard]] Point actual(Instant now) const;
-    [[nodiscard]] double rest() const noexcept { return place_ + offset_; }  ///< position while nothing controls it
+    [[nodiscard]] double rest() const noexcept {
+        return (shaft_.differs() && !controlled_ ? shaft_.position() : place_) + offset_;
+    }  ///< position while nothing controls it
     [[nodiscard]] double offset() const noexcept { return offset_; }
     [[nodiscard]] bool homed() const noexcept { return homed_; }
     [[nodiscard]] bool controlled() const noexcept { return controlled_; }
@@ -36,7 +49,12 @@ public:
     void control(bool on) noexcept;
     /// A hand holds the slider where it is.
     void hold(Instant now) { held_at_ = place(now).position; }
-    void push(double place) noexcept { place_ = held_at_ = place; }
+    void push(double place, Instant now) {
+        place_ = held_at_ = place;
+        if (controlled_) return;
+        shaft_.set(place, now);
+        was_controlled_ = false;
+    }
     void capture(Instant now) { captured_ = actual(now).position; }
 
     /// While the slider is held, the demand moves away until the lag exceeds its limit (1473h). `never`: it does not; crossings count from
@@ -49,12 +67,16 @@ private:
     const Memory& memory_;
     const Demand& demand_;
     const Outside& outside_;
+    std::uint16_t standing_;  ///< the parameter that limits the lag at standstill; a B1100 has one limit for both
+    double friction_;
     double place_ = 0;  ///< while nothing controls it
     double offset_ = 0;
     double held_at_ = 0;
     double captured_ = 0;
     bool homed_ = false;
     bool controlled_ = false;
+    bool was_controlled_ = false;  ///< a slider drifts only from where it was held
+    Shaft shaft_;                  ///< in the coordinates of the mechanical place
 };
 
 }  // namespace axisgate::linmot::twin

@@ -28,6 +28,7 @@ void Device::parameters(std::uint8_t sub, Data data, Out& out) {
     }
     const auto* f = drive_.memory.facts(upid);
     if (sub > 7 || sub == 2) return;
+    if (sub >= 3 && !manners().parameter_info) return;
     if (data.size() < 2) return;
     if (!f) return config(reply, no_upid, upid, 0, out);
     switch (sub) {
@@ -55,7 +56,12 @@ void Device::parameters(std::uint8_t sub, Data data, Out& out) {
 void Device::curves(std::uint8_t sub, Data data, Out& out) {
     if (setup_.drive.series == Series::b1100) return;
     const std::uint16_t id = at16(data, 0);
-    const auto reply = [&](std::uint8_t state, std::uint32_t value = 0) { config(0x40, state, id, value, out); };
+    const Duration time = sub == 0 ? manners().save : sub <= 6 ? manners().table_write : Duration{};
+    const auto reply = [&](std::uint8_t state, std::uint32_t value = 0) {
+        Out own;
+        config(0x40, state, id, value, time == Duration::zero() ? out : own);
+        answer_later(time, own);
+    };
     auto& all = drive_.curves;
     if (sub != block_sub_ || id != block_id_) block_at_ = 0;
     block_sub_ = sub;
@@ -110,7 +116,7 @@ void Device::program(std::uint8_t sub, Instant now, Out& out) {
         answer(0x60, {ok}, one);
         reply_.clear();
         if (!one.frames.empty()) reply_.assign(one.frames[0].frame.data().begin(), one.frames[0].frame.data().end());
-        reply_at_ = now + start_time;
+        reply_at_ = now + manners().restart;
     };
     switch (sub) {
         case 1:
@@ -120,7 +126,7 @@ void Device::program(std::uint8_t sub, Instant now, Out& out) {
                 default_response(out);
             else
                 later();
-            deaf_until_ = now + start_time;
+            deaf_until_ = now + manners().restart;
             return;
         case 3:
             drive_.stop_software(now);
@@ -154,8 +160,11 @@ void Device::errors(std::uint8_t sub, Data data, Out& out) const {
 void Device::command_table(std::uint8_t sub, Data data, Out& out) {
     if (setup_.drive.series == Series::b1100) return;
     const std::uint16_t id = at16(data, 0);
+    const Duration time = sub == 0 ? manners().save : sub <= 4 ? manners().table_write : Duration{};
     const auto reply = [&](std::uint8_t state, std::uint32_t value = 0) {
-        config(static_cast<std::uint8_t>(0x80 + sub), state, id, value, out);
+        Out own;
+        config(static_cast<std::uint8_t>(0x80 + sub), state, id, value, time == Duration::zero() ? out : own);
+        answer_later(time, own);
     };
     auto& table = drive_.table;
     if (sub != block_sub_ || id != block_id_) block_at_ = 0;

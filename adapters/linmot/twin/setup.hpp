@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "adapters/linmot/twin/cams.hpp"
+#include "adapters/linmot/twin/manners.hpp"
 
 namespace axisgate::linmot::twin {
 
@@ -21,6 +22,8 @@ struct DriveSetup {
     double trig_rise = 500'000;  ///< 0.1 um: target of the command that the run mode defines for rising edges (0DExh) ...
     double trig_fall = 0;        ///< ... and for falling edges (0DFxh); choices, because their parameters have no numbers
     Winding winding;
+    Manners manners;
+    std::uint64_t seed = 0;  ///< of the noise of the encoder
 };
 
 /// The conditions that a tester sets.

@@ -51,7 +51,7 @@ void States::enter(std::uint8_t state, Instant now) {
     body_.follower.control(powered());
     if (!was) {  // the demand is set to the actual position: enabling must not move the axis
         body_.demand.vai().stand(body_.follower.rest(), now);
-        body_.buffer.forget();
+        body_.buffer.forget(body_.setup.manners.clears_count);
     }
 }
 
@@ -216,7 +216,10 @@ bool States::transit_operating(Instant now) {
         body_.follower.lose_home();
         body_.table.end();
         body_.armed = {};
-        move_to(homing, body_.follower.offset(), now);  // the home reference of these mechanics is their physical zero
+        // The home reference of these mechanics is their physical zero; on the way upwards its switch closes later by the hysteresis.
+        const double zero = body_.follower.offset();
+        const bool upwards = body_.demand.at(now).position < zero;
+        move_to(homing, zero + (upwards ? static_cast<double>(body_.setup.manners.home_hysteresis) : 0), now);
         return true;
     }
     if (cw(12)) return move_to(clearance, body_.memory.number(0x13CA), now), true;
@@ -257,7 +260,7 @@ bool States::released(Instant now) {
 // --- time -----------------------------------------------------------------------------------------------------------------
 Instant States::due(Instant now) const {
     Instant at = body_.monitor.due(now);
-    if (state_ == hardware_tests) at = std::min(at, since_ + test_time);
+    if (state_ == hardware_tests) at = std::min(at, since_ + test_time());
     if (state_ == phase_search && !arrived()) at = std::min(at, since_ + search_time);
     if (state_ == aborting && abort_over_ != never) at = std::min(at, abort_over_);
     return at;
@@ -270,7 +273,7 @@ void States::look(Instant now) {
 }
 
 bool States::finish_test(Instant now) {
-    if (state_ == hardware_tests && now >= since_ + test_time) {
+    if (state_ == hardware_tests && now >= since_ + test_time()) {
         enter(ready_to_operate, now);
         evaluate(now);
         return true;
@@ -291,7 +294,8 @@ Instant States::motion_end() const {
     const Memory& m = body_.memory;
     if (body_.demand.profile().end() == never) return never;
     const bool brake = state_ == quick_stop && m.ram(0x1716) != 0 && m.ram(0x1717) != 0;
-    return std::max(body_.demand.profile().end(), since_) + (brake ? span_ms(m.number(0x171B)) : Duration{});
+    const Duration check = state_ == homing ? body_.setup.manners.homing_check : Duration{};
+    return std::max(body_.demand.profile().end(), since_) + (brake ? span_ms(m.number(0x171B)) : check);
 }
 
 void States::finish_motion(Instant now) {

@@ -77,8 +77,10 @@ public:
     [[nodiscard]] bool arrived() const noexcept { return sub_ == 0x0F; }
 
 private:
-    static constexpr Duration test_time = std::chrono::milliseconds(300);  ///< of the hardware tests [L128-130], exact by choice O-29
     static constexpr Duration search_time = std::chrono::seconds(1);
+    /// Of the hardware tests [L128-130]; exactly 300 ms by choice O-29.
+    [[nodiscard]] Duration test_time() const noexcept { return body_.setup.manners.hardware_test; }
+    [[nodiscard]] std::uint8_t homing_phase(Instant now) const;
 
     void enter(std::uint8_t state, Instant now);
     /// From one state with power to another.

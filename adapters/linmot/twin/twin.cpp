@@ -49,6 +49,8 @@ std::unique_ptr<Twin> make_twin(const Catalogue& catalogue, const TwinSetup& set
     d.drive.trig_rise = place(option(setup.options, "trig_rise", ""), d.drive.trig_rise);
     d.drive.trig_fall = place(option(setup.options, "trig_fall", ""), d.drive.trig_fall);
     d.drive.winding = winding_of(option(setup.options, "winding", ""));
+    d.drive.manners = Manners(setup.freedoms);
+    d.drive.seed = setup.seed;
     for (const ErrorCode& e : catalogue.errors()) {
         std::string_view kind = "Err: ";
         if (e.kind == "fatal_error") kind = "Fatal Err: ";

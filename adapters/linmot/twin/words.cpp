@@ -1,4 +1,5 @@
 // Status word, StateVar and warn word are 0 while the software does not run.
+#include <algorithm>
 #include <cmath>
 
 #include "adapters/linmot/twin/states.hpp"
@@ -30,7 +31,7 @@ std::uint16_t States::status_word(Instant now) const {
 
 std::uint16_t States::state_var(Instant now) const {
     if (!running_) return 0;
-    std::uint8_t low = sub_;
+    std::uint8_t low = state_ == homing ? homing_phase(now) : sub_;
     if (in_error()) low = static_cast<std::uint8_t>(error_);
     if (state_ == operation_enabled) {
         low = static_cast<std::uint8_t>((body_.buffer.echo & 0x0F) | (body_.armed.kind != Armed::Kind::none ? 0x10 : 0) |
@@ -49,6 +50,15 @@ std::uint16_t States::warn_word(Instant now) const {
     set(w, 5, body_.setup.series == Series::e1100 && powered() && !moves(now) && standing_limit > 0 && behind > standing_limit / 2);
     set(w, 7, !body_.follower.homed());
     return w;
+}
+
+/// The sub state of state 9: its phases have equal shares of the way to the reference, and the last one continues until the end.
+std::uint8_t States::homing_phase(Instant now) const {
+    const int phases = body_.setup.manners.homing_phases;
+    if (phases == 0 || arrived()) return sub_;
+    const double whole = seconds(motion_end() - since_), past = seconds(now - since_);
+    const double share = whole > 0 ? std::min(past / whole, 1.0) : 1;
+    return static_cast<std::uint8_t>(1 + std::min(phases - 1, static_cast<int>(share * phases)));
 }
 
 double States::demand(Instant now) const { return powered() ? body_.demand.at(now).position : body_.follower.actual(now).position; }

@@ -8,6 +8,7 @@
 #include "adapters/aposs/twin/coded.hpp"
 #include "adapters/aposs/twin/filters.hpp"
 #include "adapters/aposs/twin/homing.hpp"
+#include "adapters/aposs/twin/manners.hpp"
 #include "adapters/aposs/twin/objects.hpp"
 #include "adapters/aposs/twin/synchronisation.hpp"
 #include "adapters/cia402/twin/servo.hpp"
@@ -40,7 +41,8 @@ struct Terminals {
 
 class MacsAxis {
 public:
-    MacsAxis(const Objects& objects, canopen::Dictionary& dictionary, Terminals& terminals, int axis, double travel);
+    MacsAxis(const Objects& objects, canopen::Dictionary& dictionary, Terminals& terminals, int axis, double travel,
+             const Manners& manners = {});
     MacsAxis(const MacsAxis&) = delete;
     MacsAxis& operator=(const MacsAxis&) = delete;
 
@@ -77,7 +79,13 @@ public:
     /// ERRCOND 2 and 3: after the stop the axis is still controlled.
     [[nodiscard]] bool holds_in_error() const;
 
-    [[nodiscard]] double place(Instant now) const { return servo_.shaft().shaft(now).position; }
+    /// The real shaft follows the controller's until `now`: called before each change of the motion, and before the position is read.
+    void follow(Instant now);
+    /// The real shaft differs from the controller's, and has not come to rest.
+    [[nodiscard]] bool unsettled(Instant now) const;
+    [[nodiscard]] double place(Instant now) const { return real_.differs() ? real_.position() : servo_.shaft().shaft(now).position; }
+    /// Empty: that of the controller's shaft.
+    [[nodiscard]] std::optional<double> velocity() const { return real_.differs() ? std::optional(real_.velocity()) : std::nullopt; }
     [[nodiscard]] std::int64_t track_error(Instant now) const;  ///< SYSVAR 4124, percent
     [[nodiscard]] const CurrentWatch& current() const noexcept { return current_; }
     /// The encoder as the controller counts it: 0 at power-on and where an origin command has set it to 0, independent of the zero of the
@@ -102,7 +110,8 @@ public:
     void put(std::uint16_t index, std::uint8_t sub, double v);
 
 private:
-    [[nodiscard]] HomingInput homing_input(Instant now) const;
+    [[nodiscard]] HomingInput homing_input(Instant now);
+    void misread_by(double jump);
     void homing_order(const HomingRun::Order& order, Instant now);
     [[nodiscard]] double limit_place(bool positive) const;
     [[nodiscard]] bool outside(bool positive, double place) const;
@@ -124,7 +133,11 @@ private:
     bool hot_ = false;     ///< error 99 was reported
     Misreading jump_;
     double encoder_zero_ = 0;
-    int violated_ = 0;  ///< the limit whose error was reported: -1, 1, until the axis is back inside
+    Shaft real_;  ///< in qc of the controller's shaft
+    double friction_ = 0, hysteresis_ = 0;
+    double jump_by_ = 0, deviation_ = 0;    ///< parts of the encoder's error: by hand, and by the real shaft
+    bool in_cam_ = false, was_on_ = false;  ///< an axis drifts only from where it was held
+    int violated_ = 0;                      ///< the limit whose error was reported: -1, 1, until the axis is back inside
     std::array<bool, 2> at_switch_{};
     std::vector<cia402_drive::twin::Device::Reported> reported_;
 };

@@ -12,9 +12,10 @@ constexpr auto one_tick = std::chrono::milliseconds(1);
 constexpr auto guard_period = std::chrono::milliseconds(500);
 constexpr auto guard_life = 3 * guard_period;
 Coupling::Axes places(std::deque<MacsAxis>& axes_of) { return {&axes_of[0], &axes_of[1]}; }
-std::deque<MacsAxis>& filled(std::deque<MacsAxis>& into, const Objects& objects, canopen::Dictionary& d, Terminals& t, double travel) {
+std::deque<MacsAxis>& filled(std::deque<MacsAxis>& into, const Objects& objects, canopen::Dictionary& d, Terminals& t, double travel,
+                             const Manners& manners) {
     for (int a = 0; a < axes; ++a)
-        into.emplace_back(objects, d, t, a, travel);
+        into.emplace_back(objects, d, t, a, travel, manners);
     return into;
 }
 /// A guarded device stays guarded when a program ends, although the value is lost: until another SET or the next start [L1559-1565].
@@ -33,14 +34,24 @@ void tell_drives(BusDevices& bus, const std::deque<MacsAxis>& of) {
 }
 }  // namespace
 
-Macs::Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel)
-    : objects_(objects), d_(dictionary), coupling_(places(filled(axes_, objects, dictionary, terminals_, travel)), terminals_) {}
+Macs::Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel, const Manners& manners)
+    : objects_(objects),
+      d_(dictionary),
+      manners_(manners),
+      coupling_(places(filled(axes_, objects, dictionary, terminals_, travel, manners)), terminals_) {
+    shown_.fill({Delayed(manners.status_late), Delayed(manners.position_late)});
+}
 
 void Macs::power_on(Instant now) {
     program_.reset();
     ticked_ = now;
     ticking_ = false;
     terminals_.outputs = 0;
+    powered_at_ = now;
+    orders_.clear();
+    cycle_at_ = never;
+    for (Shown& s : shown_)
+        s.status.forget(), s.position.forget();
     for (MacsAxis& a : axes_)
         a.power_on(now);
     coupling_.power_on(now);
@@ -53,8 +64,12 @@ void Macs::power_off(Instant now) {
     for (int k = 0; k < axes; ++k)
         coupling_.end(k);
     coupling_.virtual_master().off();
-    for (MacsAxis& a : axes_)
+    orders_.clear();
+    cycle_at_ = never;
+    for (MacsAxis& a : axes_) {
+        a.follow(now);
         a.servo().power_off(now);
+    }
 }
 bool Macs::powered() const {
     return std::ranges::any_of(axes_, [](const MacsAxis& a) { return a.servo().powered(); });
@@ -69,11 +84,35 @@ canopen::Abort Macs::may_write(Address a, std::int64_t v, Instant now) const {
         return canopen::Abort::none;
     }
     for (int k = 0; k < axes; ++k)
-        if (a.index >= 0x6000 + per_axis * k && a.index < 0x6000 + per_axis * (k + 1)) return axis(k + 1).servo().may_write(a, v, now);
+        if (a.index >= 0x6000 + per_axis * k && a.index < 0x6000 + per_axis * (k + 1)) {
+            if (!started(k, now)) return canopen::Abort::device_state;
+            return axis(k + 1).servo().may_write(a, v, now);
+        }
     return canopen::Abort::none;
 }
 
+/// The application takes the objects of the profile in its next cycle; parameters are in force at once.
 void Macs::written(Address a, Instant now) {
+    if (manners_.extra_pdo != Duration::zero() && a.index >= 0x1800 && a.index < 0x1804)  // the event timer is not switched off
+        (void)d_.set({a.index, 5}, Value{static_cast<std::int64_t>(manners_.extra_pdo / std::chrono::milliseconds(1))});
+    const Duration every = manners_.program_cycle;
+    if (every == Duration::zero() || a.index < 0x6000) return apply(a, now);
+    if (orders_.size() < most_orders && std::ranges::find(orders_, a) == orders_.end()) orders_.push_back(a);
+    if (cycle_at_ == never) cycle_at_ = now + every - now.time_since_epoch() % every;
+}
+void Macs::take_cycle(Instant at) {
+    cycle_at_ = never;
+    for (const Address a : std::exchange(orders_, {}))
+        apply(a, at);
+}
+
+void Macs::follow(Instant now) {
+    for (MacsAxis& a : axes_)
+        a.follow(now);
+}
+
+void Macs::apply(Address a, Instant now) {
+    follow(now);
     if (const Row* row = objects_.at(a)) {
         changed(row->key, now);
     } else {
@@ -104,6 +143,7 @@ void Macs::changed(const Key& key, Instant now) {
 
 void Macs::set_inputs(std::uint32_t mask, Instant now) {
     const auto active = [&](const char* id) { return terminals_.active(axes_[0].value(id)); };
+    follow(now);
     const bool breaks = active("I_BREAK"), clears = active("I_ERRCLR"), starts = active("I_PRGSTART");
     terminals_.inputs = mask;
     for (MacsAxis& a : axes_)
@@ -155,10 +195,40 @@ std::vector<Device::Reported> Macs::take_reported() {
     return all;
 }
 
+/// Keeps the values that are shown late; each change of the state ends here.
+void Macs::note(Instant now) {
+    for (std::size_t k = 0; k < shown_.size(); ++k) {
+        const Servo& servo = axes_[k].servo();
+        if (shown_[k].status.late()) shown_[k].status.note(servo.statusword(now), now);
+        if (shown_[k].position.late()) shown_[k].position.note(std::llround(servo.shaft().read(now)), now);
+    }
+}
+/// Both must be noted in each millisecond of a motion.
+bool Macs::samples(Instant now) const {
+    if (manners_.status_late == Duration::zero() && manners_.position_late == Duration::zero()) return false;
+    return std::ranges::any_of(axes_, [&](const MacsAxis& a) { return a.servo().shaft().moves(now); });
+}
+void Macs::show_late(int k, Instant now) {
+    MacsAxis& a = axis(k + 1);
+    const Shown& s = shown_[static_cast<std::size_t>(k)];
+    if (const auto v = a.velocity()) a.put(0x606C, 0, a.servo().units().speed_in_units(*v));
+    if (s.status.late()) a.put(0x6041, 0, static_cast<double>(s.status.at(now)));
+    if (s.position.late()) {
+        const auto read = static_cast<double>(s.position.at(now));
+        a.put(0x6063, 0, read);
+        a.put(0x6064, 0, a.servo().units().in_units(read));
+        a.put(0x60F4, 0, a.servo().units().way_in_units(a.servo().shaft().demand(now).position - read));
+    }
+    if (!started(k, now)) a.put(0x6041, 0, 0);  // "not ready to switch on"
+}
+
 void Macs::refresh(Instant now) {
+    follow(now);
+    note(now);
     for (int k = 0; k < axes; ++k) {
         MacsAxis& a = axis(k + 1);
         a.servo().refresh(now);
+        show_late(k, now);
         const auto demand = a.of(0x6062), before = a.value("PFG_COMMANDPOS");
         a.set("SYSVAR_4096", demand);
         a.set("PFG_OLDCOMMANDPOS", before);
@@ -174,15 +244,22 @@ void Macs::refresh(Instant now) {
     axis(1).set("AMP_I2TVALUE", std::max(axis(1).current().value(), axis(2).current().value()));
 }
 
-bool Macs::ticks() const { return coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1)); }
+bool Macs::ticks(Instant now) const {
+    const bool follows = std::ranges::any_of(axes_, [&](const MacsAxis& a) { return a.unsettled(now); });
+    return follows || samples(now) || coupling_.ticks() || axes_[0].ticks(coupling_.leads(0)) || axes_[1].ticks(coupling_.leads(1));
+}
 void Macs::begin_ticks(Instant now) {
     tell_drives(bus_, axes_);
-    const bool ticking = ticks();
+    note(now);
+    const bool ticking = ticks(now);
     if (ticking && !ticking_) ticked_ = now;
     ticking_ = ticking;
 }
 Instant Macs::next_event(Instant now) const {
-    Instant next = ticking_ ? ticked_ + one_tick : never;
+    Instant next = std::min(ticking_ ? ticked_ + one_tick : never, cycle_at_);
+    for (const Shown& s : shown_)
+        next = std::min({next, s.status.next(now), s.position.next(now)});
+    if (!started(axes - 1, now)) next = std::min(next, powered_at_ + manners_.axis_start);
     if (bus_silent_ && bus_.guards()) next = std::min(next, std::max(now, silent_since_ + guard_life));
     for (const MacsAxis& a : axes_)
         next = std::min(next, a.servo().next_event(now));
@@ -207,6 +284,8 @@ void Macs::check_position_errors(Instant now) {
 }
 
 void Macs::on_event(Instant at) {
+    follow(at);
+    if (cycle_at_ <= at) take_cycle(at);
     for (MacsAxis& a : axes_) {
         if (a.servo().next_event(at) > at) continue;
         a.servo().on_event(at);

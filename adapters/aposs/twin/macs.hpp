@@ -10,13 +10,14 @@
 
 #include "adapters/aposs/twin/bus_devices.hpp"
 #include "adapters/aposs/twin/coupling.hpp"
+#include "adapters/aposs/twin/delayed.hpp"
 
 namespace axisgate::aposs {
 using cia402_drive::twin::Device;
 
 class Macs final : public Device {
 public:
-    Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel);
+    Macs(const Objects& objects, canopen::Dictionary& dictionary, double travel, const Manners& manners = {});
 
     void power_on(Instant now) override;
     void power_off(Instant now) override;
@@ -66,13 +67,26 @@ public:
     void begin_ticks(Instant now);
 
 private:
+    void apply(Address address, Instant now);
+    void follow(Instant now);
+    void take_cycle(Instant at);
+    [[nodiscard]] bool started(int k, Instant now) const noexcept { return k == 0 || now >= powered_at_ + manners_.axis_start; }
+    void note(Instant now);
+    void show_late(int k, Instant now);
+    [[nodiscard]] bool samples(Instant now) const;
     void changed(const Key& key, Instant now);
     void save_user();
-    [[nodiscard]] bool ticks() const;
+    [[nodiscard]] bool ticks(Instant now) const;
     void check_position_errors(Instant now);
+
+    struct Shown {
+        Delayed status, position;
+    };
+    static constexpr std::size_t most_orders = 64;  ///< of one cycle; further ones are lost
 
     const Objects& objects_;
     canopen::Dictionary& d_;
+    Manners manners_;
     Terminals terminals_;
     std::deque<MacsAxis> axes_;
     Coupling coupling_;
@@ -84,6 +98,10 @@ private:
     Instant ticked_{}, silent_since_{};
     bool ticking_ = false;
     std::array<bool, axes> in_position_error_{};
+    Instant powered_at_{};
+    std::vector<Address> orders_;  ///< writes that the application takes in its next cycle
+    Instant cycle_at_ = never;
+    std::array<Shown, axes> shown_;
 };
 
 }  // namespace axisgate::aposs

@@ -28,7 +28,10 @@ canopen::Entry entry_of(const Parameter& p) {
 }
 }  // namespace
 
-Objects::Objects(const Catalogue& catalogue, std::uint8_t node) : factory_(cia402_drive::twin::factory_dictionary(node)) {
+Objects::Objects(const Catalogue& catalogue, std::uint8_t node, std::int64_t extra_pdo_ms)
+    : factory_(cia402_drive::twin::factory_dictionary(node)) {
+    for (std::uint16_t n = 0; extra_pdo_ms != 0 && n < 4; ++n)
+        (void)factory_.set({static_cast<std::uint16_t>(0x1800 + n), 5}, Value{extra_pdo_ms});
     // HOME of the manual, configured by HOME_TYPE, is a manufacturer-specific method besides those of CiA 402 (E-76).
     const auto methods = factory_.integer({0x60E3, 0}).value_or(0);
     canopen::Entry own = *factory_.find({0x60E3, 1});

@@ -39,7 +39,8 @@ struct Row {
 
 class Objects {
 public:
-    Objects(const Catalogue& catalogue, std::uint8_t node);
+    /// `extra_pdo_ms`: event timer of all PDOs that the controller sends; 0: it is off.
+    Objects(const Catalogue& catalogue, std::uint8_t node, std::int64_t extra_pdo_ms = 0);
     Objects(const Objects&) = delete;
     Objects& operator=(const Objects&) = delete;
     [[nodiscard]] const canopen::Dictionary& factory() const noexcept { return factory_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "adapters/aposs/twin/bus_manners.hpp"
 #include "adapters/aposs/twin/direct.hpp"
 #include "adapters/cia402/twin/node.hpp"
 #include "gateway/core/hand_table.hpp"
@@ -13,37 +14,46 @@ namespace {
 class MacsTwin final : public Twin {
 public:
     MacsTwin(const Catalogue& catalogue, const TwinSetup& setup)
-        : objects_(catalogue, number(setup)),
+        : objects_(catalogue, number(setup), freedom(setup.freedoms, "extra_pdo_ms")),
           node_(number(setup), objects_.factory()),
-          macs_(objects_, node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str())) {
+          bus_manners_(Manners(setup.freedoms, setup.seed), number(setup)),
+          macs_(objects_, node_.dictionary(), std::atof(option(setup.options, "travel", "0").c_str()),
+                Manners(setup.freedoms, setup.seed)) {
         node_.attach(macs_);
     }
 
     void on_frame(const Frame& f, Instant now, Out& out) override {
         at_ = now;
-        node_.on_frame(f, now, out);
+        bus_manners_.receive(node_, f, now, out);
     }
     void on_deadline(Instant now, Out& out) override {
         at_ = now;
-        if (node_.powered()) node_.advance(now, out);
+        if (node_.powered()) bus_manners_.run(node_, now, out);
     }
-    [[nodiscard]] Instant deadline() const override { return node_.deadline(); }
-    void power_on(const NonVolatile& memory, Instant now, Out& out) override { node_.power_on(memory, now, out); }
+    [[nodiscard]] Instant deadline() const override { return std::min(node_.deadline(), bus_manners_.deadline()); }
+    void power_on(const NonVolatile& memory, Instant now, Out& out) override {
+        bus_manners_.power_on(now);
+        node_.power_on(memory, now, out);
+    }
     [[nodiscard]] NonVolatile non_volatile() const override { return node_.stored(); }
     [[nodiscard]] std::uint64_t non_volatile_revision() const override { return node_.revision(); }
     [[nodiscard]] bool fit_axes(int wanted, Instant) override { return wanted <= axes; }
 
     [[nodiscard]] std::vector<HandItem> hand() const override;
     [[nodiscard]] std::string set_hand(const std::string& name, const Value& value, Instant now, Out& out) override {
-        if (node_.powered()) node_.advance(now, out);
+        if (node_.powered()) bus_manners_.run(node_, now, out);
         at_ = now;
-        std::string fault = set(name, value, now, out);
-        if (node_.powered()) node_.after_hand(now, out);
+        Out own;
+        std::string fault = set(name, value, now, own);
+        if (node_.powered()) node_.after_hand(now, own);
+        bus_manners_.pass(own, now, out);
         return fault;
     }
     [[nodiscard]] TwinMechanics mechanics(int channel, Instant now) const override {
         const MacsAxis& a = macs_.axis(std::clamp(channel, 1, axes));
         TwinMechanics m = a.servo().mechanics(now);
+        m.position = a.place(now);
+        m.velocity = a.velocity().value_or(m.velocity);
         m.powered = m.powered || (node_.powered() && a.holds_in_error());  // controlled, although in error
         return m;
     }
@@ -114,6 +124,7 @@ private:
 
     Objects objects_;
     cia402_drive::twin::Node node_;
+    BusManners bus_manners_;
     Macs macs_;
     std::string reply_;  ///< of the direct mode
     Instant at_{};
@@ -125,8 +136,14 @@ const HandRow<MacsTwin> MacsTwin::conditions[] = {
     {"power", true, "supply of the controller", [](const MacsTwin& m, Instant) -> Value { return m.node_.powered(); },
      [](MacsTwin& m, const HandWish& w) {
          return flag(w, [&](bool on) {
-             if (!on && m.node_.powered()) m.node_.power_off(w.now);
-             if (on && !m.node_.powered()) m.node_.power_on(m.node_.stored(), w.now, *w.out);
+             if (!on && m.node_.powered()) {
+                 m.node_.power_off(w.now);
+                 m.bus_manners_.power_off();
+             }
+             if (on && !m.node_.powered()) {
+                 m.bus_manners_.power_on(w.now);
+                 m.node_.power_on(m.node_.stored(), w.now, *w.out);
+             }
          });
      }},
     {"silent", true, "it hears and does not answer", [](const MacsTwin& m, Instant) -> Value { return m.node_.silent(); },
